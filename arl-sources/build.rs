@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// What programs are compiled with.
-const PACKAGES: [&str; 5] = ["arl-lang", "arl-robot", "arl-motion", "arl-rt", "drivers"];
+const PACKAGES: [&str; 6] = ["arl-lang", "arl-robot", "arl-motion", "arl-rt", "drivers", "library"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(""));

@@ -26,7 +26,7 @@ done <<<"$packages"
 grep -q "^## $version, [0-9]\{4\}-[0-9][0-9]-[0-9][0-9]$" CHANGELOG.md ||
   problem "CHANGELOG.md has no heading \`## $version, YYYY-MM-DD\`"
 ! grep -q "^## Unreleased" CHANGELOG.md || problem "CHANGELOG.md has an \`Unreleased\` part"
-for folder in arl-lang arl-robot arl-motion arl-rt drivers arl-sources arl-macros transpiler; do
+for folder in arl-lang arl-robot arl-motion arl-rt drivers library arl-sources arl-macros transpiler; do
   for file in LICENSE-MIT LICENSE-APACHE; do
     cmp -s "$file" "$folder/$file" || problem "$folder/$file is not the licence of this project"
   done
@@ -36,7 +36,7 @@ done
 if known=$(cargo info --registry crates-io arl-rt 2>&1); then
   released=$(awk '$1 == "version:" { print $2 }' <<<"$known")
   if command -v cargo-semver-checks >/dev/null; then
-    for name in arl-lang arl-robot arl-motion arl-rt arl-drivers; do
+    for name in arl-lang arl-robot arl-motion arl-rt arl-drivers arl-library; do
       cargo semver-checks --package "$name" || problem "$name: its version promises more than it keeps"
     done
   else

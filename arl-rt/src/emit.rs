@@ -15,7 +15,7 @@ pub use crate::builtins::{
     bits, calibration, channel, clock, convert, devicenet, event, files, flow, frames, io, math, modbus_tcp, motion,
     points, pose, strings, system, text, time,
 };
-pub use crate::command::program_main;
+pub use crate::command::{in_process, program_main};
 pub use crate::context::cx::Cx;
 pub use crate::context::program::{Beside, BoxFuture, Program};
 pub use crate::context::shown::ShownHandle;

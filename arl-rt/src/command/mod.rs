@@ -5,6 +5,7 @@
 mod between;
 mod coverage;
 mod debug;
+pub mod in_process;
 mod json;
 mod live;
 pub mod program_main;

@@ -17,6 +17,7 @@ use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
 use crate::command::report;
 use crate::command::say::say;
+use crate::context::output::Output;
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
 use crate::context::standard_error::tell;
@@ -39,11 +40,11 @@ const CONTROLLER_STACK_BYTES: usize = 1 << 20;
 /// The directory below the script directory that keeps system variables where no other is named.
 const STATE_DIR: &str = ".arl-state";
 
-const EXIT_ENDED: u8 = 0;
+pub(super) const EXIT_ENDED: u8 = 0;
 const EXIT_USAGE: u8 = 2;
-const EXIT_ALARM: u8 = 3;
-const EXIT_MAX_TIME: u8 = 4;
-const EXIT_INTERRUPTED: u8 = 130;
+pub(super) const EXIT_ALARM: u8 = 3;
+pub(super) const EXIT_MAX_TIME: u8 = 4;
+pub(super) const EXIT_INTERRUPTED: u8 = 130;
 
 const HELP: &str = "\
 Runs a robot program on a simulated robot.
@@ -115,6 +116,23 @@ struct Options {
     override_percent: f64,
     seed: Option<u64>,
     start_time: Option<i64>,
+}
+
+impl Options {
+    /// The first option that only a program has that runs by itself.
+    fn needs_a_process(&self) -> Option<&'static str> {
+        let asked = [
+            (self.live, "--live"),
+            (self.paused, "--paused"),
+            (self.realtime.is_some(), "--realtime"),
+            (self.listener.is_some(), "--listener"),
+            (self.report.is_some(), "--report"),
+            (self.cycle_time.is_some(), "--cycle-time"),
+            (self.asked.debug.is_some(), "--debug"),
+            (self.asked.coverage.is_some(), "--coverage"),
+        ];
+        asked.into_iter().find_map(|(asked, option)| asked.then_some(option))
+    }
 }
 
 /// How fast cycles follow each other.
@@ -477,7 +495,7 @@ fn run(
 }
 
 /// Who waits for what in vain, each with its channel where there are several.
-fn listed(waiting: &[Standstill]) -> Vec<String> {
+pub(super) fn listed(waiting: &[Standstill]) -> Vec<String> {
     let several = waiting.len() > 1;
     let line = |one: &Standstill| if several { format!("{}: {one}", one.channel) } else { one.to_string() };
     waiting.iter().map(line).collect()
@@ -489,6 +507,25 @@ fn say_standstill(time: f64, waiting: &[Standstill]) {
         "nothing can change any more after {time} s: no event of a scenario is left, nothing moves, and no timer runs"
     ));
     listed(waiting).iter().for_each(|line| tell(format_args!("  {line}")));
+}
+
+/// A controller for a run in this process, with the same options as on a command line, and after how many s it ends at the latest.
+pub(super) fn in_process(
+    program: Box<dyn Program>,
+    (others, script_dir): (&[Other], &str),
+    arguments: Vec<OsString>,
+    output: impl Output + 'static,
+) -> Result<(Controller, Option<f64>), String> {
+    let options = parse(arguments, script_dir).map_err(|error| error.to_string())?;
+    let options = options.ok_or("--help: there is no command line here")?;
+    if let Some(option) = options.needs_a_process() {
+        return Err(format!("{option} is for a program that runs by itself"));
+    }
+    let (max_time, repeats) = (options.max_time, options.repeats);
+    let builder = set_up(options, others).map_err(|failure| failure.text)?;
+    let mut controller = builder.output(output).build(program).map_err(|error| error.to_string())?;
+    controller.set_loop(repeats);
+    Ok((controller, max_time))
 }
 
 /// The exit code of a run that was driven from outside.

@@ -519,7 +519,7 @@ impl Site {
         let id = ChannelId::Foreground(number);
         let system = System::beside(Rc::clone(&self.common), id);
         system::load(&system.kept_by_channel(), &mut self.shared.state.borrow_mut())?;
-        let trace = body.trace.map(|writer| Trace::new(writer, robot.family)).transpose();
+        let trace = body.trace.map(Trace::new).transpose();
         let trace = trace.map_err(|error| SetupError::Trace(error.to_string()))?;
         let driver = |problem| SetupError::Driver { channel: number, problem };
         let mut unit = Unit::new(robot, body.driver, self.shared.rate.period()).map_err(driver)?;

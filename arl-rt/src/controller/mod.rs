@@ -19,7 +19,7 @@ mod pointer_store;
 mod running;
 mod standstill;
 mod status;
-mod trace;
+pub(crate) mod trace;
 mod watching;
 
 use std::cell::RefCell;
@@ -410,6 +410,12 @@ impl Controller {
     /// The running number of the next cycle, from 0.
     pub(crate) fn cycle(&self) -> u64 {
         self.shared.now.get()
+    }
+
+    /// The row of the last cycle in the trace of the first channel's robot.
+    pub(crate) fn trace_row(&self) -> [f64; trace::COLUMNS] {
+        let cycle = self.shared.now.get().saturating_sub(1);
+        trace::columns(self.shared.rate.time(cycle), &self.unit.borrow())
     }
 
     /// How many cycles so many seconds take.

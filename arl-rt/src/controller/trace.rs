@@ -3,23 +3,25 @@
 use std::io::{self, BufWriter, Write};
 
 use crate::unit::Unit;
-use arl_robot::robot::{Family, own_axes};
 
-const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
+/// How many columns a trace has.
+pub(crate) const COLUMNS: usize = 21;
+
+/// Their names: the start of the cycle in s, the line and the number of the motion, the axes in deg (mm), the TCP in mm and deg.
+pub(crate) const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
 
 /// Writes one row a cycle.
 pub(crate) struct Trace {
     out: BufWriter<Box<dyn Write>>,
-    own_axes: usize,
     /// The first thing that went wrong; nothing is written after it.
     error: Option<io::Error>,
 }
 
 impl Trace {
-    pub(crate) fn new(writer: Box<dyn Write>, family: Family) -> io::Result<Self> {
+    pub(crate) fn new(writer: Box<dyn Write>) -> io::Result<Self> {
         let mut out = BufWriter::with_capacity(1 << 16, writer);
         writeln!(out, "{HEADER}")?;
-        Ok(Self { out, own_axes: own_axes(family), error: None })
+        Ok(Self { out, error: None })
     }
 
     /// The row of a cycle that began at `time` seconds.
@@ -30,26 +32,14 @@ impl Trace {
     }
 
     fn write(&mut self, time: f64, unit: &Unit) -> io::Result<()> {
-        let (line, motion) = unit.executing();
-        let joints = unit.setpoint();
-        write!(self.out, "{time:.6},{line},{motion}")?;
-        for (at, axis) in joints.axes.iter().enumerate() {
-            if at < self.own_axes {
-                write!(self.out, ",{axis:.9}")?;
-            } else {
+        let [time, line, motion, places @ ..] = columns(time, unit);
+        write!(self.out, "{time:.6},{},{}", line as u64, motion as u64)?;
+        for place in places {
+            if place.is_nan() {
                 write!(self.out, ",")?;
-            }
-        }
-        let external = unit.robot().external_axes().len();
-        for (at, axis) in joints.external.iter().enumerate() {
-            if at < external {
-                write!(self.out, ",{axis:.9}")?;
             } else {
-                write!(self.out, ",")?;
+                write!(self.out, ",{place:.9}")?;
             }
-        }
-        for component in unit.commanded_tcp() {
-            write!(self.out, ",{component:.9}")?;
         }
         writeln!(self.out)
     }
@@ -61,4 +51,19 @@ impl Trace {
             None => self.out.flush(),
         }
     }
+}
+
+/// The row of a cycle that began at `time` seconds; axes that are not there are no numbers.
+pub(crate) fn columns(time: f64, unit: &Unit) -> [f64; COLUMNS] {
+    let (line, motion) = unit.executing();
+    let (robot, joints) = (unit.robot(), unit.setpoint());
+    let there = |axes: [f64; 6], count: usize| {
+        let mut at = 0..count;
+        axes.map(|axis| at.next().map_or(f64::NAN, |_| axis))
+    };
+    let [j1, j2, j3, j4, j5, j6] = there(joints.axes, robot.own_axes().len());
+    let [ej1, ej2, ej3, ej4, ej5, ej6] = there(joints.external, robot.external_axes().len());
+    let [x, y, z, a, b, c] = unit.commanded_tcp();
+    let (line, motion) = (f64::from(line), motion as f64);
+    [time, line, motion, j1, j2, j3, j4, j5, j6, ej1, ej2, ej3, ej4, ej5, ej6, x, y, z, a, b, c]
 }

@@ -60,6 +60,9 @@ pub(super) enum Command {
         /// Compile longer for a faster program.
         #[arg(long)]
         release: bool,
+        /// Make a library for other programs, behind the C interface of `arl.h`.
+        #[arg(long)]
+        library: bool,
         #[command(flatten)]
         checking: Checking,
     },

@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// What cargo made.
 #[derive(Debug, Default)]
 pub(super) struct Built {
-    /// The programs with their names.
+    /// The programs, or libraries, with their names.
     pub(super) programs: Vec<(String, PathBuf)>,
     /// What rustc and cargo refused; empty when all went well.
     pub(super) errors: Vec<RustError>,
@@ -116,6 +116,8 @@ pub(super) fn build(folder: &Path, target: &Path, release: bool, progress: &Prog
 struct Message {
     reason: String,
     executable: Option<PathBuf>,
+    #[serde(default)]
+    filenames: Vec<PathBuf>,
     fresh: Option<bool>,
     message: Option<Rustc>,
     target: Option<Target>,
@@ -124,6 +126,8 @@ struct Message {
 #[derive(Deserialize)]
 struct Target {
     name: String,
+    #[serde(default)]
+    kind: Vec<String>,
 }
 
 #[derive(Deserialize)]
@@ -146,18 +150,27 @@ impl Built {
         let Ok(message) = serde_json::from_str::<Message>(line) else { return };
         match message.reason.as_str() {
             "compiler-artifact" => {
-                let name = message.target.map(|target| target.name).unwrap_or_default();
+                let target = message.target;
+                // Beside it there are what other linkers want.
+                let is_library = target.as_ref().is_some_and(|target| target.kind.iter().any(|kind| kind == "cdylib"));
+                let library = message.filenames.into_iter().find(|file| is_library && is_loadable(file));
+                let name = target.map(|target| target.name).unwrap_or_default();
                 // What is there already comes first, and at once.
                 if message.fresh == Some(false) {
                     self.compiled += 1;
                     progress.say(&words(self.compiled, &name));
                 }
-                self.programs.extend(message.executable.map(|executable| (name, executable)));
+                self.programs.extend(message.executable.or(library).map(|file| (name, file)));
             }
             "compiler-message" => self.errors.extend(message.message.and_then(error)),
             _ => {}
         }
     }
+}
+
+/// Whether a file is a library that can be loaded here.
+fn is_loadable(file: &Path) -> bool {
+    file.extension().is_some_and(|ending| ending == std::env::consts::DLL_EXTENSION)
 }
 
 /// What is said while packages are compiled: those of the runtime come first, once for all programs.

@@ -26,14 +26,20 @@ pub(super) fn emit(file: &Path, out: Option<&Path>, checking: &Checking) -> Resu
     Ok(())
 }
 
-/// Makes a native program, with the programs that the cell names.
-pub(super) fn build(file: &Path, out: Option<&Path>, release: bool, checking: &Checking) -> Result<(), Failure> {
+/// Makes a native program, or a library, with the programs that the cell names.
+pub(super) fn build(
+    file: &Path,
+    out: Option<&Path>,
+    (release, library): (bool, bool),
+    checking: &Checking,
+) -> Result<(), Failure> {
     let checking = checking.of_program(file)?;
     let job = Job::new(file, checking.cell.as_deref(), &checking)?;
+    let job = if library { job.library() } else { job };
     let done = job.compile(&FileSystem)?;
     let cache = Cache::find()?;
     let place = job.place(&cache)?;
-    let to = out.map_or_else(|| default_name(file), Path::to_path_buf);
+    let to = out.map_or_else(|| default_name(file, library), Path::to_path_buf);
     if let Some(folder) = to.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(|error| Failure::io("make the folder", folder, &error))?;
     }
@@ -41,7 +47,8 @@ pub(super) fn build(file: &Path, out: Option<&Path>, release: bool, checking: &C
     compile_rust(&cache, &place, Runtime::find(), &done.rust, &job.main()?, release, &to)
 }
 
-fn default_name(file: &Path) -> PathBuf {
+fn default_name(file: &Path, library: bool) -> PathBuf {
+    use std::env::consts::{DLL_PREFIX, DLL_SUFFIX, EXE_SUFFIX};
     let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_else(|| "program".into());
-    PathBuf::from(format!("{stem}{}", std::env::consts::EXE_SUFFIX))
+    PathBuf::from(if library { format!("{DLL_PREFIX}{stem}{DLL_SUFFIX}") } else { format!("{stem}{EXE_SUFFIX}") })
 }

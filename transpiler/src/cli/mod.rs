@@ -72,7 +72,9 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
             check::check(&files, (format, show::Limit::of(max_errors)), look, &checking)
         }
         Command::Emit { file, out, checking } => done(emit::emit(&file, out.as_deref(), &checking)),
-        Command::Build { file, out, release, checking } => done(emit::build(&file, out.as_deref(), release, &checking)),
+        Command::Build { file, out, release, library, checking } => {
+            done(emit::build(&file, out.as_deref(), (release, library), &checking))
+        }
         Command::Run { file, options } => run::run(&file, &options),
         Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
         Command::Compare { one, other, format } => report::compare(&one, &other, format),

@@ -4,7 +4,7 @@ use super::args::Checking;
 use super::cache::{Cache, Lock, Place, write_if_changed};
 use super::failure::Failure;
 use super::progress::Progress;
-use super::project::{Emitted, EmittedOther};
+use super::project::{Emitted, EmittedOther, Target};
 use super::runtime::{Runtime, hash_state};
 use super::several::{self, Other, absolute};
 use super::stamp::{Freshness, Recording, Stamp};
@@ -53,8 +53,7 @@ pub(super) struct Job<'a> {
     cell: Option<&'a Path>,
     options: CheckOptions,
     others: Vec<(Other, CheckOptions)>,
-    /// Whether it is made for a debugger.
-    watched: bool,
+    target: Target,
     /// Whether its warnings have been shown.
     is_checked: bool,
 }
@@ -77,14 +76,19 @@ impl<'a> Job<'a> {
             cell: cell.filter(|_| !others.is_empty()),
             options: check_options(checking)?,
             others: others.into_iter().map(with_options).collect::<Result<_, _>>()?,
-            watched: false,
+            target: Target::Program,
             is_checked: false,
         })
     }
 
     /// The same for a debugger.
     pub(super) fn watched(self) -> Self {
-        Self { watched: true, ..self }
+        Self { target: Target::Watched, ..self }
+    }
+
+    /// The same as a library for another program.
+    pub(super) fn library(self) -> Self {
+        Self { target: Target::Library, ..self }
     }
 
     /// The main file as an absolute path.
@@ -98,7 +102,11 @@ impl<'a> Job<'a> {
             Some(cell) => cache.programs(&self.main()?, &absolute(cell)?),
             None => cache.program(&self.main()?),
         };
-        Ok(if self.watched { place.beside("debug") } else { place })
+        Ok(match self.target {
+            Target::Program => place,
+            Target::Watched => place.beside("debug"),
+            Target::Library => place.beside("library"),
+        })
     }
 
     /// Checks and emits all programs, and shows what there is to say of any of them.
@@ -106,7 +114,7 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`Failure::Shown`] where one has errors.
     pub(super) fn compile(&self, sources: &dyn Sources) -> Result<Done, Failure> {
-        let emitting = EmitOptions { watched: self.watched, ..EmitOptions::default() };
+        let emitting = EmitOptions { watched: self.target == Target::Watched, ..EmitOptions::default() };
         let emit = |file: &Path, options| compile_program(file, sources, options, &emitting);
         let mut programs = vec![emit(self.file, &self.options)?];
         for (other, options) in &self.others {
@@ -125,7 +133,7 @@ impl<'a> Job<'a> {
             Ok(EmittedOther { file: other.file.clone(), folder: other.folder(&main)?, rust })
         };
         let others = self.others.iter().zip(rust).map(beside).collect::<Result<_, Failure>>()?;
-        Ok(Done { programs, rust: Emitted { first, others, watched: self.watched }, said })
+        Ok(Done { programs, rust: Emitted { first, others, target: self.target }, said })
     }
 
     /// A number that changes with everything but the sources: this command, the runtime, the options, the channels.

@@ -12,8 +12,20 @@ pub(super) struct Emitted {
     pub(super) first: String,
     /// The others.
     pub(super) others: Vec<EmittedOther>,
-    /// Whether they are for a debugger.
-    pub(super) watched: bool,
+    /// What they are made into.
+    pub(super) target: Target,
+}
+
+/// What emitted Rust is made into.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(super) enum Target {
+    /// A program.
+    #[default]
+    Program,
+    /// A program for a debugger.
+    Watched,
+    /// A library for another program.
+    Library,
 }
 
 /// The emitted Rust of a program beside the first one.
@@ -28,7 +40,7 @@ pub(super) struct EmittedOther {
 
 /// Writes the project of a program. `folder` is that of its files.
 pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &Path) -> Result<(), Failure> {
-    manifest(&place.folder, &place.name, runtime, PROGRAM_LEVEL)?;
+    manifest(&place.folder, &place.name, runtime, (rust.target, PROGRAM_LEVEL))?;
     let source = |name: &str| place.folder.join("src").join(name);
     write_if_changed(&source("program.rs"), rust.first.as_bytes())?;
     let mut modules = String::from("mod program;\n");
@@ -39,15 +51,24 @@ pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &
         modules += &format!("mod {name};\n");
         others += &format!("        {}\n", other(beside, &name));
     }
-    let start = if rust.watched { "main_watched" } else { "main_with" };
-    let main = format!(
-        "// Written by arl2rs.\n\n{modules}\n\
-         fn main() -> std::process::ExitCode {{\n    \
-         arl_rt::emit::program_main::drivers(arl_drivers::connect);\n    \
-         arl_rt::emit::program_main::{start}(program::Globals::new, &[\n{others}    ], {:?})\n}}\n",
-        folder.display().to_string()
-    );
-    write_if_changed(&source("main.rs"), main.as_bytes())?;
+    let folder = folder.display().to_string();
+    let drivers = "arl_rt::emit::program_main::drivers(arl_drivers::connect);";
+    let (file, crate_root) = match rust.target {
+        Target::Library => (
+            "lib.rs",
+            format!(
+                "fn make() -> program::Globals {{\n    {drivers}\n    program::Globals::new()\n}}\n\n\
+                 arl_library::library!(make, [\n{others}], {folder:?});\n"
+            ),
+        ),
+        Target::Program | Target::Watched => {
+            let start = if rust.target == Target::Watched { "main_watched" } else { "main_with" };
+            let call =
+                format!("arl_rt::emit::program_main::{start}(program::Globals::new, &[\n{others}    ], {folder:?})");
+            ("main.rs", format!("fn main() -> std::process::ExitCode {{\n    {drivers}\n    {call}\n}}\n"))
+        }
+    };
+    write_if_changed(&source(file), format!("// Written by arl2rs.\n\n{modules}\n{crate_root}").as_bytes())?;
     Ok(())
 }
 
@@ -83,13 +104,22 @@ winnow = { opt-level = 0 }
 ";
 
 /// Writes Cargo.toml, and Cargo.lock where the versions of other packages are known.
-pub(super) fn manifest(folder: &Path, name: &str, runtime: &Unpacked, level: u8) -> Result<(), Failure> {
+pub(super) fn manifest(
+    folder: &Path,
+    name: &str,
+    runtime: &Unpacked,
+    (target, level): (Target, u8),
+) -> Result<(), Failure> {
+    let (kind, library) = match target {
+        Target::Library => ("[lib]\ncrate-type = [\"cdylib\"]\n\n", format!("arl-library = {}\n", runtime.library)),
+        Target::Program | Target::Watched => ("", String::new()),
+    };
     // Not `package."*"`: that would also optimise what only runs while compiling.
     let text = format!(
         "# Written by arl2rs.\n\
          [package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
-         [workspace]\n\n\
-         [dependencies]\narl-rt = {}\narl-drivers = {}\n\n\
+         [workspace]\n\n{kind}\
+         [dependencies]\narl-rt = {}\narl-drivers = {}\n{library}\n\
          [profile.dev]\nopt-level = 3\ndebug = false\nincremental = false\nlto = \"off\"\n\
          overflow-checks = false\ndebug-assertions = false\n\n\
          [profile.dev.package]\n\"{name}\" = {{ opt-level = {level}, incremental = true }}\n\

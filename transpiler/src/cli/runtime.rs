@@ -19,6 +19,8 @@ pub(super) struct Unpacked {
     pub(super) dependency: String,
     /// The value of `arl-drivers` there.
     pub(super) drivers: String,
+    /// The value of `arl-library` there.
+    pub(super) library: String,
     /// The lock file that says which versions of other packages to take.
     pub(super) lock_file: Option<PathBuf>,
     _lock: Lock,
@@ -49,7 +51,7 @@ impl Runtime {
         match self.0 {
             Origin::Checkout(folder) => {
                 let folder = Path::new(folder);
-                for part in ["arl-rt", "arl-motion", "arl-robot", "arl-lang", "drivers"] {
+                for part in ["arl-rt", "arl-motion", "arl-robot", "arl-lang", "drivers", "library"] {
                     hash_state(&folder.join(part).join("Cargo.toml"), &mut hasher);
                     hash_tree(&folder.join(part).join("src"), &mut hasher);
                 }
@@ -85,9 +87,10 @@ impl Runtime {
         let options = "default-features = false, features = [\"serial\", \"realtime\"]";
         let below = |workspace: &Path| {
             let path = |package: &str| workspace.join(package).display().to_string();
-            (format!("{{ path = {:?}, {options} }}", path("arl-rt")), format!("{{ path = {:?} }}", path("drivers")))
+            let plain = |package: &str| format!("{{ path = {:?} }}", path(package));
+            [format!("{{ path = {:?}, {options} }}", path("arl-rt")), plain("drivers"), plain("library")]
         };
-        let ((dependency, drivers), lock_file) = match self.0 {
+        let ([dependency, drivers, library], lock_file) = match self.0 {
             Origin::Checkout(workspace) => {
                 let workspace = Path::new(workspace);
                 if !workspace.join("arl-rt/Cargo.toml").is_file() {
@@ -102,10 +105,11 @@ impl Runtime {
             }
             Origin::Registry => {
                 let version = format!("version = \"={}\"", env!("CARGO_PKG_VERSION"));
-                ((format!("{{ {version}, {options} }}"), format!("{{ {version} }}")), None)
+                let plain = format!("{{ {version} }}");
+                ([format!("{{ {version}, {options} }}"), plain.clone(), plain], None)
             }
         };
-        Ok(Unpacked { folder, dependency, drivers, lock_file, _lock: lock })
+        Ok(Unpacked { folder, dependency, drivers, library, lock_file, _lock: lock })
     }
 }
 

@@ -168,15 +168,12 @@ impl LineWriter {
 
     /// A warning.
     pub(crate) fn warning(&self, text: &str) {
-        self.lines.say(format!("{{\"warning\":{}}}\n", quoted(text)));
+        self.lines.say(warning_line(text));
     }
 
     /// An alarm.
     pub(crate) fn alarm(&self, alarm: &Alarm) {
-        let Alarm { fault, file, line, .. } = alarm;
-        let (number, text, file) = (fault.number(), quoted(&alarm.to_string()), quoted(file.name()));
-        self.lines
-            .say(format!("{{\"alarm\":{{\"number\":{number},\"text\":{text},\"file\":{file},\"line\":{line}}}}}\n"));
+        self.lines.say(alarm_line(alarm));
     }
 
     /// What a motion did, or a channel: an object of the report.
@@ -250,8 +247,30 @@ fn axes(status: &RobotStatus) -> Vec<f64> {
     own.chain(joints.external.iter().take(robot.external_axes().len())).copied().collect()
 }
 
+/// A line with a message.
+pub(crate) fn message_line(message: &Message<'_>) -> String {
+    let Message { time, hmi, console, text, channel } = *message;
+    let text = quoted(&String::from_utf8_lossy(text));
+    format!(
+        "{{\"message\":{{\"time\":{},\"channel\":\"{channel}\",\"hmi\":{hmi},\"console\":{console},\"text\":{text}}}}}\n",
+        number(time)
+    )
+}
+
+/// A line with a warning.
+pub(crate) fn warning_line(text: &str) -> String {
+    format!("{{\"warning\":{}}}\n", quoted(text))
+}
+
+/// A line with an alarm.
+pub(crate) fn alarm_line(alarm: &Alarm) -> String {
+    let Alarm { fault, file, line, .. } = alarm;
+    let (number, text, file) = (fault.number(), quoted(&alarm.to_string()), quoted(file.name()));
+    format!("{{\"alarm\":{{\"number\":{number},\"text\":{text},\"file\":{file},\"line\":{line}}}}}\n")
+}
+
 /// Adds a line that says how everything stands.
-pub(super) fn push_state(out: &mut String, controller: &Controller) {
+pub(crate) fn push_state(out: &mut String, controller: &Controller) {
     let status = controller.status();
     out.push_str("{\"state\":{\"time\":");
     push_number(out, status.time);
@@ -340,12 +359,6 @@ pub(crate) struct Messages(Lines);
 
 impl Output for Messages {
     fn message(&mut self, message: &Message<'_>) {
-        let Message { time, hmi, console, text, channel } = *message;
-        let text = quoted(&String::from_utf8_lossy(text));
-        let line = format!(
-            "{{\"message\":{{\"time\":{},\"channel\":\"{channel}\",\"hmi\":{hmi},\"console\":{console},\"text\":{text}}}}}\n",
-            number(time)
-        );
-        self.0.say(line);
+        self.0.say(message_line(message));
     }
 }

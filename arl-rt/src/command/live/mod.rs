@@ -31,7 +31,7 @@ use holding::Holding;
 use motions::EndedMotions;
 use orders::{Next, Orders};
 
-pub(crate) use line_writer::LineWriter;
+pub(crate) use line_writer::{LineWriter, alarm_line, message_line, push_state, warning_line};
 pub(crate) use recording::{Recording, Wishes};
 
 /// How often a state goes out where nobody asks for another interval, in s.

@@ -17,7 +17,7 @@ use super::cache::Cache;
 use super::failure::Failure;
 use super::program::check_options;
 use super::progress::Progress;
-use super::project::{Emitted, EmittedOther};
+use super::project::{Emitted, EmittedOther, Target};
 use super::runtime::Runtime;
 use super::several;
 use crate::CheckOptions;
@@ -148,7 +148,8 @@ fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
         let folder = other.folder(&case.source).map_err(said)?;
         others.push(EmittedOther { file: other.file, folder, rust });
     }
-    Ok(Emitted { first, others, watched: emitting.watched })
+    let target = if emitting.watched { Target::Watched } else { Target::Program };
+    Ok(Emitted { first, others, target })
 }
 
 fn rust(file: &Path, checking: &Checking, emitting: &EmitOptions) -> Result<String, String> {

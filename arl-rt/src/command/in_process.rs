@@ -1,0 +1,170 @@
+//! A compiled program as a part of another process, which goes on as far as it is told, and is asked from outside.
+
+use std::cell::RefCell;
+use std::ffi::OsString;
+use std::fmt;
+use std::rc::Rc;
+
+use crate::command::live::{alarm_line, message_line, push_state, warning_line};
+use crate::command::program_main::{self, EXIT_ALARM, EXIT_ENDED, EXIT_INTERRUPTED, EXIT_MAX_TIME, Other, listed};
+use crate::context::output::Message;
+use crate::context::program::Program;
+use crate::controller::{Controller, Outcome, trace};
+
+/// A run of a program in this process. All of it happens on the thread that makes it.
+pub struct Run {
+    controller: Controller,
+    /// Lines that nobody has taken yet.
+    said: Rc<RefCell<String>>,
+    /// The cycle in which its time is over.
+    last: u64,
+    /// Why it ends before its programs do.
+    cut: Option<u8>,
+    /// Its exit code, once it is over.
+    code: Option<u8>,
+    /// The trace of the first robot, where it is asked for: rows that nobody has taken yet.
+    rows: Option<Vec<f64>>,
+}
+
+/// Who else may change something while a run goes on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Outside {
+    /// Nobody: programs that all wait in vain end it.
+    Nobody,
+    /// Whoever has it.
+    Somebody,
+}
+
+impl Run {
+    /// How many columns a row of the trace has.
+    pub const COLUMNS: usize = trace::COLUMNS;
+    /// Their names, with commas between.
+    pub const HEADER: &str = trace::HEADER;
+
+    /// A run at the start of its first cycle. The arguments are those of a compiled program's command line; `script_dir` is the folder
+    /// of its files where they name none. With `traced` it keeps the trace of the first robot.
+    ///
+    /// # Errors
+    /// What is wrong with the arguments, or why there is no controller, in words.
+    pub fn begin(
+        program: Box<dyn Program>,
+        others: &[Other],
+        script_dir: &str,
+        arguments: Vec<OsString>,
+        traced: bool,
+    ) -> Result<Self, String> {
+        let said = Rc::new(RefCell::new(String::new()));
+        let lines = Rc::clone(&said);
+        let output = move |message: &Message<'_>| lines.borrow_mut().push_str(&message_line(message));
+        let (controller, max_time) = program_main::in_process(program, (others, script_dir), arguments, output)?;
+        let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
+        Ok(Self { controller, said, last, cut: None, code: None, rows: traced.then(Vec::new) })
+    }
+
+    /// Goes on for so many cycles, or until it is over: then its exit code, which is that of the command.
+    pub fn go_on(&mut self, cycles: u64, outside: Outside) -> Option<u8> {
+        for _ in 0..cycles {
+            if self.code.is_some() || self.conclude() {
+                break;
+            }
+            if self.cut.is_none() && self.controller.cycle() >= self.last {
+                let seconds = self.controller.time();
+                self.cut(EXIT_MAX_TIME, &format!("the time is over: {seconds} s"));
+            }
+            let runs = self.controller.outcome().is_none();
+            self.controller.step();
+            if let Some(rows) = self.rows.as_mut().filter(|_| runs) {
+                rows.extend(self.controller.trace_row());
+            }
+            self.take_news();
+            if self.cut.is_none()
+                && outside == Outside::Nobody
+                && let Some(waiting) = self.controller.standstill()
+            {
+                self.cut(EXIT_MAX_TIME, &format!("nothing can change any more: {}", listed(&waiting).join("; ")));
+            }
+        }
+        // Who asks for no cycle wants to know, too.
+        let _ = self.code.is_some() || self.conclude();
+        self.code
+    }
+
+    /// Ends the programs: the robots stop on their paths within the cycles that follow.
+    pub fn stop(&mut self) {
+        if self.cut.is_none() && self.code.is_none() {
+            self.cut(EXIT_INTERRUPTED, "interrupted: the robot stops on its path");
+        }
+    }
+
+    fn cut(&mut self, code: u8, why: &str) {
+        self.cut = Some(code);
+        self.say(&warning_line(why));
+        self.controller.stop();
+    }
+
+    /// Finds out whether it is over.
+    fn conclude(&mut self) -> bool {
+        let is_over = match self.cut {
+            // Who was told to stop does not begin again.
+            Some(_) => self.controller.outcome().is_some(),
+            None => self.controller.is_over(),
+        };
+        if is_over {
+            self.controller.close_robots();
+            self.controller.settle_state();
+            self.take_news();
+            let alarmed = matches!(self.controller.outcome(), Some(Outcome::Alarm(_)));
+            self.code = Some(self.cut.unwrap_or(if alarmed { EXIT_ALARM } else { EXIT_ENDED }));
+        }
+        is_over
+    }
+
+    fn take_news(&mut self) {
+        for text in self.controller.take_warnings() {
+            self.say(&warning_line(&text));
+        }
+        for alarm in self.controller.take_alarms() {
+            self.say(&alarm_line(&alarm));
+        }
+    }
+
+    fn say(&self, line: &str) {
+        self.said.borrow_mut().push_str(line);
+    }
+
+    /// Does what an event of a scenario does: see [`Controller::order`].
+    ///
+    /// # Errors
+    /// It is no order; then nothing was done.
+    pub fn order(&mut self, text: &str) -> Result<(), String> {
+        self.controller.order(text)
+    }
+
+    /// What was said since the last call: messages, warnings and alarms, a JSON object a line, as `--live` says them.
+    pub fn take_said(&mut self) -> String {
+        std::mem::take(&mut self.said.borrow_mut())
+    }
+
+    /// How everything stands, a JSON object as `--live` says it.
+    pub fn state(&self) -> String {
+        let mut line = String::new();
+        push_state(&mut line, &self.controller);
+        line
+    }
+
+    /// The rows of the trace since the last call, one behind the other; axes that are not there are no numbers.
+    pub fn take_rows(&mut self) -> Vec<f64> {
+        self.rows.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Controller time in s: the start of the next cycle.
+    pub fn time(&self) -> f64 {
+        self.controller.time()
+    }
+}
+
+impl fmt::Debug for Run {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Run").field("time", &self.time()).field("code", &self.code).finish_non_exhaustive()
+    }
+}

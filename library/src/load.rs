@@ -1,0 +1,214 @@
+//! The host's side of the interface.
+
+use std::ffi::{CString, c_char, c_void};
+use std::fmt;
+use std::marker::PhantomData;
+use std::path::Path;
+use std::ptr::NonNull;
+
+use crate::Served;
+use crate::interface::{BROKEN, INTERFACE, Interface, RUNS};
+
+/// A program as a library, loaded into this process. It stays loaded until that ends.
+#[derive(Clone, Copy, Debug)]
+pub struct Library {
+    interface: &'static Interface,
+}
+
+/// Why a library cannot be loaded, or a run not be begun or gone on with.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// It cannot be opened; why.
+    Open(String),
+    /// It is no library of a program.
+    NotOurs,
+    /// It was made by another version of arl2rs: the version of its interface.
+    Version(u32),
+    /// A run cannot be begun with these arguments, or an order not be carried out; why.
+    Refused(String),
+    /// The run has panicked.
+    Broken,
+}
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            LoadError::Open(why) => write!(f, "{why}"),
+            LoadError::NotOurs => write!(f, "this is no ARL program: `arl2rs build --library` makes libraries of them"),
+            LoadError::Version(version) => write!(
+                f,
+                "the library has version {version} of the interface, this is version {INTERFACE}: make it again with this \
+                 version of arl2rs"
+            ),
+            LoadError::Refused(why) => write!(f, "{why}"),
+            LoadError::Broken => write!(f, "the run has panicked: the standard error says why"),
+        }
+    }
+}
+
+impl std::error::Error for LoadError {}
+
+impl Library {
+    /// Loads a library that `arl2rs build --library` made.
+    ///
+    /// # Errors
+    /// It is no such library, or one of another version.
+    ///
+    /// # Safety
+    /// Loading a library runs code of it: the file is what it says.
+    pub unsafe fn open(path: &Path) -> Result<Self, LoadError> {
+        // SAFETY: by this function's contract.
+        let library = unsafe { libloading::Library::new(path) }.map_err(|error| LoadError::Open(error.to_string()))?;
+        // SAFETY: a library with this symbol has it with this type, in all versions.
+        let symbol = unsafe { library.get::<unsafe extern "C" fn() -> *const Interface>(b"arl_interface\0") };
+        let ask = symbol.map_err(|_| LoadError::NotOurs)?;
+        // SAFETY: it may always be called, and gives what `of` takes: the library is not unloaded.
+        let opened = unsafe { Self::of(ask()) };
+        // Threads of it may run still, and threads of ours have its variables.
+        std::mem::forget(library);
+        opened
+    }
+
+    /// What `arl_interface` of a library gives that is loaded already.
+    ///
+    /// # Errors
+    /// It has another version.
+    ///
+    /// # Safety
+    /// The pointer is what such a function gave, and is valid as long as this process lives.
+    pub unsafe fn of(interface: *const Interface) -> Result<Self, LoadError> {
+        // SAFETY: the version comes first, in all versions.
+        let version = unsafe { *interface.cast::<u32>() };
+        if version != INTERFACE {
+            return Err(LoadError::Version(version));
+        }
+        // SAFETY: this version has this shape, and lives as long as the process.
+        Ok(Self { interface: unsafe { &*interface } })
+    }
+
+    /// A run at the start of its first cycle, with arguments as on a command line. With `traced` it keeps the trace of the first robot.
+    ///
+    /// # Errors
+    /// What is wrong with the arguments, or why there is no controller.
+    pub fn begin(self, arguments: &[&str], traced: bool) -> Result<Session, LoadError> {
+        let words: Result<Vec<CString>, _> = arguments.iter().map(|word| CString::new(*word)).collect();
+        let words = words.map_err(|_| LoadError::Refused("an argument has a character 0 in it".into()))?;
+        let pointers: Vec<*const c_char> = words.iter().map(|word| word.as_ptr()).collect();
+        let mut why = Vec::new();
+        // SAFETY: the words outlive the call, and `take_bytes` takes a vector of bytes.
+        let run = unsafe {
+            (self.interface.begin)(pointers.as_ptr(), pointers.len(), i32::from(traced), take_bytes, context(&mut why))
+        };
+        match NonNull::new(run) {
+            Some(run) => Ok(Session { run, interface: self.interface, thread: PhantomData }),
+            None => Err(LoadError::Refused(text(why))),
+        }
+    }
+
+    /// The names of the columns of a trace.
+    pub fn columns(self) -> Vec<String> {
+        let mut names = Vec::new();
+        // SAFETY: `take_bytes` takes a vector of bytes.
+        unsafe { (self.interface.header)(take_bytes, context(&mut names)) };
+        text(names).split(',').map(str::to_owned).collect()
+    }
+}
+
+/// A run of a program. It stays on the thread that began it.
+#[derive(Debug)]
+pub struct Session {
+    run: NonNull<Served>,
+    interface: &'static Interface,
+    thread: PhantomData<*const ()>,
+}
+
+impl Session {
+    /// Goes on for so many cycles, or until the run is over: then its exit code. `alone`: nobody else changes anything, so that programs
+    /// that all wait in vain end it.
+    ///
+    /// # Errors
+    /// The run has panicked.
+    pub fn go_on(&mut self, cycles: u64, alone: bool) -> Result<Option<u8>, LoadError> {
+        // SAFETY: the run is ours until it is dropped, on its own thread.
+        match unsafe { (self.interface.go_on)(self.run.as_ptr(), cycles, i32::from(alone)) } {
+            RUNS => Ok(None),
+            code => u8::try_from(code).map(Some).map_err(|_| LoadError::Broken),
+        }
+    }
+
+    /// Ends the programs: robots stop on their paths within the cycles that follow.
+    pub fn stop(&mut self) {
+        // SAFETY: as in `go_on`.
+        unsafe { (self.interface.stop)(self.run.as_ptr()) }
+    }
+
+    /// Does what an event of a scenario does: `di.5 = true`.
+    ///
+    /// # Errors
+    /// It is no order, or the run has panicked.
+    pub fn order(&mut self, order: &str) -> Result<(), LoadError> {
+        let order = CString::new(order).map_err(|_| LoadError::Refused("an order has a character 0 in it".into()))?;
+        let mut why = Vec::new();
+        // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
+        match unsafe { (self.interface.order)(self.run.as_ptr(), order.as_ptr(), take_bytes, context(&mut why)) } {
+            0 => Ok(()),
+            BROKEN => Err(LoadError::Broken),
+            _ => Err(LoadError::Refused(text(why))),
+        }
+    }
+
+    /// What was said since the last call: a JSON object a line.
+    pub fn take_said(&mut self) -> String {
+        text(self.taken(self.interface.said))
+    }
+
+    /// How everything stands, a JSON object.
+    pub fn state(&mut self) -> String {
+        text(self.taken(self.interface.state))
+    }
+
+    /// The rows of the trace since the last call, one behind the other.
+    pub fn take_rows(&mut self) -> Vec<f64> {
+        let bytes = self.taken(self.interface.rows);
+        bytes.chunks_exact(8).map(|double| f64::from_ne_bytes(double.try_into().unwrap_or_default())).collect()
+    }
+
+    /// Controller time in s.
+    pub fn time(&self) -> f64 {
+        // SAFETY: as in `go_on`.
+        unsafe { (self.interface.time)(self.run.as_ptr()) }
+    }
+
+    fn taken(&mut self, ask: unsafe extern "C" fn(*mut Served, crate::Take, *mut c_void)) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
+        unsafe { ask(self.run.as_ptr(), take_bytes, context(&mut bytes)) };
+        bytes
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        // SAFETY: as in `go_on`; nobody has it any more.
+        unsafe { (self.interface.end)(self.run.as_ptr()) }
+    }
+}
+
+fn context(bytes: &mut Vec<u8>) -> *mut c_void {
+    std::ptr::from_mut(bytes).cast()
+}
+
+fn text(bytes: Vec<u8>) -> String {
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// Adds the bytes to the vector that is its context.
+unsafe extern "C" fn take_bytes(context: *mut c_void, bytes: *const c_char, length: usize) {
+    // SAFETY: the context is that of `context`, and nobody else has the vector during the call.
+    let all = unsafe { &mut *context.cast::<Vec<u8>>() };
+    if length > 0 {
+        // SAFETY: there are so many bytes, as long as the call lasts.
+        all.extend_from_slice(unsafe { std::slice::from_raw_parts(bytes.cast(), length) });
+    }
+}

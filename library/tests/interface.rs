@@ -1,0 +1,174 @@
+//! Both sides of the interface, in one process: the library is this test itself.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may fail")]
+
+use arl_library::{INTERFACE, Interface, Library, LoadError, Session};
+use arl_rt::emit::*;
+use arl_rt::program::Other;
+
+const FILE: File = File::new("fill.arl");
+
+/// Opens a valve, waits for the sensor on input 1, moves, and divides by what input 1 of the analog ones has.
+#[derive(Default)]
+struct Fill;
+
+impl Program for Fill {
+    fn file(&self) -> File {
+        FILE
+    }
+
+    fn family(&self) -> Family {
+        Family::SixAxis
+    }
+
+    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
+        Box::pin(async { Ok(()) })
+    }
+
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        Box::pin(async move {
+            io::setdo(cx, 1, true).await.at(FILE, 1)?;
+            flow::waituntil(cx).start().await.at(FILE, 2)?;
+            while !io::getdi(cx, 1).await.at(FILE, 2)? {
+                cx.change().await;
+            }
+            motion::movej(Joint::of_axes([10.0, -90.0, 90.0, 0.0, 45.0, 0.0])).run(cx).await.at(FILE, 3)?;
+            flow::waittime(0.0).run(cx).await.at(FILE, 4)?;
+            let divisor = io::getai(cx, 1).await.at(FILE, 5)? as i32;
+            assert_ne!(divisor, 7, "a bug of the runtime");
+            text::print().argtoprint(&div(12, divisor).at(FILE, 5)?).run(cx).at(FILE, 5)
+        })
+    }
+}
+
+fn make() -> Fill {
+    Fill
+}
+
+fn nobody() -> Box<dyn Program> {
+    Box::new(Fill)
+}
+
+arl_library::library!(make, [Other { file: "other.arl", folder: "", make: nobody }], ".");
+
+fn library() -> Library {
+    // SAFETY: it is what the function gave, and a static.
+    unsafe { Library::of(arl_interface()) }.unwrap()
+}
+
+fn begun(arguments: &[&str]) -> Session {
+    let folder = std::env::temp_dir().join(format!("arl-library-{}", std::process::id()));
+    let folder = folder.display().to_string();
+    let arguments: Vec<&str> = ["--state-dir", &folder].into_iter().chain(arguments.iter().copied()).collect();
+    library().begin(&arguments, true).unwrap()
+}
+
+#[test]
+fn a_run_goes_on_as_far_as_it_is_told_and_hears_orders() {
+    let mut run = begun(&[]);
+    assert_eq!(run.go_on(100, false), Ok(None));
+    assert_eq!(run.time(), 0.1);
+    assert!(run.state().contains("\"do\":\"1000"), "{}", run.state());
+    run.order("di.1 = true").unwrap();
+    run.order("ai.1 = 4.0").unwrap();
+    assert_eq!(run.go_on(u64::MAX, false), Ok(Some(0)));
+    let said = run.take_said();
+    assert!(said.starts_with("{\"message\":") && said.contains("\"text\":\"3\""), "{said}");
+    assert_eq!(run.take_said(), "");
+    // It is over, and stays so.
+    assert_eq!(run.go_on(1, false), Ok(Some(0)));
+}
+
+#[test]
+fn the_trace_has_a_row_a_cycle() {
+    let columns = library().columns();
+    assert_eq!((columns.len(), &*columns[0], &*columns[3]), (21, "t", "j1"));
+    let mut run = begun(&[]);
+    run.order("di.1 = true").unwrap();
+    run.order("ai.1 = 4.0").unwrap();
+    assert_eq!(run.go_on(10, false), Ok(None));
+    let first = run.take_rows();
+    assert_eq!(first.len(), 10 * columns.len());
+    assert_eq!(run.go_on(u64::MAX, false), Ok(Some(0)));
+    let rows: Vec<f64> = first.into_iter().chain(run.take_rows()).collect();
+    let rows: Vec<&[f64]> = rows.chunks(columns.len()).collect();
+    assert!(rows.iter().enumerate().all(|(at, row)| (row[0] - at as f64 * 0.001).abs() < 1e-9));
+    assert_eq!(rows.last().unwrap()[3], 10.0);
+    assert!(rows[0][9].is_nan(), "there is no external axis");
+}
+
+#[test]
+fn alarms_have_their_exit_code_and_their_line() {
+    let mut run = begun(&[]);
+    run.order("di.1 = true").unwrap();
+    assert_eq!(run.go_on(u64::MAX, true), Ok(Some(3)));
+    let said = run.take_said();
+    assert!(said.contains("{\"alarm\":{\"number\":20001,") && said.contains("\"line\":5}"), "{said}");
+}
+
+#[test]
+fn what_waits_in_vain_ends_where_nobody_else_is_there() {
+    let mut run = begun(&[]);
+    assert_eq!(run.go_on(100_000, true), Ok(Some(4)));
+    assert!(run.take_said().contains("nothing can change any more"), "it says why");
+    let mut run = begun(&[]);
+    assert_eq!(run.go_on(100_000, false), Ok(None));
+}
+
+#[test]
+fn it_ends_when_its_time_is_over_or_it_is_told_to_stop() {
+    let mut run = begun(&["--max-time", "0.5"]);
+    assert_eq!(run.go_on(u64::MAX, false), Ok(Some(4)));
+    assert!((run.time() - 0.5).abs() < 0.01, "{}", run.time());
+    let mut run = begun(&[]);
+    run.stop();
+    assert_eq!(run.go_on(u64::MAX, false), Ok(Some(130)));
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let refused = |arguments: &[&str]| match library().begin(arguments, false) {
+        Err(LoadError::Refused(why)) => why,
+        other => panic!("{arguments:?}: {other:?}"),
+    };
+    assert!(refused(&["--robot", "nobody"]).contains("nobody"));
+    assert!(refused(&["--override", "200"]).contains("percent from 0 to 100"));
+    assert!(refused(&["--live"]).contains("--live is for a program that runs by itself"));
+    assert!(refused(&["--speed"]).contains("--speed"));
+    assert!(refused(&["a\0b"]).contains("character 0"));
+    let mut run = begun(&[]);
+    assert!(matches!(run.order("di.1 = maybe"), Err(LoadError::Refused(_))));
+    assert!(matches!(run.order("\0"), Err(LoadError::Refused(_))));
+}
+
+#[test]
+fn a_panic_breaks_its_run_alone() {
+    let mut run = begun(&[]);
+    run.order("di.1 = true").unwrap();
+    run.order("ai.1 = 7.0").unwrap();
+    assert_eq!(run.go_on(u64::MAX, false), Err(LoadError::Broken));
+    assert_eq!(run.go_on(1, false), Err(LoadError::Broken));
+    assert_eq!(run.order("di.1 = true"), Err(LoadError::Broken));
+    drop(run);
+    assert_eq!(begun(&[]).go_on(10, false), Ok(None));
+}
+
+#[test]
+fn another_version_is_told() {
+    // SAFETY: it is what the function gave, and a static.
+    let ours = unsafe { *arl_interface() };
+    let theirs: &'static Interface = Box::leak(Box::new(Interface { version: INTERFACE + 1, ..ours }));
+    // SAFETY: it lives as long as the process.
+    let opened = unsafe { Library::of(theirs) };
+    assert_eq!(opened.unwrap_err(), LoadError::Version(INTERFACE + 1));
+}
+
+#[test]
+fn what_is_no_library_is_told() {
+    let open = |path: &str| {
+        // SAFETY: there is no such file, or no library.
+        unsafe { Library::open(path.as_ref()) }.unwrap_err()
+    };
+    assert!(matches!(open("/nowhere/libnothing.so"), LoadError::Open(_)));
+    assert!(matches!(open(concat!(env!("CARGO_MANIFEST_DIR"), "/arl.h")), LoadError::Open(_)));
+}
