@@ -4,8 +4,9 @@
  *
  *     const ArlInterface *arl = ((ArlInterface *(*)(void))dlsym(library, "arl_interface"))();
  *
- * It must not be unloaded. Runs do not disturb each other; each has one thread, that which began it. Texts are UTF-8
- * and not ended by 0, but for those that are given in. */
+ * It must not be unloaded. Runs do not disturb each other; each has one thread, that which began it, with 2 MiB of
+ * stack or more, and none of them outlives a fork. What takes a text calls nothing of this interface. Texts are UTF-8
+ * and not ended by 0, but for those that are given in; one without characters may have any pointer. */
 #ifndef ARL_H
 #define ARL_H
 
@@ -31,26 +32,28 @@ typedef struct {
     uint32_t columns; /* how many doubles a row of the trace has */
 
     /* A run at the start of its first cycle. `arguments` are `count` words as on a command line, each ended by 0:
-     * "--robot", "six-10". With `traced` not 0 it keeps the trace of the first robot. NULL: `why` was told the reason. */
+     * "--robot", "six-10". With `traced` not 0 it keeps the trace of the first robot. Without "--state-dir" nothing that a
+     * program keeps outlives the run. NULL: `why` was told the reason. */
     ArlRun *(*begin)(const char *const *arguments, size_t count, int32_t traced, ArlTake why, void *context);
 
     /* Goes on for so many cycles, or until the run is over. With `alone` not 0 nobody else changes anything, so that
      * programs that all wait in vain end it. */
     int32_t (*go_on)(ArlRun *run, uint64_t cycles, int32_t alone);
 
-    /* Ends the programs: robots stop on their paths within the cycles that follow. */
-    void (*stop)(ArlRun *run);
+    /* Ends the programs: robots stop on their paths within the cycles that follow. Any thread may call it, also while the
+     * run's own is in `go_on`. */
+    void (*stop)(const ArlRun *run);
 
     /* Does what an event of a scenario does: "di.5 = true". 0: it was done; else `why` was told the reason. */
     int32_t (*order)(ArlRun *run, const char *text, ArlTake why, void *context);
 
-    /* What was said since the last call: messages, warnings, alarms, a JSON object a line. */
+    /* What was said since the last call, and is kept until then: messages, warnings, alarms, a JSON object a line. */
     void (*said)(ArlRun *run, ArlTake take, void *context);
 
     /* How everything stands, a JSON object. */
     void (*state)(ArlRun *run, ArlTake take, void *context);
 
-    /* The rows of the trace since the last call: doubles as bytes, `columns` of them a row. */
+    /* The rows of the trace since the last call, kept until then: doubles as bytes, `columns` of them a row. */
     void (*rows)(ArlRun *run, ArlTake take, void *context);
 
     /* Controller time in s. */

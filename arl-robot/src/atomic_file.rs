@@ -3,8 +3,9 @@
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How the name of a file ends that is to take the place of another one: `NAME.PROCESS` and this. No user calls a file so.
+/// How the name of a file ends that is to take the place of another one: `NAME.PROCESS-NUMBER` and this. No user calls a file so.
 const BESIDE: &str = ".arl-new";
 
 /// Writes a file so that a kill at any moment leaves the old or the new content, whole: to a file beside it, which
@@ -13,8 +14,10 @@ const BESIDE: &str = ".arl-new";
 /// # Errors
 /// What the file system says; the old content is still there.
 pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
+    /// Several threads may write the same file.
+    static NUMBER: AtomicU64 = AtomicU64::new(0);
     let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}{BESIDE}", std::process::id()));
+    beside.push(format!(".{}-{}{BESIDE}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed)));
     let beside = PathBuf::from(beside);
     let written = (|| {
         let mut file = create_held(&beside)?;
@@ -65,7 +68,7 @@ pub fn remove_leftovers(directory: &Path) {
 fn is_in_the_making(name: &str) -> bool {
     let named = name.strip_suffix(BESIDE).and_then(|name| name.rsplit_once('.'));
     named.is_some_and(|(name, process)| {
-        !name.is_empty() && !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit())
+        !name.is_empty() && !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit() || byte == b'-')
     })
 }
 

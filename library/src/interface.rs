@@ -25,7 +25,7 @@ pub struct Interface {
     pub columns: u32,
     pub begin: unsafe extern "C" fn(*const *const c_char, usize, i32, Take, *mut c_void) -> *mut Served,
     pub go_on: unsafe extern "C" fn(*mut Served, u64, i32) -> i32,
-    pub stop: unsafe extern "C" fn(*mut Served),
+    pub stop: unsafe extern "C" fn(*const Served),
     pub order: unsafe extern "C" fn(*mut Served, *const c_char, Take, *mut c_void) -> i32,
     pub said: unsafe extern "C" fn(*mut Served, Take, *mut c_void),
     pub state: unsafe extern "C" fn(*mut Served, Take, *mut c_void),

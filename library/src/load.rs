@@ -138,7 +138,7 @@ impl Session {
     }
 
     /// Ends the programs: robots stop on their paths within the cycles that follow.
-    pub fn stop(&mut self) {
+    pub fn stop(&self) {
         // SAFETY: as in `go_on`.
         unsafe { (self.interface.stop)(self.run.as_ptr()) }
     }

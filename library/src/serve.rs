@@ -1,8 +1,11 @@
 //! The program's side of the interface.
 
+use std::cell::UnsafeCell;
 use std::ffi::{CStr, OsString, c_char, c_void};
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, ThreadId};
 
 use arl_rt::Program;
@@ -20,31 +23,51 @@ pub struct Made<'a> {
     pub script_dir: &'a str,
 }
 
-/// A run, as a host has it: `ArlRun`.
+/// A run, as a host has it: `ArlRun`. Other threads may come with a pointer to it, and are sent away.
 pub struct Served {
-    run: Run,
     thread: ThreadId,
+    stops: Arc<AtomicBool>,
+    /// Of its own thread alone.
+    own: UnsafeCell<Own>,
+}
+
+struct Own {
+    run: Run,
     is_broken: bool,
 }
 
 impl fmt::Debug for Served {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.run.fmt(f)
+        f.debug_struct("Served").field("thread", &self.thread).finish_non_exhaustive()
     }
 }
 
 impl Served {
-    /// Does something with the run on its own thread; a panic breaks it.
-    fn with<T>(&mut self, act: impl FnOnce(&mut Run) -> T) -> Result<T, i32> {
+    /// Does something with the run on its own thread, also with one that is broken. A panic breaks it.
+    ///
+    /// # Safety
+    /// No other call is under way on this thread: `arl.h` says that what takes a text calls nothing.
+    unsafe fn with_any<T>(&self, act: impl FnOnce(&mut Own) -> T) -> Result<T, i32> {
         if thread::current().id() != self.thread {
             return Err(WRONG_THREAD);
         }
-        if self.is_broken {
-            return Err(BROKEN);
+        // SAFETY: this is its thread, and no other call is under way there.
+        let own = unsafe { &mut *self.own.get() };
+        let done = catch_unwind(AssertUnwindSafe(|| act(own)));
+        if done.is_err() {
+            own.is_broken = true;
         }
-        let done = catch_unwind(AssertUnwindSafe(|| act(&mut self.run)));
-        self.is_broken = done.is_err();
         done.map_err(|_| BROKEN)
+    }
+
+    /// The same with one that is not broken.
+    ///
+    /// # Safety
+    /// As for `with_any`.
+    unsafe fn with<T>(&self, act: impl FnOnce(&mut Run) -> T) -> Result<T, i32> {
+        // SAFETY: as for this.
+        let done = unsafe { self.with_any(|own| if own.is_broken { Err(BROKEN) } else { Ok(act(&mut own.run)) }) };
+        done.flatten()
     }
 }
 
@@ -91,8 +114,9 @@ pub unsafe fn begin(
     }));
     let problem = match begun {
         Ok(Ok(run)) => {
-            let served = Served { run, thread: thread::current().id(), is_broken: false };
-            return Box::into_raw(Box::new(served));
+            let stops = run.stops();
+            let own = UnsafeCell::new(Own { run, is_broken: false });
+            return Box::into_raw(Box::new(Served { thread: thread::current().id(), stops, own }));
         }
         Ok(Err(problem)) => problem,
         Err(_) => "the program panicked: the standard error says why".into(),
@@ -113,21 +137,21 @@ unsafe fn give(take: Take, context: *mut c_void, bytes: &[u8]) {
 
 unsafe extern "C" fn go_on(run: *mut Served, cycles: u64, alone: i32) -> i32 {
     let outside = if alone != 0 { Outside::Nobody } else { Outside::Somebody };
-    // SAFETY: the host gives what `begin` gave and `end` has not taken, and nobody else has it now.
-    let served = unsafe { &mut *run };
-    served.with(|run| run.go_on(cycles, outside)).map_or_else(|problem| problem, |code| code.map_or(RUNS, i32::from))
+    // SAFETY: the host gives what `begin` gave and `end` has not taken, as `arl.h` says; no other call is under way.
+    let gone_on = unsafe { (*run).with(|run| run.go_on(cycles, outside)) };
+    gone_on.map_or_else(|problem| problem, |code| code.map_or(RUNS, i32::from))
 }
 
-unsafe extern "C" fn stop(run: *mut Served) {
-    // SAFETY: as in `go_on`.
-    let _ = unsafe { &mut *run }.with(Run::stop);
+unsafe extern "C" fn stop(run: *const Served) {
+    // SAFETY: as in `go_on`, but for other calls: this looks at nothing that they change.
+    unsafe { &*run }.stops.store(true, Ordering::Relaxed);
 }
 
 unsafe extern "C" fn order(run: *mut Served, text: *const c_char, why: Take, context: *mut c_void) -> i32 {
     // SAFETY: the host gives a string that is ended by 0.
     let text = unsafe { CStr::from_ptr(text) }.to_string_lossy();
     // SAFETY: as in `go_on`.
-    match unsafe { &mut *run }.with(|run| run.order(&text)) {
+    match unsafe { (*run).with(|run| run.order(&text)) } {
         Ok(Ok(())) => 0,
         Ok(Err(problem)) => {
             // SAFETY: the host gives a function that takes its context.
@@ -139,8 +163,8 @@ unsafe extern "C" fn order(run: *mut Served, text: *const c_char, why: Take, con
 }
 
 unsafe extern "C" fn said(run: *mut Served, take: Take, context: *mut c_void) {
-    // SAFETY: as in `go_on`.
-    if let Ok(text) = unsafe { &mut *run }.with(Run::take_said) {
+    // SAFETY: as in `go_on`. What led to a panic is told, too.
+    if let Ok(text) = unsafe { (*run).with_any(|own| own.run.take_said()) } {
         // SAFETY: the host gives a function that takes its context.
         unsafe { give(take, context, text.as_bytes()) };
     }
@@ -148,24 +172,23 @@ unsafe extern "C" fn said(run: *mut Served, take: Take, context: *mut c_void) {
 
 unsafe extern "C" fn state(run: *mut Served, take: Take, context: *mut c_void) {
     // SAFETY: as in `go_on`.
-    if let Ok(text) = unsafe { &mut *run }.with(|run| run.state()) {
+    if let Ok(text) = unsafe { (*run).with(|run| run.state()) } {
         // SAFETY: the host gives a function that takes its context.
         unsafe { give(take, context, text.as_bytes()) };
     }
 }
 
 unsafe extern "C" fn rows(run: *mut Served, take: Take, context: *mut c_void) {
-    // SAFETY: as in `go_on`.
-    if let Ok(rows) = unsafe { &mut *run }.with(Run::take_rows) {
+    // SAFETY: as in `go_on`. What led to a panic is told, too.
+    if let Ok(rows) = unsafe { (*run).with_any(|own| own.run.take_rows()) } {
         // SAFETY: doubles are bytes without gaps, and they are there as long as the call lasts.
         unsafe { take(context, rows.as_ptr().cast(), size_of_val(&*rows)) };
     }
 }
 
 unsafe extern "C" fn time(run: *const Served) -> f64 {
-    // SAFETY: as in `go_on`, but for changing it.
-    let served = unsafe { &*run };
-    if thread::current().id() == served.thread { served.run.time() } else { f64::NAN }
+    // SAFETY: as in `go_on`.
+    unsafe { (*run).with_any(|own| own.run.time()) }.unwrap_or(f64::NAN)
 }
 
 unsafe extern "C" fn end(run: *mut Served) {

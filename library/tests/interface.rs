@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may fail")]
 
-use arl_library::{INTERFACE, Interface, Library, LoadError, Session};
+use std::ffi::{c_char, c_void};
+
+use arl_library::{INTERFACE, Interface, Library, LoadError, Served, Session, WRONG_THREAD};
 use arl_rt::emit::*;
 use arl_rt::program::Other;
 
@@ -57,10 +59,7 @@ fn library() -> Library {
 }
 
 fn begun(arguments: &[&str]) -> Session {
-    let folder = std::env::temp_dir().join(format!("arl-library-{}", std::process::id()));
-    let folder = folder.display().to_string();
-    let arguments: Vec<&str> = ["--state-dir", &folder].into_iter().chain(arguments.iter().copied()).collect();
-    library().begin(&arguments, true).unwrap()
+    library().begin(arguments, true).unwrap()
 }
 
 #[test]
@@ -77,6 +76,7 @@ fn a_run_goes_on_as_far_as_it_is_told_and_hears_orders() {
     assert_eq!(run.take_said(), "");
     // It is over, and stays so.
     assert_eq!(run.go_on(1, false), Ok(Some(0)));
+    assert_eq!(run.order("pendant = \"reset\""), Err(LoadError::Refused("the run is over".into())));
 }
 
 #[test]
@@ -95,6 +95,63 @@ fn the_trace_has_a_row_a_cycle() {
     assert!(rows.iter().enumerate().all(|(at, row)| (row[0] - at as f64 * 0.001).abs() < 1e-9));
     assert_eq!(rows.last().unwrap()[3], 10.0);
     assert!(rows[0][9].is_nan(), "there is no external axis");
+}
+
+#[test]
+fn the_trace_is_that_of_the_file() {
+    let file = std::env::temp_dir().join(format!("arl-library-{}.csv", std::process::id()));
+    let mut run = begun(&["--trace", file.to_str().unwrap()]);
+    run.order("di.1 = true").unwrap();
+    run.order("ai.1 = 4.0").unwrap();
+    assert_eq!(run.go_on(u64::MAX, true), Ok(Some(0)));
+    let rows = run.take_rows();
+    let rows: Vec<&[f64]> = rows.chunks(library().columns().len()).collect();
+    let text = std::fs::read_to_string(&file).unwrap();
+    std::fs::remove_file(&file).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next().map(str::to_owned), Some(library().columns().join(",")));
+    let lines: Vec<&str> = lines.collect();
+    assert_eq!(lines.len(), rows.len());
+    for (line, row) in lines.iter().zip(rows) {
+        let same = |(written, value): (&str, &f64)| match written.parse::<f64>() {
+            Ok(written) => (written - value).abs() < 1e-6,
+            Err(_) => written.is_empty() && value.is_nan(),
+        };
+        assert!(line.split(',').zip(row).all(same), "{line}: {row:?}");
+    }
+}
+
+/// A run that another thread has a pointer to.
+struct Lent(*mut Served);
+
+// SAFETY: the other thread does with it what `arl.h` allows.
+unsafe impl Send for Lent {}
+
+#[test]
+fn other_threads_may_stop_a_run_and_nothing_else() {
+    unsafe extern "C" fn forget(_: *mut c_void, _: *const c_char, _: usize) {}
+    // SAFETY: it is what the function gave.
+    let arl = unsafe { &*arl_interface() };
+    // SAFETY: there are no arguments.
+    let run = unsafe { (arl.begin)(std::ptr::null(), 0, 0, forget, std::ptr::null_mut()) };
+    let lent = Lent(run);
+    let other = std::thread::spawn(move || {
+        let Lent(run) = { lent };
+        // SAFETY: the run lives until this thread has ended.
+        unsafe {
+            assert_eq!((arl.go_on)(run, 1, 0), WRONG_THREAD);
+            assert_eq!((arl.order)(run, c"di.1 = true".as_ptr(), forget, std::ptr::null_mut()), WRONG_THREAD);
+            assert!((arl.time)(run).is_nan());
+            (arl.end)(run);
+            (arl.stop)(run);
+        }
+    });
+    // It waits for an input, for ever.
+    // SAFETY: this is its thread.
+    assert_eq!(unsafe { (arl.go_on)(run, u64::MAX, 0) }, 130);
+    other.join().unwrap();
+    // SAFETY: this is its thread, and nobody has it any more.
+    unsafe { (arl.end)(run) };
 }
 
 #[test]
@@ -121,6 +178,7 @@ fn it_ends_when_its_time_is_over_or_it_is_told_to_stop() {
     assert_eq!(run.go_on(u64::MAX, false), Ok(Some(4)));
     assert!((run.time() - 0.5).abs() < 0.01, "{}", run.time());
     let mut run = begun(&[]);
+    assert_eq!(run.go_on(10, false), Ok(None));
     run.stop();
     assert_eq!(run.go_on(u64::MAX, false), Ok(Some(130)));
 }
@@ -133,7 +191,9 @@ fn what_is_wrong_is_said() {
     };
     assert!(refused(&["--robot", "nobody"]).contains("nobody"));
     assert!(refused(&["--override", "200"]).contains("percent from 0 to 100"));
-    assert!(refused(&["--live"]).contains("--live is for a program that runs by itself"));
+    for option in ["--live", "--paused", "--each-cycle", "--report", "--realtime"] {
+        assert!(refused(&[option]).contains(&format!("{option} is for a program that runs by itself")), "{option}");
+    }
     assert!(refused(&["--speed"]).contains("--speed"));
     assert!(refused(&["a\0b"]).contains("character 0"));
     let mut run = begun(&[]);
@@ -149,6 +209,7 @@ fn a_panic_breaks_its_run_alone() {
     assert_eq!(run.go_on(u64::MAX, false), Err(LoadError::Broken));
     assert_eq!(run.go_on(1, false), Err(LoadError::Broken));
     assert_eq!(run.order("di.1 = true"), Err(LoadError::Broken));
+    assert!(!run.take_rows().is_empty(), "what led to it is there");
     drop(run);
     assert_eq!(begun(&[]).go_on(10, false), Ok(None));
 }
@@ -171,4 +232,7 @@ fn what_is_no_library_is_told() {
     };
     assert!(matches!(open("/nowhere/libnothing.so"), LoadError::Open(_)));
     assert!(matches!(open(concat!(env!("CARGO_MANIFEST_DIR"), "/arl.h")), LoadError::Open(_)));
+    if cfg!(all(target_os = "linux", target_env = "gnu")) {
+        assert_eq!(open("libm.so.6"), LoadError::NotOurs);
+    }
 }

@@ -4,6 +4,8 @@ use std::cell::RefCell;
 use std::ffi::OsString;
 use std::fmt;
 use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::command::live::{alarm_line, message_line, push_state, warning_line};
 use crate::command::program_main::{self, EXIT_ALARM, EXIT_ENDED, EXIT_INTERRUPTED, EXIT_MAX_TIME, Other, listed};
@@ -22,8 +24,12 @@ pub struct Run {
     cut: Option<u8>,
     /// Its exit code, once it is over.
     code: Option<u8>,
+    /// Whether it was asked to be in real time.
+    is_real: bool,
     /// The trace of the first robot, where it is asked for: rows that nobody has taken yet.
     rows: Option<Vec<f64>>,
+    /// Whether somebody wants it to end.
+    stops: Arc<AtomicBool>,
 }
 
 /// Who else may change something while a run goes on.
@@ -56,9 +62,16 @@ impl Run {
         let said = Rc::new(RefCell::new(String::new()));
         let lines = Rc::clone(&said);
         let output = move |message: &Message<'_>| lines.borrow_mut().push_str(&message_line(message));
-        let (controller, max_time) = program_main::in_process(program, (others, script_dir), arguments, output)?;
+        let (controller, max_time, is_real) =
+            program_main::in_process(program, (others, script_dir), arguments, output)?;
         let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
-        Ok(Self { controller, said, last, cut: None, code: None, rows: traced.then(Vec::new) })
+        let (rows, stops) = (traced.then(Vec::new), Arc::default());
+        Ok(Self { controller, said, last, cut: None, code: None, is_real, rows, stops })
+    }
+
+    /// What ends the programs once it is true, the robots at rest on their paths: any thread may set it.
+    pub fn stops(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.stops)
     }
 
     /// Goes on for so many cycles, or until it is over: then its exit code, which is that of the command.
@@ -71,9 +84,11 @@ impl Run {
                 let seconds = self.controller.time();
                 self.cut(EXIT_MAX_TIME, &format!("the time is over: {seconds} s"));
             }
-            let runs = self.controller.outcome().is_none();
+            if self.cut.is_none() && self.stops.load(Ordering::Relaxed) {
+                self.cut(EXIT_INTERRUPTED, "interrupted: the robot stops on its path");
+            }
             self.controller.step();
-            if let Some(rows) = self.rows.as_mut().filter(|_| runs) {
+            if let Some(rows) = self.rows.as_mut().filter(|_| self.controller.first_ran()) {
                 rows.extend(self.controller.trace_row());
             }
             self.take_news();
@@ -87,13 +102,6 @@ impl Run {
         // Who asks for no cycle wants to know, too.
         let _ = self.code.is_some() || self.conclude();
         self.code
-    }
-
-    /// Ends the programs: the robots stop on their paths within the cycles that follow.
-    pub fn stop(&mut self) {
-        if self.cut.is_none() && self.code.is_none() {
-            self.cut(EXIT_INTERRUPTED, "interrupted: the robot stops on its path");
-        }
     }
 
     fn cut(&mut self, code: u8, why: &str) {
@@ -113,6 +121,9 @@ impl Run {
             self.controller.close_robots();
             self.controller.settle_state();
             self.take_news();
+            if self.is_real {
+                program_main::lateness(&self.controller).iter().for_each(|text| self.say(&warning_line(text)));
+            }
             let alarmed = matches!(self.controller.outcome(), Some(Outcome::Alarm(_)));
             self.code = Some(self.cut.unwrap_or(if alarmed { EXIT_ALARM } else { EXIT_ENDED }));
         }
@@ -135,8 +146,11 @@ impl Run {
     /// Does what an event of a scenario does: see [`Controller::order`].
     ///
     /// # Errors
-    /// It is no order; then nothing was done.
+    /// It is no order, or the run is over; then nothing was done.
     pub fn order(&mut self, text: &str) -> Result<(), String> {
+        if self.code.is_some() {
+            return Err("the run is over".into());
+        }
         self.controller.order(text)
     }
 

@@ -14,7 +14,7 @@ use crate::builtins::time;
 use crate::command::between::{Beat, Between};
 use crate::command::coverage;
 use crate::command::debug;
-use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
+use crate::command::live::{self, Cut, LineWriter, Recording, STATE_INTERVAL_S, Wishes};
 use crate::command::report;
 use crate::command::say::say;
 use crate::context::output::Output;
@@ -26,7 +26,7 @@ use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{RealClock, VirtualClock};
 use crate::cycle::realtime::Realtime;
 use crate::io::{Pendant, Scenario};
-use crate::storage::state::Directory;
+use crate::storage::state::{Directory, Memory};
 use crate::unit::robot_driver::Connect;
 use crate::values::Controlmode;
 use arl_robot::cell::{Cell, Names};
@@ -36,6 +36,8 @@ use arl_robot::robot::Robot;
 /// cycle goes down the whole chain of functions that wait for each other, so that a long one takes long.
 const PROGRAM_STACK_BYTES: usize = 8 << 20;
 const CONTROLLER_STACK_BYTES: usize = 1 << 20;
+/// What they may fill on a thread of another program, which has 2 MiB as a rule.
+const HOST_STACK_BYTES: usize = 1 << 20;
 
 /// The directory below the script directory that keeps system variables where no other is named.
 const STATE_DIR: &str = ".arl-state";
@@ -130,6 +132,9 @@ impl Options {
             (self.cycle_time.is_some(), "--cycle-time"),
             (self.asked.debug.is_some(), "--debug"),
             (self.asked.coverage.is_some(), "--coverage"),
+            (self.wishes.each_cycle, "--each-cycle"),
+            (self.wishes.each_motion, "--each-motion"),
+            (self.wishes.state_interval != STATE_INTERVAL_S, "--state-interval"),
         ];
         asked.into_iter().find_map(|(asked, option)| asked.then_some(option))
     }
@@ -478,20 +483,29 @@ fn run(
     {
         warn(&format!("cannot write {}: {error}", file.display()));
     }
-    if let Some(lateness) = controller.lateness().filter(|lateness| real && lateness.late() > 0) {
+    if real {
+        lateness(&controller).iter().for_each(|text| warn(text));
+    }
+    code
+}
+
+/// What came too late in a run in real time.
+pub(super) fn lateness(controller: &Controller) -> Vec<String> {
+    let mut said = Vec::new();
+    if let Some(lateness) = controller.lateness().filter(|lateness| lateness.late() > 0) {
         let (late, lost, longest) = (lateness.late(), lateness.lost(), lateness.longest().as_secs_f64() * 1e3);
-        warn(&format!(
+        said.push(format!(
             "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
         ));
     }
-    if real && controller.found_late() > 0 {
+    if controller.found_late() > 0 {
         let advice = if cfg!(debug_assertions) { "; `arl2rs build --release` makes a quicker program" } else { "" };
-        warn(&format!(
+        said.push(format!(
             "the computer was too busy to find the motion ahead in time, {} times: robots may have gone more slowly, or stopped on their path{advice}",
             controller.found_late()
         ));
     }
-    code
+    said
 }
 
 /// Who waits for what in vain, each with its channel where there are several.
@@ -509,23 +523,27 @@ fn say_standstill(time: f64, waiting: &[Standstill]) {
     listed(waiting).iter().for_each(|line| tell(format_args!("  {line}")));
 }
 
-/// A controller for a run in this process, with the same options as on a command line, and after how many s it ends at the latest.
+/// A controller for a run in this process, with the same options as on a command line, after how many s it ends at the latest, and whether it is asked to be in real time.
 pub(super) fn in_process(
     program: Box<dyn Program>,
     (others, script_dir): (&[Other], &str),
     arguments: Vec<OsString>,
     output: impl Output + 'static,
-) -> Result<(Controller, Option<f64>), String> {
+) -> Result<(Controller, Option<f64>, bool), String> {
     let options = parse(arguments, script_dir).map_err(|error| error.to_string())?;
     let options = options.ok_or("--help: there is no command line here")?;
     if let Some(option) = options.needs_a_process() {
         return Err(format!("{option} is for a program that runs by itself"));
     }
     let (max_time, repeats) = (options.max_time, options.repeats);
-    let builder = set_up(options, others).map_err(|failure| failure.text)?;
+    let real = options.clock == Some(Pace::Real);
+    let keeps = options.state_dir.is_some();
+    let builder = set_up(options, others).map_err(|failure| failure.text)?.stack(HOST_STACK_BYTES);
+    // Runs beside each other would share the folder of the program.
+    let builder = if keeps { builder } else { builder.storage(Memory::default()) };
     let mut controller = builder.output(output).build(program).map_err(|error| error.to_string())?;
     controller.set_loop(repeats);
-    Ok((controller, max_time))
+    Ok((controller, max_time, real))
 }
 
 /// The exit code of a run that was driven from outside.

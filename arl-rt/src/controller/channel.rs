@@ -136,6 +136,11 @@ impl Channel {
         CurrentPointers { program: self.channel_state.begun.get().then(|| self.cx.place()), motion }
     }
 
+    /// Whether the program ran in the last cycle.
+    pub(super) fn ran(&self) -> bool {
+        self.running
+    }
+
     /// What the program does at the moment.
     pub(super) fn state(&self) -> State {
         match self.phase {

@@ -412,6 +412,11 @@ impl Controller {
         self.shared.now.get()
     }
 
+    /// Whether the first channel's program ran in the last cycle.
+    pub(crate) fn first_ran(&self) -> bool {
+        self.channels.first().ran()
+    }
+
     /// The row of the last cycle in the trace of the first channel's robot.
     pub(crate) fn trace_row(&self) -> [f64; trace::COLUMNS] {
         let cycle = self.shared.now.get().saturating_sub(1);

@@ -6,6 +6,7 @@ import os
 import shutil
 import struct
 import subprocess
+import threading
 from pathlib import Path
 
 import pytest
@@ -48,6 +49,18 @@ def taken(ask):
     return b"".join(parts)
 
 
+IGNORE = TAKE(lambda *_: None)
+
+
+def interface(path):
+    """The interface of a library."""
+    library = ctypes.CDLL(str(path))
+    library.arl_interface.restype = ctypes.POINTER(Interface)
+    arl = library.arl_interface().contents
+    assert arl.version == 1
+    return arl
+
+
 @pytest.fixture(scope="module")
 def library(tmp_path_factory):
     """The fill program of the example, as a library."""
@@ -76,23 +89,40 @@ def test_a_host_in_c_runs_it(library, tmp_path):
     assert run("--override", "200").stderr == "--override 200: expected percent from 0 to 100"
 
 
+def test_recursion_without_end_is_an_alarm_on_a_thread_with_2_mib(tmp_path):
+    source, made = tmp_path / "deep.arl", tmp_path / "libdeep.so"
+    source.write_text("func int deeper(int n)\n    return deeper(n + 1) + 1\nendfunc\n\nfunc void main()\n    print deeper(0)\nendfunc\n")
+    subprocess.run([ARL2RS, "build", "--library", source, "-o", made], check=True)
+    arl = interface(made)
+    answers = []
+
+    def run():
+        begun = arl.begin(None, 0, 0, IGNORE, None)
+        answers.append(arl.go_on(begun, 1000, 1))
+        answers.append(taken(lambda take: arl.said(begun, take, None)).decode())
+        arl.end(begun)
+
+    threading.stack_size(2 << 20)
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join()
+    assert answers[0] == 3 and '"alarm"' in answers[1], answers
+
+
 def test_python_has_its_trace_and_two_runs_at_once(library, tmp_path):
-    ctypes_library = ctypes.CDLL(str(library))
-    ctypes_library.arl_interface.restype = ctypes.POINTER(Interface)
-    arl = ctypes_library.arl_interface().contents
-    assert arl.version == 1
+    arl = interface(library)
     names = taken(lambda take: arl.header(take, None)).decode().split(",")
     assert len(names) == arl.columns and names[:4] == ["t", "line", "motion", "j1"]
 
     def begin():
         words = [b"--state-dir", str(tmp_path).encode()]
-        run = arl.begin((ctypes.c_char_p * 2)(*words), 2, 1, TAKE(lambda *_: None), None)
+        run = arl.begin((ctypes.c_char_p * 2)(*words), 2, 1, IGNORE, None)
         assert run
         return run
 
     one, other = begin(), begin()
     assert arl.go_on(one, 500, 0) == -1 and arl.go_on(other, 250, 0) == -1
-    assert arl.order(one, b"di.1 = true", TAKE(lambda *_: None), None) == 0
+    assert arl.order(one, b"di.1 = true", IGNORE, None) == 0
     assert arl.go_on(one, 1_000_000, 0) == 0
     assert json.loads(taken(lambda take: arl.state(other, take, None)))["state"]["do"].startswith("10")
     rows = taken(lambda take: arl.rows(one, take, None))

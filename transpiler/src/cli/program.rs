@@ -1,7 +1,7 @@
 //! From a source file to a compiled program, with as little work as the changes need.
 
 use super::args::Checking;
-use super::cache::{Cache, Lock, Place, write_if_changed};
+use super::cache::{Cache, Kind, Lock, Place, write_if_changed};
 use super::failure::Failure;
 use super::progress::Progress;
 use super::project::{Emitted, EmittedOther, Target};
@@ -104,8 +104,8 @@ impl<'a> Job<'a> {
         };
         Ok(match self.target {
             Target::Program => place,
-            Target::Watched => place.beside("debug"),
-            Target::Library => place.beside("library"),
+            Target::Watched => place.beside(Kind::Debug),
+            Target::Library => place.beside(Kind::Library),
         })
     }
 

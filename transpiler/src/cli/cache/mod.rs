@@ -93,10 +93,31 @@ pub(super) struct Place {
     pub(super) name: String,
 }
 
+/// What a program is compiled for besides running by itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    /// A debugger.
+    Debug,
+    /// Another program, which loads it.
+    Library,
+}
+
+impl Kind {
+    const ALL: [Kind; 2] = [Kind::Debug, Kind::Library];
+
+    /// How the names of their packages end.
+    fn word(self) -> &'static str {
+        match self {
+            Kind::Debug => "debug",
+            Kind::Library => "library",
+        }
+    }
+}
+
 impl Place {
     /// A place for the same program, compiled for something else.
-    pub(super) fn beside(&self, what: &str) -> Self {
-        let name = format!("{}-{what}", self.name);
+    pub(super) fn beside(&self, kind: Kind) -> Self {
+        let name = format!("{}-{}", self.name, kind.word());
         Self { folder: self.folder.with_file_name(&name), name }
     }
 

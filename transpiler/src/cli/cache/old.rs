@@ -1,7 +1,7 @@
 //! What the cache holds, and how it is removed.
 
 use super::lock::{Lock, last_use};
-use super::{Cache, PROGRAMS, RUNTIMES};
+use super::{Cache, Kind, PROGRAMS, RUNTIMES};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -87,14 +87,19 @@ fn made_of(program: &Path, runtime: &Path) -> Vec<PathBuf> {
     paths.filter(|path| path.file_name().is_some_and(|name| is_made_of(&name.to_string_lossy(), &package))).collect()
 }
 
-/// Whether cargo gives this name to something that it makes of a package: `package`, `package-0123456789abcdef.d`, or the
-/// parts of a program of tests, `package-part1`.
+/// Whether cargo gives this name to something that it makes of a package: `package`, `package-0123456789abcdef.d`, `libpackage.so`, or the
+/// parts of a program of tests, `package-part1`; not what it makes of the same program for something else, `package-debug`.
 fn is_made_of(name: &str, package: &str) -> bool {
+    let name = name.strip_prefix(std::env::consts::DLL_PREFIX).unwrap_or(name);
+    let is_other =
+        |rest: &str| Kind::ALL.iter().any(|kind| rest.get(1..).is_some_and(|it| it.starts_with(kind.word())));
     let same = |(a, b): (u8, u8)| a == b || (a == b'_' && b == b'-');
     let rest = name.get(package.len()..);
     name.len() >= package.len()
         && name.bytes().zip(package.bytes()).all(same)
-        && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['-', '.']) || rest.starts_with("_part"))
+        && rest.is_some_and(|rest| {
+            rest.is_empty() || (rest.starts_with(['-', '.']) && !is_other(rest)) || rest.starts_with("_part")
+        })
 }
 
 /// How many bytes the files below a folder take, or a file; one with several names counts once among them.
@@ -140,13 +145,23 @@ mod tests {
             "arl-pick_me-0a1b2c3d.d",
             "arl_pick_me_0a1b2c3d-00ff.d",
             "arl-pick_me-0a1b2c3d-part1",
+            "libarl_pick_me_0a1b2c3d.so",
+            "libarl_pick_me_0a1b2c3d.d",
         ] {
             assert!(is_made_of(name, package), "{name}");
         }
-        for name in ["arl-pick_me-0a1b2c3", "arl-pick_me-0a1b2c3d4", "libarl_rt-00ff.rlib", "arl-pick-me-0a1b2c3d", ""]
-        {
+        for name in [
+            "arl-pick_me-0a1b2c3",
+            "arl-pick_me-0a1b2c3d4",
+            "libarl_rt-00ff.rlib",
+            "arl-pick-me-0a1b2c3d",
+            "arl-pick_me-0a1b2c3d-library-0123456789abcdef",
+            "arl_pick_me_0a1b2c3d_debug-00ff.d",
+            "",
+        ] {
             assert!(!is_made_of(name, package), "{name}");
         }
+        assert!(is_made_of("libarl_pick_me_0a1b2c3d_library.so", "arl-pick_me-0a1b2c3d-library"));
     }
 
     #[test]
