@@ -131,4 +131,22 @@ mod tests {
         assert_eq!(names(&path), ["a.txt", "b"].map(String::from).into());
         fs::remove_dir_all(&path).unwrap();
     }
+
+    #[test]
+    fn threads_that_write_one_file_leave_it_whole() {
+        let folder = folder("threads");
+        let path = folder.join("kept");
+        let texts = [[b'a'; 4096], [b'b'; 4096]];
+        std::thread::scope(|scope| {
+            for text in &texts {
+                scope.spawn(|| (0..50).for_each(|_| write(&path, text).unwrap()));
+            }
+            for _ in 0..50 {
+                let read = fs::read(&path).unwrap_or_else(|_| texts[0].into());
+                assert!(texts.iter().any(|text| read == text), "{} bytes", read.len());
+            }
+        });
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "nothing is left beside it");
+        fs::remove_dir_all(&folder).unwrap();
+    }
 }

@@ -62,7 +62,8 @@ pub mod network {
 
 /// Where the messages of programs go.
 pub mod output {
-    pub use crate::context::output::{Captured, Event, Message, Output, Stream};
+    pub use crate::context::hearers::Event;
+    pub use crate::context::output::{Captured, Message, Output, Stream};
 }
 
 /// Programs: what the compiler emits, and what Rust programmers write themselves.

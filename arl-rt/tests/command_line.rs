@@ -27,10 +27,6 @@ impl Program for Small {
         Family::SixAxis
     }
 
-    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         Box::pin(async move {
             match self.0.as_str() {

@@ -199,27 +199,6 @@ fn wait_forever(cx: &Cx) -> BoxFuture<'_> {
     Box::pin(async move { flow::pause().run(cx).await.at(FILE, 1) })
 }
 
-/// Goes on swinging where another one ends.
-struct Other;
-
-impl Program for Other {
-    fn file(&self) -> File {
-        File::new("other.arl")
-    }
-
-    fn family(&self) -> Family {
-        Family::SixAxis
-    }
-
-    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
-    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
-        swing(cx)
-    }
-}
-
 /// Loads the other program into channel 1 after half a second.
 fn switch(cx: &Cx) -> BoxFuture<'_> {
     Box::pin(async move {
@@ -232,7 +211,7 @@ fn switch(cx: &Cx) -> BoxFuture<'_> {
 fn what_is_stopped_ends_also_while_another_program_is_loaded() {
     for cycle in 495..530 {
         let builder = Controller::builder().background(Box::new(script(switch)));
-        let mut controller = plain(builder.loadable("other.arl", || Box::new(Other)), swing);
+        let mut controller = plain(builder.loadable("other.arl", || Box::new(script(swing))), swing);
         controller.run_for(f64::from(cycle) * 0.001);
         controller.stop();
         controller.run_for(5.0);

@@ -20,10 +20,6 @@ where
         Family::SixAxis
     }
 
-    fn init<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         (self.run)(cx)
     }

@@ -23,10 +23,6 @@ impl Program for Fill {
         Family::SixAxis
     }
 
-    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         Box::pin(async move {
             io::setdo(cx, 1, true).await.at(FILE, 1)?;

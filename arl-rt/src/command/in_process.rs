@@ -18,7 +18,8 @@ pub struct Run {
     controller: Controller,
     /// Lines that nobody has taken yet.
     said: Rc<RefCell<String>>,
-    /// The cycle in which its time is over.
+    /// After how many s its time is over, where it is limited, and the cycle in which that is.
+    max_time: Option<f64>,
     last: u64,
     /// Why it ends before its programs do.
     cut: Option<u8>,
@@ -66,7 +67,7 @@ impl Run {
             program_main::in_process(program, (others, script_dir), arguments, output)?;
         let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
         let (rows, stops) = (traced.then(Vec::new), Arc::default());
-        Ok(Self { controller, said, last, cut: None, code: None, is_real, rows, stops })
+        Ok(Self { controller, said, max_time, last, cut: None, code: None, is_real, rows, stops })
     }
 
     /// What ends the programs once it is true, the robots at rest on their paths: any thread may set it.
@@ -81,8 +82,10 @@ impl Run {
                 break;
             }
             if self.cut.is_none() && self.controller.cycle() >= self.last {
-                let seconds = self.controller.time();
-                self.cut(EXIT_MAX_TIME, &format!("the time is over: {seconds} s"));
+                self.cut(
+                    EXIT_MAX_TIME,
+                    &program_main::time_is_over(&self.controller, self.max_time.unwrap_or_default()),
+                );
             }
             if self.cut.is_none() && self.stops.load(Ordering::Relaxed) {
                 self.cut(EXIT_INTERRUPTED, "interrupted: the robot stops on its path");

@@ -603,13 +603,7 @@ fn watch(
             tell(format_args!("interrupted: the robot stops on its path"));
         } else if code.is_none() && controller.cycle() >= last {
             code = Some(EXIT_MAX_TIME);
-            let limit = max_time.unwrap_or_default();
-            let place = match controller.place() {
-                // What only calculates says no line.
-                (file, 0) => format!("calculates in {}", file.name()),
-                (file, line) => format!("stands at {}:{line}", file.name()),
-            };
-            tell(format_args!("the time is over: {limit} s; the program {place}"));
+            tell(format_args!("{}", time_is_over(controller, max_time.unwrap_or_default())));
             controller.stop();
         }
         controller.step();
@@ -640,6 +634,16 @@ fn watch(
         (None, Some(Outcome::Alarm(_))) => EXIT_ALARM,
         (None, _) => EXIT_ENDED,
     }
+}
+
+/// What a run says whose time is over, after so many s.
+pub(super) fn time_is_over(controller: &Controller, limit: f64) -> String {
+    let place = match controller.place() {
+        // What only calculates says no line.
+        (file, 0) => format!("calculates in {}", file.name()),
+        (file, line) => format!("stands at {}:{line}", file.name()),
+    };
+    format!("the time is over: {limit} s; the program {place}")
 }
 
 /// Why there is no controller, and the exit code for it.

@@ -5,10 +5,8 @@ use std::fmt;
 use std::io::{self, BufWriter, Write};
 use std::rc::Rc;
 
-use crate::context::run_state::State;
 use crate::context::standard_error::tell;
 use crate::cycle::channel_id::ChannelId;
-use crate::fault::Alarm;
 use crate::values::Printto;
 
 /// A message of a program.
@@ -24,28 +22,6 @@ pub struct Message<'a> {
     pub console: bool,
     /// The text as it was printed: as a rule UTF-8, without a newline that the program did not print.
     pub text: &'a [u8],
-}
-
-/// What happened on a controller, for other threads: see [`Handle::events`](crate::Handle::events).
-#[derive(Clone, PartialEq, Debug)]
-#[non_exhaustive]
-pub enum Event {
-    /// A program printed something.
-    #[non_exhaustive]
-    Message {
-        /// Controller time in s.
-        time: f64,
-        /// The channel whose program says it.
-        channel: ChannelId,
-        /// The text; what is no UTF-8 is replaced.
-        text: String,
-    },
-    /// Something is no alarm but worth a word.
-    Warning(String),
-    /// A program came to an alarm.
-    Alarm(Alarm),
-    /// The controller does something else than before.
-    State(State),
 }
 
 /// Takes the messages of a program. Any closure that takes a [`Message`] is one.

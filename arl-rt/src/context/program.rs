@@ -37,8 +37,11 @@ pub trait Program: AsAny {
     /// The build of robot that the program was checked for.
     fn family(&self) -> Family;
 
-    /// Sets every global variable to its start value, then runs the initialisers in file order.
-    fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a>;
+    /// Sets every global variable to its start value, then runs the initialisers in file order. Without variables there is nothing to do.
+    fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        let _ = cx;
+        Box::pin(async { Ok(()) })
+    }
 
     /// Runs `main` once.
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a>;

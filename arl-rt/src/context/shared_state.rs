@@ -6,7 +6,8 @@ use std::rc::Rc;
 use std::sync::mpsc::Sender;
 
 use crate::communication::{NetworkDriver, NetworkSettings, Opener};
-use crate::context::output::{Event, Message, Output};
+use crate::context::hearers::{Event, Hearers};
+use crate::context::output::{Message, Output};
 use crate::context::random::Random;
 use crate::context::watcher::Watcher;
 use crate::cycle::channel_id::ChannelId;
@@ -40,7 +41,7 @@ pub(crate) struct SharedState {
     /// Who wants to hear of alarms and warnings at once.
     listeners: RefCell<Listeners>,
     /// Threads that hear of everything.
-    hearers: RefCell<Vec<Sender<Event>>>,
+    pub(crate) hearers: Hearers,
     pub(crate) state: RefCell<State>,
     /// What writes files, beside the cycle.
     pub(crate) disk: Disk,
@@ -107,7 +108,7 @@ impl SharedState {
             alarms: RefCell::default(),
             listeners: RefCell::new(parts.listeners),
             warnings: RefCell::default(),
-            hearers: RefCell::new(parts.hearers),
+            hearers: Hearers::new(parts.hearers),
             state: RefCell::new(parts.state),
             disk: Disk::default(),
         }
@@ -118,18 +119,7 @@ impl SharedState {
         let time = self.rate.time(self.now.get());
         self.output.borrow_mut().message(&Message { time, channel, hmi, console, text });
         self.spoken.set(true);
-        self.tell(|| Event::Message { time, channel, text: String::from_utf8_lossy(text).into_owned() });
-    }
-
-    /// Lets a thread hear of everything from now on.
-    pub(crate) fn tell_events(&self, hearer: Sender<Event>) {
-        self.hearers.borrow_mut().push(hearer);
-    }
-
-    /// Says what happened to those who want to hear it; whoever is gone is forgotten.
-    #[inline]
-    pub(crate) fn tell(&self, event: impl Fn() -> Event) {
-        self.hearers.borrow_mut().retain(|hearer| hearer.send(event()).is_ok());
+        self.hearers.tell(|| Event::Message { time, channel, text: String::from_utf8_lossy(text).into_owned() });
     }
 
     /// Ends a cycle's messages.
@@ -155,7 +145,7 @@ impl SharedState {
         if let Some(listener) = &mut self.listeners.borrow_mut().alarm {
             listener(&alarm);
         }
-        self.tell(|| Event::Alarm(alarm.clone()));
+        self.hearers.tell(|| Event::Alarm(alarm.clone()));
         let mut alarms = self.alarms.borrow_mut();
         let place = if ends { 0 } else { alarms.len() };
         alarms.insert(place, alarm);
@@ -181,7 +171,7 @@ impl SharedState {
         if let Some(listener) = &mut self.listeners.borrow_mut().warning {
             listener(&text);
         }
-        self.tell(|| Event::Warning(text.clone()));
+        self.hearers.tell(|| Event::Warning(text.clone()));
         self.warnings.borrow_mut().push(text);
     }
 

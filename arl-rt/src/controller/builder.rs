@@ -20,7 +20,8 @@ use super::pointer_store::PointerStore;
 use crate::builtins::time;
 use crate::communication::NetworkDriver;
 use crate::context::channel_state::{ChannelState, Station};
-use crate::context::output::{Event, Output, Stream};
+use crate::context::hearers::Event;
+use crate::context::output::{Output, Stream};
 use crate::context::program::{Beside, Program};
 use crate::context::programs::{Initialised, Loadable, Programs};
 use crate::context::random::{self, Random};
@@ -221,9 +222,6 @@ impl Builder {
     ///     }
     ///     fn family(&self) -> Family {
     ///         Family::SixAxis
-    ///     }
-    ///     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
-    ///         Box::pin(async { Ok(()) })
     ///     }
     ///     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
     ///         Box::pin(async move {

@@ -8,7 +8,7 @@ use std::thread::{self, ThreadId};
 use std::time::Duration;
 
 use super::{Controller, Status};
-use crate::context::output::Event;
+use crate::context::hearers::Event;
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::try_lock::try_lock;
 use crate::fault::Fault;
@@ -34,7 +34,6 @@ type Call = Box<dyn FnOnce(&mut Controller) + Send>;
 /// # impl arl_rt::Program for Fill {
 /// #     fn file(&self) -> File { File::new("fill.arl") }
 /// #     fn family(&self) -> Family { Family::SixAxis }
-/// #     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> { Box::pin(async { Ok(()) }) }
 /// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
 /// #         Box::pin(async move {
 /// #             while !io::getdi(cx, 1).await.at(self.file(), 2)? { flow::waittime(0.001).run(cx).await.at(self.file(), 2)?; }
@@ -191,7 +190,7 @@ impl Handle {
     /// As [`ask`](Handle::ask).
     pub fn events(&self) -> Result<Receiver<Event>, HandleError> {
         let (tell, told) = mpsc::channel();
-        self.ask(move |controller| controller.shared.tell_events(tell))?;
+        self.ask(move |controller| controller.shared.hearers.add(tell))?;
         Ok(told)
     }
 }

@@ -35,7 +35,7 @@ pub use outcome::Outcome;
 pub use running::Running;
 pub use status::{ChannelStatus, RobotStatus, Status};
 
-use crate::context::output::Event;
+use crate::context::hearers::Event;
 use crate::context::shared_state::SharedState;
 use crate::context::system::{self, System};
 use crate::cycle::channel_id::ChannelId;
@@ -85,9 +85,6 @@ const STORE_INTERVAL_S: f64 = 1.0;
 ///     }
 ///     fn family(&self) -> Family {
 ///         Family::SixAxis
-///     }
-///     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
-///         Box::pin(async { Ok(()) })
 ///     }
 ///     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
 ///         Box::pin(async move {
@@ -169,7 +166,9 @@ impl Controller {
         }
         self.read_external_control();
         // What has begun may have ended when the cycle is over.
-        self.tell_state();
+        if !self.shared.hearers.is_empty() {
+            self.tell_state();
+        }
         self.report_io_problems();
         self.look_for_lost_cycles(cycle);
         self.channels.each(Channel::scan_events);
@@ -201,7 +200,7 @@ impl Controller {
     fn tell_state(&mut self) -> State {
         let state = self.state();
         if std::mem::replace(&mut self.told, state) != state {
-            self.shared.tell(|| Event::State(state));
+            self.shared.hearers.tell(|| Event::State(state));
         }
         state
     }
@@ -332,6 +331,13 @@ impl Controller {
     /// Runs until it [is over](Controller::is_over), or at a [standstill](Controller::standstill): for ever, where a program
     /// does not end.
     pub fn run(&mut self) -> Outcome {
+        let outcome = self.step_to_end();
+        self.settle_state();
+        outcome
+    }
+
+    /// The same, with nothing stored yet.
+    fn step_to_end(&mut self) -> Outcome {
         loop {
             let outcome = match self.channels.outcome().cloned() {
                 Some(outcome) if self.is_over() => Some(outcome),
@@ -341,7 +347,6 @@ impl Controller {
                 }
             };
             if let Some(outcome) = outcome {
-                self.settle_state();
                 return outcome;
             }
         }

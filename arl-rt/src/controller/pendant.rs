@@ -16,7 +16,6 @@ impl Controller {
     /// # impl arl_rt::Program for Turn {
     /// #     fn file(&self) -> File { File::new("turn.arl") }
     /// #     fn family(&self) -> Family { Family::SixAxis }
-    /// #     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> { Box::pin(async { Ok(()) }) }
     /// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
     /// #         let target = Joint { j1: 90.0, j2: -90.0, j3: 90.0, j4: 0.0, j5: 45.0, j6: 0.0, ..Joint::default() };
     /// #         Box::pin(async move { motion::movej(target).run(cx).await.at(self.file(), 2) })
@@ -53,7 +52,6 @@ impl Controller {
     /// # impl arl_rt::Program for Beat {
     /// #     fn file(&self) -> File { File::new("beat.arl") }
     /// #     fn family(&self) -> Family { Family::SixAxis }
-    /// #     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> { Box::pin(async { Ok(()) }) }
     /// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
     /// #         Box::pin(async move {
     /// #             text::print().argtoprint(&cx.time()).argtoprint(&" ").argtoprint(&cx.system().dfspeed.get().tcp).run(cx).at(self.file(), 1)?;

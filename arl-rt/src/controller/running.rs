@@ -112,33 +112,28 @@ impl Controller {
     }
 
     fn run_as_told(&mut self, told: &AtomicU8) -> Outcome {
-        loop {
-            match told.load(Ordering::Relaxed) {
-                STOP => break,
-                END_WITH_PROGRAMS if self.is_over() => break,
-                END_WITH_PROGRAMS => {
-                    if let Some(waiting) = self.standstill() {
-                        return self.close_with(Outcome::Standstill(waiting));
-                    }
-                }
-                _ if self.is_over() && !self.clock.is_real() => thread::sleep(IDLE),
-                _ => {}
+        let mut how = GO_ON;
+        while how == GO_ON {
+            if self.is_over() && !self.clock.is_real() {
+                thread::sleep(IDLE);
             }
             self.step();
+            how = told.load(Ordering::Relaxed);
         }
-        // Again and again: a scenario, a PLC or somebody else may let a program begin anew.
-        while self.outcome().is_none() {
-            self.stop();
-            self.step();
-        }
-        let outcome = self.outcome().cloned().unwrap_or(Outcome::Stopped);
-        self.close_with(outcome)
-    }
-
-    /// Lets go of the robots, and stores what is to be stored.
-    fn close_with(&mut self, outcome: Outcome) -> Outcome {
+        let outcome = if how == STOP { self.stop_to_end() } else { self.step_to_end() };
         self.close_robots();
         self.settle_state();
         outcome
+    }
+
+    fn stop_to_end(&mut self) -> Outcome {
+        loop {
+            if let Some(outcome) = self.outcome() {
+                return outcome.clone();
+            }
+            // Again and again: a scenario, a PLC or somebody else may let a program begin anew.
+            self.stop();
+            self.step();
+        }
     }
 }

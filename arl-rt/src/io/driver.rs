@@ -36,7 +36,6 @@ use super::image::{Inputs, Outputs};
 /// # impl arl_rt::Program for Fill {
 /// #     fn file(&self) -> File { File::new("fill.arl") }
 /// #     fn family(&self) -> Family { Family::SixAxis }
-/// #     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> { Box::pin(async { Ok(()) }) }
 /// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
 /// #         Box::pin(async move {
 /// #             let file = self.file();

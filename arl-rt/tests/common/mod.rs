@@ -26,10 +26,6 @@ where
         Family::SixAxis
     }
 
-    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         (self.0)(cx)
     }

@@ -255,10 +255,6 @@ impl Program for Registers {
         Family::SixAxis
     }
 
-    fn init<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         Box::pin(async move {
             let mut back = [0; 2];

@@ -19,10 +19,6 @@ impl Program for Turn {
         Family::SixAxis
     }
 
-    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         Box::pin(async move {
             let target = Joint { j1: 10.0, j2: 0.0, j3: 0.0, j4: 0.0, j5: 0.0, j6: 0.0, ..Joint::default() };

@@ -65,10 +65,6 @@ impl Program for Approach {
         Family::SixAxis
     }
 
-    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         Box::pin(self.go(cx))
     }

@@ -89,6 +89,25 @@ def test_a_host_in_c_runs_it(library, tmp_path):
     assert run("--override", "200").stderr == "--override 200: expected percent from 0 to 100"
 
 
+def test_a_run_is_that_of_the_command_to_the_last_byte(tmp_path):
+    folder = CHECKOUT / "examples/pick_and_place"
+    source, scenario, made = folder / "pick_and_place.arl", folder / "scenario.toml", tmp_path / "libpick.so"
+    subprocess.run([ARL2RS, "build", "--library", source, "-o", made], check=True, cwd=folder)
+    command = [ARL2RS, "run", source, "--io", scenario, "--trace", tmp_path / "command.csv"]
+    command += ["--state-dir", tmp_path / "state"]
+    printed = subprocess.run(command, check=True, capture_output=True, text=True, cwd=folder).stdout
+
+    arl = interface(made)
+    words = ["--io", scenario, "--trace", tmp_path / "library.csv"]
+    words = [os.fsencode(word) for word in words]
+    run = arl.begin((ctypes.c_char_p * len(words))(*words), len(words), 0, IGNORE, None)
+    assert arl.go_on(run, 10_000_000, 1) == 0
+    said = [json.loads(line) for line in taken(lambda take: arl.said(run, take, None)).splitlines()]
+    arl.end(run)
+    assert [line["message"]["text"] for line in said if "message" in line] == printed.splitlines()
+    assert (tmp_path / "library.csv").read_bytes() == (tmp_path / "command.csv").read_bytes()
+
+
 def test_recursion_without_end_is_an_alarm_on_a_thread_with_2_mib(tmp_path):
     source, made = tmp_path / "deep.arl", tmp_path / "libdeep.so"
     source.write_text("func int deeper(int n)\n    return deeper(n + 1) + 1\nendfunc\n\nfunc void main()\n    print deeper(0)\nendfunc\n")

@@ -4,7 +4,7 @@ use super::args::Checking;
 use super::cache::{Cache, Kind, Lock, Place, write_if_changed};
 use super::failure::Failure;
 use super::progress::Progress;
-use super::project::{Emitted, EmittedOther, Target};
+use super::project::{Emitted, EmittedOther};
 use super::runtime::{Runtime, hash_state};
 use super::several::{self, Other, absolute};
 use super::stamp::{Freshness, Recording, Stamp};
@@ -53,7 +53,7 @@ pub(super) struct Job<'a> {
     cell: Option<&'a Path>,
     options: CheckOptions,
     others: Vec<(Other, CheckOptions)>,
-    target: Target,
+    kind: Kind,
     /// Whether its warnings have been shown.
     is_checked: bool,
 }
@@ -76,19 +76,19 @@ impl<'a> Job<'a> {
             cell: cell.filter(|_| !others.is_empty()),
             options: check_options(checking)?,
             others: others.into_iter().map(with_options).collect::<Result<_, _>>()?,
-            target: Target::Program,
+            kind: Kind::Program,
             is_checked: false,
         })
     }
 
     /// The same for a debugger.
     pub(super) fn watched(self) -> Self {
-        Self { target: Target::Watched, ..self }
+        Self { kind: Kind::Watched, ..self }
     }
 
     /// The same as a library for another program.
     pub(super) fn library(self) -> Self {
-        Self { target: Target::Library, ..self }
+        Self { kind: Kind::Library, ..self }
     }
 
     /// The main file as an absolute path.
@@ -102,11 +102,7 @@ impl<'a> Job<'a> {
             Some(cell) => cache.programs(&self.main()?, &absolute(cell)?),
             None => cache.program(&self.main()?),
         };
-        Ok(match self.target {
-            Target::Program => place,
-            Target::Watched => place.beside(Kind::Debug),
-            Target::Library => place.beside(Kind::Library),
-        })
+        Ok(place.of(self.kind))
     }
 
     /// Checks and emits all programs, and shows what there is to say of any of them.
@@ -114,7 +110,7 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`Failure::Shown`] where one has errors.
     pub(super) fn compile(&self, sources: &dyn Sources) -> Result<Done, Failure> {
-        let emitting = EmitOptions { watched: self.target == Target::Watched, ..EmitOptions::default() };
+        let emitting = EmitOptions { watched: self.kind == Kind::Watched, ..EmitOptions::default() };
         let emit = |file: &Path, options| compile_program(file, sources, options, &emitting);
         let mut programs = vec![emit(self.file, &self.options)?];
         for (other, options) in &self.others {
@@ -133,7 +129,7 @@ impl<'a> Job<'a> {
             Ok(EmittedOther { file: other.file.clone(), folder: other.folder(&main)?, rust })
         };
         let others = self.others.iter().zip(rust).map(beside).collect::<Result<_, Failure>>()?;
-        Ok(Done { programs, rust: Emitted { first, others, target: self.target }, said })
+        Ok(Done { programs, rust: Emitted { first, others, kind: self.kind }, said })
     }
 
     /// A number that changes with everything but the sources: this command, the runtime, the options, the channels.

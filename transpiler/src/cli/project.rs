@@ -1,6 +1,6 @@
 //! The cargo project that a program is compiled in.
 
-use super::cache::{Place, write_if_changed};
+use super::cache::{Kind, Place, write_if_changed};
 use super::failure::Failure;
 use super::runtime::Unpacked;
 use std::path::Path;
@@ -13,19 +13,7 @@ pub(super) struct Emitted {
     /// The others.
     pub(super) others: Vec<EmittedOther>,
     /// What they are made into.
-    pub(super) target: Target,
-}
-
-/// What emitted Rust is made into.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub(super) enum Target {
-    /// A program.
-    #[default]
-    Program,
-    /// A program for a debugger.
-    Watched,
-    /// A library for another program.
-    Library,
+    pub(super) kind: Kind,
 }
 
 /// The emitted Rust of a program beside the first one.
@@ -40,7 +28,7 @@ pub(super) struct EmittedOther {
 
 /// Writes the project of a program. `folder` is that of its files.
 pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &Path) -> Result<(), Failure> {
-    manifest(&place.folder, &place.name, runtime, (rust.target, PROGRAM_LEVEL))?;
+    manifest(&place.folder, &place.name, runtime, (rust.kind, PROGRAM_LEVEL))?;
     let source = |name: &str| place.folder.join("src").join(name);
     write_if_changed(&source("program.rs"), rust.first.as_bytes())?;
     let mut modules = String::from("mod program;\n");
@@ -53,16 +41,16 @@ pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &
     }
     let folder = folder.display().to_string();
     let drivers = "arl_rt::emit::program_main::drivers(arl_drivers::connect);";
-    let (file, crate_root) = match rust.target {
-        Target::Library => (
+    let (file, crate_root) = match rust.kind {
+        Kind::Library => (
             "lib.rs",
             format!(
                 "fn make() -> program::Globals {{\n    {drivers}\n    program::Globals::new()\n}}\n\n\
                  arl_library::library!(make, [\n{others}], {folder:?});\n"
             ),
         ),
-        Target::Program | Target::Watched => {
-            let start = if rust.target == Target::Watched { "main_watched" } else { "main_with" };
+        Kind::Program | Kind::Watched => {
+            let start = if rust.kind == Kind::Watched { "main_watched" } else { "main_with" };
             let call =
                 format!("arl_rt::emit::program_main::{start}(program::Globals::new, &[\n{others}    ], {folder:?})");
             ("main.rs", format!("fn main() -> std::process::ExitCode {{\n    {drivers}\n    {call}\n}}\n"))
@@ -108,17 +96,17 @@ pub(super) fn manifest(
     folder: &Path,
     name: &str,
     runtime: &Unpacked,
-    (target, level): (Target, u8),
+    (kind, level): (Kind, u8),
 ) -> Result<(), Failure> {
-    let (kind, library) = match target {
-        Target::Library => ("[lib]\ncrate-type = [\"cdylib\"]\n\n", format!("arl-library = {}\n", runtime.library)),
-        Target::Program | Target::Watched => ("", String::new()),
+    let (crate_type, library) = match kind {
+        Kind::Library => ("[lib]\ncrate-type = [\"cdylib\"]\n\n", format!("arl-library = {}\n", runtime.library)),
+        Kind::Program | Kind::Watched => ("", String::new()),
     };
     // Not `package."*"`: that would also optimise what only runs while compiling.
     let text = format!(
         "# Written by arl2rs.\n\
          [package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
-         [workspace]\n\n{kind}\
+         [workspace]\n\n{crate_type}\
          [dependencies]\narl-rt = {}\narl-drivers = {}\n{library}\n\
          [profile.dev]\nopt-level = 3\ndebug = false\nincremental = false\nlto = \"off\"\n\
          overflow-checks = false\ndebug-assertions = false\n\n\

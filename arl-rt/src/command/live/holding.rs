@@ -185,9 +185,6 @@ mod tests {
             fn family(&self) -> Family {
                 Family::SixAxis
             }
-            fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
-                Box::pin(async { Ok(()) })
-            }
             fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
                 let target = Joint { j1: 90.0, j2: -90.0, j3: 90.0, j4: 0.0, j5: 45.0, j6: 0.0, ..Joint::default() };
                 let tool = Tool { t_frame: Frame { x: 30.0, z: 120.0, ..Frame::default() }, stationary: false };

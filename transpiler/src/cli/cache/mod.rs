@@ -93,31 +93,37 @@ pub(super) struct Place {
     pub(super) name: String,
 }
 
-/// What a program is compiled for besides running by itself.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// What a program is compiled into. Each has a place of its own.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(super) enum Kind {
-    /// A debugger.
-    Debug,
-    /// Another program, which loads it.
+    /// A program.
+    #[default]
+    Program,
+    /// A program for a debugger.
+    Watched,
+    /// A library for another program.
     Library,
 }
 
 impl Kind {
-    const ALL: [Kind; 2] = [Kind::Debug, Kind::Library];
+    /// How the names of packages end that are not of programs.
+    const ENDINGS: [&str; 2] = ["debug", "library"];
 
-    /// How the names of their packages end.
-    fn word(self) -> &'static str {
+    fn ending(self) -> Option<&'static str> {
+        let [debug, library] = Self::ENDINGS;
         match self {
-            Kind::Debug => "debug",
-            Kind::Library => "library",
+            Kind::Program => None,
+            Kind::Watched => Some(debug),
+            Kind::Library => Some(library),
         }
     }
 }
 
 impl Place {
-    /// A place for the same program, compiled for something else.
-    pub(super) fn beside(&self, kind: Kind) -> Self {
-        let name = format!("{}-{}", self.name, kind.word());
+    /// The place of what this program is compiled into.
+    pub(super) fn of(self, kind: Kind) -> Self {
+        let Some(ending) = kind.ending() else { return self };
+        let name = format!("{}-{ending}", self.name);
         Self { folder: self.folder.with_file_name(&name), name }
     }
 

@@ -92,7 +92,7 @@ fn made_of(program: &Path, runtime: &Path) -> Vec<PathBuf> {
 fn is_made_of(name: &str, package: &str) -> bool {
     let name = name.strip_prefix(std::env::consts::DLL_PREFIX).unwrap_or(name);
     let is_other =
-        |rest: &str| Kind::ALL.iter().any(|kind| rest.get(1..).is_some_and(|it| it.starts_with(kind.word())));
+        |rest: &str| Kind::ENDINGS.iter().any(|ending| rest.get(1..).is_some_and(|it| it.starts_with(ending)));
     let same = |(a, b): (u8, u8)| a == b || (a == b'_' && b == b'-');
     let rest = name.get(package.len()..);
     name.len() >= package.len()

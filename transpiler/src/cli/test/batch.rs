@@ -1,10 +1,10 @@
 //! All cases compiled together, in a few programs.
 
-use crate::cli::cache::{Place, write_if_changed};
+use crate::cli::cache::{Kind, Place, write_if_changed};
 use crate::cli::cargo::{self, RustError};
 use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
-use crate::cli::project::{self, Emitted, Target};
+use crate::cli::project::{self, Emitted};
 use crate::cli::runtime::Unpacked;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -114,7 +114,7 @@ fn write(
     kept: impl Iterator<Item = usize>,
     parts: usize,
 ) -> Result<(), Failure> {
-    project::manifest(&place.folder, &place.name, runtime, (Target::Program, 0))?;
+    project::manifest(&place.folder, &place.name, runtime, (Kind::Program, 0))?;
     let bin = place.folder.join("src/bin");
     let mut programs: BTreeMap<usize, (String, String)> = (0..parts).map(|part| (part, Default::default())).collect();
     for at in kept {
@@ -134,7 +134,7 @@ fn write(
         let folder = case.source.parent().unwrap_or(Path::new("/")).display().to_string();
         *arms += &format!("        \"{name}\" => (|| Box::new({name}::Globals::new()), &[{others}], {folder:?}),\n");
     }
-    let start = if cases.iter().any(|case| case.rust.target == Target::Watched) { "main_watched" } else { "main_with" };
+    let start = if cases.iter().any(|case| case.rust.kind == Kind::Watched) { "main_watched" } else { "main_with" };
     for (part, (modules, arms)) in &programs {
         let text = format!(
             "// Written by arl2rs.\n#![allow(warnings)]\n\n{modules}\n\

@@ -13,11 +13,11 @@ mod report;
 pub(super) use case::EXPECTATIONS;
 
 use super::args::{Checking, Shard, TestOptions};
-use super::cache::Cache;
+use super::cache::{Cache, Kind};
 use super::failure::Failure;
 use super::program::check_options;
 use super::progress::Progress;
-use super::project::{Emitted, EmittedOther, Target};
+use super::project::{Emitted, EmittedOther};
 use super::runtime::Runtime;
 use super::several;
 use crate::CheckOptions;
@@ -148,8 +148,8 @@ fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
         let folder = other.folder(&case.source).map_err(said)?;
         others.push(EmittedOther { file: other.file, folder, rust });
     }
-    let target = if emitting.watched { Target::Watched } else { Target::Program };
-    Ok(Emitted { first, others, target })
+    let kind = if emitting.watched { Kind::Watched } else { Kind::Program };
+    Ok(Emitted { first, others, kind })
 }
 
 fn rust(file: &Path, checking: &Checking, emitting: &EmitOptions) -> Result<String, String> {
