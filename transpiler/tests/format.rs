@@ -38,8 +38,8 @@ fn corpus() -> Vec<(PathBuf, String)> {
 
 /// The ARL of the documentation: what stands between fences.
 fn documented() -> Vec<String> {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
-    let pages = [docs.clone(), docs.join("diagnostics")].map(|folder| std::fs::read_dir(folder).expect("a folder"));
+    let folders = ["../docs", "docs/diagnostics"].map(|name| Path::new(env!("CARGO_MANIFEST_DIR")).join(name));
+    let pages = folders.map(|folder| std::fs::read_dir(folder).expect("a folder"));
     let mut blocks = Vec::new();
     for page in pages.into_iter().flatten() {
         let path = page.expect("an entry").path();
