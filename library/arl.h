@@ -64,6 +64,27 @@ typedef struct {
 
     /* The names of the columns of the trace, with commas between. */
     void (*header)(ArlTake take, void *context);
+
+    /* What came of the run, or how far it is, a JSON object: outcome, exit code, cycle time in s, alarms; with "--report" also
+     * what the motions of the first robot were together. */
+    void (*summary)(ArlRun *run, ArlTake take, void *context);
+
+    /* What each motion did, a JSON object a line, where "--report" is among the arguments. */
+    void (*report)(ArlRun *run, ArlTake take, void *context);
+
+    /* What `observe` tells beside the row of the trace, a name a line: "do.1\nglobal.placed". 0: so it is; else `why` was told
+     * the reason, and nothing changed. */
+    int32_t (*watch)(ArlRun *run, const char *names, ArlTake why, void *context);
+
+    /* Fills in the last cycle's row of the trace, then what is watched, and no more than `count` doubles; how many there are. */
+    size_t (*observe)(ArlRun *run, double *numbers, size_t count);
+
+    /* The value of a global variable, as a literal of ARL. 0: `take` has it; else the reason why not. */
+    int32_t (*global)(ArlRun *run, const char *name, ArlTake take, void *context);
+
+    /* Gives a global variable a value; components that the literal leaves out keep theirs. 0: so it is; else `why` was told the
+     * reason. */
+    int32_t (*set_global)(ArlRun *run, const char *name, const char *literal, ArlTake why, void *context);
 } ArlInterface;
 
 #endif

@@ -4,6 +4,7 @@
 
 pub mod atomic_file;
 pub mod cell;
+pub mod change;
 pub mod channels;
 pub mod frames;
 pub mod islands;

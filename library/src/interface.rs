@@ -33,4 +33,10 @@ pub struct Interface {
     pub time: unsafe extern "C" fn(*const Served) -> f64,
     pub end: unsafe extern "C" fn(*mut Served),
     pub header: unsafe extern "C" fn(Take, *mut c_void),
+    pub summary: unsafe extern "C" fn(*mut Served, Take, *mut c_void),
+    pub report: unsafe extern "C" fn(*mut Served, Take, *mut c_void),
+    pub watch: unsafe extern "C" fn(*mut Served, *const c_char, Take, *mut c_void) -> i32,
+    pub observe: unsafe extern "C" fn(*mut Served, *mut f64, usize) -> usize,
+    pub global: unsafe extern "C" fn(*mut Served, *const c_char, Take, *mut c_void) -> i32,
+    pub set_global: unsafe extern "C" fn(*mut Served, *const c_char, *const c_char, Take, *mut c_void) -> i32,
 }

@@ -2,12 +2,11 @@
 
 use std::ffi::{CString, c_char, c_void};
 use std::fmt;
-use std::marker::PhantomData;
 use std::path::Path;
 use std::ptr::NonNull;
 
 use crate::Served;
-use crate::interface::{BROKEN, INTERFACE, Interface, RUNS};
+use crate::interface::{BROKEN, INTERFACE, Interface, RUNS, WRONG_THREAD};
 
 /// A program as a library, loaded into this process. It stays loaded until that ends.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +28,8 @@ pub enum LoadError {
     Refused(String),
     /// The run has panicked.
     Broken,
+    /// This is not the thread that began the run.
+    WrongThread,
 }
 
 impl fmt::Display for LoadError {
@@ -42,6 +43,7 @@ impl fmt::Display for LoadError {
                  version of arl2rs"
             ),
             LoadError::Refused(why) => write!(f, "{why}"),
+            LoadError::WrongThread => write!(f, "a run stays on the thread that began it"),
             LoadError::Broken => write!(f, "the run has panicked: the standard error says why"),
         }
     }
@@ -101,7 +103,7 @@ impl Library {
             (self.interface.begin)(pointers.as_ptr(), pointers.len(), i32::from(traced), take_bytes, context(&mut why))
         };
         match NonNull::new(run) {
-            Some(run) => Ok(Session { run, interface: self.interface, thread: PhantomData }),
+            Some(run) => Ok(Session { run, interface: self.interface }),
             None => Err(LoadError::Refused(text(why))),
         }
     }
@@ -115,13 +117,18 @@ impl Library {
     }
 }
 
-/// A run of a program. It stays on the thread that began it.
+/// A run of a program. It goes on only on the thread that began it: elsewhere everything is refused but [`stop`](Self::stop), texts are empty, and a
+/// run that is dropped there stays in memory.
 #[derive(Debug)]
 pub struct Session {
     run: NonNull<Served>,
     interface: &'static Interface,
-    thread: PhantomData<*const ()>,
 }
+
+// SAFETY: the other side of the interface looks at which thread calls, and does nothing on another one than that of the run.
+unsafe impl Send for Session {}
+// SAFETY: as for `Send`; what takes `&self` may be called while another call is under way.
+unsafe impl Sync for Session {}
 
 impl Session {
     /// Goes on for so many cycles, or until the run is over: then its exit code. `alone`: nobody else changes anything, so that programs
@@ -133,6 +140,7 @@ impl Session {
         // SAFETY: the run is ours until it is dropped, on its own thread.
         match unsafe { (self.interface.go_on)(self.run.as_ptr(), cycles, i32::from(alone)) } {
             RUNS => Ok(None),
+            WRONG_THREAD => Err(LoadError::WrongThread),
             code => u8::try_from(code).map(Some).map_err(|_| LoadError::Broken),
         }
     }
@@ -148,14 +156,68 @@ impl Session {
     /// # Errors
     /// It is no order, or the run has panicked.
     pub fn order(&mut self, order: &str) -> Result<(), LoadError> {
-        let order = CString::new(order).map_err(|_| LoadError::Refused("an order has a character 0 in it".into()))?;
-        let mut why = Vec::new();
+        let order = string(order)?;
         // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
-        match unsafe { (self.interface.order)(self.run.as_ptr(), order.as_ptr(), take_bytes, context(&mut why)) } {
-            0 => Ok(()),
+        self.tried(|run, why| unsafe { (self.interface.order)(run, order.as_ptr(), take_bytes, why) }).map(drop)
+    }
+
+    /// Which signals and global variables [`observe`](Self::observe) tells behind the row of the trace: `["do.1", "global.placed"]`.
+    ///
+    /// # Errors
+    /// Something is not there, or no number; then nothing changes.
+    pub fn watch(&mut self, names: &[&str]) -> Result<(), LoadError> {
+        let names = string(&names.join("\n"))?;
+        // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
+        self.tried(|run, why| unsafe { (self.interface.watch)(run, names.as_ptr(), take_bytes, why) }).map(drop)
+    }
+
+    /// Fills in the last cycle's row of the trace, then what is watched, as far as there is room; how many numbers there are.
+    pub fn observe(&mut self, numbers: &mut [f64]) -> usize {
+        // SAFETY: as in `go_on`; there is room for so many.
+        unsafe { (self.interface.observe)(self.run.as_ptr(), numbers.as_mut_ptr(), numbers.len()) }
+    }
+
+    /// The value of a global variable, as a literal of ARL.
+    ///
+    /// # Errors
+    /// There is none of this name, or the run has panicked.
+    pub fn global(&mut self, name: &str) -> Result<String, LoadError> {
+        let name = string(name)?;
+        // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
+        self.tried(|run, value| unsafe { (self.interface.global)(run, name.as_ptr(), take_bytes, value) })
+    }
+
+    /// Gives a global variable a value, between two cycles; components that the literal leaves out keep theirs.
+    ///
+    /// # Errors
+    /// There is none of this name, the value does not fit, or the run has panicked.
+    pub fn set_global(&mut self, name: &str, literal: &str) -> Result<(), LoadError> {
+        let (name, literal) = (string(name)?, string(literal)?);
+        let set = self.interface.set_global;
+        // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
+        self.tried(|run, why| unsafe { set(run, name.as_ptr(), literal.as_ptr(), take_bytes, why) }).map(drop)
+    }
+
+    /// Does something that can be refused; the text that it gave.
+    fn tried(&self, act: impl FnOnce(*mut Served, *mut c_void) -> i32) -> Result<String, LoadError> {
+        let mut said = Vec::new();
+        match act(self.run.as_ptr(), context(&mut said)) {
+            0 => Ok(text(said)),
             BROKEN => Err(LoadError::Broken),
-            _ => Err(LoadError::Refused(text(why))),
+            WRONG_THREAD => Err(LoadError::WrongThread),
+            _ => Err(LoadError::Refused(text(said))),
         }
+    }
+
+    /// What came of the run, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s and the alarms; with
+    /// `--report` also what the motions of the first robot were together.
+    pub fn summary(&mut self) -> String {
+        text(self.taken(self.interface.summary))
+    }
+
+    /// What each motion did, a JSON object a line, where `--report` asked for it.
+    pub fn report(&mut self) -> String {
+        text(self.taken(self.interface.report))
     }
 
     /// What was said since the last call: a JSON object a line.
@@ -193,6 +255,10 @@ impl Drop for Session {
         // SAFETY: as in `go_on`; nobody has it any more.
         unsafe { (self.interface.end)(self.run.as_ptr()) }
     }
+}
+
+fn string(text: &str) -> Result<CString, LoadError> {
+    CString::new(text).map_err(|_| LoadError::Refused("a text has a character 0 in it".into()))
 }
 
 fn context(bytes: &mut Vec<u8>) -> *mut c_void {

@@ -89,6 +89,12 @@ pub const fn interface(
         time,
         end,
         header,
+        summary,
+        report,
+        watch,
+        observe,
+        global,
+        set_global,
     }
 }
 
@@ -148,18 +154,66 @@ unsafe extern "C" fn stop(run: *const Served) {
 }
 
 unsafe extern "C" fn order(run: *mut Served, text: *const c_char, why: Take, context: *mut c_void) -> i32 {
-    // SAFETY: the host gives a string that is ended by 0.
-    let text = unsafe { CStr::from_ptr(text) }.to_string_lossy();
-    // SAFETY: as in `go_on`.
-    match unsafe { (*run).with(|run| run.order(&text)) } {
+    // SAFETY: the host gives what `arl.h` says.
+    unsafe { tried(run, (why, context), |run| run.order(&words(text))) }
+}
+
+unsafe extern "C" fn watch(run: *mut Served, names: *const c_char, why: Take, context: *mut c_void) -> i32 {
+    // SAFETY: the host gives what `arl.h` says.
+    unsafe { tried(run, (why, context), |run| run.watch(&words(names))) }
+}
+
+unsafe extern "C" fn set_global(
+    run: *mut Served,
+    name: *const c_char,
+    literal: *const c_char,
+    why: Take,
+    context: *mut c_void,
+) -> i32 {
+    // SAFETY: the host gives what `arl.h` says.
+    unsafe { tried(run, (why, context), |run| run.set_global(&words(name), &words(literal))) }
+}
+
+unsafe extern "C" fn global(run: *mut Served, name: *const c_char, take: Take, context: *mut c_void) -> i32 {
+    // SAFETY: the host gives what `arl.h` says.
+    unsafe {
+        let mut value = String::new();
+        let done = tried(run, (take, context), |run| run.global(&words(name)).map(|found| value = found));
+        if done == 0 {
+            give(take, context, value.as_bytes());
+        }
+        done
+    }
+}
+
+/// Does something that can be refused: then `why` is told the reason, and 1 answered.
+///
+/// # Safety
+/// As for `Served::with`, and `why` may be called with `context`.
+unsafe fn tried(
+    run: *mut Served,
+    (why, context): (Take, *mut c_void),
+    act: impl FnOnce(&mut Run) -> Result<(), String>,
+) -> i32 {
+    // SAFETY: by this function's contract.
+    match unsafe { (*run).with(act) } {
         Ok(Ok(())) => 0,
         Ok(Err(problem)) => {
-            // SAFETY: the host gives a function that takes its context.
+            // SAFETY: by this function's contract.
             unsafe { give(why, context, problem.as_bytes()) };
             1
         }
         Err(problem) => problem,
     }
+}
+
+/// A string of the host.
+///
+/// # Safety
+/// It is ended by 0.
+unsafe fn words(text: *const c_char) -> String {
+    // SAFETY: by this function's contract.
+    unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
 }
 
 unsafe extern "C" fn said(run: *mut Served, take: Take, context: *mut c_void) {
@@ -176,6 +230,38 @@ unsafe extern "C" fn state(run: *mut Served, take: Take, context: *mut c_void) {
         // SAFETY: the host gives a function that takes its context.
         unsafe { give(take, context, text.as_bytes()) };
     }
+}
+
+unsafe extern "C" fn summary(run: *mut Served, take: Take, context: *mut c_void) {
+    // SAFETY: as in `go_on`.
+    if let Ok(text) = unsafe { (*run).with(|run| run.summary()) } {
+        // SAFETY: the host gives a function that takes its context.
+        unsafe { give(take, context, text.as_bytes()) };
+    }
+}
+
+unsafe extern "C" fn report(run: *mut Served, take: Take, context: *mut c_void) {
+    // SAFETY: as in `go_on`.
+    if let Ok(text) = unsafe { (*run).with(|run| run.report()) } {
+        // SAFETY: the host gives a function that takes its context.
+        unsafe { give(take, context, text.as_bytes()) };
+    }
+}
+
+unsafe extern "C" fn observe(run: *mut Served, numbers: *mut f64, count: usize) -> usize {
+    let room: &mut [f64] = match count {
+        0 => &mut [],
+        // SAFETY: the host gives room for so many.
+        count => unsafe { std::slice::from_raw_parts_mut(numbers, count) },
+    };
+    // SAFETY: as in `go_on`.
+    let observed = unsafe {
+        (*run).with(|run| {
+            run.observe(room);
+            run.observed()
+        })
+    };
+    observed.unwrap_or(0)
 }
 
 unsafe extern "C" fn rows(run: *mut Served, take: Take, context: *mut c_void) {

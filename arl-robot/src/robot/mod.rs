@@ -14,6 +14,7 @@ pub use limbs::Limb;
 
 use crate::kinematics::Kinematics;
 use crate::regular_file;
+use std::borrow::Cow;
 use std::path::Path;
 
 /// How many axes a joint vector holds at most: six of the robot.
@@ -167,12 +168,20 @@ impl Robot {
     /// # Errors
     /// Nothing of this name is built in and no such file can be read, or the file is wrong: then with line and column.
     pub fn load(name_or_path: &str) -> Result<Robot, RobotError> {
+        Robot::parse(name_or_path, &Robot::source(name_or_path)?)
+    }
+
+    /// The robot file of a robot that is built in, or that at this path.
+    ///
+    /// # Errors
+    /// Nothing of this name is built in and no such file can be read.
+    pub fn source(name_or_path: &str) -> Result<Cow<'static, str>, RobotError> {
         if let Some(text) = Robot::text(name_or_path) {
-            return Robot::parse(name_or_path, text);
+            return Ok(Cow::Borrowed(text));
         }
         let looks_like_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
         match regular_file::read_text(Path::new(name_or_path)) {
-            Ok(text) => Robot::parse(name_or_path, &text),
+            Ok(text) => Ok(Cow::Owned(text)),
             Err(_) if !looks_like_path => Err(builtin::unknown(name_or_path)),
             Err(error) => Err(RobotError::of_file(name_or_path, format!("cannot read the robot file: {error}"))),
         }

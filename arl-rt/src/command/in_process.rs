@@ -8,10 +8,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::command::live::{alarm_line, message_line, push_state, warning_line};
+use crate::command::observation::Observation;
 use crate::command::program_main::{self, EXIT_ALARM, EXIT_ENDED, EXIT_INTERRUPTED, EXIT_MAX_TIME, Other, listed};
+use crate::command::report;
+use crate::command::summary::{Ending, summary};
 use crate::context::output::Message;
 use crate::context::program::Program;
 use crate::controller::{Controller, Outcome, trace};
+use crate::fault::Alarm;
 
 /// A run of a program in this process. All of it happens on the thread that makes it.
 pub struct Run {
@@ -22,9 +26,12 @@ pub struct Run {
     max_time: Option<f64>,
     last: u64,
     /// Why it ends before its programs do.
-    cut: Option<u8>,
-    /// Its exit code, once it is over.
-    code: Option<u8>,
+    cut: Option<Ending>,
+    /// How it ended, and its exit code, once it is over.
+    ended: Option<(Ending, u8)>,
+    /// All alarms.
+    alarms: Vec<Alarm>,
+    observation: Observation,
     /// Whether it was asked to be in real time.
     is_real: bool,
     /// The trace of the first robot, where it is asked for: rows that nobody has taken yet.
@@ -66,8 +73,20 @@ impl Run {
         let (controller, max_time, is_real) =
             program_main::in_process(program, (others, script_dir), arguments, output)?;
         let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
-        let (rows, stops) = (traced.then(Vec::new), Arc::default());
-        Ok(Self { controller, said, max_time, last, cut: None, code: None, is_real, rows, stops })
+        let (rows, stops, observation) = (traced.then(Vec::new), Arc::default(), Observation::default());
+        Ok(Self {
+            controller,
+            said,
+            max_time,
+            last,
+            cut: None,
+            ended: None,
+            alarms: Vec::new(),
+            observation,
+            is_real,
+            rows,
+            stops,
+        })
     }
 
     /// What ends the programs once it is true, the robots at rest on their paths: any thread may set it.
@@ -78,17 +97,15 @@ impl Run {
     /// Goes on for so many cycles, or until it is over: then its exit code, which is that of the command.
     pub fn go_on(&mut self, cycles: u64, outside: Outside) -> Option<u8> {
         for _ in 0..cycles {
-            if self.code.is_some() || self.conclude() {
+            if self.ended.is_some() || self.conclude() {
                 break;
             }
             if self.cut.is_none() && self.controller.cycle() >= self.last {
-                self.cut(
-                    EXIT_MAX_TIME,
-                    &program_main::time_is_over(&self.controller, self.max_time.unwrap_or_default()),
-                );
+                let why = program_main::time_is_over(&self.controller, self.max_time.unwrap_or_default());
+                self.cut(Ending::TimeOver, &why);
             }
             if self.cut.is_none() && self.stops.load(Ordering::Relaxed) {
-                self.cut(EXIT_INTERRUPTED, "interrupted: the robot stops on its path");
+                self.cut(Ending::Stopped, "interrupted: the robot stops on its path");
             }
             self.controller.step();
             if let Some(rows) = self.rows.as_mut().filter(|_| self.controller.first_ran()) {
@@ -99,16 +116,20 @@ impl Run {
                 && outside == Outside::Nobody
                 && let Some(waiting) = self.controller.standstill()
             {
-                self.cut(EXIT_MAX_TIME, &format!("nothing can change any more: {}", listed(&waiting).join("; ")));
+                self.cut(Ending::Stuck, &format!("nothing can change any more: {}", listed(&waiting).join("; ")));
             }
         }
         // Who asks for no cycle wants to know, too.
-        let _ = self.code.is_some() || self.conclude();
-        self.code
+        let _ = self.ended.is_some() || self.conclude();
+        self.code()
     }
 
-    fn cut(&mut self, code: u8, why: &str) {
-        self.cut = Some(code);
+    fn code(&self) -> Option<u8> {
+        self.ended.map(|(_, code)| code)
+    }
+
+    fn cut(&mut self, ending: Ending, why: &str) {
+        self.cut = Some(ending);
         self.say(&warning_line(why));
         self.controller.stop();
     }
@@ -128,7 +149,8 @@ impl Run {
                 program_main::lateness(&self.controller).iter().for_each(|text| self.say(&warning_line(text)));
             }
             let alarmed = matches!(self.controller.outcome(), Some(Outcome::Alarm(_)));
-            self.code = Some(self.cut.unwrap_or(if alarmed { EXIT_ALARM } else { EXIT_ENDED }));
+            let ending = self.cut.unwrap_or(if alarmed { Ending::Alarm } else { Ending::Ended });
+            self.ended = Some((ending, code(ending)));
         }
         is_over
     }
@@ -139,6 +161,7 @@ impl Run {
         }
         for alarm in self.controller.take_alarms() {
             self.say(&alarm_line(&alarm));
+            self.alarms.push(alarm);
         }
     }
 
@@ -151,7 +174,7 @@ impl Run {
     /// # Errors
     /// It is no order, or the run is over; then nothing was done.
     pub fn order(&mut self, text: &str) -> Result<(), String> {
-        if self.code.is_some() {
+        if self.ended.is_some() {
             return Err("the run is over".into());
         }
         self.controller.order(text)
@@ -174,14 +197,70 @@ impl Run {
         self.rows.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
+    /// What came of it, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s, the alarms, and with `--report` what
+    /// the motions of the first robot were together.
+    pub fn summary(&self) -> String {
+        let (ending, code) = self.ended.map_or((Ending::Runs, None), |(ending, code)| (ending, Some(code)));
+        summary(&self.controller, (ending, code), &self.alarms)
+    }
+
+    /// What each motion did, a JSON object a line, where `--report` asked for it.
+    pub fn report(&self) -> String {
+        report::all_json(&self.controller.all_motions(), self.controller.time())
+    }
+
+    /// Which signals and global variables [`observe`](Self::observe) tells, a name a line: `do.1`, `global.placed`.
+    ///
+    /// # Errors
+    /// Something is not there, or no number; then nothing changes.
+    pub fn watch(&mut self, names: &str) -> Result<(), String> {
+        self.observation.watch(names, &self.controller)
+    }
+
+    /// How many numbers [`observe`](Self::observe) has.
+    pub fn observed(&self) -> usize {
+        self.observation.count()
+    }
+
+    /// The row of the trace that the last cycle has, and behind it what is watched.
+    pub fn observe(&self, numbers: &mut [f64]) {
+        self.observation.fill(numbers, &self.controller);
+    }
+
+    /// The value of a global variable, as a literal.
+    ///
+    /// # Errors
+    /// There is none of this name.
+    pub fn global(&self, name: &str) -> Result<String, String> {
+        self.controller.global(name)
+    }
+
+    /// Gives a global variable a value, between two cycles.
+    ///
+    /// # Errors
+    /// There is none of this name, or the value does not fit.
+    pub fn set_global(&mut self, name: &str, literal: &str) -> Result<(), String> {
+        self.controller.set_global(name, literal)
+    }
+
     /// Controller time in s: the start of the next cycle.
     pub fn time(&self) -> f64 {
         self.controller.time()
     }
 }
 
+/// The exit code of a run that ended like that.
+fn code(ending: Ending) -> u8 {
+    match ending {
+        Ending::Runs | Ending::Ended => EXIT_ENDED,
+        Ending::Alarm => EXIT_ALARM,
+        Ending::TimeOver | Ending::Stuck => EXIT_MAX_TIME,
+        Ending::Stopped => EXIT_INTERRUPTED,
+    }
+}
+
 impl fmt::Debug for Run {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Run").field("time", &self.time()).field("code", &self.code).finish_non_exhaustive()
+        f.debug_struct("Run").field("time", &self.time()).field("code", &self.code()).finish_non_exhaustive()
     }
 }

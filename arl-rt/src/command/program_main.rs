@@ -1,5 +1,6 @@
 //! The command line of a compiled program.
 
+mod changes;
 mod several;
 
 use std::ffi::OsString;
@@ -17,6 +18,7 @@ use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter, Recording, STATE_INTERVAL_S, Wishes};
 use crate::command::report;
 use crate::command::say::say;
+use crate::command::serve;
 use crate::context::output::Output;
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
@@ -25,12 +27,12 @@ use crate::context::standstill::Standstill;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{RealClock, VirtualClock};
 use crate::cycle::realtime::Realtime;
-use crate::io::{Pendant, Scenario};
+use crate::io::Pendant;
 use crate::storage::state::{Directory, Memory};
 use crate::unit::robot_driver::Connect;
 use crate::values::Controlmode;
-use arl_robot::cell::{Cell, Names};
-use arl_robot::robot::Robot;
+use arl_robot::cell::Names;
+use changes::Changes;
 
 /// What the program's functions may fill of the stack, and what the thread has on top of that for everything else. Each
 /// cycle goes down the whole chain of functions that wait for each other, so that a long one takes long.
@@ -87,6 +89,8 @@ Options:
   --override PCT        the speed override in percent, 0 to 100
   --seed N              the seed of rand
   --start-time T        the date at the start: now, or a time like 2000-01-01T00:00:00
+  --set PLACE=VALUE     another value at one place: global.NAME, robot.KEYS, cell.KEYS,
+                        io.KEYS (io.event.2.at=1.5); as often as there are places
   --help                this text
 
 Exit codes: 0 ended, 2 usage, 3 alarm, 4 the time was over or nothing could change
@@ -118,6 +122,7 @@ struct Options {
     override_percent: f64,
     seed: Option<u64>,
     start_time: Option<i64>,
+    changes: Changes,
 }
 
 impl Options {
@@ -128,7 +133,7 @@ impl Options {
             (self.paused, "--paused"),
             (self.realtime.is_some(), "--realtime"),
             (self.listener.is_some(), "--listener"),
-            (self.report.is_some(), "--report"),
+            (matches!(self.report, Some(Report::File(_))), "--report=FILE"),
             (self.cycle_time.is_some(), "--cycle-time"),
             (self.asked.debug.is_some(), "--debug"),
             (self.asked.coverage.is_some(), "--coverage"),
@@ -240,6 +245,19 @@ impl Asked {
     }
 }
 
+/// The same for programs that were compiled with the names of their variables. With `--serve` such a program makes run after run, each as a line of
+/// the standard input asks for, and answers with a line: for `arl2rs sweep`.
+pub fn main_named<P: Program + 'static>(
+    program: impl Fn() -> P + Send,
+    others: &[Other],
+    script_dir: &str,
+) -> ExitCode {
+    if std::env::args_os().skip(1).eq([OsString::from("--serve")]) {
+        return serve::serve(move || Box::new(program()) as Box<dyn Program>, others, script_dir);
+    }
+    start(program, others, script_dir, None)
+}
+
 fn start<P: Program + 'static>(
     program: impl FnOnce() -> P + Send,
     others: &[Other],
@@ -318,6 +336,7 @@ fn parse(
         override_percent: 100.0,
         seed: None,
         start_time: None,
+        changes: Changes::default(),
     };
     let mut parser = lexopt::Parser::from_args(arguments);
     while let Some(argument) = parser.next()? {
@@ -365,6 +384,7 @@ fn parse(
                 let wrong = || format!("--start-time {text}: expected now, or a time like 2000-01-01T00:00:00");
                 options.start_time = Some(time::parse(&text).ok_or_else(wrong)?);
             }
+            Long("set") => options.changes.add(&parser.value()?.string()?)?,
             Short('h') | Long("help") => return Ok(None),
             other => return Err(other.unexpected()),
         }
@@ -374,6 +394,10 @@ fn parse(
             return Err("--realtime is for --clock real: on the virtual clock cycles do not wait".into());
         }
         options.clock = Some(Pace::Real);
+    }
+    let Options { robot, cell, io, changes, .. } = &options;
+    if let Some((what, option)) = changes.lacks(robot.is_some(), cell.is_some(), io.is_some()) {
+        return Err(format!("--set {what}.…: {option} says of which file").into());
     }
     Ok(Some(options))
 }
@@ -669,11 +693,11 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
     let mut builder =
         Controller::builder().mode(options.mode).speed_override(options.override_percent).stack(PROGRAM_STACK_BYTES);
     if let Some(robot) = &options.robot {
-        builder = builder.robot(Robot::load(robot).map_err(SetupFailure::usage)?);
+        builder = builder.robot(options.changes.robot(robot).map_err(SetupFailure::usage)?);
     }
     let mut names = Names::default();
     if let Some(cell) = &options.cell {
-        let cell = Cell::load(cell).map_err(SetupFailure::usage)?;
+        let cell = options.changes.cell(cell).map_err(SetupFailure::usage)?;
         names = cell.names.clone();
         builder = builder.cell_with(cell, others)?;
         builder = several::trace(builder, options.trace.as_deref())?;
@@ -683,8 +707,9 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
         builder = builder.drivers(*connect);
     }
     if let Some(io) = &options.io {
-        builder = builder.scenario(Scenario::load_with(io, &names).map_err(SetupFailure::usage)?);
+        builder = builder.scenario(options.changes.scenario(io, &names).map_err(SetupFailure::usage)?);
     }
+    builder = options.changes.globals(builder);
     if let Some(trace) = &options.trace {
         let file = File::create(trace);
         builder = builder.trace(file.map_err(|error| SetupFailure::usage(format!("{}: {error}", trace.display())))?);

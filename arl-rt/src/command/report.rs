@@ -151,7 +151,7 @@ fn sum(records: &[MotionRecord], of: impl Fn(&MotionRecord) -> f64) -> f64 {
 }
 
 /// The motions that began.
-fn executed(records: &[MotionRecord]) -> impl Iterator<Item = &MotionRecord> {
+pub(crate) fn executed(records: &[MotionRecord]) -> impl Iterator<Item = &MotionRecord> {
     records.iter().filter(|record| record.start.is_some())
 }
 

@@ -1,6 +1,5 @@
 //! The programs of a controller: those that run in its foreground channels, and those that `switcharl` can load there.
 
-use std::any::Any;
 use std::cell::RefCell;
 use std::ops::BitOr;
 use std::rc::{Rc, Weak};
@@ -12,7 +11,7 @@ use crate::context::program::{Beside, Program};
 type Make = Box<dyn Fn() -> Box<dyn Program>>;
 
 /// Somebody who sets global variables once they have their first values, where they are his.
-pub(crate) type Initialised = Box<dyn Fn(&dyn Any)>;
+pub(crate) type Initialised = Box<dyn Fn(&dyn Program)>;
 
 /// The programs that a controller can load while it runs, by the names of their files.
 #[derive(Default)]
@@ -50,8 +49,8 @@ impl Programs {
     }
 
     /// A program's global variables have their first values.
-    pub(crate) fn were_initialised(&self, globals: &dyn Any) {
-        self.initialised.iter().for_each(|set| set(globals));
+    pub(crate) fn were_initialised(&self, program: &dyn Program) {
+        self.initialised.iter().for_each(|set| set(program));
     }
 
     /// Adds the next foreground channel.

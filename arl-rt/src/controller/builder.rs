@@ -21,6 +21,7 @@ use crate::builtins::time;
 use crate::communication::NetworkDriver;
 use crate::context::channel_state::{ChannelState, Station};
 use crate::context::hearers::Event;
+use crate::context::named::Named;
 use crate::context::output::{Output, Stream};
 use crate::context::program::{Beside, Program};
 use crate::context::programs::{Initialised, Loadable, Programs};
@@ -60,6 +61,7 @@ pub struct Builder {
     background: Vec<Box<dyn Program>>,
     programs: Loadable,
     initialised: Vec<Initialised>,
+    named: Vec<Named>,
     cell: Cell,
     clock: Box<dyn Clock>,
     connect: Option<Connect>,
@@ -90,6 +92,7 @@ impl Default for Builder {
             background: Vec::new(),
             programs: Loadable::default(),
             initialised: Vec::new(),
+            named: Vec::new(),
             cell: Cell::default(),
             clock: Box::new(VirtualClock::new()),
             connect: None,
@@ -138,7 +141,15 @@ impl Builder {
     ///
     /// `docs/embedding.md` has an example.
     pub fn on_init<G: 'static>(mut self, set: impl Fn(&G) + 'static) -> Self {
-        self.initialised.push(Box::new(move |globals| globals.downcast_ref().map_or((), &set)));
+        self.initialised.push(Box::new(move |program| program.globals().downcast_ref().map_or((), &set)));
+        self
+    }
+
+    /// Gives a global variable another first value, by its name and as a literal of ARL: `("pitch", "80.5")`, `("feeder", "{z 120}")`.
+    /// Components that the literal leaves out keep theirs. It comes when [`Builder::on_init`] does, and only to programs that were
+    /// compiled with the names of their variables. A name that several files have is written `FILE::NAME`.
+    pub fn global(mut self, name: impl Into<String>, literal: impl Into<String>) -> Self {
+        self.named.push(Named::new(name.into(), literal.into()));
         self
     }
 
@@ -344,10 +355,12 @@ impl Builder {
         let Builder { cell, background, .. } = self;
         let count = 1 + self.foreground.len();
         check_channels(count, background.len())?;
-        for program in std::iter::once(&program).chain(self.foreground.iter().map(|it| &it.program)).chain(&background)
-        {
-            atomic_file::remove_leftovers(&self.script_dir.join(program.folder()));
-        }
+        let all = std::iter::once(&program).chain(self.foreground.iter().map(|it| &it.program)).chain(&background);
+        let all: Vec<&dyn Program> = all.map(|program| &**program).collect();
+        all.iter().for_each(|program| atomic_file::remove_leftovers(&self.script_dir.join(program.folder())));
+        self.named.iter().try_for_each(|named| named.check(&all)).map_err(SetupError::Globals)?;
+        let named = self.named;
+        self.initialised.push(Box::new(move |program| named.iter().for_each(|named| named.set(program))));
         let common = Rc::new(Common::new());
         let mut state = State::new(self.storage);
         system::load(&common.kept_own(), &mut state)?;
@@ -635,6 +648,8 @@ pub enum SetupError {
     },
     /// The inputs and outputs of an io driver cannot be had; what it says.
     Io(String),
+    /// A global variable is not there, or does not take its value.
+    Globals(String),
     /// Whoever sets it up says why not.
     Other(String),
 }
@@ -650,6 +665,7 @@ impl fmt::Display for SetupError {
                 word(*family)
             ),
             SetupError::Channels(text)
+            | SetupError::Globals(text)
             | SetupError::Cell(text)
             | SetupError::Outside(text)
             | SetupError::Other(text) => {

@@ -121,6 +121,10 @@ impl Channel {
         &self.cx
     }
 
+    pub(super) fn program_itself(&self) -> &dyn Program {
+        &*self.program
+    }
+
     /// The global variables of its program, where they are of this type.
     pub(super) fn globals<G: 'static>(&self) -> Option<&G> {
         self.program.globals().downcast_ref()
@@ -469,7 +473,7 @@ fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
             alarms.for_each(|alarm| shared.alarm(Alarm { channel, ..alarm }, false));
             return Err(Stop::alarm(first));
         }
-        cx.programs().were_initialised(program.globals());
+        cx.programs().were_initialised(&*program);
         program.main(&cx).await
     })
 }

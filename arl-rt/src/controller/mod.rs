@@ -36,6 +36,8 @@ pub use running::Running;
 pub use status::{ChannelStatus, RobotStatus, Status};
 
 use crate::context::hearers::Event;
+use crate::context::named::{self, Named};
+use crate::context::program::Program;
 use crate::context::shared_state::SharedState;
 use crate::context::system::{self, System};
 use crate::cycle::channel_id::ChannelId;
@@ -466,6 +468,29 @@ impl Controller {
     /// The same of any channel; `None`, too, where there is no such channel.
     pub fn globals_of<G: 'static>(&self, channel: ChannelId) -> Option<&G> {
         self.channels.iter().find(|it| it.channel_state().id == channel)?.globals()
+    }
+
+    /// The value of a global variable of the first program, as a literal of ARL; by its name, as [`Builder::global`] takes it.
+    ///
+    /// # Errors
+    /// There is no such variable, or the program was compiled without the names.
+    pub fn global(&self, name: &str) -> Result<String, String> {
+        let program = self.first_program();
+        let value = named::with_variable(program, name, |variable| variable.slot.written())?;
+        value.ok_or_else(|| named::unknown(name, &[program]))
+    }
+
+    /// Gives a global variable of the first program a value, between two cycles. Components that the literal leaves out keep theirs.
+    ///
+    /// # Errors
+    /// As [`Controller::global`], or the value does not fit.
+    pub fn set_global(&mut self, name: &str, literal: &str) -> Result<(), String> {
+        Named::new(name.to_owned(), literal.to_owned()).check(&[self.first_program()])
+    }
+
+    /// The program of the first channel.
+    pub(crate) fn first_program(&self) -> &dyn Program {
+        self.channels.first().program_itself()
     }
 
     /// The system variables.

@@ -6,6 +6,7 @@ use super::channel::Channel;
 use super::{Controller, Outcome, State};
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::File;
+use crate::io::Image;
 use crate::motion::Joints;
 use crate::unit::Motors;
 use crate::values::Controlmode;
@@ -110,6 +111,11 @@ impl Controller {
     pub(crate) fn with_levels(&self, see: impl FnOnce(&[bool], &[bool])) {
         let io = self.shared.io.borrow();
         see(io.inputs().levels(), io.outputs().levels());
+    }
+
+    /// Shows the inputs and outputs.
+    pub(crate) fn with_signals<T>(&self, see: impl FnOnce(&Image) -> T) -> T {
+        see(&self.shared.io.borrow())
     }
 
     /// How the channels stand.

@@ -27,6 +27,12 @@ pub trait Teach {
     /// What does not fit, and in which component.
     fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError>;
 
+    /// The same, but components and elements that the literal leaves out keep their values.
+    ///
+    /// # Errors
+    /// What does not fit, and in which component.
+    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError>;
+
     /// Gives the variable its start value.
     ///
     /// # Errors
@@ -90,6 +96,13 @@ impl<T: Literal + Default + Copy> Teach for Cell<T> {
         Ok(())
     }
 
+    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        let mut changed = self.get();
+        changed.put_nested(value, sizes, names)?;
+        self.set(changed);
+        Ok(())
+    }
+
     fn restart(&self) -> Result<(), TeachError> {
         self.set(T::default());
         Ok(())
@@ -106,11 +119,18 @@ impl<T: Literal + Default + Copy> Teach for Cell<T> {
 
 macro_rules! teaches_shared {
     ($($Variable:ident)*) => { $(
-        impl<T: Literal + Default> Teach for $Variable<T> {
+        impl<T: Literal + Default + Clone> Teach for $Variable<T> {
             fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
                 let mut fresh = T::default();
                 fresh.put_nested(value, sizes, names)?;
                 self.set(fresh);
+                Ok(())
+            }
+
+            fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+                let mut changed = self.get();
+                changed.put_nested(value, sizes, names)?;
+                self.set(changed);
                 Ok(())
             }
 
@@ -143,6 +163,13 @@ where
         Ok(())
     }
 
+    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        let mut changed = self.get();
+        changed.put_nested(value, sizes, names)?;
+        self.set(changed);
+        Ok(())
+    }
+
     fn restart(&self) -> Result<(), TeachError> {
         self.set(Array::start());
         Ok(())
@@ -168,6 +195,10 @@ impl<T: Literal + Default + PartialEq> Teach for Fixed<T> {
         if fresh == self.0 { Ok(()) } else { Err(TeachError::new(constant(&self.0), value)) }
     }
 
+    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        self.teach_nested(value, sizes, names)
+    }
+
     fn restart(&self) -> Result<(), TeachError> {
         Err(TeachError { path: String::new(), problem: constant(&self.0), span: Span::default() })
     }
@@ -184,6 +215,10 @@ impl<T: Literal + Default + PartialEq> Teach for Fixed<T> {
 impl Teach for Fixed<&'static str> {
     fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
         Fixed(Str::literal(self.0)).teach_nested(value, sizes, names)
+    }
+
+    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        self.teach_nested(value, sizes, names)
     }
 
     fn restart(&self) -> Result<(), TeachError> {

@@ -108,6 +108,16 @@ pub(super) enum Command {
         #[arg(long, value_enum, default_value_t = Format::Human)]
         format: Format,
     },
+    /// Run a program once for each row of a table of parameters, on all cores.
+    ///
+    /// A JSON object for each run comes on the standard output, in the order of the table. What is known from an earlier sweep does not run again.
+    Sweep {
+        /// The program and the table.
+        #[arg(value_name = "S.toml")]
+        file: PathBuf,
+        #[command(flatten)]
+        options: SweepOptions,
+    },
     /// Run the cases in folders: every NAME.arl with a sidecar that says what is expected (.out, .err, .alarm).
     Test {
         /// Folders with cases, searched with their subfolders.
@@ -206,6 +216,23 @@ impl ViewOptions {
         let Self { robot, cell, io, script_dir, state_dir, mode, .. } = self.clone();
         RunOptions { robot, cell, io, script_dir, state_dir, mode, ..RunOptions::default() }
     }
+}
+
+/// Options of a sweep.
+#[derive(Args, Clone, Default, Debug)]
+pub(super) struct SweepOptions {
+    /// Write the results into a Parquet file, too.
+    #[arg(short, value_name = "FILE.parquet")]
+    pub(super) out: Option<PathBuf>,
+    /// How many processes; one for each core if absent.
+    #[arg(long, value_name = "N")]
+    pub(super) jobs: Option<std::num::NonZeroU8>,
+    /// Make the I-th of N parts of the runs only.
+    #[arg(long, value_name = "I/N")]
+    pub(super) shard: Option<Shard>,
+    /// Make all runs, also those whose results are known, and keep none.
+    #[arg(long)]
+    pub(super) no_cache: bool,
 }
 
 /// Options of a test run.
@@ -366,6 +393,10 @@ pub(super) struct RunOptions {
     /// The date at the start on the virtual clock: `now`, or a time like 2000-01-01T00:00:00.
     #[arg(long, value_name = "T")]
     pub(super) start_time: Option<String>,
+    /// Another value at one place for this run: `global.pitch=80`, `robot.axis.1.vel=90`, `io.event.2.at=1.5`, `cell.KEYS=VALUE`. Entries
+    /// of lists count from 1. As often as there are places.
+    #[arg(long = "set", value_name = "PLACE=VALUE")]
+    pub(super) changes: Vec<String>,
     /// Tell what came from the command line and what from an `arl.toml` beside the program or above it.
     #[arg(long)]
     pub(super) verbose: bool,
@@ -428,6 +459,7 @@ impl RunOptions {
         ];
         let mut arguments: Vec<std::ffi::OsString> =
             all.into_iter().filter_map(|(name, value)| value.map(|value| [name.into(), value])).flatten().collect();
+        arguments.extend(self.changes.iter().flat_map(|change| ["--set".into(), change.into()]));
         if self.repeats {
             arguments.push("--loop".into());
         }
@@ -448,6 +480,11 @@ impl RunOptions {
             arguments.push(report);
         }
         arguments
+    }
+
+    /// Whether a global variable has another value: then the program needs their names.
+    pub(super) fn sets_globals(&self) -> bool {
+        self.changes.iter().any(|change| change.trim_start().starts_with("global."))
     }
 
     /// The part that the compiler needs.

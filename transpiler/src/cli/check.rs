@@ -10,6 +10,7 @@ use super::several;
 use super::show::{self, Limit};
 use crate::CheckOptions;
 use crate::check::is_data;
+use crate::cli::exit::Exit;
 use crate::compile::{Compiled, check_program};
 use crate::render::json;
 use crate::sources::FileSystem;
@@ -17,7 +18,6 @@ use arl_robot::cell::{Cell, fit};
 use std::collections::HashSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// Checks each file as a program, and those that the cell names. A data file, and a file that an earlier one uses, is a
 /// module and needs no `main`. Programs without mistakes are run, where collisions are looked for.
@@ -26,7 +26,51 @@ pub(super) fn check(
     (format, mut limit): (Format, Limit),
     look: Option<collide::Look>,
     checking: &Checking,
-) -> Result<ExitCode, Failure> {
+) -> Result<Exit, Failure> {
+    let mut say = |compiled: Compiled| {
+        match format {
+            Format::Human => show::diagnostics(&compiled, &mut limit),
+            Format::Json => {
+                let mut out = std::io::BufWriter::new(std::io::stdout().lock());
+                let mut lines = lines(&compiled).into_iter();
+                answer::written(lines.try_for_each(|line| writeln!(out, "{line}")).and_then(|()| out.flush()))?;
+            }
+        }
+        Ok(())
+    };
+    let mut refused = false;
+    for (checking, files) in groups(files, checking)? {
+        let Checked { mistaken, programs } = check_group(&files, &checking, &mut say)?;
+        refused |= mistaken;
+        if let Some(look) = look {
+            for file in programs {
+                refused |= collide::check(file, &checking, look)?;
+            }
+        }
+    }
+    Ok(if refused { Exit::from(COMPILE_ERRORS) } else { Exit::SUCCESS })
+}
+
+/// What there is to say of files, a JSON object each, and whether there are errors.
+pub(super) fn found(files: &[PathBuf], checking: &Checking) -> Result<(Vec<String>, bool), Failure> {
+    let (mut all, mut refused) = (Vec::new(), false);
+    let mut keep = |compiled: Compiled| {
+        all.extend(lines(&compiled));
+        Ok(())
+    };
+    for (checking, files) in groups(files, checking)? {
+        refused |= check_group(&files, &checking, &mut keep)?.mistaken;
+    }
+    Ok((all, refused))
+}
+
+fn lines(compiled: &Compiled) -> Vec<String> {
+    let files = compiled.shown_files();
+    compiled.checked.diagnostics.iter().map(|diagnostic| json(diagnostic, &files)).collect()
+}
+
+/// The files by what they are for.
+fn groups(files: &[PathBuf], checking: &Checking) -> Result<Vec<(Checking, Vec<PathBuf>)>, Failure> {
     // Files of several projects are for robots and cells of their own.
     let mut groups: Vec<(Checking, Vec<PathBuf>)> = Vec::new();
     for file in files {
@@ -36,17 +80,7 @@ pub(super) fn check(
             None => groups.push((checking, vec![file.clone()])),
         }
     }
-    let mut refused = false;
-    for (checking, files) in &groups {
-        let Checked { mistaken, programs } = check_group(files, format, &mut limit, checking)?;
-        refused |= mistaken;
-        if let Some(look) = look {
-            for file in programs {
-                refused |= collide::check(file, checking, look)?;
-            }
-        }
-    }
-    Ok(if refused { ExitCode::from(COMPILE_ERRORS) } else { ExitCode::SUCCESS })
+    Ok(groups)
 }
 
 /// What came of checking some files.
@@ -60,9 +94,8 @@ struct Checked<'a> {
 /// Checks files that are for the same robot and cell.
 fn check_group<'a>(
     files: &'a [PathBuf],
-    format: Format,
-    limit: &mut Limit,
     checking: &Checking,
+    say: &mut dyn FnMut(Compiled) -> Result<(), Failure>,
 ) -> Result<Checked<'a>, Failure> {
     let options = options(checking)?;
     cell_fits(checking)?;
@@ -83,7 +116,7 @@ fn check_group<'a>(
     }
     // A single program says nothing twice.
     let said = (all.len() + modules.len() > 1).then(HashSet::new);
-    let mut reporter = Reporter { format, limit, said };
+    let mut reporter = Reporter { say, said };
     let mut refused = false;
     let mut found = Vec::new();
     let mut later = Vec::new();
@@ -140,31 +173,23 @@ fn as_module(file: &Path, options: &CheckOptions) -> Result<Compiled, Failure> {
     Ok(check_program(file, &FileSystem, &CheckOptions { library: true, ..options.clone() })?)
 }
 
-/// Shows what was found, a module's mistakes only once.
+/// Says what was found, a module's mistakes only once.
 struct Reporter<'a> {
-    format: Format,
-    limit: &'a mut Limit,
-    /// What was shown, as JSON; none where nothing can come twice.
+    say: &'a mut dyn FnMut(Compiled) -> Result<(), Failure>,
+    /// What was said, as JSON; none where nothing can come twice.
     said: Option<HashSet<String>>,
 }
 
 impl Reporter<'_> {
-    /// Says whether there were errors.
+    /// Tells whether there were errors.
     fn report(&mut self, mut compiled: Compiled) -> Result<bool, Failure> {
         let refused = compiled.checked.has_errors();
         let files = compiled.shown_files();
         if let Some(said) = &mut self.said {
             compiled.checked.diagnostics.retain(|diagnostic| said.insert(json(diagnostic, &files)));
         }
-        match self.format {
-            Format::Human => show::diagnostics(&compiled, self.limit),
-            Format::Json => {
-                let mut out = std::io::BufWriter::new(std::io::stdout().lock());
-                let mut lines = compiled.checked.diagnostics.iter().map(|diagnostic| json(diagnostic, &files));
-                let outcome = lines.try_for_each(|line| writeln!(out, "{line}")).and_then(|()| out.flush());
-                answer::written(outcome)?;
-            }
-        }
+        drop(files);
+        (self.say)(compiled)?;
         Ok(refused)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::answer;
 use super::args::Checking;
-use super::cache::{Cache, write_if_changed};
+use super::cache::{Cache, Kind, write_if_changed};
 use super::failure::Failure;
 use super::program::{Job, check_options, compile_rust};
 use super::runtime::Runtime;
@@ -35,7 +35,7 @@ pub(super) fn build(
 ) -> Result<(), Failure> {
     let checking = checking.of_program(file)?;
     let job = Job::new(file, checking.cell.as_deref(), &checking)?;
-    let job = if library { job.library() } else { job };
+    let job = if library { job.into_kind(Kind::Library) } else { job };
     let done = job.compile(&FileSystem)?;
     let cache = Cache::find()?;
     let place = job.place(&cache)?;

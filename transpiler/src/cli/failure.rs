@@ -1,8 +1,8 @@
 //! How the command ends when it does not go well.
 
+use crate::cli::exit::Exit;
 use crate::compile::Bug;
 use std::path::Path;
-use std::process::ExitCode;
 
 /// Exit codes, as the book lists them.
 pub(super) const COMPILE_ERRORS: u8 = 1;
@@ -27,16 +27,16 @@ impl Failure {
     }
 
     /// Says it, and gives the exit code.
-    pub(super) fn report(self) -> ExitCode {
+    pub(super) fn report(self) -> Exit {
         match self {
-            Failure::Shown => ExitCode::from(COMPILE_ERRORS),
+            Failure::Shown => Exit::from(COMPILE_ERRORS),
             Failure::Usage(text) => {
                 super::show::error(&text);
-                ExitCode::from(USAGE)
+                Exit::from(USAGE)
             }
             Failure::Other(text) => {
                 super::show::error(&text);
-                ExitCode::from(COMPILE_ERRORS)
+                Exit::from(COMPILE_ERRORS)
             }
         }
     }

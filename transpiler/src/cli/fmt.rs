@@ -2,15 +2,15 @@
 
 use super::answer;
 use super::failure::{COMPILE_ERRORS, Failure};
+use crate::cli::exit::Exit;
 use crate::format::format;
 use arl_lang::text::{decode, encode_like};
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 /// Lays out the files, those below folders, and standard input for `-`; with `check` only names those that would change.
-pub(super) fn fmt(files: &[PathBuf], check: bool) -> Result<ExitCode, Failure> {
+pub(super) fn fmt(files: &[PathBuf], check: bool) -> Result<Exit, Failure> {
     let mut good = true;
     for file in files {
         if file.as_os_str() == "-" {
@@ -26,7 +26,7 @@ pub(super) fn fmt(files: &[PathBuf], check: bool) -> Result<ExitCode, Failure> {
             Err(failure) => good &= succeeds(Err(failure))?,
         }
     }
-    Ok(if good { ExitCode::SUCCESS } else { ExitCode::from(COMPILE_ERRORS) })
+    Ok(if good { Exit::SUCCESS } else { Exit::from(COMPILE_ERRORS) })
 }
 
 /// Whether all went well with a file, and nothing had to be named. What went wrong is said, and others still have their

@@ -12,10 +12,12 @@ mod clean;
 mod collide;
 mod dap;
 mod emit;
+mod exit;
 mod explain;
 mod failure;
 mod fmt;
 mod framing;
+pub mod host;
 mod link;
 mod listen;
 mod lsp;
@@ -40,6 +42,7 @@ mod several;
 mod show;
 mod signals;
 mod stamp;
+mod sweep;
 mod test;
 mod texts;
 mod trouble;
@@ -49,23 +52,35 @@ mod view;
 use crate::compile::{guard, on_large_stack, remember_panics};
 use args::{Cli, Command};
 use clap::Parser;
-use failure::Failure;
+use exit::Exit;
+use failure::{Failure, USAGE};
+use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Does what the command line says; gives the exit code: 0 done, 1 compile errors, 2 usage, 3 alarm, 4 out of time, 130
-/// interrupted.
+/// Does what the command line of this process says.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
-    remember_panics();
-    cargo::end_on_interrupt();
-    match on_large_stack(|| guard(|| dispatch(cli.command))) {
-        Ok(Ok(code)) => code,
-        Ok(Err(failure)) => failure.report(),
-        Err(bug) => Failure::from(bug).report(),
-    }
+    ExitCode::from(command(std::env::args_os()))
 }
 
-fn dispatch(command: Command) -> Result<ExitCode, Failure> {
+/// Does what these words say, the first of which is the name of the command; gives the exit code: 0 done, 1 compile errors, 2 usage, 3 alarm,
+/// 4 out of time, 130 interrupted. On Unix a program that runs may take the place of this process.
+pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(words) {
+        Ok(cli) => cli,
+        Err(said) => {
+            // Where nobody can read it, the exit code says enough.
+            let _ = said.print();
+            return u8::try_from(said.exit_code()).unwrap_or(USAGE);
+        }
+    };
+    remember_panics();
+    cargo::end_on_interrupt();
+    let done = on_large_stack(|| guard(|| dispatch(cli.command)));
+    let failed = |failure: Failure| failure.report();
+    done.map_or_else(|bug| failed(bug.into()), |done| done.unwrap_or_else(failed)).0
+}
+
+fn dispatch(command: Command) -> Result<Exit, Failure> {
     match command {
         Command::Check { files, format, max_errors, collisions, clearance, checking } => {
             let look = collisions.then(|| collide::Look { format, clearance: clearance.unwrap_or_default() });
@@ -78,6 +93,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Run { file, options } => run::run(&file, &options),
         Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
         Command::Compare { one, other, format } => report::compare(&one, &other, format),
+        Command::Sweep { file, options } => sweep::sweep(&file, &options),
         Command::Test { dirs, options } => test::test(&dirs, &options),
         Command::Clean { older } => done(clean::clean(older)),
         Command::Explain { code } => print(explain::explain(&code)),
@@ -92,12 +108,12 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
     }
 }
 
-fn done(outcome: Result<(), Failure>) -> Result<ExitCode, Failure> {
-    outcome.map(|()| ExitCode::SUCCESS)
+fn done(outcome: Result<(), Failure>) -> Result<Exit, Failure> {
+    outcome.map(|()| Exit::SUCCESS)
 }
 
 /// The answer of a command that only tells something.
-fn print(text: Result<String, Failure>) -> Result<ExitCode, Failure> {
+fn print(text: Result<String, Failure>) -> Result<Exit, Failure> {
     let mut text = text?;
     if !text.ends_with('\n') {
         text.push('\n');

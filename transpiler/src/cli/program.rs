@@ -81,14 +81,9 @@ impl<'a> Job<'a> {
         })
     }
 
-    /// The same for a debugger.
-    pub(super) fn watched(self) -> Self {
-        Self { kind: Kind::Watched, ..self }
-    }
-
-    /// The same as a library for another program.
-    pub(super) fn library(self) -> Self {
-        Self { kind: Kind::Library, ..self }
+    /// The same, to be compiled into this.
+    pub(super) fn into_kind(self, kind: Kind) -> Self {
+        Self { kind, ..self }
     }
 
     /// The main file as an absolute path.
@@ -110,7 +105,8 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`Failure::Shown`] where one has errors.
     pub(super) fn compile(&self, sources: &dyn Sources) -> Result<Done, Failure> {
-        let emitting = EmitOptions { watched: self.kind == Kind::Watched, ..EmitOptions::default() };
+        let (watched, named) = (self.kind == Kind::Watched, matches!(self.kind, Kind::Library | Kind::Named));
+        let emitting = EmitOptions { watched, named, ..EmitOptions::default() };
         let emit = |file: &Path, options| compile_program(file, sources, options, &emitting);
         let mut programs = vec![emit(self.file, &self.options)?];
         for (other, options) in &self.others {
@@ -147,18 +143,18 @@ impl<'a> Job<'a> {
 }
 
 /// Compiles a program, with those that its cell names, unless that was done before.
-pub(super) fn prepare(file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
-    prepare_job(&Job::new(file, cell, checking)?, checking)
+pub(super) fn prepare(kind: Kind, file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
+    prepare_job(&Job::new(file, cell, checking)?.into_kind(kind), checking)
 }
 
 /// The same for one of which a check has told all warnings.
-pub(super) fn prepare_checked(file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
-    prepare_job(&Job { is_checked: true, ..Job::new(file, cell, checking)? }, checking)
-}
-
-/// The same for a debugger.
-pub(super) fn prepare_watched(file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
-    prepare_job(&Job::new(file, cell, checking)?.watched(), checking)
+pub(super) fn prepare_checked(
+    kind: Kind,
+    file: &Path,
+    cell: Option<&Path>,
+    checking: &Checking,
+) -> Result<Ready, Failure> {
+    prepare_job(&Job { is_checked: true, ..Job::new(file, cell, checking)?.into_kind(kind) }, checking)
 }
 
 fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {

@@ -49,8 +49,12 @@ pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &
                  arl_library::library!(make, [\n{others}], {folder:?});\n"
             ),
         ),
-        Kind::Program | Kind::Watched => {
-            let start = if rust.kind == Kind::Watched { "main_watched" } else { "main_with" };
+        kind => {
+            let start = match kind {
+                Kind::Watched => "main_watched",
+                Kind::Named => "main_named",
+                _ => "main_with",
+            };
             let call =
                 format!("arl_rt::emit::program_main::{start}(program::Globals::new, &[\n{others}    ], {folder:?})");
             ("main.rs", format!("fn main() -> std::process::ExitCode {{\n    {drivers}\n    {call}\n}}\n"))
@@ -100,7 +104,7 @@ pub(super) fn manifest(
 ) -> Result<(), Failure> {
     let (crate_type, library) = match kind {
         Kind::Library => ("[lib]\ncrate-type = [\"cdylib\"]\n\n", format!("arl-library = {}\n", runtime.library)),
-        Kind::Program | Kind::Watched => ("", String::new()),
+        _ => ("", String::new()),
     };
     // Not `package."*"`: that would also optimise what only runs while compiling.
     let text = format!(

@@ -2,30 +2,36 @@
 
 use super::args::{ReportFormat, RunOptions};
 use super::arl_toml;
+use super::cache::Kind;
 use super::collide;
 use super::failure::Failure;
 use super::listen::{Hears, Listener};
 use super::pendant;
 use super::plot::{self, Lane, Ran};
-use super::program::{Ready, prepare, prepare_watched};
+use super::program::{Ready, prepare};
 use super::record::Recording;
 use super::report::Reporting;
 use super::scenery::Scenery;
 use super::show;
 use super::signals::Signals;
+use crate::cli::exit::Exit;
 use arl_robot::cell::Cell;
 use std::cell::RefCell;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
 /// Compiles where needed, then lets the program take over.
-pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure> {
+pub(super) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
     let options = &options.of_program(file)?;
     // The screen looks into programs.
     let on_screen = options.pendant && options.plot.is_none() && std::io::stdout().is_terminal();
-    let prepare = if on_screen { prepare_watched } else { prepare };
-    let ready = prepare(file, options.cell.as_deref(), &options.checking())?;
+    let kind = match on_screen {
+        true => Kind::Watched,
+        false if options.sets_globals() => Kind::Named,
+        false => Kind::Program,
+    };
+    let ready = prepare(kind, file, options.cell.as_deref(), &options.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options.arguments());
     let mut hearers = hearers(options, &ready.sources)?;
@@ -96,7 +102,7 @@ fn run_and_plot(
     file: &Path,
     options: &RunOptions,
     (picture, lanes): (&Path, &RefCell<Vec<Lane>>),
-) -> Result<ExitCode, Failure> {
+) -> Result<Exit, Failure> {
     // Better now than after a long run.
     std::fs::write(picture, "").map_err(|error| Failure::io("write", picture, &error))?;
     let kept = options.trace.clone().map(Trace::Kept);
@@ -154,7 +160,7 @@ fn ran(file: &Path, sources: &[PathBuf]) -> Ran {
 
 /// The program takes the place of this process: signals, streams and exit code are its own.
 #[cfg(unix)]
-fn start(mut command: Command, ready: Ready) -> Result<ExitCode, Failure> {
+fn start(mut command: Command, ready: Ready) -> Result<Exit, Failure> {
     use std::os::unix::process::CommandExt;
     let Ready { program, lock, .. } = ready;
     let error = command.exec();
@@ -163,12 +169,12 @@ fn start(mut command: Command, ready: Ready) -> Result<ExitCode, Failure> {
 }
 
 #[cfg(not(unix))]
-fn start(command: Command, ready: Ready) -> Result<ExitCode, Failure> {
+fn start(command: Command, ready: Ready) -> Result<Exit, Failure> {
     wait(command, None, ready)
 }
 
 /// The program runs while this process waits, or hears what it does. Ctrl-C reaches both; only the program acts on it.
-fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<ExitCode, Failure> {
+fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<Exit, Failure> {
     super::cargo::leave_interrupts_to_the_program();
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
     listener.iter().try_for_each(|listener| listener.ask(&mut command)).map_err(fail)?;
@@ -178,7 +184,7 @@ fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Resul
         Some(listener) => listener.hear(&mut child),
         None => child.wait(),
     };
-    Ok(ExitCode::from(code(ended.map_err(fail)?)))
+    Ok(Exit::from(code(ended.map_err(fail)?)))
 }
 
 /// The exit code of a program, as a shell has it.

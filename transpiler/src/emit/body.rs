@@ -37,6 +37,8 @@ pub(super) struct Unit<'p> {
     pub(super) sizes: Sizes,
     /// Whether a debugger may halt the program.
     pub(super) watched: bool,
+    /// Whether global variables keep their names.
+    pub(super) named: bool,
     /// The variables that are in arrays.
     pub(super) slots: Slots,
     /// The calls that are made of functions of their own.

@@ -58,6 +58,8 @@ pub struct EmitOptions {
     /// For a debugger: the program halts where it is told to, and shows its variables.
     /// [`compile_program`](crate::compile::compile_program) makes the checked program ready for it.
     pub watched: bool,
+    /// Global variables keep their names, so that they can be set from outside.
+    pub named: bool,
 }
 
 /// From which sizes on code takes the forms that are compiled sooner. They change nothing of what a program does.
@@ -142,7 +144,7 @@ fn header(program: &Program) -> String {
 }
 
 impl<'p> Unit<'p> {
-    fn new(program: &'p Program, &EmitOptions { sizes, watched, .. }: &EmitOptions) -> Self {
+    fn new(program: &'p Program, &EmitOptions { sizes, watched, named, .. }: &EmitOptions) -> Self {
         let lines = program.modules.iter().map(|module| arl_lang::span::LineIndex::new(&module.source)).collect();
         let (movers, reached) = (effects::pointer_movers(program), effects::reached(program));
         let mut names = Names::new(program);
@@ -164,6 +166,7 @@ impl<'p> Unit<'p> {
             apart,
             sizes,
             watched,
+            named: named || watched,
         }
     }
 }

@@ -61,7 +61,7 @@ fn one_module(unit: &Unit<'_>, id: ModuleId, module: &Module) -> (TokenStream, P
         content.extend(blank(unit));
         content.extend(variables::data(unit, id));
     }
-    if unit.watched && (!own.is_empty() || data) {
+    if unit.named && (!own.is_empty() || data) {
         content.extend(blank(unit));
         content.extend(variables::all(unit, id));
     }
@@ -171,9 +171,9 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
             }
         }
     });
-    let watched: Vec<_> = parts.iter().filter(|part| unit.watched && part.variables).map(|part| part.id).collect();
-    let watched = (!watched.is_empty()).then(|| {
-        let (blank, modules) = (self::blank(unit), watched.iter().map(|id| unit.names.module(*id)));
+    let named: Vec<_> = parts.iter().filter(|part| unit.named && part.variables).map(|part| part.id).collect();
+    let named = (!named.is_empty()).then(|| {
+        let (blank, modules) = (self::blank(unit), named.iter().map(|id| unit.names.module(*id)));
         quote! {
             #blank
             fn variables(&self) -> Vec<arl_rt::emit::DataFile<'_>> {
@@ -215,7 +215,7 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
                 #main_body
             }
             #data
-            #watched
+            #named
             #handles
             #beside
         }

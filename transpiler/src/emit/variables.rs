@@ -237,11 +237,11 @@ pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     }
 }
 
-/// `fn all(&self) -> DataFile<'_>`: all variables, for a debugger.
+/// `fn all(&self) -> DataFile<'_>`: all variables, for a debugger and whoever knows them by their names.
 pub(super) fn all(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     let shows = |global: &Global| !is_handle(global.ty);
     let values = listed(unit, module, &shows, &|_| true);
-    let handles = has_handles(unit, module).then(|| handles(unit, module));
+    let handles = (unit.watched && has_handles(unit, module)).then(|| handles(unit, module));
     quote! {
         impl Variables {
             /// All variables.

@@ -1,5 +1,5 @@
 //! Where compiled programs are kept: a folder `programs` with one for each program, and a folder `runtime` with one for each
-//! runtime: its sources, where the command carries them, and what cargo made with it.
+//! runtime: its sources, where the command carries them, and what cargo made with it; and a folder `results` with what came of sweeps.
 
 mod limit;
 mod lock;
@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 
 const PROGRAMS: &str = "programs";
 const RUNTIMES: &str = "runtime";
+const RESULTS: &str = "results";
 
 /// The folder of all compiled programs of a user.
 #[derive(Clone, Debug)]
@@ -51,6 +52,11 @@ impl Cache {
     /// Its folder.
     pub(super) fn root(&self) -> &Path {
         &self.root
+    }
+
+    /// The file of what came of runs, by what they depend on.
+    pub(super) fn results(&self, key: &str) -> PathBuf {
+        self.root.join(RESULTS).join(key).with_extension("jsonl")
     }
 
     /// The folder of a runtime.
@@ -103,18 +109,21 @@ pub(super) enum Kind {
     Watched,
     /// A library for another program.
     Library,
+    /// A program whose global variables can be set from outside.
+    Named,
 }
 
 impl Kind {
     /// How the names of packages end that are not of programs.
-    const ENDINGS: [&str; 2] = ["debug", "library"];
+    const ENDINGS: [&str; 3] = ["debug", "library", "named"];
 
     fn ending(self) -> Option<&'static str> {
-        let [debug, library] = Self::ENDINGS;
+        let [debug, library, named] = Self::ENDINGS;
         match self {
             Kind::Program => None,
             Kind::Watched => Some(debug),
             Kind::Library => Some(library),
+            Kind::Named => Some(named),
         }
     }
 }

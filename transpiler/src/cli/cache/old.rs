@@ -1,7 +1,7 @@
 //! What the cache holds, and how it is removed.
 
 use super::lock::{Lock, last_use};
-use super::{Cache, Kind, PROGRAMS, RUNTIMES};
+use super::{Cache, Kind, PROGRAMS, RESULTS, RUNTIMES};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -10,6 +10,8 @@ use std::time::{Duration, SystemTime};
 pub(in crate::cli) struct Removed {
     pub(in crate::cli) programs: usize,
     pub(in crate::cli) runtimes: usize,
+    /// Files with results of sweeps.
+    pub(in crate::cli) results: usize,
     pub(in crate::cli) bytes: u64,
     /// The folders that were not: another process uses them, or they cannot be removed.
     pub(in crate::cli) kept: Vec<PathBuf>,
@@ -47,6 +49,18 @@ impl Cache {
         };
         for entry in self.entries().iter().filter(|entry| is_old(entry)) {
             self.remove(entry, &mut removed);
+        }
+        let time = |path: &Path| path.metadata().and_then(|about| about.modified()).ok();
+        let is_unused = |path: &PathBuf| {
+            let age = time(path).and_then(|written| now.duration_since(written).ok());
+            unused_for.is_zero() || age.is_some_and(|age| age >= unused_for)
+        };
+        for file in entries(&self.root.join(RESULTS)).filter(is_unused) {
+            let bytes = bytes(&file);
+            if std::fs::remove_file(&file).is_ok() {
+                removed.bytes += bytes;
+                removed.results += 1;
+            }
         }
         removed
     }
@@ -192,7 +206,7 @@ mod tests {
 
         let removed = cache.clean(day * 2);
         let kept = vec![root.join("programs/arl-c-00000003")];
-        assert_eq!(removed, Removed { programs: 1, runtimes: 0, bytes: 11, kept });
+        assert_eq!(removed, Removed { programs: 1, runtimes: 0, results: 0, bytes: 11, kept });
         let left: Vec<_> = entries(&root.join("runtime/r/target/debug/deps")).collect();
         assert_eq!(left.len(), 2, "{left:?}");
 

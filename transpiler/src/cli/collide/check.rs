@@ -7,6 +7,7 @@ use serde_json::json;
 
 use super::super::answer;
 use super::super::args::{Checking, Format, RunOptions};
+use super::super::cache::Kind;
 use super::super::failure::Failure;
 use super::super::listen::Listener;
 use super::super::program::{Ready, prepare_checked};
@@ -53,7 +54,7 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
     }
     let scenery = Scenery::of(&cell, options.robot.as_deref())?;
     let (watchers, found) = watch(&scenery, look.clearance, false)?;
-    let ready = prepare_checked(file, options.cell.as_deref(), &options.checking())?;
+    let ready = prepare_checked(Kind::Program, file, options.cell.as_deref(), &options.checking())?;
     // What another process of that number left there.
     let _ = std::fs::remove_dir_all(&state);
     let ended = run(ready, &options, Listener::of(watchers)?);

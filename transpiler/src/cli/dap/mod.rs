@@ -22,8 +22,8 @@ pub(super) use program::{FileKey, Key, Programs};
 
 use super::failure::Failure;
 use super::framing;
+use crate::cli::exit::Exit;
 use session::Session;
-use std::process::ExitCode;
 use std::sync::mpsc::channel;
 
 /// What the adapter hears of.
@@ -37,7 +37,7 @@ enum Event {
 }
 
 /// Serves one editor until it is gone or has said `disconnect`.
-pub(super) fn dap() -> Result<ExitCode, Failure> {
+pub(super) fn dap() -> Result<Exit, Failure> {
     let (sender, events) = channel();
     let requests = sender.clone();
     std::thread::spawn(move || {
@@ -53,5 +53,5 @@ pub(super) fn dap() -> Result<ExitCode, Failure> {
         let _ = requests.send(Event::Gone);
     });
     Session::new(sender, events).serve();
-    Ok(ExitCode::SUCCESS)
+    Ok(Exit::SUCCESS)
 }

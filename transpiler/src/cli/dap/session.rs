@@ -17,8 +17,9 @@ use super::remains;
 use super::state::State;
 use super::variables::Shown;
 use crate::cli::args::RunOptions;
+use crate::cli::cache::Kind;
 use crate::cli::failure::Failure;
-use crate::cli::program::prepare_watched;
+use crate::cli::program::prepare;
 use replay::Point;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -185,10 +186,12 @@ impl Session {
         let programs = Programs::check(&main, &options, &|text| self.out.output("stderr", text))?;
         self.out.output("console", "Compiling for the debugger ..\n");
         let ready =
-            prepare_watched(&main, options.cell.as_deref(), &options.checking()).map_err(|failure| match failure {
-                Failure::Usage(text) | Failure::Other(text) => text,
-                Failure::Shown => "the program has errors".into(),
-            })?;
+            prepare(Kind::Watched, &main, options.cell.as_deref(), &options.checking()).map_err(
+                |failure| match failure {
+                    Failure::Usage(text) | Failure::Other(text) => text,
+                    Failure::Shown => "the program has errors".into(),
+                },
+            )?;
         for breakpoint in self.breakpoints.find_places(&programs) {
             self.out.event("breakpoint", json!({"reason": "changed", "breakpoint": breakpoint}));
         }

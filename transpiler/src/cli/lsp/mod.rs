@@ -38,14 +38,14 @@ mod uri;
 mod workspace;
 
 use super::failure::Failure;
-use std::process::ExitCode;
+use crate::cli::exit::Exit;
 
 /// Serves one client until it says `exit` or closes the connection.
-pub(super) fn lsp() -> Result<ExitCode, Failure> {
+pub(super) fn lsp() -> Result<Exit, Failure> {
     let incoming = transport::reader();
     let (outgoing, writer) = transport::writer();
     let ended_well = server::Server::new(outgoing).serve(&incoming);
     // What was said last is still written.
     let _ = writer.join();
-    Ok(if ended_well { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    Ok(if ended_well { Exit::SUCCESS } else { Exit::FAILURE })
 }

@@ -9,7 +9,8 @@ mod model;
 mod screen;
 mod sources;
 
-use std::process::{Command, ExitCode};
+use crate::cli::exit::Exit;
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 use ratatui::crossterm::event::{self, Event};
@@ -27,7 +28,7 @@ use sources::Sources;
 const WAIT: Duration = Duration::from_millis(50);
 
 /// Runs the program behind a screen; its exit code. Others may hear what it does.
-pub(super) fn run(mut command: Command, ready: Ready, mut hearers: Vec<Box<dyn Hears>>) -> Result<ExitCode, Failure> {
+pub(super) fn run(mut command: Command, ready: Ready, mut hearers: Vec<Box<dyn Hears>>) -> Result<Exit, Failure> {
     command.arg("--live").args(listen::wishes(&hearers));
     if !hearers.is_empty() {
         command.args(["--state-interval", listen::STATE_INTERVAL]);
@@ -48,7 +49,7 @@ pub(super) fn run(mut command: Command, ready: Ready, mut hearers: Vec<Box<dyn H
     show::say_warnings();
     listen::end(hearers, !model.hello.channels.is_empty());
     let code = shown.map_err(|error| Failure::Other(format!("the terminal cannot be used: {error}")))?;
-    Ok(ExitCode::from(code))
+    Ok(Exit::from(code))
 }
 
 /// Shows the program until it has ended.

@@ -6,11 +6,11 @@ mod summary;
 #[cfg(test)]
 mod tests;
 
+use crate::cli::exit::Exit;
 use std::error::Error;
 use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use arl_robot::regular_file;
 
@@ -82,14 +82,14 @@ impl Hears for Reporting {
 }
 
 /// Tells what differs between two runs; the exit code is 1 where anything does.
-pub(super) fn compare(one: &Path, other: &Path, format: Format) -> Result<ExitCode, Failure> {
+pub(super) fn compare(one: &Path, other: &Path, format: Format) -> Result<Exit, Failure> {
     let differences = Differences::between(&summary(one)?, &summary(other)?);
     let text = match format {
         Format::Human => differences.to_string(),
         Format::Json => format!("{}\n", serde_json::json!(differences)),
     };
     answer::write(&text)?;
-    Ok(ExitCode::from(u8::from(!differences.is_empty())))
+    Ok(Exit::from(u8::from(!differences.is_empty())))
 }
 
 /// The summary of a recording, or the one that a file holds.

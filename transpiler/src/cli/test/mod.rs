@@ -21,6 +21,7 @@ use super::project::{Emitted, EmittedOther};
 use super::runtime::Runtime;
 use super::several;
 use crate::CheckOptions;
+use crate::cli::exit::Exit;
 use crate::compile::{Compiled, check_program, compile_program};
 use crate::diagnostics::Files;
 use crate::emit::{EmitOptions, Sizes};
@@ -30,7 +31,6 @@ use case::{Case, Found};
 use expect::FoundError;
 use judge::judged;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
@@ -54,7 +54,7 @@ impl Done {
 }
 
 /// Runs all cases; for people the last line on standard output is `N passed, N failed`.
-pub(super) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<ExitCode, Failure> {
+pub(super) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Failure> {
     let sizes = if options.all_forms { Sizes::LEAST } else { Sizes::default() };
     let watched = options.debug || options.coverage.is_some();
     let emitting = EmitOptions { sizes, watched, ..EmitOptions::default() };

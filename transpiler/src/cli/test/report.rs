@@ -4,12 +4,12 @@ use super::case::Found;
 use super::{Done, Verdict};
 use crate::cli::answer;
 use crate::cli::args::TestFormat;
+use crate::cli::exit::Exit;
 use crate::cli::failure::{COMPILE_ERRORS, Failure};
 use crate::cli::show;
 use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
-use std::process::ExitCode;
 
 /// A case that was looked at, or could not be.
 struct Told<'a> {
@@ -21,7 +21,7 @@ struct Told<'a> {
 }
 
 /// Tells how the cases went; fails where one failed.
-pub(super) fn report(found: &[Found], done: &[Done], format: TestFormat) -> Result<ExitCode, Failure> {
+pub(super) fn report(found: &[Found], done: &[Done], format: TestFormat) -> Result<Exit, Failure> {
     let told: Vec<Told<'_>> = found
         .iter()
         .zip(done)
@@ -38,7 +38,7 @@ pub(super) fn report(found: &[Found], done: &[Done], format: TestFormat) -> Resu
         TestFormat::Jsonl => told.iter().try_for_each(|case| answer::write(&format!("{}\n", object(case))))?,
         TestFormat::Junit => answer::write(&junit(&told, failed))?,
     }
-    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::from(COMPILE_ERRORS) })
+    Ok(if failed == 0 { Exit::SUCCESS } else { Exit::from(COMPILE_ERRORS) })
 }
 
 /// What failed, then how many.

@@ -10,9 +10,10 @@ mod teach;
 #[cfg(test)]
 mod tests;
 
+use crate::cli::exit::Exit;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use arl_robot::Robot;
@@ -21,6 +22,7 @@ use oxhttp::ListeningServer;
 use serde_json::{Value, json};
 
 use super::args::ViewOptions;
+use super::cache::Kind;
 use super::failure::Failure;
 use super::program::prepare;
 use super::recorded::{self, Store};
@@ -45,7 +47,7 @@ struct Shown {
 }
 
 /// Serves the page until the command is interrupted.
-pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<ExitCode, Failure> {
+pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<Exit, Failure> {
     let name = |file: &Path| file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let is_program = |file: &Path| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("arl"));
     match files {
@@ -63,18 +65,18 @@ pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<ExitCode,
             let shown = Shown { runs: runs.collect::<Result<_, Failure>>()?, live: None, teacher: None };
             let server = serve(&Arc::new(shown), options)?;
             server.join().map_err(|error| Failure::Other(format!("the server ended: {error}")))?;
-            Ok(ExitCode::SUCCESS)
+            Ok(Exit::SUCCESS)
         }
     }
 }
 
 /// Shows a program that runs, until it ends.
-fn view_live(program: &Path, name: String, options: &ViewOptions) -> Result<ExitCode, Failure> {
+fn view_live(program: &Path, name: String, options: &ViewOptions) -> Result<Exit, Failure> {
     let options_of_run = options.run().of_program(program)?;
     let cell = run::cell(&options_of_run)?;
     let first = options_of_run.robot.as_deref();
     let scenery = Scenery::of(&cell, first)?;
-    let ready = prepare(program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
+    let ready = prepare(Kind::Program, program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
     // What is wrong is told before anything is started.
     let teach = || robots(&cell, first).map(|robots| Teacher::new(robots, &ready.sources));
     let teacher = options.teach.then(teach).transpose()?;
@@ -90,7 +92,7 @@ fn view_live(program: &Path, name: String, options: &ViewOptions) -> Result<Exit
     let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live), teacher });
     let _server = serve(&shown, options)?;
     let code = shown.live.as_ref().map_or(0, |live| live.hear(hearers, &scenery, &store));
-    Ok(ExitCode::from(code))
+    Ok(Exit::from(code))
 }
 
 /// The robots of the channels that have one, in the order of the channels.

@@ -1,0 +1,86 @@
+//! What a host looks at after each step, as numbers.
+
+use crate::context::named::{self, with_variable};
+use crate::context::program::Program;
+use crate::controller::{Controller, trace};
+use arl_robot::cell::{Signal, SignalKind};
+
+/// The first robot's row of the trace, and behind it signals and global variables that a host has named.
+#[derive(Default)]
+pub(crate) struct Observation {
+    watched: Vec<Watched>,
+}
+
+enum Watched {
+    Signal(Signal),
+    Global(String),
+}
+
+impl Observation {
+    /// Looks at these from now on, a name a line: signals (`do.1`, or what the cell calls them) and global variables that are numbers or truth
+    /// values (`global.placed`).
+    ///
+    /// # Errors
+    /// Something is not there, or no number; then everything stays as it was.
+    pub(crate) fn watch(&mut self, names: &str, controller: &Controller) -> Result<(), String> {
+        let names = names.lines().map(str::trim).filter(|name| !name.is_empty());
+        let watched = names.map(|name| {
+            let watched = match name.strip_prefix("global.") {
+                Some(global) => Watched::Global(global.to_owned()),
+                None => Watched::Signal(Signal::parse(name).or_else(|| controller.names().signal(name)).ok_or_else(
+                    || format!("`{name}` is no signal and no global variable: like do.1, global.placed"),
+                )?),
+            };
+            watched.value(controller).map(|_| watched).map_err(|problem| format!("`{name}`: {problem}"))
+        });
+        self.watched = watched.collect::<Result<_, String>>()?;
+        Ok(())
+    }
+
+    /// How many numbers there are.
+    pub(crate) fn count(&self) -> usize {
+        trace::COLUMNS + self.watched.len()
+    }
+
+    /// Fills in the numbers, as many as there is room for. Axes that are not there are no numbers.
+    pub(crate) fn fill(&self, numbers: &mut [f64], controller: &Controller) {
+        let row = controller.trace_row();
+        let (front, back) = numbers.split_at_mut(row.len().min(numbers.len()));
+        front.iter_mut().zip(row).for_each(|(to, number)| *to = number);
+        for (to, watched) in back.iter_mut().zip(&self.watched) {
+            *to = watched.value(controller).unwrap_or(f64::NAN);
+        }
+    }
+}
+
+impl Watched {
+    fn value(&self, controller: &Controller) -> Result<f64, String> {
+        match self {
+            Watched::Signal(signal) => of_signal(*signal, controller),
+            Watched::Global(name) => of_global(name, controller.first_program()),
+        }
+    }
+}
+
+fn of_signal(signal: Signal, controller: &Controller) -> Result<f64, String> {
+    let at = signal.channel as usize - 1;
+    let level = |levels: &[bool]| levels.get(at).map(|level| f64::from(u8::from(*level)));
+    let value = controller.with_signals(|io| match signal.kind {
+        SignalKind::DigitalInput => level(io.inputs().levels()),
+        SignalKind::DigitalOutput => level(io.outputs().levels()),
+        SignalKind::AnalogInput => io.analogs(false).get(at).copied(),
+        SignalKind::AnalogOutput => io.analogs(true).get(at).copied(),
+        SignalKind::InternalInput | SignalKind::InternalOutput => None,
+    });
+    value.ok_or_else(|| "the cell has no such signal that can be looked at".into())
+}
+
+fn of_global(name: &str, program: &dyn Program) -> Result<f64, String> {
+    let number = |text: String| match text.as_str() {
+        "true" => Ok(1.0),
+        "false" => Ok(0.0),
+        text => text.parse().map_err(|_| "this is no number".to_owned()),
+    };
+    let value = with_variable(program, name, |variable| variable.slot.written())?;
+    value.map_or_else(|| Err(named::unknown(name, &[program])), number)
+}

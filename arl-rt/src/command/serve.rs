@@ -1,0 +1,78 @@
+//! A program that makes run after run: a line of the standard input asks for one, a line of the standard output answers.
+//!
+//! A question is the words of a command line with tabs between; `\t`, `\n` and `\\` stand for themselves in a word. An answer is a JSON object:
+//! `{"summary": {..}, "said": [..]}` with what [`Run::summary`] and [`Run::take_said`] say, or `{"refused": ".."}`. Both end with the input.
+
+use std::ffi::OsString;
+use std::io::{self, BufRead, Write};
+use std::process::ExitCode;
+
+use crate::command::in_process::{Outside, Run};
+use crate::command::json::quoted;
+use crate::context::program::{Other, Program};
+
+/// What a thread of a host has as a rule: runs are the same as there.
+const STACK_BYTES: usize = 2 << 20;
+
+pub(super) fn serve(make: impl Fn() -> Box<dyn Program> + Send, others: &[Other], script_dir: &str) -> ExitCode {
+    // Who stops asking does not need to say so.
+    let served = std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK_BYTES);
+        thread.spawn_scoped(scope, move || answer_all(&make, others, script_dir)).map(|thread| thread.join())
+    });
+    match served {
+        Ok(Ok(Ok(()))) => ExitCode::SUCCESS,
+        _ => ExitCode::FAILURE,
+    }
+}
+
+fn answer_all(make: &dyn Fn() -> Box<dyn Program>, others: &[Other], script_dir: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    for question in io::stdin().lock().lines() {
+        let answer = match Run::begin(make(), others, script_dir, words(&question?), false) {
+            Ok(mut run) => {
+                run.go_on(u64::MAX, Outside::Nobody);
+                let said = run.take_said();
+                let said: Vec<&str> = said.lines().collect();
+                format!("{{\"summary\":{},\"said\":[{}]}}", run.summary(), said.join(","))
+            }
+            Err(problem) => format!("{{\"refused\":{}}}", quoted(&problem)),
+        };
+        writeln!(out, "{answer}")?;
+        out.flush()?;
+    }
+    Ok(())
+}
+
+fn words(line: &str) -> Vec<OsString> {
+    let words = line.split('\t').filter(|word| !word.is_empty());
+    words.map(|word| OsString::from(unescaped(word))).collect()
+}
+
+fn unescaped(word: &str) -> String {
+    let mut text = String::new();
+    let mut rest = word.chars();
+    while let Some(c) = rest.next() {
+        match c {
+            '\\' => text.extend(match rest.next() {
+                Some('t') => Some('\t'),
+                Some('n') => Some('\n'),
+                other => other,
+            }),
+            c => text.push(c),
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_have_tabs_between_them_and_may_have_any_character() {
+        assert_eq!(words("--seed\t5"), ["--seed", "5"]);
+        assert_eq!(words("a b\tc\\td\\ne\\\\f"), ["a b", "c\td\ne\\f"]);
+        assert_eq!(words(""), Vec::<OsString>::new());
+    }
+}

@@ -1,0 +1,100 @@
+//! Global variables by their names, for programs that were compiled with them.
+
+use crate::context::program::Program;
+use crate::storage::data::DataVar;
+use arl_lang::symbol::Interner;
+use arl_robot::settings::nearest;
+
+/// Another first value for a global variable.
+pub(crate) struct Named {
+    name: String,
+    literal: String,
+}
+
+impl Named {
+    pub(crate) fn new(name: String, literal: String) -> Self {
+        Self { name, literal }
+    }
+
+    /// Whether one of the programs takes it. The programs have not begun: it comes into variables that get their first values later.
+    ///
+    /// # Errors
+    /// No program has a variable of this name, several have, or the value does not fit.
+    pub(crate) fn check(&self, programs: &[&dyn Program]) -> Result<(), String> {
+        let mut found = false;
+        for program in programs {
+            found |= with_variable(*program, &self.name, |variable| self.change(variable))?.transpose()?.is_some();
+        }
+        if found { Ok(()) } else { Err(unknown(&self.name, programs)) }
+    }
+
+    /// Sets the variable, where the program has it.
+    pub(crate) fn set(&self, program: &dyn Program) {
+        // What does not fit was told before anything began.
+        let _ = with_variable(program, &self.name, |variable| self.change(variable));
+    }
+
+    fn change(&self, variable: &DataVar<'_>) -> Result<(), String> {
+        let fail = |why: String| format!("global variable `{}` = {}: {why}", self.name, self.literal);
+        let mut names = Interner::default();
+        let parsed = arl_lang::parse_expression(&self.literal, &mut names, arl_lang::ParseOptions::default());
+        if let Some(error) = parsed.errors.first() {
+            return Err(fail(error.kind.message()));
+        }
+        variable.slot.change(&parsed.expr, variable.sizes, &names).map_err(|error| fail(error.to_string()))
+    }
+}
+
+/// Does something with the variable of this name; nothing where there is none.
+///
+/// # Errors
+/// Several files have one.
+pub(crate) fn with_variable<T>(
+    program: &dyn Program,
+    name: &str,
+    act: impl FnOnce(&DataVar<'_>) -> T,
+) -> Result<Option<T>, String> {
+    let (file, own) = name.rsplit_once("::").map_or((None, name), |(file, own)| (Some(file), own));
+    let files = program.variables();
+    let files = files.iter().filter(|it| file.is_none_or(|file| stem(it.file).eq_ignore_ascii_case(file)));
+    let all = files.flat_map(|it| it.vars.iter().map(|variable| (it.file, variable)));
+    let mut found = all.filter(|(_, variable)| variable.name.eq_ignore_ascii_case(own));
+    match (found.next(), found.next()) {
+        (None, _) => Ok(None),
+        (Some((_, variable)), None) => Ok(Some(act(variable))),
+        (Some((one, _)), Some((other, _))) => Err(format!(
+            "global variable `{name}`: there is one in {one} and one in {other}; `{}::{own}` is that of the first",
+            stem(one)
+        )),
+    }
+}
+
+/// A file without its folder and ending.
+fn stem(file: &str) -> &str {
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
+}
+
+/// What is said of a name that no program has.
+pub(crate) fn unknown(name: &str, programs: &[&dyn Program]) -> String {
+    let files: Vec<_> = programs.iter().flat_map(|program| program.variables()).collect();
+    let known: Vec<&str> = files.iter().flat_map(|file| file.vars.iter().map(|variable| variable.name)).collect();
+    match known.is_empty() {
+        true => format!(
+            "global variable `{name}`: the program has none, or was compiled without their names: `arl2rs run --set`, \
+             `arl2rs sweep` and `arl2rs build --library` make programs with them"
+        ),
+        false => format!("there is no global variable `{name}`; {}", near(name, &known)),
+    }
+}
+
+/// So many names are listed where none is like it.
+const LISTED: usize = 8;
+
+fn near(name: &str, known: &[&str]) -> String {
+    match (nearest(name, known), known.get(..LISTED)) {
+        (Some(near), _) => format!("did you mean `{near}`?"),
+        (None, Some(first)) => format!("there are {}, like {}", known.len(), first.join(", ")),
+        (None, None) => format!("there are {}", known.join(", ")),
+    }
+}

@@ -1,0 +1,119 @@
+"""A run as an environment of gymnasium."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from .program import Program
+from .session import Session
+
+__all__ = ["Environment"]
+
+Observation = NDArray[np.float64]
+Action = Mapping[str, Any]
+
+
+class Environment(gymnasium.Env[Observation, Action]):
+    """A run of a program that an agent takes part in: it gives inputs and global variables, and observes.
+
+    - `actions`: what the agent sets, and within which bounds: `{"di.1": bool, "ai.2": (0.0, 10.0), "override": (10, 100), "global.speed": (50,
+      250)}`. The action space has `Discrete(2)` for truth values and a `Box` of one number for the others.
+    - `observe`: columns of the trace (without it the axes that the robot has, and the TCP) and `watch`: signals and global variables.
+    - `cycles`: how many control cycles a step takes.
+    - `reward`: what a step is worth, of the session after it.
+    - `max_time`: after so many seconds of the robot's time an episode is truncated.
+
+    Further arguments are those of `Program.session`. `reset(options={"globals": .., "points": .., "set": ..})` gives an episode other ones, its
+    seed is that of `rand`. An episode terminates with the run: `info["outcome"]` says how, `info["alarms"]` why.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012
+
+    def __init__(
+        self,
+        program: Program,
+        *,
+        actions: Mapping[str, type[bool] | tuple[float, float]],
+        reward: Callable[[Session], float],
+        observe: Sequence[str] | None = None,
+        watch: Sequence[str] = (),
+        cycles: int = 10,
+        max_time: float = 60.0,
+        **arguments: Any,
+    ) -> None:
+        self.program, self.cycles, self._reward = program, cycles, reward
+        self._arguments = {**arguments, "watch": watch, "max_time": max_time}
+        self._max_time = max_time
+        self._session: Session | None = None
+        names = {name: spaces.Discrete(2) if bounds is bool else _box(bounds) for name, bounds in actions.items()}
+        self.action_space = spaces.Dict(names)
+        with program.session(**self._arguments) as session:
+            session.step(0)
+            session.observe()
+            there = [name for name in session.columns[3:] if not np.isnan(session[name])]
+            all_names = [*session.columns, *watch]
+            self.observed = [*(there if observe is None else observe), *watch]
+            self._at = np.array([all_names.index(name) for name in self.observed])
+        self.observation_space = spaces.Box(-np.inf, np.inf, (len(self.observed),), np.float64)
+
+    @property
+    def session(self) -> Session:
+        """The run of this episode."""
+        if self._session is None:
+            raise gymnasium.error.ResetNeeded("an episode begins with reset()")
+        return self._session
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Begins an episode."""
+        super().reset(seed=seed)
+        self.close()
+        arguments = {**self._arguments, **(options or {})}
+        if seed is not None:
+            arguments["seed"] = seed
+        self._session = self.program.session(**arguments)
+        self._before: dict[str, Any] = {}
+        return self._observation(self._session.observe()), {}
+
+    def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """Sets what the action says, and goes on for some control cycles."""
+        session = self.session
+        for name, given in action.items():
+            value = bool(given) if isinstance(self.action_space[name], spaces.Discrete) else float(np.ravel(given)[0])
+            if self._before.get(name) != value:
+                self._before[name] = value
+                self._set(session, name, value)
+        observation = self._observation(session.step(self.cycles))
+        over, late = session.is_over, session.code == 4
+        info: dict[str, Any] = {}
+        if over:
+            result = session.result()
+            info = {"outcome": result.outcome, "cycle_time": result.cycle_time, "alarms": result.alarms}
+        return observation, float(self._reward(session)), over and not late, late, info
+
+    def close(self) -> None:
+        """Ends the episode."""
+        if self._session is not None:
+            self._session.close()
+            self._session = None
+
+    def _set(self, session: Session, name: str, value: bool | float) -> None:
+        if name.startswith("global."):
+            session.set_global(name.removeprefix("global."), value)
+        else:
+            session.order(f"{name} = {str(value).lower()}")
+
+    def _observation(self, numbers: Observation) -> Observation:
+        return np.asarray(numbers[self._at])
+
+
+def _box(bounds: type[bool] | tuple[float, float]) -> spaces.Box:
+    low, high = bounds  # type: ignore[misc]
+    return spaces.Box(low, high, (1,), np.float64)

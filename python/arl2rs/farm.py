@@ -1,0 +1,159 @@
+"""Sweeps on several machines, by Ray: `arl2rs.sweep(.., engine="ray")`.
+
+The compiled program and the files that it reads travel as one object of Ray; tasks make some runs each. What a node that dies, or a task that
+never ends, was to do is done again elsewhere: a run is a function of its words, so that nothing changes by that, and of each run one result
+counts. The nodes have the same system and processor as this computer.
+"""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import ray
+
+from . import _arl2rs
+from .sweeps import Bar
+
+__all__ = ["run"]
+
+BATCH_S = 2.0
+"""So long a task should take; s."""
+TIMEOUT_S = 600.0
+"""After so long a run is given up where nobody says otherwise; s."""
+GRACE_S = 60.0
+"""So much longer than its runs may take, a task may; s."""
+TRIES = 3
+"""So often a run is asked for where its process or its node is lost."""
+
+Words = list[str]
+_workers: dict[str, _arl2rs.Worker] = {}
+
+
+def _make(key: str, files: list[tuple[str, bytes]], timeout: float | None, runs: list[tuple[int, Words]]) -> list[tuple[int, str, bool]]:
+    """Makes runs, on a node. Its process keeps the worker for the next task."""
+    if key not in _workers:
+        _workers.clear()
+        _workers[key] = _arl2rs.Worker(files, timeout)
+    return [(at, *_workers[key].run(words)) for at, words in runs]
+
+
+@dataclass
+class _Task:
+    runs: list[tuple[int, Words]]
+    until: float
+
+
+@dataclass
+class _Farm:
+    """The state of a sweep: what is still to do, what is under way, what came."""
+
+    bundle: _arl2rs.Bundle
+    timeout: float | None
+    waiting: list[tuple[int, Words]]
+    kept: _arl2rs.Kept | None
+    results: dict[int, str] = field(default_factory=dict)
+    tries: dict[int, int] = field(default_factory=dict)
+    tasks: dict[Any, _Task] = field(default_factory=dict)
+    batch: int = 1
+
+    def __post_init__(self) -> None:
+        self._files = ray.put(self.bundle.files)
+        # Ray itself begins a task anew whose node has died.
+        self._remote = ray.remote(num_cpus=1, max_retries=-1)(_make)
+        self._key = self.bundle.key
+
+    def begin(self) -> None:
+        """Begins tasks, twice as many as there are cores, so that none waits."""
+        most = 2 * max(1, int(ray.cluster_resources().get("CPU", 1)))
+        while self.waiting and len(self.tasks) < most:
+            runs, self.waiting = self.waiting[: self.batch], self.waiting[self.batch :]
+            task = self._remote.remote(self._key, self._files, self.timeout, runs)
+            # It may have to wait for a core that others have.
+            allowed = (self.timeout or TIMEOUT_S) * len(runs) * 3 + GRACE_S
+            self.tasks[task] = _Task(runs, time.monotonic() + allowed)
+
+    def wait(self) -> None:
+        """Takes in what has come, and gives up what takes too long."""
+        began = time.monotonic()
+        done, _ = ray.wait(list(self.tasks), num_returns=1, timeout=1.0)
+        for task in done:
+            self._take(task, self.tasks.pop(task))
+        for task, it in list(self.tasks.items()):
+            if began > it.until:
+                ray.cancel(task, force=True)
+                del self.tasks[task]
+                self._again(it.runs, "hung", "no answer of its task")
+
+    def _take(self, task: Any, it: _Task) -> None:
+        try:
+            came = ray.get(task)
+        except (ray.exceptions.RayError, OSError) as problem:
+            # One run may be what kills its node: from now on it is alone.
+            self.batch = 1
+            return self._again(it.runs, "crashed", str(problem).splitlines()[0])
+        for (at, words), (_, result, again) in zip(it.runs, came, strict=True):
+            if '"outcome":"crashed"' in result and self._counts(at):
+                self.waiting.append((at, words))
+                continue
+            if at not in self.results and again and self.kept is not None:
+                self._keep(words, result)
+            self.results.setdefault(at, result)
+
+    def _again(self, runs: list[tuple[int, Words]], outcome: str, problem: str) -> None:
+        for at, words in runs:
+            if self._counts(at):
+                self.waiting.append((at, words))
+            else:
+                self.results.setdefault(at, _arl2rs.lost(outcome, problem))
+
+    def _counts(self, at: int) -> bool:
+        self.tries[at] = self.tries.get(at, 0) + 1
+        return self.tries[at] < TRIES
+
+    def _keep(self, words: Words, result: str) -> None:
+        try:
+            self.kept.keep(words, result)  # type: ignore[union-attr]
+        except OSError as problem:
+            self.kept = None
+            warnings.warn(f"results cannot be kept for the next time: {problem}", stacklevel=2)
+
+
+def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache: bool, progress: Bar) -> Iterator[str]:
+    """Makes the runs of a bundle on the cluster that Ray is connected to, or on this computer; gives their rows as JSON, in order."""
+    if not ray.is_initialized():
+        ray.init(log_to_driver=False)
+    kept = _arl2rs.Kept(bundle) if cache else None
+    results: dict[int, str] = {}
+    waiting: list[tuple[int, Words]] = []
+    for at, row in enumerate(rows):
+        try:
+            words = bundle.words(row)
+        except _arl2rs.Refused as problem:
+            results[at] = _arl2rs.lost("refused", problem.args[0])
+            continue
+        known = kept.find(words) if kept else None
+        if known is None:
+            waiting.append((at, words))
+        else:
+            results[at] = known
+    farm = _Farm(bundle, timeout, waiting, kept, results)
+    with progress as bar:
+        began, before = time.monotonic(), len(results)
+        while farm.waiting or farm.tasks:
+            farm.begin()
+            farm.wait()
+            bar.update(len(farm.results))
+            farm.batch = _batch(farm, (len(farm.results) - before) / max(time.monotonic() - began, 1e-3))
+    return (_arl2rs.row(at + 1, row, farm.results[at]) for at, row in enumerate(rows))
+
+
+def _batch(farm: _Farm, rate: float) -> int:
+    """How many runs a task should make, where so many are done in a second; few towards the end, so that all cores end together."""
+    if any(farm.tries.values()):
+        return 1
+    cores = max(1, int(ray.cluster_resources().get("CPU", 1)))
+    return max(1, min(int(rate / cores * BATCH_S), len(farm.waiting) // (2 * cores)))

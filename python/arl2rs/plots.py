@@ -1,0 +1,38 @@
+"""Pictures of runs, by matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .trace import Trace
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["plot"]
+
+_MOST_POINTS = 20_000
+
+
+def plot(trace: Trace) -> Figure:
+    """The way of the TCP from above and from the front, its speed, and the velocities of the axes over time."""
+    from matplotlib.figure import Figure
+
+    step = max(1, len(trace) // _MOST_POINTS)
+    t, tcp, speed, velocities = (all[::step] for all in (trace.t, trace.tcp, trace.speed, trace.velocities))
+    figure = Figure(figsize=(10, 7), layout="constrained")
+    above, front, over_time, axes = figure.subplots(2, 2).flat
+    for place, (across, up), names in ((above, (0, 1), "xy"), (front, (0, 2), "xz")):
+        place.plot(tcp[:, across], tcp[:, up], linewidth=1)
+        place.set(xlabel=f"{names[0]} in mm", ylabel=f"{names[1]} in mm", aspect="equal")
+        place.set_adjustable("datalim")
+    over_time.plot(t, speed, linewidth=1)
+    over_time.set(xlabel="time in s", ylabel="speed of the TCP in mm/s")
+    for axis, velocity in enumerate(np.transpose(velocities), 1):
+        axes.plot(t, velocity, linewidth=0.8, label=f"axis {axis}")
+    axes.set(xlabel="time in s", ylabel="velocity in deg/s (mm/s)")
+    if velocities.shape[1]:
+        axes.legend(fontsize="small", ncols=2)
+    return figure

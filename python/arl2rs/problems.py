@@ -1,0 +1,91 @@
+"""What can go wrong, with file and line where there is one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from . import _arl2rs
+
+if TYPE_CHECKING:
+    from .result import Alarm
+
+__all__ = ["AlarmError", "ArlError", "CompileError", "Diagnostic", "RefusedError"]
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """What the checker says of a place in a program."""
+
+    code: str
+    """Its code, which `arl2rs explain` knows: `ARL0203`."""
+    severity: str
+    """`error` or `warning`."""
+    message: str
+    file: str
+    line: int
+    """From 1."""
+    column: int
+    """From 1, in characters."""
+    end_line: int
+    end_column: int
+    help: str | None = None
+    """What would be right."""
+
+    @classmethod
+    def of_json(cls, text: str) -> Diagnostic:
+        """Of the object that `arl2rs check --format json` writes."""
+        return cls(**{name: value for name, value in json.loads(text).items() if name in cls.__dataclass_fields__})
+
+    @property
+    def is_error(self) -> bool:
+        """Whether the program is refused for it."""
+        return self.severity == "error"
+
+    def __str__(self) -> str:
+        text = f"{self.file}:{self.line}:{self.column}: {self.severity}[{self.code}]: {self.message}"
+        return f"{text}\n  help: {self.help}" if self.help else text
+
+
+class ArlError(Exception):
+    """Whatever this package refuses or cannot do."""
+
+
+class CompileError(ArlError):
+    """A program has mistakes: `diagnostics` tells them."""
+
+    def __init__(self, diagnostics: list[Diagnostic]) -> None:
+        self.diagnostics = diagnostics
+        errors = [diagnostic for diagnostic in diagnostics if diagnostic.is_error]
+        super().__init__("\n".join(str(diagnostic) for diagnostic in errors))
+        self.file = errors[0].file if errors else None
+        self.line = errors[0].line if errors else None
+
+
+class RefusedError(ArlError, ValueError):
+    """What is asked for cannot be: a variable that is not there, a value that does not fit, a file that is none."""
+
+
+class AlarmError(ArlError):
+    """A run ended with an alarm."""
+
+    def __init__(self, alarm: Alarm) -> None:
+        self.alarm = alarm
+        super().__init__(alarm.text)
+        self.number, self.file, self.line = alarm.number, alarm.file, alarm.line
+
+
+@contextmanager
+def told() -> Iterator[None]:
+    """Makes the exceptions of the Rust side into those of the package."""
+    try:
+        yield
+    except _arl2rs.Mistakes as mistakes:
+        raise CompileError([Diagnostic.of_json(text) for text in mistakes.args[0]]) from None
+    except _arl2rs.Refused as refused:
+        raise RefusedError(refused.args[0]) from None
+    except OSError as problem:
+        raise ArlError(str(problem)) from None

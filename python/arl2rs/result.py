@@ -1,0 +1,118 @@
+"""What came of a run."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from .problems import AlarmError, RefusedError
+from .trace import Trace
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["Alarm", "Message", "Result"]
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """An alarm of a run."""
+
+    number: int
+    """Its number, which `arl2rs explain` knows."""
+    text: str
+    file: str
+    line: int
+    """From 1; 0 where no line is to blame."""
+    channel: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True)
+class Message:
+    """What a program printed."""
+
+    time: float
+    """Controller time, s."""
+    channel: str
+    hmi: bool
+    """Whether it goes to the operator panel."""
+    console: bool
+    """Whether it goes to the terminal."""
+    text: str
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of a run."""
+
+    outcome: str
+    """`ended`, `alarm`, `time_over`, `stuck` (nothing could change any more), `stopped`; in a sweep also `refused`, `crashed`, `hung`."""
+    code: int | None
+    """The exit code of `arl2rs run`: 0 ended, 3 alarm, 4 out of time, 130 stopped."""
+    cycle_time: float | None
+    """How long the run took in the robot's time, s."""
+    moving: float | None = None
+    """How long the first robot moved, s."""
+    standing: float | None = None
+    """How long it stood, s."""
+    motions: int | None = None
+    """How many motions it executed."""
+    way: float | None = None
+    """How far its TCP went, mm."""
+    alarms: tuple[Alarm, ...] = ()
+    messages: tuple[Message, ...] = ()
+    warnings: tuple[str, ...] = ()
+    report: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
+    """What each motion did, as `arl2rs run --report=FILE` writes it."""
+    trace: Trace | None = field(default=None, repr=False)
+
+    @property
+    def ended(self) -> bool:
+        """Whether the program came to its end."""
+        return self.outcome == "ended"
+
+    @property
+    def output(self) -> str:
+        """What the program printed for the operator panel or the terminal, a line each."""
+        lines = [message.text for message in self.messages if message.hmi or message.console]
+        return "".join(line if line.endswith("\n") else line + "\n" for line in lines)
+
+    def check(self) -> Result:
+        """The result itself, if the program came to its end.
+
+        Raises `AlarmError` with file and line where an alarm ended it, `RefusedError` where something else did.
+        """
+        if self.alarms and self.outcome == "alarm":
+            raise AlarmError(self.alarms[0])
+        if not self.ended:
+            raise RefusedError("; ".join(self.warnings) or f"the run did not come to its end: {self.outcome}")
+        return self
+
+    def plot(self) -> Figure:
+        """A picture of the motion: the way of the TCP, its speed, the axes. matplotlib has to be installed."""
+        from .plots import plot
+
+        if self.trace is None:
+            raise RefusedError("the run has no trace: run it with trace=True")
+        return plot(self.trace)
+
+
+def of_summary(summary: str, said: str, report: str = "", trace: Trace | None = None) -> Result:
+    """The result that the Rust side tells."""
+    figures = json.loads(summary)
+    figures.pop("real_time", None)
+    alarms = tuple(Alarm(**alarm) for alarm in figures.pop("alarms"))
+    lines = [json.loads(line) for line in said.splitlines()]
+    return Result(
+        **figures,
+        alarms=alarms,
+        messages=tuple(Message(**line["message"]) for line in lines if "message" in line),
+        warnings=tuple(line["warning"] for line in lines if "warning" in line),
+        report=tuple(json.loads(line) for line in report.splitlines()),
+        trace=trace,
+    )

@@ -1,0 +1,112 @@
+"""A run that is stepped."""
+
+from __future__ import annotations
+
+import json
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arl2rs
+from .problems import told
+from .result import Result, of_summary
+from .trace import Trace
+from .values import plain
+
+__all__ = ["Session"]
+
+
+class Session:
+    """A run that goes on as far as it is told, on the thread that began it: `Program.session` makes it.
+
+    It may be used in a `with` statement; at its end the run ends.
+    """
+
+    def __init__(self, run: _arl2rs.Session, columns: tuple[str, ...], watched: tuple[str, ...]) -> None:
+        self._run, self.columns, self.watched = run, columns, watched
+        self._numbers = np.full(len(columns) + len(watched), np.nan)
+        if watched:
+            run.watch(list(watched))
+        self.code: int | None = None
+        """The exit code, once the run is over."""
+        self._said = ""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    def step(self, cycles: int = 1, *, alone: bool = False) -> NDArray[np.float64]:
+        """Goes on for so many control cycles, or to the end of the run; gives what is observed then.
+
+        The array is that of the last call: `columns` of the trace (time in s, line, motion, axes in deg, TCP in mm and deg), then what is
+        `watched`. `alone`: nobody changes anything any more, so that a program that waits in vain ends the run.
+        """
+        with told():
+            self.code = self._run.step(cycles, alone, self._numbers)
+        return self._numbers
+
+    def observe(self) -> NDArray[np.float64]:
+        """What `step` gave last, as it is now."""
+        self._run.observe(self._numbers)
+        return self._numbers
+
+    def __getitem__(self, name: str) -> float:
+        """One of the numbers that are observed, by the name of its column or of what is watched."""
+        names = self.columns if name in self.columns else self.watched
+        return float(self._numbers[names.index(name) + (0 if names is self.columns else len(self.columns))])
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the run has come to an end."""
+        return self.code is not None
+
+    @property
+    def time(self) -> float:
+        """Controller time, s."""
+        return self._run.time
+
+    def order(self, order: str) -> None:
+        """Does what an event of a scenario does: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`."""
+        with told():
+            self._run.order(order)
+
+    def set(self, **signals: bool | float) -> None:
+        """Sets inputs, by what the cell calls them or as `di_5`, `ai_2`."""
+        for name, value in signals.items():
+            kind, _, channel = name.partition("_")
+            place = f"{kind}.{channel}" if kind in ("di", "ai", "internal") and channel.isdigit() else name
+            self.order(f"{place} = {json.dumps(plain(value))}")
+
+    def global_value(self, name: str) -> str:
+        """The value of a global variable, as a literal of ARL."""
+        with told():
+            return self._run.global_value(name)
+
+    def set_global(self, name: str, value: Any) -> None:
+        """Gives a global variable a value; components that a dictionary leaves out keep theirs."""
+        with told():
+            self._run.set_global(name, _arl2rs.literal(json.dumps(plain(value))))
+
+    def state(self) -> dict[str, Any]:
+        """How everything stands: channels, axes, TCP, inputs and outputs."""
+        state: dict[str, Any] = json.loads(self._run.state())["state"]
+        return state
+
+    def stop(self) -> None:
+        """Ends the programs: the robots stop on their paths within the steps that follow."""
+        self._run.stop()
+
+    def result(self) -> Result:
+        """What came of the run, or how far it is."""
+        self._said += self._run.take_said()
+        rows = np.frombuffer(self._run.take_rows(), dtype=np.float64).reshape(-1, len(self.columns))
+        self._rows = np.vstack([self._rows, rows]) if hasattr(self, "_rows") else rows
+        return of_summary(self._run.summary(), self._said, self._run.report(), Trace(self._rows, self.columns))
+
+    def close(self) -> None:
+        """Ends the run."""
+        self._run.close()

@@ -1,0 +1,96 @@
+"""The motion of a run: a row a control cycle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pandas
+    import polars
+
+__all__ = ["Trace"]
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The set-points of the first robot while its program runs, a row a control cycle."""
+
+    array: NDArray[np.float64]
+    """All of it: a row a cycle, a column for each of `columns`. Axes that the robot does not have are NaN."""
+    columns: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.array)
+
+    def __getitem__(self, column: str) -> NDArray[np.float64]:
+        """A column by its name: `trace["j1"]`."""
+        return self.array[:, self.columns.index(column)]
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Controller time at the start of the cycle, s."""
+        return self["t"]
+
+    @property
+    def line(self) -> NDArray[np.int64]:
+        """The line of the motion that is executed; 0: none."""
+        return self["line"].astype(np.int64)
+
+    @property
+    def motion(self) -> NDArray[np.int64]:
+        """Its running number; 0: none."""
+        return self["motion"].astype(np.int64)
+
+    @cached_property
+    def joints(self) -> NDArray[np.float64]:
+        """The robot's own axes, a column each, deg (mm where they are linear)."""
+        return self._there("j")
+
+    @cached_property
+    def external(self) -> NDArray[np.float64]:
+        """The external axes, a column each, deg (mm)."""
+        return self._there("ej")
+
+    @property
+    def tcp(self) -> NDArray[np.float64]:
+        """The TCP in the world: x, y, z in mm, a, b, c in deg."""
+        return self.array[:, self.columns.index("x") :]
+
+    @cached_property
+    def velocities(self) -> NDArray[np.float64]:
+        """The velocities of the robot's own axes between a cycle and the next, deg/s (mm/s); the last row is that before it."""
+        return _rate(self.joints, self.t)
+
+    @cached_property
+    def speed(self) -> NDArray[np.float64]:
+        """The speed of the TCP, mm/s."""
+        return np.asarray(np.linalg.norm(_rate(self.tcp[:, :3], self.t), axis=1))
+
+    def _there(self, kind: str) -> NDArray[np.float64]:
+        at = [index for index, name in enumerate(self.columns) if name.rstrip("123456") == kind]
+        axes = self.array[:, at]
+        return axes[:, ~np.isnan(axes).all(axis=0)] if len(axes) else axes[:, :0]
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """The same as a frame of pandas, which has to be installed."""
+        import pandas
+
+        return pandas.DataFrame(self.array, columns=list(self.columns))
+
+    def to_polars(self) -> polars.DataFrame:
+        """The same as a frame of polars, which has to be installed."""
+        import polars
+
+        return polars.DataFrame(self.array, schema=list(self.columns))
+
+
+def _rate(places: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:
+    if len(t) < 2:
+        return np.zeros_like(places)
+    rates = np.diff(places, axis=0) / np.diff(t)[:, None]
+    return np.vstack([rates, rates[-1:]])

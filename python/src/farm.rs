@@ -1,0 +1,202 @@
+//! Many runs: tables of parameters, what runs depend on, and processes that make them.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use arl2rs::cli::host::{self, Parameters, Row, RunResult, Settings, Spread};
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::Given;
+use crate::problem::{Refused, of_host};
+
+/// The file of a sweep: what is run, as a dictionary, and the parameters of each run, as JSON.
+#[pyfunction]
+pub(crate) fn table(py: Python<'_>, file: PathBuf) -> PyResult<(Bound<'_, PyAny>, Vec<String>)> {
+    let sweep = host::table(&file).map_err(of_host)?;
+    let Settings { program, robot, cell, io, script_dir, files, max_time, timeout } = sweep.settings;
+    let given = pyo3::types::PyDict::new(py);
+    given.set_item("program", program)?;
+    given.set_item("robot", robot)?;
+    given.set_item("cell", cell)?;
+    given.set_item("io", io)?;
+    given.set_item("script_dir", script_dir)?;
+    given.set_item("files", files)?;
+    given.set_item("max_time", max_time)?;
+    given.set_item("timeout", timeout)?;
+    let rows: PyResult<Vec<String>> = sweep.rows.iter().map(written).collect();
+    Ok((given.into_any(), rows?))
+}
+
+/// JSON of the Python side.
+pub(crate) fn read<T: DeserializeOwned>(text: &str) -> PyResult<T> {
+    serde_json::from_str(text).map_err(|error| PyValueError::new_err(format!("{text}: {error}")))
+}
+
+pub(crate) fn parameters(row: &str) -> PyResult<Parameters> {
+    read(row)
+}
+
+fn written(value: &impl Serialize) -> PyResult<String> {
+    serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// The row of a run, as a sweep writes it, of its number, its parameters and its result.
+#[pyfunction]
+pub(crate) fn row(run: usize, parameters: &str, result: &str) -> PyResult<String> {
+    written(&Row { run, parameters: read(parameters)?, result: read(result)? })
+}
+
+/// The result of a run that could not begin, or was lost.
+#[pyfunction]
+pub(crate) fn lost(outcome: &str, problem: String) -> PyResult<String> {
+    written(&RunResult::lost(outcome, problem))
+}
+
+/// The results that are kept of a bundle on this computer.
+#[pyclass(frozen)]
+pub(crate) struct Kept {
+    kept: Mutex<host::Kept>,
+}
+
+#[pymethods]
+impl Kept {
+    #[new]
+    fn new(bundle: &Bundle) -> PyResult<Self> {
+        Ok(Self { kept: Mutex::new(host::kept(&bundle.bundle).map_err(of_host)?) })
+    }
+
+    /// What came of the run of these words, as JSON.
+    fn find(&self, words: Vec<String>) -> PyResult<Option<String>> {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.find(&words).map(written).transpose()
+    }
+
+    /// Keeps a result.
+    fn keep(&self, words: Vec<String>, result: &str) -> PyResult<()> {
+        let result: RunResult = read(result)?;
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(kept.keep(&words, &result)?)
+    }
+}
+
+/// All that the runs of a sweep depend on but their parameters.
+#[pyclass(frozen)]
+pub(crate) struct Bundle {
+    bundle: host::Bundle,
+    timeout: Option<f64>,
+}
+
+#[pymethods]
+impl Bundle {
+    /// Compiles the program where needed, and gathers what it reads.
+    #[new]
+    fn new(py: Python<'_>, given: Given, rows: Vec<String>) -> PyResult<Self> {
+        let settings: Settings = given.into();
+        let rows = rows.iter().map(|row| parameters(row)).collect::<PyResult<Vec<_>>>()?;
+        let bundle = py.detach(|| host::bundle(&settings, &rows)).map_err(of_host)?;
+        Ok(Self { bundle, timeout: settings.timeout })
+    }
+
+    /// The hash of everything in it.
+    #[getter]
+    fn key(&self) -> String {
+        self.bundle.key()
+    }
+
+    /// The files: where in the bundle, and what is in them.
+    #[getter]
+    fn files<'py>(&self, py: Python<'py>) -> Vec<(String, Bound<'py, PyBytes>)> {
+        self.bundle.files.iter().map(|(place, bytes)| (place.clone(), PyBytes::new(py, bytes))).collect()
+    }
+
+    /// The words of a run.
+    fn words(&self, row: &str) -> PyResult<Vec<String>> {
+        self.bundle.words(&parameters(row)?).map_err(Refused::new_err)
+    }
+}
+
+/// Makes all runs on this computer; `take` gets each row as JSON, in order, and `warn` what is no reason to end.
+#[pyfunction]
+pub(crate) fn sweep(
+    py: Python<'_>,
+    bundle: &Bundle,
+    rows: Vec<String>,
+    processes: usize,
+    keeps: bool,
+    take: Py<PyAny>,
+    warn: Py<PyAny>,
+) -> PyResult<()> {
+    let rows = rows.iter().map(|row| parameters(row)).collect::<PyResult<Vec<_>>>()?;
+    let (enough, problem) = (AtomicBool::new(false), Mutex::new(None));
+    let fail = |error: PyErr| {
+        enough.store(true, Ordering::Relaxed);
+        let mut problem = problem.lock().unwrap_or_else(PoisonError::into_inner);
+        problem.get_or_insert(error);
+    };
+    let call = |function: &Py<PyAny>, text: &str| {
+        if let Err(error) = Python::attach(|py| function.call1(py, (text,)).map(drop)) {
+            fail(error);
+        }
+    };
+    let ended = py.detach(|| {
+        std::thread::scope(|scope| {
+            // The thread of Ctrl-C is this one: the runs are the business of another.
+            let runs = scope.spawn(|| {
+                let mut row = |row: Row| match written(&row) {
+                    Ok(text) => call(&take, &text),
+                    Err(error) => fail(error),
+                };
+                let how = (processes, bundle.timeout, keeps);
+                let is_enough = || enough.load(Ordering::Relaxed);
+                host::sweep(&bundle.bundle, &rows, how, &is_enough, &mut row, &mut |text| call(&warn, text))
+            });
+            while !runs.is_finished() {
+                std::thread::park_timeout(std::time::Duration::from_millis(20));
+                if let Err(error) = Python::attach(|py| py.check_signals()) {
+                    fail(error);
+                }
+            }
+            runs.join()
+        })
+    });
+    if let Some(error) = problem.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        return Err(error);
+    }
+    match ended {
+        Ok(ended) => ended.map_err(of_host),
+        Err(_) => Err(PyOSError::new_err("a bug of arl2rs: the sweep panicked")),
+    }
+}
+
+/// A process that makes run after run of a bundle.
+#[pyclass(frozen)]
+pub(crate) struct Worker {
+    worker: Mutex<host::Worker>,
+}
+
+#[pymethods]
+impl Worker {
+    /// Of the files of a bundle.
+    #[new]
+    fn new(files: Vec<(String, Vec<u8>)>, timeout: Option<f64>) -> PyResult<Self> {
+        let spread = Spread::of(files)?;
+        let worker = host::Worker::new(&spread, timeout).map_err(PyOSError::new_err)?;
+        Ok(Self { worker: Mutex::new(worker) })
+    }
+
+    /// Makes a run: what came of it, as JSON, and whether the same run gives it again.
+    fn run(&self, py: Python<'_>, words: Vec<String>) -> PyResult<(String, bool)> {
+        let ran = py.detach(|| {
+            let interrupted = || Python::attach(|py| py.check_signals()).is_err();
+            let mut worker = self.worker.lock().unwrap_or_else(PoisonError::into_inner);
+            worker.run(&words, &interrupted)
+        });
+        let (result, again) = ran.ok_or_else(|| pyo3::exceptions::PyKeyboardInterrupt::new_err(()))?;
+        Ok((written(&result)?, again))
+    }
+}

@@ -1,0 +1,25 @@
+//! What goes wrong, as exceptions; the Python side makes them into those of the package.
+
+use arl_library::LoadError;
+use arl2rs::cli::host::HostError;
+use pyo3::create_exception;
+use pyo3::exceptions::{PyException, PyOSError, PyRuntimeError};
+use pyo3::prelude::*;
+
+create_exception!(_arl2rs, Mistakes, PyException, "A program has mistakes: JSON objects.");
+create_exception!(_arl2rs, Refused, PyException, "What is asked for cannot be; why.");
+
+pub(crate) fn of_host(error: HostError) -> PyErr {
+    match error {
+        HostError::Mistakes(all) => Mistakes::new_err(all),
+        HostError::Usage(text) => Refused::new_err(text),
+        other => PyOSError::new_err(other.to_string()),
+    }
+}
+
+pub(crate) fn of_library(error: LoadError) -> PyErr {
+    match error {
+        LoadError::Refused(text) => Refused::new_err(text),
+        other => PyRuntimeError::new_err(other.to_string()),
+    }
+}

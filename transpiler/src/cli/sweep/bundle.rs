@@ -1,0 +1,233 @@
+//! All that runs depend on: the compiled program and the files that it reads, by paths that are the same on every machine.
+
+use super::parameter::Parameters;
+use super::table::Settings;
+use crate::check::clean;
+use crate::cli::args::RunOptions;
+use crate::cli::cache::Kind;
+use crate::cli::failure::Failure;
+use crate::cli::program::prepare;
+use crate::cli::several;
+use arl_robot::Robot;
+use arl_robot::cell::Cell;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use twox_hash::XxHash3_128;
+
+/// How many files of a program's folder go along with its runs, and how many bytes.
+const MOST_FILES: usize = 2000;
+const MOST_BYTES: usize = 64 << 20;
+/// A run that takes longer in the robot's time is ended, where nobody says otherwise: s.
+const MAX_TIME: f64 = 3600.0;
+/// The folder of the program's files in a bundle.
+const SCRIPT: &str = "script";
+/// What belongs to a program without being named: programs and data files, and texts that it reads.
+const ENDINGS: [&str; 2] = ["arl", "txt"];
+/// The compiled program in a bundle.
+pub(super) const PROGRAM: &str = "program";
+
+/// All that runs depend on but their parameters.
+#[derive(Clone, Debug)]
+pub struct Bundle {
+    /// The files, by their paths in the bundle, with slashes.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// The words that all runs have.
+    words: Vec<String>,
+    /// Robot files and scenarios: where they are here, and in the bundle.
+    places: Vec<(PathBuf, String)>,
+}
+
+impl Bundle {
+    /// Compiles the program where needed, and gathers what it reads. `rows` may name robots and scenarios of their own.
+    pub(in crate::cli) fn new(settings: &Settings, rows: &[Parameters]) -> Result<Self, Failure> {
+        let Settings { program, robot, cell, io, script_dir, files, .. } = settings.clone();
+        let options = RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }.of_program(&program)?;
+        let ready = prepare(Kind::Named, &program, options.cell.as_deref(), &options.checking())?;
+        let executable = read(&ready.program)?;
+        drop(ready.lock);
+        let main = several::absolute(&program)?;
+        let own = || main.parent().map(Path::to_path_buf).unwrap_or_default();
+        let folder = options.script_dir.as_deref().map_or_else(|| Ok(own()), several::absolute)?;
+        for other in several::named(options.cell.as_deref(), options.robot.as_deref())? {
+            if Path::new(&other.folder(&main)?).is_absolute() {
+                let text = format!(
+                    "{} lies outside of {}: a sweep takes programs of one folder",
+                    other.file,
+                    folder.display()
+                );
+                return Err(Failure::Usage(text));
+            }
+        }
+        let mut bundle = Self { files: vec![(PROGRAM.into(), executable)], words: Vec::new(), places: Vec::new() };
+        bundle.add_folder(&folder)?;
+        for file in files {
+            bundle.add_once(&folder.join(&file), format!("{SCRIPT}/{}", with_slashes(&file)))?;
+        }
+        bundle.words.extend(["--report", "--script-dir", SCRIPT].map(String::from));
+        if let Some(cell) = &options.cell {
+            let place = bundle.add_cell(&several::absolute(cell)?, &folder)?;
+            bundle.words.extend(["--cell".into(), place]);
+        }
+        bundle.words.extend(["--max-time".into(), settings.max_time.unwrap_or(MAX_TIME).to_string()]);
+        let first =
+            [("robot", options.robot.map(Value::from)), ("io", options.io.map(|io| io.display().to_string().into()))];
+        let first = Parameters(first.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect());
+        for row in std::iter::once(&first).chain(rows) {
+            for file in row.files() {
+                bundle.add(&several::absolute(Path::new(file))?, &folder)?;
+            }
+        }
+        bundle.words.extend(bundle.file_words(&first));
+        Ok(bundle)
+    }
+
+    /// The words of a run with these parameters; what comes later goes first.
+    ///
+    /// # Errors
+    /// There is no such parameter, or its value is none.
+    pub fn words(&self, row: &Parameters) -> Result<Vec<String>, String> {
+        let mut words = self.words.clone();
+        words.extend(self.file_words(row));
+        words.extend(row.words()?);
+        Ok(words)
+    }
+
+    /// A number that changes with everything that the runs depend on but their parameters.
+    pub fn key(&self) -> String {
+        let mut hasher = XxHash3_128::new();
+        hasher.write(env!("CARGO_PKG_VERSION").as_bytes());
+        for (path, bytes) in &self.files {
+            hasher.write(&(path.len() as u64).to_le_bytes());
+            hasher.write(path.as_bytes());
+            hasher.write(&(bytes.len() as u64).to_le_bytes());
+            hasher.write(bytes);
+        }
+        format!("{:032x}", hasher.finish_128())
+    }
+
+    fn file_words(&self, row: &Parameters) -> Vec<String> {
+        let named = ["robot", "io"].into_iter().filter_map(|name| Some((name, row.option(name)?.as_str()?)));
+        let words = named.flat_map(|(name, file)| {
+            let here = several::absolute(Path::new(file)).unwrap_or_default();
+            let place = self.places.iter().find(|(known, _)| *known == here).map(|(_, place)| place.clone());
+            [format!("--{name}"), place.unwrap_or_else(|| file.to_owned())]
+        });
+        words.collect()
+    }
+
+    /// Adds a file that is named. Gives its place.
+    fn add(&mut self, path: &Path, script: &Path) -> Result<String, Failure> {
+        if let Some((_, place)) = self.places.iter().find(|(known, _)| known == path) {
+            return Ok(place.clone());
+        }
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let number = self.places.len() + 1;
+        let place = below(path, script).unwrap_or_else(|| format!("named/{number}/{name}"));
+        self.add_once(path, place.clone())?;
+        self.places.push((path.to_path_buf(), place.clone()));
+        Ok(place)
+    }
+
+    /// Adds a cell with the robot files that it names. Gives its place.
+    fn add_cell(&mut self, path: &Path, script: &Path) -> Result<String, Failure> {
+        let folder = path.parent().unwrap_or(Path::new("/"));
+        let place = |path: &Path| {
+            let in_cell = || Some(format!("cell/{}", with_slashes(path.strip_prefix(folder).ok()?)));
+            below(path, script).or_else(in_cell)
+        };
+        let cell = Cell::load(path).map_err(|error| Failure::Usage(error.to_string()))?;
+        for robot in cell.programs.channels.iter().filter_map(|channel| channel.robot.as_deref()) {
+            if Robot::text(robot).is_none() {
+                let robot = clean(&several::absolute(Path::new(robot))?);
+                let place = place(&robot).ok_or_else(|| {
+                    Failure::Usage(format!(
+                        "{} lies outside of {}, the folder of its cell",
+                        robot.display(),
+                        folder.display()
+                    ))
+                })?;
+                self.add_once(&robot, place)?;
+            }
+        }
+        let place = place(path).unwrap_or_default();
+        self.add_once(path, place.clone())?;
+        Ok(place)
+    }
+
+    fn add_once(&mut self, path: &Path, place: String) -> Result<(), Failure> {
+        if !self.files.iter().any(|(known, _)| *known == place) {
+            self.files.push((place, read(path)?));
+        }
+        Ok(())
+    }
+
+    /// Adds what belongs to a program in its folder.
+    fn add_folder(&mut self, folder: &Path) -> Result<(), Failure> {
+        let mut all = Vec::new();
+        gather(folder, &mut all)?;
+        all.sort();
+        let mut bytes = 0;
+        for path in all {
+            let content = read(&path)?;
+            bytes += content.len();
+            if bytes > MOST_BYTES {
+                return Err(too_much(folder));
+            }
+            let below = path.strip_prefix(folder).unwrap_or(&path);
+            self.files.push((format!("{SCRIPT}/{}", with_slashes(below)), content));
+        }
+        Ok(())
+    }
+}
+
+/// The place of a file that lies in the folder of the program.
+fn below(path: &Path, script: &Path) -> Option<String> {
+    path.strip_prefix(script).ok().map(|below| format!("{SCRIPT}/{}", with_slashes(below)))
+}
+
+impl Parameters {
+    /// The files that are named.
+    fn files(&self) -> impl Iterator<Item = &str> {
+        let named = ["robot", "io"].into_iter().filter_map(|name| Some((name, self.option(name)?.as_str()?)));
+        named.filter(|(name, file)| *name == "io" || Robot::text(file).is_none()).map(|(_, file)| file)
+    }
+}
+
+fn gather(folder: &Path, all: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    let entries = std::fs::read_dir(folder).map_err(|error| Failure::io("read", folder, &error))?;
+    for entry in entries.filter_map(Result::ok) {
+        let (path, name) = (entry.path(), entry.file_name());
+        let name = name.to_string_lossy();
+        if name.starts_with('.') {
+            continue;
+        }
+        if path.is_dir() {
+            if !path.join("CACHEDIR.TAG").is_file() {
+                gather(&path, all)?;
+            }
+        } else if path.extension().is_some_and(|it| ENDINGS.iter().any(|ending| it.eq_ignore_ascii_case(ending))) {
+            all.push(path);
+        }
+        if all.len() > MOST_FILES {
+            return Err(too_much(folder));
+        }
+    }
+    Ok(())
+}
+
+fn too_much(folder: &Path) -> Failure {
+    Failure::Usage(format!(
+        "{} has more than {MOST_FILES} programs and texts, or {} MB: they go along with the runs, so give the program a folder of its own",
+        folder.display(),
+        MOST_BYTES >> 20
+    ))
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    std::fs::read(path).map_err(|error| Failure::io("read", path, &error))
+}
+
+fn with_slashes(path: &Path) -> String {
+    let parts: Vec<_> = path.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect();
+    parts.join("/")
+}

@@ -1,0 +1,142 @@
+//! The folder that a worker's program runs in, which is that of the bundle again before each run.
+
+use super::bundle::{Bundle, PROGRAM};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::SystemTime;
+
+/// A bundle that lies on the disk: its program once, its other files for each worker.
+#[derive(Clone, Debug)]
+pub struct Spread {
+    files: Arc<Vec<(String, Vec<u8>)>>,
+    root: Arc<Root>,
+}
+
+/// A folder that goes with its last owner.
+#[derive(Debug)]
+struct Root(PathBuf);
+
+impl Drop for Root {
+    fn drop(&mut self) {
+        // It lies in the system's folder for files that go.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+impl Spread {
+    /// Writes the program into a new folder.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn new(bundle: &Bundle) -> io::Result<Self> {
+        Self::of(bundle.files.clone())
+    }
+
+    /// The same of the files of a bundle.
+    ///
+    /// # Errors
+    /// They cannot be written, or have no program.
+    pub fn of(mut files: Vec<(String, Vec<u8>)>) -> io::Result<Self> {
+        let root = Root(new_folder()?);
+        files.sort();
+        let program = files.iter().position(|(path, _)| path == PROGRAM).map(|at| files.remove(at));
+        let program = program.ok_or_else(|| io::Error::other("the bundle has no program"))?;
+        let path = root.0.join(PROGRAM);
+        std::fs::write(&path, program.1)?;
+        #[cfg(unix)]
+        std::fs::set_permissions(&path, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
+        Ok(Self { files: Arc::new(files), root: Arc::new(root) })
+    }
+}
+
+/// Another folder in the system's folder for files that go.
+fn new_folder() -> io::Result<PathBuf> {
+    static NEXT: AtomicUsize = AtomicUsize::new(0);
+    loop {
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        let path = std::env::temp_dir().join(format!("arl2rs-sweep-{}-{number}", std::process::id()));
+        match std::fs::create_dir(&path) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            made => return made.map(|()| path),
+        }
+    }
+}
+
+/// The folder of a worker.
+#[derive(Debug)]
+pub(super) struct Folder {
+    spread: Spread,
+    path: PathBuf,
+    /// The files as they were written: where, how long, when.
+    written: Vec<Seen>,
+}
+
+type Seen = (PathBuf, u64, Option<SystemTime>);
+
+impl Folder {
+    pub(super) fn new(spread: &Spread) -> io::Result<Self> {
+        static NEXT: AtomicUsize = AtomicUsize::new(1);
+        let path = spread.root.0.join(NEXT.fetch_add(1, Ordering::Relaxed).to_string());
+        let mut folder = Self { spread: spread.clone(), path, written: Vec::new() };
+        folder.write()?;
+        Ok(folder)
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(super) fn program(&self) -> PathBuf {
+        self.spread.root.0.join(PROGRAM)
+    }
+
+    /// Makes it that of the bundle again, if a run has changed something.
+    pub(super) fn restore(&mut self) -> io::Result<()> {
+        let mut seen = Vec::new();
+        if look(&self.path, &mut seen).is_ok() {
+            seen.sort();
+            if seen == self.written {
+                return Ok(());
+            }
+        }
+        std::fs::remove_dir_all(&self.path)?;
+        self.write()
+    }
+
+    fn write(&mut self) -> io::Result<()> {
+        std::fs::create_dir_all(&self.path)?;
+        for (place, bytes) in self.spread.files.iter() {
+            let path = self.path.join(place);
+            path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+            std::fs::write(&path, bytes)?;
+        }
+        self.written.clear();
+        look(&self.path, &mut self.written)?;
+        self.written.sort();
+        Ok(())
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // It goes with the root at the latest.
+        let _ = std::fs::remove_dir_all(&self.path);
+    }
+}
+
+/// All files and folders in a folder.
+fn look(folder: &Path, seen: &mut Vec<Seen>) -> io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        let about = entry.metadata()?;
+        if about.is_dir() {
+            look(&entry.path(), seen)?;
+            seen.push((entry.path(), 0, None));
+        } else {
+            seen.push((entry.path(), about.len(), about.modified().ok()));
+        }
+    }
+    Ok(())
+}
