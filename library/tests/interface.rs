@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may fail")]
 
+use std::cell::Cell;
 use std::ffi::{c_char, c_void};
 
 use arl_library::{INTERFACE, Interface, Library, LoadError, Served, Session, WRONG_THREAD};
@@ -12,7 +13,9 @@ const FILE: File = File::new("fill.arl");
 
 /// Opens a valve, waits for the sensor on input 1, moves, and divides by what input 1 of the analog ones has.
 #[derive(Default)]
-struct Fill;
+struct Fill {
+    litres: Cell<i32>,
+}
 
 impl Program for Fill {
     fn file(&self) -> File {
@@ -21,6 +24,15 @@ impl Program for Fill {
 
     fn family(&self) -> Family {
         Family::SixAxis
+    }
+
+    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
+        self.litres.set(12);
+        Box::pin(async { Ok(()) })
+    }
+
+    fn variables(&self) -> Vec<DataFile<'_>> {
+        vec![DataFile { file: "fill.arl", vars: vec![DataVar { name: "litres", sizes: &[], slot: &self.litres }] }]
     }
 
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
@@ -34,17 +46,17 @@ impl Program for Fill {
             flow::waittime(0.0).run(cx).await.at(FILE, 4)?;
             let divisor = io::getai(cx, 1).await.at(FILE, 5)? as i32;
             assert_ne!(divisor, 7, "a bug of the runtime");
-            text::print().argtoprint(&div(12, divisor).at(FILE, 5)?).run(cx).at(FILE, 5)
+            text::print().argtoprint(&div(self.litres.get(), divisor).at(FILE, 5)?).run(cx).at(FILE, 5)
         })
     }
 }
 
 fn make() -> Fill {
-    Fill
+    Fill::default()
 }
 
 fn nobody() -> Box<dyn Program> {
-    Box::new(Fill)
+    Box::new(Fill::default())
 }
 
 arl_library::library!(make, [Other { file: "other.arl", folder: "", make: nobody }], ".");
@@ -73,6 +85,70 @@ fn a_run_goes_on_as_far_as_it_is_told_and_hears_orders() {
     // It is over, and stays so.
     assert_eq!(run.go_on(1, false), Ok(Some(0)));
     assert_eq!(run.order("pendant = \"reset\""), Err(LoadError::Refused("the run is over".into())));
+}
+
+#[test]
+fn what_came_of_a_run_is_told_with_what_its_motions_did() {
+    let mut run = begun(&["--report"]);
+    assert!(run.summary().starts_with("{\"outcome\":\"runs\",\"code\":null,\"cycle_time\":0.0"), "{}", run.summary());
+    run.order("di.1 = true").unwrap();
+    run.order("ai.1 = 4.0").unwrap();
+    run.go_on(u64::MAX, true).unwrap();
+    let (summary, report) = (run.summary(), run.report());
+    assert!(summary.starts_with("{\"outcome\":\"ended\",\"code\":0,"), "{summary}");
+    assert!(summary.contains("\"motions\":1,\"way\":") && summary.contains("\"alarms\":[]}"), "{summary}");
+    assert_eq!(report.lines().count(), 2, "{report}");
+    let mut run = begun(&[]);
+    run.order("di.1 = true").unwrap();
+    run.go_on(u64::MAX, true).unwrap();
+    assert!(run.summary().contains("\"outcome\":\"alarm\",\"code\":3,"), "{}", run.summary());
+    assert!(run.summary().contains("\"alarms\":[{\"number\":20001,"), "{}", run.summary());
+}
+
+#[test]
+fn what_is_watched_comes_behind_the_row_of_the_trace() {
+    let mut run = begun(&[]);
+    run.watch(&["do.1", "di.1", "ai.1", "global.litres"]).unwrap();
+    run.order("ai.1 = 2.5").unwrap();
+    run.go_on(10, false).unwrap();
+    let columns = library().columns().len();
+    let mut numbers = vec![-1.0; columns + 5];
+    assert_eq!(run.observe(&mut numbers), columns + 4);
+    assert_eq!((numbers[0], numbers[3], &numbers[columns..]), (0.009, 0.0, &[1.0, 0.0, 2.5, 12.0, -1.0][..]));
+    let mut few = [0.0; 2];
+    assert_eq!(run.observe(&mut few), columns + 4);
+    assert_eq!(run.observe(&mut []), columns + 4);
+    for (name, words) in [
+        ("do.5000", "no such signal"),
+        ("door", "`door` is no signal"),
+        ("global.liters", "did you mean `litres`?"),
+        ("internal.1", "that can be looked at"),
+    ] {
+        let refused = run.watch(&[name]).unwrap_err().to_string();
+        assert!(refused.contains(words), "{refused}");
+    }
+    assert_eq!(run.observe(&mut []), columns + 4, "what was watched stays");
+}
+
+#[test]
+fn global_variables_are_set_before_a_run_and_in_it() {
+    let mut run = begun(&["--set", "global.litres=20"]);
+    assert_eq!(run.go_on(10, false), Ok(None));
+    assert_eq!(run.global("litres"), Ok("20".into()));
+    run.set_global("Litres", "40").unwrap();
+    run.order("di.1 = true").unwrap();
+    run.order("ai.1 = 4.0").unwrap();
+    run.go_on(u64::MAX, true).unwrap();
+    assert!(run.take_said().contains("\"text\":\"10\""));
+    for (name, value, words) in [
+        ("litre", "1", "did you mean `litres`?"),
+        ("litres", "x", "global variable `litres` = x: expected a value of type int"),
+        ("litres", "1 +", "global variable `litres` = 1 +:"),
+    ] {
+        let refused = run.set_global(name, value).unwrap_err().to_string();
+        assert!(refused.contains(words), "{refused}");
+    }
+    assert!(run.global("other").is_err());
 }
 
 #[test]
@@ -187,7 +263,7 @@ fn what_is_wrong_is_said() {
     };
     assert!(refused(&["--robot", "nobody"]).contains("nobody"));
     assert!(refused(&["--override", "200"]).contains("percent from 0 to 100"));
-    for option in ["--live", "--paused", "--each-cycle", "--report", "--realtime"] {
+    for option in ["--live", "--paused", "--each-cycle", "--report=FILE", "--realtime"] {
         assert!(refused(&[option]).contains(&format!("{option} is for a program that runs by itself")), "{option}");
     }
     assert!(refused(&["--speed"]).contains("--speed"));

@@ -14,6 +14,7 @@ mod repeating;
 mod running;
 mod several;
 mod standstill;
+mod sweeping;
 mod system_variables;
 mod telling;
 mod testing;

@@ -101,7 +101,11 @@ impl Folder {
                 return Ok(());
             }
         }
-        std::fs::remove_dir_all(&self.path)?;
+        // The folder itself stays: a process works in it.
+        for entry in std::fs::read_dir(&self.path)? {
+            let path = entry?.path();
+            if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) }?;
+        }
         self.write()
     }
 

@@ -167,3 +167,67 @@ fn end(process: Process, patience: Duration) -> String {
 fn escaped(word: &str) -> String {
     word.replace('\\', "\\\\").replace('\t', "\\t").replace('\n', "\\n")
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    const ENDED: &str =
+        r#"{"summary":{"outcome":"ended","code":0,"cycle_time":1.5,"alarms":[],"real_time":false},"said":[]}"#;
+
+    /// A worker whose program is a script of the shell.
+    fn worker(script: &str, timeout: f64) -> Worker {
+        let script = format!("#!/bin/sh\n{}\n", script.replace("ENDED", &format!("echo '{ENDED}'")));
+        let files = vec![("program".into(), script.into_bytes()), ("script/a.arl".into(), b"a".to_vec())];
+        Worker::new(&Spread::of(files).unwrap(), Some(timeout)).unwrap()
+    }
+
+    fn ran(worker: &mut Worker) -> RunResult {
+        worker.run(&["--seed".into(), "1".into()], &|| false).unwrap().0
+    }
+
+    #[test]
+    fn a_process_makes_run_after_run() {
+        let mut worker = worker("while read -r line; do ENDED; done", 60.0);
+        assert_eq!((ran(&mut worker).outcome, ran(&mut worker).cycle_time), ("ended".into(), Some(1.5)));
+    }
+
+    #[test]
+    fn a_process_that_is_lost_is_asked_again() {
+        let mut worker = worker("read -r line; [ -e ../again ] || { touch ../again; exit 7; }; ENDED", 60.0);
+        assert_eq!(ran(&mut worker).outcome, "ended");
+    }
+
+    #[test]
+    fn a_run_that_loses_its_process_again_and_again_has_crashed() {
+        let result = ran(&mut worker("read -r line; exit 7", 60.0));
+        assert_eq!(result.outcome, "crashed");
+        assert_eq!(result.problem.as_deref(), Some("its process ended: exit status: 7"));
+        let result = ran(&mut worker("read -r line; echo nothing; read -r line", 60.0));
+        assert!(result.problem.is_some_and(|why| why.starts_with("its answer is none")), "it says nothing of use");
+    }
+
+    #[test]
+    fn a_run_that_takes_too_long_is_given_up_and_the_next_one_is_made() {
+        let mut worker =
+            worker("while read -r line; do [ -e ../again ] || { touch ../again; exec sleep 1000; }; ENDED; done", 0.2);
+        let result = ran(&mut worker);
+        assert_eq!((&*result.outcome, result.problem.as_deref()), ("hung", Some("no answer for 0.2 s")));
+        worker.timeout = Duration::from_secs(60);
+        assert_eq!(ran(&mut worker).outcome, "ended");
+    }
+
+    #[test]
+    fn nobody_waits_for_what_nobody_wants() {
+        let mut worker = worker("exec sleep 1000", 1000.0);
+        assert_eq!(worker.run(&[], &|| true), None);
+    }
+
+    #[test]
+    fn each_run_finds_the_files_as_they_were() {
+        let script = "[ ! -e ../begun ] || exit 7; touch ../begun; while read -r line; do [ ! -e left ] || exit 8; \
+                      [ \"$(cat script/a.arl)\" = a ] || exit 9; touch left; echo b > script/a.arl; ENDED; done";
+        let mut worker = worker(script, 60.0);
+        assert_eq!((ran(&mut worker).outcome, ran(&mut worker).outcome), ("ended".into(), "ended".into()));
+    }
+}

@@ -1,0 +1,130 @@
+//! `--set` and `arl2rs sweep`.
+
+use super::*;
+
+const PROGRAM: &str = "double pitch = 80\nint divisor = 3\npose place = {x 1, y 2}\nstring name = \"a\"\n\n\
+                       func void main()\n    movej j:{0, -90, 90, 0, 90, 0}\n    movej j:{10, -90, 90, 0, 90, 0}, vp:50%\n    \
+                       print name, \" \", pitch, \" \", place.x, \" \", place.y\n    print 12 / divisor\nendfunc\n";
+
+#[test]
+fn single_values_are_others_for_a_run() {
+    let folder = Folder::new("set").with("p.arl", PROGRAM).with("s.toml", "[[event]]\nat = 1\ndi.1 = true\n");
+    let said = |changes: &[&str]| {
+        let set = changes.iter().flat_map(|change| ["--set", change]);
+        let arguments: Vec<&str> =
+            ["run", "p.arl", "--robot", "six-10", "--io", "s.toml"].into_iter().chain(set).collect();
+        let Answer { code, out, err } = folder.arl2rs(&arguments);
+        (code, out, err)
+    };
+    assert_eq!(
+        said(&["global.pitch=100", "global.place={y 9}", "global.name=\"b\""]).1.lines().next(),
+        Some("b 100 1 9")
+    );
+    let slow = said(&["robot.axis.1.vel=1", "io.event.1.at=2.5"]);
+    assert_eq!((slow.0, slow.1.lines().next()), (Some(0), Some("a 80 1 2")), "{slow:?}");
+    for (change, words) in [
+        ("global.pich=1", "there is no global variable `pich`; did you mean `pitch`?"),
+        ("global.pitch=\"x\"", "expected a value of type double, found a string"),
+        (
+            "io.event.2.at=1",
+            "s.toml: `event.2.at` is not there: at `event` `2` is no entry: there are 1, which count from 1",
+        ),
+        ("robot.axis.1.vel=fast", "[[axis]]"),
+        ("cell.io.di=4", "--set cell.…: --cell says of which file"),
+        ("pitch=1", "expected a place and a value"),
+    ] {
+        let (code, _, error) = said(&[change]);
+        assert!(code == Some(2) && error.contains(words), "{change}: {code:?} {error}");
+    }
+}
+
+const SWEEP: &str = "program = \"p.arl\"\nrobot = \"six-10\"\n\n[grid]\n\"global.divisor\" = [3, 0]\n\"global.place\" = [{ y = 5 }, {}]\n";
+
+fn rows(answer: &Answer) -> Vec<serde_json::Value> {
+    answer.out.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect()
+}
+
+#[test]
+fn a_sweep_has_a_row_for_each_combination() {
+    let folder = Folder::new("sweep").with("p.arl", PROGRAM).with("s.toml", SWEEP);
+    let output = folder.arl2rs(&["sweep", "s.toml", "-o", "r.parquet"]);
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    let all = rows(&output);
+    let outcomes: Vec<_> = all.iter().map(|row| row["outcome"].as_str().unwrap_or_default()).collect();
+    assert_eq!(outcomes, ["ended", "ended", "alarm", "alarm"]);
+    assert_eq!(all[0]["parameters"].to_string(), r#"{"global.divisor":3,"global.place":{"y":5}}"#);
+    assert_eq!(all[0]["output"][0], "a 80 1 5");
+    assert_eq!((&all[0]["motions"], &all[0]["code"]), (&2.into(), &0.into()));
+    let (whole, moving) = (all[0]["cycle_time"].as_f64(), all[0]["moving"].as_f64());
+    assert!(whole >= moving && moving > Some(0.0), "{}", all[0]);
+    let alarm = &all[2]["alarms"][0];
+    assert_eq!((&alarm["number"], &alarm["file"], &alarm["line"]), (&20001.into(), &"p.arl".into(), &10.into()));
+    assert_eq!(std::fs::read(folder.path.join("r.parquet")).expect("a file").get(..4), Some(&b"PAR1"[..]));
+    // However it is cut, and whatever is known, the rows are the same.
+    let parts: String =
+        ["1/2", "2/2"].iter().map(|part| folder.arl2rs(&["sweep", "s.toml", "--shard", part]).out).collect();
+    let sorted = |text: &str| {
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        lines.sort();
+        lines
+    };
+    assert_eq!(sorted(&parts), sorted(&output.out));
+    assert_eq!(folder.arl2rs(&["sweep", "s.toml", "--no-cache", "--jobs", "1"]).out, output.out);
+}
+
+#[test]
+fn what_is_known_does_not_run_again_until_something_changes() {
+    let folder = Folder::new("sweep-known").with("p.arl", PROGRAM);
+    folder.write("s.toml", "program = \"p.arl\"\n[[run]]\n\"global.pitch\" = 4711\n");
+    let output = folder.arl2rs(&["sweep", "s.toml"]);
+    assert_eq!(rows(&output)[0]["outcome"], "ended");
+    let of_this = |path: &PathBuf| std::fs::read_to_string(path).is_ok_and(|text| text.contains("global.pitch=4711"));
+    let kept = std::fs::read_dir(cache().join("results")).expect("results");
+    for path in kept.filter_map(Result::ok).map(|entry| entry.path()).filter(of_this) {
+        let text = std::fs::read_to_string(&path).expect("the file is there");
+        std::fs::write(&path, text.replace("\"ended\"", "\"known\"")).expect("written");
+    }
+    assert_eq!(rows(&folder.arl2rs(&["sweep", "s.toml"]))[0]["outcome"], "known");
+    folder.write("p_data.arl", "double depth = 3\n");
+    assert_eq!(rows(&folder.arl2rs(&["sweep", "s.toml"]))[0]["outcome"], "ended");
+}
+
+#[test]
+fn runs_that_do_not_come_to_an_end_say_why() {
+    let endless = "int n\nbool forever = false\nfunc void main()\n    while(n == 0 || forever)\n        n = 1\n    endwhile\nendfunc\n";
+    let folder = Folder::new("sweep-lost").with("p.arl", endless);
+    let table = "program = \"p.arl\"\nmax-time = 1e9\ntimeout = 1.5\n[[run]]\n[[run]]\n\"global.m\" = 1\n[[run]]\n\"global.forever\" = true\n\
+                 [[run]]\nspeed = 1\n[[run]]\n\"global.n\" = 0\n";
+    folder.write("s.toml", table);
+    let output = folder.arl2rs(&["sweep", "s.toml", "--no-cache"]);
+    let all = rows(&output);
+    let outcomes: Vec<_> = all.iter().map(|row| row["outcome"].as_str().unwrap_or_default()).collect();
+    assert_eq!(outcomes, ["ended", "refused", "hung", "refused", "ended"]);
+    assert!(
+        all[1]["problem"].as_str().is_some_and(|why| why.contains("there is no global variable `m`")),
+        "{}",
+        all[1]
+    );
+    assert!(all[3]["problem"].as_str().is_some_and(|why| why.contains("there is no parameter `speed`")), "{}", all[3]);
+    assert_eq!(output.code, Some(1));
+    output.says("3 runs did not come to an end");
+}
+
+#[test]
+fn mistakes_are_told_before_anything_runs() {
+    let folder = Folder::new("sweep-wrong").with("p.arl", "func void main()\n    movej 5\nendfunc\n");
+    let run = |table: &str| {
+        folder.write("s.toml", table);
+        let Answer { code, out, err } = folder.arl2rs(&["sweep", "s.toml"]);
+        assert_eq!(out, "");
+        (code, err)
+    };
+    let (code, error) = run("program = \"p.arl\"\n");
+    assert!(code == Some(1) && error.contains("p.arl:2"), "{error}");
+    let (code, error) = run("program = \"p.arl\"\nspeed = 1\n");
+    assert!(code == Some(2) && error.contains("s.toml:2: unknown field `speed`"), "{error}");
+    folder.write("p.arl", "func void main()\nendfunc\n");
+    let (code, error) = run("program = \"p.arl\"\nio = \"none.toml\"\n");
+    assert!(code == Some(1) && error.contains("none.toml"), "{error}");
+    assert_eq!(folder.arl2rs(&["sweep", "s.toml", "--shard", "3/2"]).code, Some(2));
+}
