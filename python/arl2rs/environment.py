@@ -51,7 +51,8 @@ class Environment(gymnasium.Env[Observation, Action]):
         self._arguments = {**arguments, "watch": watch, "max_time": max_time}
         self._max_time = max_time
         self._session: Session | None = None
-        names = {name: spaces.Discrete(2) if bounds is bool else _box(bounds) for name, bounds in actions.items()}
+        names: dict[str, spaces.Space[Any]] = {name: _space(bounds) for name, bounds in actions.items()}
+        self._truths = {name for name, bounds in actions.items() if bounds is bool}
         self.action_space = spaces.Dict(names)
         with program.session(**self._arguments) as session:
             session.step(0)
@@ -69,9 +70,7 @@ class Environment(gymnasium.Env[Observation, Action]):
             raise gymnasium.error.ResetNeeded("an episode begins with reset()")
         return self._session
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observation, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Observation, dict[str, Any]]:
         """Begins an episode."""
         super().reset(seed=seed)
         self.close()
@@ -86,7 +85,7 @@ class Environment(gymnasium.Env[Observation, Action]):
         """Sets what the action says, and goes on for some control cycles."""
         session = self.session
         for name, given in action.items():
-            value = bool(given) if isinstance(self.action_space[name], spaces.Discrete) else float(np.ravel(given)[0])
+            value = bool(given) if name in self._truths else float(np.ravel(given)[0])
             if self._before.get(name) != value:
                 self._before[name] = value
                 self._set(session, name, value)
@@ -114,6 +113,8 @@ class Environment(gymnasium.Env[Observation, Action]):
         return np.asarray(numbers[self._at])
 
 
-def _box(bounds: type[bool] | tuple[float, float]) -> spaces.Box:
-    low, high = bounds  # type: ignore[misc]
-    return spaces.Box(low, high, (1,), np.float64)
+def _space(bounds: type[bool] | tuple[float, float]) -> spaces.Space[Any]:
+    if isinstance(bounds, tuple):
+        low, high = bounds
+        return spaces.Box(low, high, (1,), np.float64)
+    return spaces.Discrete(2)

@@ -68,7 +68,7 @@ class _Farm:
 
     def begin(self) -> None:
         """Begins tasks, twice as many as there are cores, so that none waits."""
-        most = 2 * max(1, int(ray.cluster_resources().get("CPU", 1)))
+        most = 2 * _cores()
         while self.waiting and len(self.tasks) < most:
             runs, self.waiting = self.waiting[: self.batch], self.waiting[self.batch :]
             task = self._remote.remote(self._key, self._files, self.timeout, runs)
@@ -151,9 +151,13 @@ def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache
     return (_arl2rs.row(at + 1, row, farm.results[at]) for at, row in enumerate(rows))
 
 
+def _cores() -> int:
+    return max(1, int(ray.cluster_resources().get("CPU", 1)))  # type: ignore[no-untyped-call]
+
+
 def _batch(farm: _Farm, rate: float) -> int:
     """How many runs a task should make, where so many are done in a second; few towards the end, so that all cores end together."""
     if any(farm.tries.values()):
         return 1
-    cores = max(1, int(ray.cluster_resources().get("CPU", 1)))
+    cores = _cores()
     return max(1, min(int(rate / cores * BATCH_S), len(farm.waiting) // (2 * cores)))

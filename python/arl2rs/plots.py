@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from .trace import Trace
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["plot"]
+__all__ = ["plot", "plot_sweep"]
 
 _MOST_POINTS = 20_000
 
@@ -36,3 +37,24 @@ def plot(trace: Trace) -> Figure:
     if velocities.shape[1]:
         axes.legend(fontsize="small", ncols=2)
     return figure
+
+
+_UNITS = {"cycle_time": "s", "moving": "s", "standing": "s", "way": "mm"}
+
+
+def plot_sweep(rows: Sequence[dict[str, Any]], parameter: str, figure: str) -> Figure:
+    """A figure of the runs that ended over a parameter; the others as crosses at the bottom."""
+    from matplotlib.figure import Figure
+
+    rows = [row for row in rows if row.get(parameter) is not None]
+    ended = [row for row in rows if row["outcome"] == "ended"]
+    picture = Figure(figsize=(8, 5), layout="constrained")
+    axes = picture.subplots()
+    axes.plot([row[parameter] for row in ended], [row[figure] for row in ended], ".", label="ended")
+    others = [row[parameter] for row in rows if row["outcome"] != "ended"]
+    if others:
+        axes.plot(others, [0.02] * len(others), "rx", transform=axes.get_xaxis_transform(), label="did not end")
+        axes.legend()
+    unit = f" in {_UNITS[figure]}" if figure in _UNITS else ""
+    axes.set(xlabel=parameter, ylabel=figure.replace("_", " ") + unit)
+    return picture

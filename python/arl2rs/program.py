@@ -190,14 +190,21 @@ class Program:
         scenario, robot = arguments.pop("scenario", None), arguments.pop("robot", None)
         named = [arguments.pop(name, None) for name in ("globals", "points", "set")]
         words = self._words(scenario, robot, None, gathered(*named, **arguments))
-        command = [sys.executable, "-m", "arl2rs", "run", os.fspath(self.path), "--record", os.fspath(recording), *words]
+        command = [
+            sys.executable,
+            "-m",
+            "arl2rs",
+            "run",
+            os.fspath(self.path),
+            "--record",
+            os.fspath(recording),
+            *words,
+        ]
         ran = subprocess.run(command, capture_output=True, text=True, check=False)
         if ran.returncode not in (0, 3, 4):
             raise ArlError(ran.stderr.strip())
 
-    def _words(
-        self, scenario: StrPath | None, robot: StrPath | None, state_dir: StrPath | None, parameters: Parameters
-    ) -> list[str]:
+    def _words(self, scenario: StrPath | None, robot: StrPath | None, state_dir: StrPath | None, parameters: Parameters) -> list[str]:
         words = list(self._library.words)
         for name, value in (("--io", scenario), ("--robot", robot), ("--state-dir", state_dir)):
             if value is not None:

@@ -69,7 +69,7 @@ class Result:
     warnings: tuple[str, ...] = ()
     report: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
     """What each motion did, as `arl2rs run --report=FILE` writes it."""
-    trace: Trace | None = field(default=None, repr=False)
+    trace: Trace | None = field(default=None, repr=False, compare=False)
 
     @property
     def ended(self) -> bool:

@@ -32,6 +32,7 @@ class Session:
         self.code: int | None = None
         """The exit code, once the run is over."""
         self._said = ""
+        self._rows: NDArray[np.float64] = np.empty((0, len(columns)))
 
     def __enter__(self) -> Self:
         return self
@@ -56,8 +57,10 @@ class Session:
 
     def __getitem__(self, name: str) -> float:
         """One of the numbers that are observed, by the name of its column or of what is watched."""
-        names = self.columns if name in self.columns else self.watched
-        return float(self._numbers[names.index(name) + (0 if names is self.columns else len(self.columns))])
+        names = (*self.columns, *self.watched)
+        if name not in names:
+            raise KeyError(f"{name!r} is not observed: {', '.join(names)} are")
+        return float(self._numbers[names.index(name)])
 
     @property
     def is_over(self) -> bool:
@@ -104,7 +107,7 @@ class Session:
         """What came of the run, or how far it is."""
         self._said += self._run.take_said()
         rows = np.frombuffer(self._run.take_rows(), dtype=np.float64).reshape(-1, len(self.columns))
-        self._rows = np.vstack([self._rows, rows]) if hasattr(self, "_rows") else rows
+        self._rows = np.vstack([self._rows, rows])
         return of_summary(self._run.summary(), self._said, self._run.report(), Trace(self._rows, self.columns))
 
     def close(self) -> None:

@@ -18,6 +18,7 @@ from .values import Parameters, as_json
 if TYPE_CHECKING:
     import pandas
     import polars
+    from matplotlib.figure import Figure
 
 __all__ = ["Results", "grid", "load_sweep", "sweep"]
 
@@ -80,6 +81,12 @@ class Results(Sequence[dict[str, Any]]):
 
         return polars.DataFrame(self.flat(), infer_schema_length=None)
 
+    def plot(self, parameter: str, figure: str = "cycle_time") -> Figure:
+        """A picture of a figure over a parameter; runs that did not end are crosses at the bottom. matplotlib has to be installed."""
+        from .plots import plot_sweep
+
+        return plot_sweep(self.flat(), parameter, figure)
+
     def write(self, path: StrPath) -> None:
         """Writes the rows as JSON lines."""
         Path(path).write_text("".join(line + "\n" for line in self.lines), encoding="utf-8")
@@ -135,7 +142,14 @@ def sweep(
     """
     texts = [as_json(row) for row in rows]
     settings = given(
-        program, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir, files=files, max_time=max_time, timeout=timeout
+        program,
+        robot=robot,
+        cell=cell,
+        scenario=scenario,
+        script_dir=script_dir,
+        files=files,
+        max_time=max_time,
+        timeout=timeout,
     )
     with told():
         bundle = _arl2rs.Bundle(settings, texts)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["Trace"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Trace:
     """The set-points of the first robot while its program runs, a row a control cycle."""
 

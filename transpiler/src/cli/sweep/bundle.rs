@@ -189,7 +189,10 @@ impl Parameters {
     /// The files that are named.
     fn files(&self) -> impl Iterator<Item = &str> {
         let named = ["robot", "io"].into_iter().filter_map(|name| Some((name, self.option(name)?.as_str()?)));
-        named.filter(|(name, file)| *name == "io" || Robot::text(file).is_none()).map(|(_, file)| file)
+        // What is no file, and does not look like one, is told of by the run.
+        let is_file = |file: &str| Path::new(file).is_file() || file.ends_with(".toml") || file.contains(['/', '\\']);
+        let is_robot_file = move |file: &str| Robot::text(file).is_none() && is_file(file);
+        named.filter(move |(name, file)| *name == "io" || is_robot_file(file)).map(|(_, file)| file)
     }
 }
 
