@@ -14,12 +14,15 @@
 #include <stdint.h>
 
 /* The version of what is described here. What has another version has another shape. */
-#define ARL_INTERFACE 1
+#define ARL_INTERFACE 2
 
 /* What `go_on` answers beside the exit code of a run that is over: 0 ended, 3 alarm, 4 out of time, 130 stopped. */
 #define ARL_RUNS (-1)         /* It goes on. */
 #define ARL_BROKEN (-2)       /* The run has panicked; the standard error says why. It can only be ended. */
 #define ARL_WRONG_THREAD (-3) /* This is not the thread of the run. Nothing was done. */
+
+/* What answers 0 where something was done answers 1 where it is refused, and tells the reason; the last two come without
+ * one. */
 
 /* A run of the program. */
 typedef struct ArlRun ArlRun;

@@ -109,11 +109,21 @@ impl<'a> Place<'a> {
         if key.is_empty() || !key.chars().all(is_key) {
             return Err(self.missing(&format!("`{key}` is no key")));
         }
-        let Some(first) = table.keys().map(|key| key.span().start).min() else {
-            return Err(self.missing("nothing stands there that could be changed"));
-        };
         let text = self.source.text;
-        let line = text.get(..first).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
+        let line_of = |at: usize| text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
+        // A table of its own has its header, which is no place for a key.
+        let is_header = |at: &usize| {
+            let before = text.get(line_of(*at)..*at).unwrap_or_default();
+            before.trim_start().starts_with('[') && !before.contains('=')
+        };
+        let own = table.keys().map(|key| key.span().start).filter(|at| !is_header(at)).min();
+        let first = match own {
+            Some(first) => first,
+            // The first lines of a file belong to it.
+            None if self.walked == 0 => 0,
+            None => return Err(self.missing("nothing stands there that a key could stand beside")),
+        };
+        let line = line_of(first);
         let before = text.get(line..first).unwrap_or_default();
         Ok(match before.contains(['{', '=', '[']) {
             true => self.with(first..first, &format!("{key} = {value}, ")),
@@ -187,6 +197,8 @@ limits = { velocity = 100, other = [1, 2] }
     fn a_last_key_may_be_new() {
         assert_eq!(lines("event.2.at", "3"), ["at = 3"]);
         assert_eq!(lines("event.1.di.7", "true"), ["di.7 = true"]);
+        assert_eq!(lines("loop", "true"), ["loop = true"]);
+        assert!(set("s.toml", "[a.b]\nc = 1\n", "a.d", "1").is_err());
         assert_eq!(lines("tcp.limits.new", "1"), ["limits = { new = 1, velocity = 100, other = [1, 2] }"]);
     }
 

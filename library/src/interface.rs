@@ -5,7 +5,7 @@ use std::ffi::{c_char, c_void};
 use crate::Served;
 
 /// The version of the interface.
-pub const INTERFACE: u32 = 1;
+pub const INTERFACE: u32 = 2;
 /// What `go_on` answers where the run goes on.
 pub const RUNS: i32 = -1;
 /// What is answered where the run has panicked.

@@ -55,8 +55,6 @@ class Environment(gymnasium.Env[Observation, Action]):
         self._truths = {name for name, bounds in actions.items() if bounds is bool}
         self.action_space = spaces.Dict(names)
         with program.session(**self._arguments) as session:
-            session.step(0)
-            session.observe()
             there = [name for name in session.columns[3:] if not np.isnan(session[name])]
             all_names = [*session.columns, *watch]
             self.observed = [*(there if observe is None else observe), *watch]
@@ -86,7 +84,8 @@ class Environment(gymnasium.Env[Observation, Action]):
         session = self.session
         for name, given in action.items():
             value = bool(given) if name in self._truths else float(np.ravel(given)[0])
-            if self._before.get(name) != value:
+            # A program may change its variables meanwhile; what it cannot change is told once.
+            if name.startswith("global.") or self._before.get(name) != value:
                 self._before[name] = value
                 self._set(session, name, value)
         observation = self._observation(session.step(self.cycles))
@@ -114,7 +113,7 @@ class Environment(gymnasium.Env[Observation, Action]):
 
 
 def _space(bounds: type[bool] | tuple[float, float]) -> spaces.Space[Any]:
-    if isinstance(bounds, tuple):
-        low, high = bounds
-        return spaces.Box(low, high, (1,), np.float64)
-    return spaces.Discrete(2)
+    if bounds is bool:
+        return spaces.Discrete(2)
+    low, high = bounds
+    return spaces.Box(low, high, (1,), np.float64)

@@ -25,26 +25,20 @@ BATCH_S = 2.0
 TIMEOUT_S = 600.0
 """After so long a run is given up where nobody says otherwise; s."""
 GRACE_S = 60.0
-"""So much longer than its runs may take, a task may; s."""
+"""So much longer than a run may take, a task may; s."""
 TRIES = 3
 """So often a run is asked for where its process or its node is lost."""
 
 Words = list[str]
-_workers: dict[str, _arl2rs.Worker] = {}
+_workers: dict[tuple[str, float | None], _arl2rs.Worker] = {}
 
 
 def _make(key: str, files: list[tuple[str, bytes]], timeout: float | None, runs: list[tuple[int, Words]]) -> list[tuple[int, str, bool]]:
-    """Makes runs, on a node. Its process keeps the worker for the next task."""
-    if key not in _workers:
+    """Makes runs, on a node. Its process keeps the worker for the next task; runs that take too long are the worker's business."""
+    if (key, timeout) not in _workers:
         _workers.clear()
-        _workers[key] = _arl2rs.Worker(files, timeout)
-    return [(at, *_workers[key].run(words)) for at, words in runs]
-
-
-@dataclass
-class _Task:
-    runs: list[tuple[int, Words]]
-    until: float
+        _workers[key, timeout] = _arl2rs.Worker(files, timeout)
+    return [(at, *_workers[key, timeout].run(words)) for at, words in runs]
 
 
 @dataclass
@@ -57,7 +51,8 @@ class _Farm:
     kept: _arl2rs.Kept | None
     results: dict[int, str] = field(default_factory=dict)
     tries: dict[int, int] = field(default_factory=dict)
-    tasks: dict[Any, _Task] = field(default_factory=dict)
+    tasks: dict[Any, list[tuple[int, Words]]] = field(default_factory=dict)
+    begun: dict[Any, float] = field(default_factory=dict)
     batch: int = 1
 
     def __post_init__(self) -> None:
@@ -72,61 +67,76 @@ class _Farm:
         while self.waiting and len(self.tasks) < most:
             runs, self.waiting = self.waiting[: self.batch], self.waiting[self.batch :]
             task = self._remote.remote(self._key, self._files, self.timeout, runs)
-            # It may have to wait for a core that others have.
-            allowed = (self.timeout or TIMEOUT_S) * len(runs) * 3 + GRACE_S
-            self.tasks[task] = _Task(runs, time.monotonic() + allowed)
+            self.tasks[task], self.begun[task] = runs, time.monotonic()
 
     def wait(self) -> None:
-        """Takes in what has come, and gives up what takes too long."""
-        began = time.monotonic()
+        """Takes in what has come. What takes too long may wait for a core that others have, or be on a node that is frozen: it is begun anew, run by
+        run, and that counts for nothing."""
         done, _ = ray.wait(list(self.tasks), num_returns=1, timeout=1.0)
         for task in done:
+            self.begun.pop(task)
             self._take(task, self.tasks.pop(task))
-        for task, it in list(self.tasks.items()):
-            if began > it.until:
-                ray.cancel(task, force=True)
-                del self.tasks[task]
-                self._again(it.runs, "hung", "no answer of its task")
+        allowed = (self.timeout or TIMEOUT_S) + 10 * BATCH_S + GRACE_S
+        for task, began in list(self.begun.items()):
+            if time.monotonic() - began > allowed:
+                self.batch = 1
+                self.waiting += self.tasks.pop(task)
+                self._cancel(task)
 
-    def _take(self, task: Any, it: _Task) -> None:
+    def end(self) -> None:
+        """Cancels what is under way."""
+        for task in list(self.tasks):
+            self._cancel(task)
+
+    def _cancel(self, task: Any) -> None:
+        self.begun.pop(task, None)
+        self.tasks.pop(task, None)
+        ray.cancel(task, force=True)
+
+    def _take(self, task: Any, runs: list[tuple[int, Words]]) -> None:
         try:
             came = ray.get(task)
-        except (ray.exceptions.RayError, OSError) as problem:
+        except ray.exceptions.RayError as problem:
             # One run may be what kills its node: from now on it is alone.
             self.batch = 1
-            return self._again(it.runs, "crashed", str(problem).splitlines()[0])
-        for (at, words), (_, result, again) in zip(it.runs, came, strict=True):
+            for at, words in runs:
+                if self._counts(at):
+                    self.waiting.append((at, words))
+                else:
+                    why = str(getattr(problem, "cause", None) or problem).strip().splitlines()
+                    self.results.setdefault(at, _arl2rs.lost("crashed", why[-1] if why else type(problem).__name__))
+            return
+        for (at, words), (_, result, again) in zip(runs, came, strict=True):
             if '"outcome":"crashed"' in result and self._counts(at):
                 self.waiting.append((at, words))
                 continue
             if at not in self.results and again and self.kept is not None:
-                self._keep(words, result)
+                self._keep(self.kept, words, result)
             self.results.setdefault(at, result)
-
-    def _again(self, runs: list[tuple[int, Words]], outcome: str, problem: str) -> None:
-        for at, words in runs:
-            if self._counts(at):
-                self.waiting.append((at, words))
-            else:
-                self.results.setdefault(at, _arl2rs.lost(outcome, problem))
 
     def _counts(self, at: int) -> bool:
         self.tries[at] = self.tries.get(at, 0) + 1
         return self.tries[at] < TRIES
 
-    def _keep(self, words: Words, result: str) -> None:
+    def _keep(self, kept: _arl2rs.Kept, words: Words, result: str) -> None:
         try:
-            self.kept.keep(words, result)  # type: ignore[union-attr]
+            kept.keep(words, result)
         except OSError as problem:
             self.kept = None
-            warnings.warn(f"results cannot be kept for the next time: {problem}", stacklevel=2)
+            _not_kept(problem)
+
+
+def _not_kept(problem: OSError) -> None:
+    warnings.warn(f"results cannot be kept for the next time: {problem}", stacklevel=4)
 
 
 def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache: bool, progress: Bar) -> Iterator[str]:
     """Makes the runs of a bundle on the cluster that Ray is connected to, or on this computer; gives their rows as JSON, in order."""
-    if not ray.is_initialized():
-        ray.init(log_to_driver=False)
-    kept = _arl2rs.Kept(bundle) if cache else None
+    kept = None
+    try:
+        kept = _arl2rs.Kept(bundle) if cache else None
+    except OSError as problem:
+        _not_kept(problem)
     results: dict[int, str] = {}
     waiting: list[tuple[int, Words]] = []
     for at, row in enumerate(rows):
@@ -140,15 +150,32 @@ def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache
             waiting.append((at, words))
         else:
             results[at] = known
-    farm = _Farm(bundle, timeout, waiting, kept, results)
     with progress as bar:
-        began, before = time.monotonic(), len(results)
+        if waiting:
+            _make_all(bundle, timeout, waiting, kept, results, bar)
+    return (_arl2rs.row(at + 1, row, results[at]) for at, row in enumerate(rows))
+
+
+def _make_all(
+    bundle: _arl2rs.Bundle,
+    timeout: float | None,
+    waiting: list[tuple[int, Words]],
+    kept: _arl2rs.Kept | None,
+    results: dict[int, str],
+    bar: Bar,
+) -> None:
+    if not ray.is_initialized():
+        ray.init(log_to_driver=False)
+    farm = _Farm(bundle, timeout, waiting, kept, results)
+    began, before = time.monotonic(), len(results)
+    try:
         while farm.waiting or farm.tasks:
             farm.begin()
             farm.wait()
-            bar.update(len(farm.results))
-            farm.batch = _batch(farm, (len(farm.results) - before) / max(time.monotonic() - began, 1e-3))
-    return (_arl2rs.row(at + 1, row, farm.results[at]) for at, row in enumerate(rows))
+            bar.update(len(results))
+            farm.batch = _batch(farm, (len(results) - before) / max(time.monotonic() - began, 1e-3))
+    finally:
+        farm.end()
 
 
 def _cores() -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -189,13 +190,17 @@ class Program:
         `scenario`, `robot`, `globals`, `points`, `set`, `override`, `mode`, `seed`, `max_time` of `run`."""
         scenario, robot = arguments.pop("scenario", None), arguments.pop("robot", None)
         named = [arguments.pop(name, None) for name in ("globals", "points", "set")]
-        words = self._words(scenario, robot, None, gathered(*named, **arguments))
+        with tempfile.TemporaryDirectory() as nothing_kept:
+            words = self._words(scenario, robot, nothing_kept, gathered(*named, **arguments))
+            self._record(recording, words)
+
+    def _record(self, recording: StrPath, words: list[str]) -> None:
         command = [
             sys.executable,
             "-m",
             "arl2rs",
             "run",
-            os.fspath(self.path),
+            os.fspath(self.path.absolute()),
             "--record",
             os.fspath(recording),
             *words,
@@ -205,9 +210,11 @@ class Program:
             raise ArlError(ran.stderr.strip())
 
     def _words(self, scenario: StrPath | None, robot: StrPath | None, state_dir: StrPath | None, parameters: Parameters) -> list[str]:
-        words = list(self._library.words)
-        for name, value in (("--io", scenario), ("--robot", robot), ("--state-dir", state_dir)):
-            if value is not None:
-                words += [name, os.fspath(value)]
+        parameters = dict(parameters)
+        named = {"--io": scenario, "--robot": robot, "--state-dir": state_dir}
+        for option, name in (("--io", "io"), ("--robot", "robot")):
+            named[option] = parameters.pop(name, named[option])
+        words = dict(zip(self._library.words[::2], self._library.words[1::2], strict=True))
+        words.update({option: os.fspath(value) for option, value in named.items() if value is not None})
         with told():
-            return words + _arl2rs.words(as_json(parameters))
+            return [word for pair in words.items() for word in pair] + _arl2rs.words(as_json(parameters))

@@ -107,12 +107,12 @@ def of_summary(summary: str, said: str, report: str = "", trace: Trace | None = 
     figures = json.loads(summary)
     figures.pop("real_time", None)
     alarms = tuple(Alarm(**alarm) for alarm in figures.pop("alarms"))
-    lines = [json.loads(line) for line in said.splitlines()]
+    lines = [json.loads(line) for line in said.split("\n") if line]
     return Result(
         **figures,
         alarms=alarms,
         messages=tuple(Message(**line["message"]) for line in lines if "message" in line),
         warnings=tuple(line["warning"] for line in lines if "warning" in line),
-        report=tuple(json.loads(line) for line in report.splitlines()),
+        report=tuple(json.loads(line) for line in report.split("\n") if line),
         trace=trace,
     )

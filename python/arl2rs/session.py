@@ -29,6 +29,7 @@ class Session:
         self._numbers = np.full(len(columns) + len(watched), np.nan)
         if watched:
             run.watch(list(watched))
+        run.observe(self._numbers)
         self.code: int | None = None
         """The exit code, once the run is over."""
         self._said = ""

@@ -156,7 +156,8 @@ def sweep(
     if engine == "ray":
         from . import farm
 
-        return Results(farm.run(bundle, texts, timeout=timeout, cache=cache, progress=_bar(len(texts), progress)))
+        with told():
+            return Results(farm.run(bundle, texts, timeout=timeout, cache=cache, progress=_bar(len(texts), progress)))
     if engine != "local":
         raise ValueError(f"engine {engine!r}: expected 'local' or 'ray'")
     lines: list[str] = []

@@ -11,8 +11,8 @@ use pyo3::types::PyBytes;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::Given;
 use crate::problem::{Refused, of_host};
+use crate::{Given, interruptible};
 
 /// The file of a sweep: what is run, as a dictionary, and the parameters of each run, as JSON.
 #[pyfunction]
@@ -98,8 +98,9 @@ impl Bundle {
     fn new(py: Python<'_>, given: Given, rows: Vec<String>) -> PyResult<Self> {
         let settings: Settings = given.into();
         let rows = rows.iter().map(|row| parameters(row)).collect::<PyResult<Vec<_>>>()?;
-        let bundle = py.detach(|| host::bundle(&settings, &rows)).map_err(of_host)?;
-        Ok(Self { bundle, timeout: settings.timeout })
+        let timeout = settings.timeout;
+        let bundle = interruptible(py, move || host::bundle(&settings, &rows))?.map_err(of_host)?;
+        Ok(Self { bundle, timeout })
     }
 
     /// The hash of everything in it.

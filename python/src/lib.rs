@@ -6,8 +6,10 @@ mod session;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::sync::mpsc::RecvTimeoutError;
 
 use arl2rs::cli::host::{self, Settings};
+use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 
 #[pymodule]
@@ -20,6 +22,16 @@ mod _arl2rs {
     use super::session::{Library, Session};
     #[pymodule_export]
     use super::{check, command, literal, words};
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        // What an older package has compiled is compiled anew.
+        if let Ok(file) = module.filename() {
+            super::host::is_part_of(file.to_string().into());
+        }
+        Ok(())
+    }
 }
 
 /// What is run, of what Python says.
@@ -47,7 +59,7 @@ impl From<Given> for Settings {
 #[pyfunction]
 fn check(py: Python<'_>, files: Vec<PathBuf>, given: Given, strict: bool, background: bool) -> PyResult<Vec<String>> {
     let settings = given.into();
-    py.detach(|| host::check(&files, &settings, (strict, background))).map_err(problem::of_host)
+    interruptible(py, move || host::check(&files, &settings, (strict, background)))?.map_err(problem::of_host)
 }
 
 /// The words of parameters, which are JSON.
@@ -61,6 +73,30 @@ fn words(parameters: &str) -> PyResult<Vec<String>> {
 fn literal(value: &str) -> PyResult<String> {
     let value = farm::read(value)?;
     host::as_arl(&value).ok_or_else(|| problem::Refused::new_err("None is no value of ARL"))
+}
+
+/// Does something long on a thread of its own, while this one hears Ctrl-C. What is given up is left to itself.
+pub(crate) fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    let (tell, done) = std::sync::mpsc::channel();
+    let worker = std::thread::spawn(move || tell.send(work()));
+    let done = std::sync::Mutex::new(done);
+    loop {
+        let came = py.detach(|| {
+            let done = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            done.recv_timeout(std::time::Duration::from_millis(50))
+        });
+        match came {
+            Ok(came) => return Ok(came),
+            Err(RecvTimeoutError::Timeout) => py.check_signals()?,
+            Err(RecvTimeoutError::Disconnected) => {
+                let panicked = worker.join().is_err();
+                return Err(PyOSError::new_err(format!("a bug of arl2rs: its thread has ended, panicked: {panicked}")));
+            }
+        }
+    }
 }
 
 /// Does what these words say, as the command does; gives its exit code.

@@ -1,16 +1,17 @@
 //! Programs as libraries in this process, and their runs.
 
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard};
+use std::thread::{self, ThreadId};
 
 use arl_library::{Library as Loaded, LoadError, Session as Run};
-use arl2rs::cli::host::{self, CompiledLibrary, Settings};
+use arl2rs::cli::host::{self, Settings};
 use pyo3::buffer::PyBuffer;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::Given;
 use crate::problem::{of_host, of_library};
+use crate::{Given, interruptible};
 
 /// So many cycles may go by before somebody looks whether Ctrl-C was pressed; some 50 ms.
 const CHUNK: u64 = 5_000;
@@ -19,7 +20,7 @@ const CHUNK: u64 = 5_000;
 #[pyclass(frozen)]
 pub(crate) struct Library {
     loaded: Loaded,
-    compiled: CompiledLibrary,
+    words: Vec<String>,
 }
 
 #[pymethods]
@@ -28,16 +29,17 @@ impl Library {
     #[new]
     fn new(py: Python<'_>, given: Given) -> PyResult<Self> {
         let settings: Settings = given.into();
-        let compiled = py.detach(|| host::library(&settings)).map_err(of_host)?;
+        let compiled = interruptible(py, move || host::library(&settings))?.map_err(of_host)?;
         // SAFETY: this is what the compiler has just made, or made before and nobody else may write.
         let loaded = unsafe { Loaded::open(&compiled.path) }.map_err(of_library)?;
-        Ok(Self { loaded, compiled })
+        // Now that it is loaded, the program may be compiled anew: that is another file.
+        Ok(Self { loaded, words: compiled.words })
     }
 
     /// The words that all runs need.
     #[getter]
     fn words(&self) -> Vec<String> {
-        self.compiled.words.clone()
+        self.words.clone()
     }
 
     /// The names of the columns of a trace.
@@ -50,21 +52,38 @@ impl Library {
     fn begin(&self, words: Vec<String>, traced: bool) -> PyResult<Session> {
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
         let run = self.loaded.begin(&words, traced).map_err(of_library)?;
-        Ok(Session { run: Mutex::new(Some(run)), numbers: Mutex::default() })
+        Ok(Session { thread: thread::current().id(), run: Mutex::new(Some(run)), numbers: Mutex::default() })
     }
 }
 
 /// A run of a program, on the thread that began it.
 #[pyclass(frozen)]
 pub(crate) struct Session {
+    thread: ThreadId,
     run: Mutex<Option<Run>>,
     numbers: Mutex<Vec<f64>>,
 }
 
 impl Session {
-    /// Does something with the run. Another thread is sent away, not kept waiting.
+    /// The run. Another thread is sent away, not kept waiting.
+    fn own(&self) -> PyResult<MutexGuard<'_, Option<Run>>> {
+        let wrong = || PyRuntimeError::new_err(LoadError::WrongThread.to_string());
+        if thread::current().id() != self.thread {
+            return Err(wrong());
+        }
+        self.run.try_lock().map_err(|_| wrong())
+    }
+
+    /// A text that every run has that is not broken.
+    fn told(&self, tell: impl FnOnce(&mut Run) -> String) -> PyResult<String> {
+        match self.with(tell)? {
+            text if text.is_empty() => Err(of_library(LoadError::Broken)),
+            text => Ok(text),
+        }
+    }
+
     fn with<T>(&self, act: impl FnOnce(&mut Run) -> T) -> PyResult<T> {
-        let mut run = self.run.try_lock().map_err(|_| PyRuntimeError::new_err(LoadError::WrongThread.to_string()))?;
+        let mut run = self.own()?;
         run.as_mut().map(act).ok_or_else(|| PyRuntimeError::new_err("the session is closed"))
     }
 
@@ -143,12 +162,12 @@ impl Session {
 
     /// How everything stands, a JSON object.
     fn state(&self) -> PyResult<String> {
-        self.with(Run::state)
+        self.told(Run::state)
     }
 
     /// What came of the run, or how far it is, a JSON object.
     fn summary(&self) -> PyResult<String> {
-        self.with(Run::summary)
+        self.told(Run::summary)
     }
 
     /// What each motion did, a JSON object a line.
@@ -169,8 +188,7 @@ impl Session {
 
     /// Ends the run.
     fn close(&self) -> PyResult<()> {
-        let mut run = self.run.try_lock().map_err(|_| PyRuntimeError::new_err(LoadError::WrongThread.to_string()))?;
-        drop(run.take());
+        drop(self.own()?.take());
         Ok(())
     }
 }

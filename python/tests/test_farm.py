@@ -1,8 +1,5 @@
 """Sweeps on several machines: Ray as three nodes on one."""
 
-import threading
-import time
-
 import pytest
 
 import arl2rs
@@ -36,7 +33,7 @@ def cluster():
     cluster.shutdown()
 
 
-def test_what_is_lost_in_between_is_done_again_and_the_table_is_the_serial_one(cluster, tmp_path):
+def test_what_is_lost_in_between_is_done_again_and_the_table_is_the_serial_one(cluster, tmp_path, monkeypatch):
     source = tmp_path / "farmed.arl"
     source.write_text(PROGRAM)
     rows = [{"global.angle": 1 + at / 10_000} for at in range(10_000)]
@@ -47,28 +44,61 @@ def test_what_is_lost_in_between_is_done_again_and_the_table_is_the_serial_one(c
     arguments = {"max_time": 1e9, "timeout": 3.0, "cache": False}
     serial = arl2rs.sweep(source, rows, processes=1, **arguments)
 
-    def kill():
-        time.sleep(6.0)
-        cluster.remove_node(nodes[0], allow_graceful=False)
+    killed = []
 
-    threading.Thread(target=kill).start()
+    class Killer:
+        """Kills a node once a third is done."""
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            pass
+
+        def update(self, done):
+            if done > 3_000 and not killed:
+                killed.append(done)
+                cluster.remove_node(nodes[0], allow_graceful=False)
+
+    monkeypatch.setattr("arl2rs.sweeps._bar", lambda *_: Killer())
     farmed = arl2rs.sweep(source, rows, engine="ray", **arguments)
+    assert killed and killed[0] < 9_000
     assert farmed.lines == serial.lines
     assert [farmed[at]["outcome"] for at in (0, 4_000, 5_000, 6_000)] == ["ended", "hung", "alarm", "refused"]
     assert len({row["run"] for row in farmed}) == 10_000
 
 
-def test_what_is_known_is_not_done_again(cluster, tmp_path):
+def test_what_is_known_is_not_done_again(cluster, tmp_path, monkeypatch):
     source = tmp_path / "known.arl"
     source.write_text(PROGRAM)
     rows = [{"global.angle": 1.5}, {"global.angle": 2}]
     farmed = arl2rs.sweep(source, rows, engine="ray")
-    ray.shutdown()
-    try:
-        # Nobody is there to make runs, and nobody is needed.
-        from arl2rs import farm
+    monkeypatch.setattr("arl2rs.farm._make_all", None)
+    assert arl2rs.sweep(source, rows, engine="ray").lines == farmed.lines
+    monkeypatch.undo()
+    assert arl2rs.sweep(source, rows, cache=False).lines == farmed.lines
 
-        assert arl2rs.sweep(source, rows).lines == farmed.lines
-        assert farm is not None
-    finally:
-        ray.init(address=cluster.address, log_to_driver=False)
+
+def test_who_stops_leaves_nothing_on_the_cluster(cluster, tmp_path, monkeypatch):
+    source = tmp_path / "stopped.arl"
+    source.write_text(PROGRAM)
+
+    class Stopped(Exception):
+        pass
+
+    class Stopper:
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            pass
+
+        def update(self, done):
+            raise Stopped
+
+    monkeypatch.setattr("arl2rs.sweeps._bar", lambda *_: Stopper())
+    with pytest.raises(Stopped):
+        arl2rs.sweep(source, [{"global.hangs": True}] * 2, engine="ray", max_time=1e9, cache=False)
+    monkeypatch.undo()
+    # The cores are free again.
+    assert arl2rs.sweep(source, [{}], engine="ray", cache=False)[0]["outcome"] == "ended"

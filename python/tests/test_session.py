@@ -13,6 +13,7 @@ import arl2rs
 def test_a_session_gets_inputs_and_gives_observations(short):
     program = arl2rs.compile(short)
     with program.session(globals={"waits": True}, watch=["do.2", "di.1", "global.parts"]) as session:
+        assert session["do.2"] == 0 and session["t"] == 0
         while session["line"] == 0 or session["j1"] < 1 - 1e-9:
             session.step()
         session.step(1000)
@@ -77,15 +78,16 @@ def test_a_session_stays_on_its_thread(short):
     problems = []
 
     def step():
-        try:
-            session.step()
-        except RuntimeError as problem:
-            problems.append(str(problem))
+        for act in (session.step, session.state, session.result, session.observe, session.close):
+            try:
+                act()
+            except RuntimeError as problem:
+                problems.append(str(problem))
 
     thread = threading.Thread(target=step)
     thread.start()
     thread.join()
-    assert problems == ["a run stays on the thread that began it"]
+    assert problems == ["a run stays on the thread that began it"] * 5
     session.step()
 
 

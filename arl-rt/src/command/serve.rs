@@ -1,11 +1,13 @@
 //! A program that makes run after run: a line of the standard input asks for one, a line of the standard output answers.
 //!
 //! A question is the words of a command line with tabs between; `\t`, `\n` and `\\` stand for themselves in a word. An answer is a JSON object:
-//! `{"summary": {..}, "said": [..]}` with what [`Run::summary`] and [`Run::take_said`] say, or `{"refused": ".."}`. Both end with the input.
+//! `{"summary": {..}, "said": [..]}` with what [`Run::summary`] and [`Run::take_said`] say, or `{"refused": ".."}`. Who closes the input wants nothing more: the process ends then,
+//! also in the middle of a run, so that none outlives who asked for it.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, Write};
 use std::process::ExitCode;
+use std::sync::mpsc::channel;
 
 use crate::command::in_process::{Outside, Run};
 use crate::command::json::quoted;
@@ -28,8 +30,17 @@ pub(super) fn serve(make: impl Fn() -> Box<dyn Program> + Send, others: &[Other]
 
 fn answer_all(make: &dyn Fn() -> Box<dyn Program>, others: &[Other], script_dir: &str) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    for question in io::stdin().lock().lines() {
-        let answer = match Run::begin(make(), others, script_dir, words(&question?), false) {
+    let (tell, questions) = channel();
+    std::thread::spawn(move || {
+        for question in io::stdin().lock().lines().map_while(Result::ok) {
+            if tell.send(question).is_err() {
+                break;
+            }
+        }
+        std::process::exit(0);
+    });
+    for question in questions {
+        let answer = match Run::begin(make(), others, script_dir, words(&question), false) {
             Ok(mut run) => {
                 run.go_on(u64::MAX, Outside::Nobody);
                 let said = run.take_said();

@@ -57,7 +57,7 @@ def interface(path):
     library = ctypes.CDLL(str(path))
     library.arl_interface.restype = ctypes.POINTER(Interface)
     arl = library.arl_interface().contents
-    assert arl.version == 1
+    assert arl.version == 2
     return arl
 
 

@@ -6,10 +6,11 @@ use super::args::{Checking, RunOptions};
 use super::cache::{Cache, Kind, Lock};
 use super::check;
 use super::failure::Failure;
-use super::program::prepare_checked;
+use super::program::{self, prepare_checked};
 use super::sweep;
 pub use super::sweep::{Bundle, Kept, Parameters, Row, RunResult, Settings, Spread, Sweep, Worker, as_arl};
 use crate::compile::{guard, on_large_stack};
+use arl_robot::Robot;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -46,7 +47,7 @@ impl From<Failure> for HostError {
     }
 }
 
-/// A compiled library. As long as this lives, no other process removes it.
+/// A compiled library. As long as this lives nobody compiles the program anew, which would remove it: it is for loading it.
 #[derive(Debug)]
 pub struct CompiledLibrary {
     /// The file.
@@ -54,6 +55,11 @@ pub struct CompiledLibrary {
     /// The words that all runs need: robot, cell, scenario and folder, from the settings and the `arl.toml`.
     pub words: Vec<String>,
     _lock: Lock,
+}
+
+/// Says which file this code is in, where that is not the program of the process: what another one compiled is compiled anew.
+pub fn is_part_of(file: PathBuf) {
+    program::is_part_of(file);
 }
 
 /// What there is to say of programs, a JSON object each.
@@ -80,7 +86,7 @@ pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
         let ready = prepare_checked(Kind::Library, program, options.cell.as_deref(), &options.checking())?;
         let folder = options.script_dir.clone().map_or_else(|| folder_of(program), Ok)?;
         let named = [
-            ("--robot", options.robot.clone()),
+            ("--robot", options.robot.as_deref().map(robot).transpose()?),
             ("--cell", options.cell.as_deref().map(full).transpose()?),
             ("--io", options.io.as_deref().map(full).transpose()?),
             ("--script-dir", Some(full(&folder)?)),
@@ -164,6 +170,11 @@ fn options(settings: &Settings) -> RunOptions {
 fn folder_of(program: &Path) -> Result<PathBuf, Failure> {
     let full = super::several::absolute(program)?;
     Ok(full.parent().map(Path::to_path_buf).unwrap_or_default())
+}
+
+/// A robot by its name, or its file in full.
+fn robot(name: &str) -> Result<String, Failure> {
+    if Robot::text(name).is_some() { Ok(name.to_owned()) } else { full(Path::new(name)) }
 }
 
 fn full(path: &Path) -> Result<String, Failure> {

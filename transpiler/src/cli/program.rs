@@ -18,6 +18,7 @@ use arl_robot::cell::Cell;
 use arl_robot::outline::Outline;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// A compiled program, safe from other processes that would compile it as long as the lock is held.
 #[derive(Debug)]
@@ -44,6 +45,14 @@ pub(super) fn check_options(checking: &Checking) -> Result<CheckOptions, Failure
 fn outline(cell: &Path) -> Result<Outline, Failure> {
     let cell = Cell::load(cell).map_err(|error| Failure::Usage(error.to_string()))?;
     Ok(Outline::of(&cell))
+}
+
+/// The file that the compiler is in, where that is not the program of this process.
+static COMPILER: OnceLock<PathBuf> = OnceLock::new();
+
+/// Says which file the compiler is in.
+pub(super) fn is_part_of(file: PathBuf) {
+    let _ = COMPILER.set(file);
 }
 
 /// What becomes one program: that of the command line, and those that its cell names.
@@ -131,8 +140,8 @@ impl<'a> Job<'a> {
     /// A number that changes with everything but the sources: this command, the runtime, the options, the channels.
     fn identity(&self, runtime: Runtime) -> u64 {
         let mut hasher = DefaultHasher::new();
-        if let Ok(command) = std::env::current_exe() {
-            hash_state(&command, &mut hasher);
+        if let Some(compiler) = COMPILER.get().cloned().or_else(|| std::env::current_exe().ok()) {
+            hash_state(&compiler, &mut hasher);
         }
         runtime.state().hash(&mut hasher);
         let of_options = |options: &CheckOptions| (options.family, options.strict, options.background);

@@ -2,16 +2,16 @@
 
 use super::parameter::Parameters;
 use super::table::Settings;
-use crate::check::clean;
+use crate::check::{clean, is_data};
 use crate::cli::args::RunOptions;
 use crate::cli::cache::Kind;
 use crate::cli::failure::Failure;
 use crate::cli::program::prepare;
 use crate::cli::several;
-use arl_robot::Robot;
 use arl_robot::cell::Cell;
+use arl_robot::{Robot, regular_file};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use twox_hash::XxHash3_128;
 
 /// How many files of a program's folder go along with its runs, and how many bytes.
@@ -23,6 +23,8 @@ const MAX_TIME: f64 = 3600.0;
 const SCRIPT: &str = "script";
 /// What belongs to a program without being named: programs and data files, and texts that it reads.
 const ENDINGS: [&str; 2] = ["arl", "txt"];
+/// The folder of robot files and scenarios.
+const NAMED: &str = "named";
 /// The compiled program in a bundle.
 pub(super) const PROGRAM: &str = "program";
 
@@ -40,32 +42,38 @@ pub struct Bundle {
 impl Bundle {
     /// Compiles the program where needed, and gathers what it reads. `rows` may name robots and scenarios of their own.
     pub(in crate::cli) fn new(settings: &Settings, rows: &[Parameters]) -> Result<Self, Failure> {
+        settings.check().map_err(Failure::Usage)?;
         let Settings { program, robot, cell, io, script_dir, files, .. } = settings.clone();
         let options = RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }.of_program(&program)?;
         let ready = prepare(Kind::Named, &program, options.cell.as_deref(), &options.checking())?;
         let executable = read(&ready.program)?;
+        let sources = ready.sources;
         drop(ready.lock);
-        let main = several::absolute(&program)?;
+        let main = full(&program)?;
         let own = || main.parent().map(Path::to_path_buf).unwrap_or_default();
-        let folder = options.script_dir.as_deref().map_or_else(|| Ok(own()), several::absolute)?;
-        for other in several::named(options.cell.as_deref(), options.robot.as_deref())? {
-            if Path::new(&other.folder(&main)?).is_absolute() {
-                let text = format!(
-                    "{} lies outside of {}: a sweep takes programs of one folder",
-                    other.file,
-                    folder.display()
-                );
-                return Err(Failure::Usage(text));
-            }
+        let folder = options.script_dir.as_deref().map_or_else(|| Ok(own()), full)?;
+        // What is read again while a program runs has to be there.
+        let data = sources.iter().filter(|path| is_data(path)).map(|path| clean(path));
+        let others = several::named(options.cell.as_deref(), options.robot.as_deref())?;
+        let others = others.iter().map(|other| full(&other.path)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(outside) = data.chain(others).find(|path| !path.starts_with(&folder)) {
+            let (outside, folder) = (outside.display(), folder.display());
+            let text =
+                format!("{outside} lies outside of {folder}: a sweep takes programs and data files of one folder");
+            return Err(Failure::Usage(text));
         }
         let mut bundle = Self { files: vec![(PROGRAM.into(), executable)], words: Vec::new(), places: Vec::new() };
         bundle.add_folder(&folder)?;
         for file in files {
+            if !file.components().all(|part| matches!(part, Component::Normal(_))) {
+                let text = format!("files: {}: expected a path in {}", file.display(), folder.display());
+                return Err(Failure::Usage(text));
+            }
             bundle.add_once(&folder.join(&file), format!("{SCRIPT}/{}", with_slashes(&file)))?;
         }
         bundle.words.extend(["--report", "--script-dir", SCRIPT].map(String::from));
         if let Some(cell) = &options.cell {
-            let place = bundle.add_cell(&several::absolute(cell)?, &folder)?;
+            let place = bundle.add_cell(&full(cell)?, &folder)?;
             bundle.words.extend(["--cell".into(), place]);
         }
         bundle.words.extend(["--max-time".into(), settings.max_time.unwrap_or(MAX_TIME).to_string()]);
@@ -74,7 +82,7 @@ impl Bundle {
         let first = Parameters(first.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect());
         for row in std::iter::once(&first).chain(rows) {
             for file in row.files() {
-                bundle.add(&several::absolute(Path::new(file))?, &folder)?;
+                bundle.add(&full(Path::new(file))?)?;
             }
         }
         bundle.words.extend(bundle.file_words(&first));
@@ -86,6 +94,9 @@ impl Bundle {
     /// # Errors
     /// There is no such parameter, or its value is none.
     pub fn words(&self, row: &Parameters) -> Result<Vec<String>, String> {
+        if row.option("start-time").is_some_and(|time| time == "now") {
+            return Err("start-time: a run of a sweep is the same every time, so `now` is no time for it".into());
+        }
         let mut words = self.words.clone();
         words.extend(self.file_words(row));
         words.extend(row.words()?);
@@ -96,7 +107,8 @@ impl Bundle {
     pub fn key(&self) -> String {
         let mut hasher = XxHash3_128::new();
         hasher.write(env!("CARGO_PKG_VERSION").as_bytes());
-        for (path, bytes) in &self.files {
+        // Those that are named stand under their hash in the words of a run.
+        for (path, bytes) in self.files.iter().filter(|(path, _)| !path.starts_with(NAMED)) {
             hasher.write(&(path.len() as u64).to_le_bytes());
             hasher.write(path.as_bytes());
             hasher.write(&(bytes.len() as u64).to_le_bytes());
@@ -108,24 +120,26 @@ impl Bundle {
     fn file_words(&self, row: &Parameters) -> Vec<String> {
         let named = ["robot", "io"].into_iter().filter_map(|name| Some((name, row.option(name)?.as_str()?)));
         let words = named.flat_map(|(name, file)| {
-            let here = several::absolute(Path::new(file)).unwrap_or_default();
+            let here = full(Path::new(file)).unwrap_or_default();
             let place = self.places.iter().find(|(known, _)| *known == here).map(|(_, place)| place.clone());
             [format!("--{name}"), place.unwrap_or_else(|| file.to_owned())]
         });
         words.collect()
     }
 
-    /// Adds a file that is named. Gives its place.
-    fn add(&mut self, path: &Path, script: &Path) -> Result<String, Failure> {
-        if let Some((_, place)) = self.places.iter().find(|(known, _)| known == path) {
-            return Ok(place.clone());
+    /// Adds a robot file or a scenario.
+    fn add(&mut self, path: &Path) -> Result<(), Failure> {
+        if self.places.iter().any(|(known, _)| known == path) {
+            return Ok(());
         }
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let number = self.places.len() + 1;
-        let place = below(path, script).unwrap_or_else(|| format!("named/{number}/{name}"));
-        self.add_once(path, place.clone())?;
-        self.places.push((path.to_path_buf(), place.clone()));
-        Ok(place)
+        let content = read(path)?;
+        let place = format!("{NAMED}/{:032x}/{name}", XxHash3_128::oneshot(&content));
+        if !self.files.iter().any(|(known, _)| *known == place) {
+            self.files.push((place.clone(), content));
+        }
+        self.places.push((path.to_path_buf(), place));
+        Ok(())
     }
 
     /// Adds a cell with the robot files that it names. Gives its place.
@@ -138,7 +152,7 @@ impl Bundle {
         let cell = Cell::load(path).map_err(|error| Failure::Usage(error.to_string()))?;
         for robot in cell.programs.channels.iter().filter_map(|channel| channel.robot.as_deref()) {
             if Robot::text(robot).is_none() {
-                let robot = clean(&several::absolute(Path::new(robot))?);
+                let robot = full(Path::new(robot))?;
                 let place = place(&robot).ok_or_else(|| {
                     Failure::Usage(format!(
                         "{} lies outside of {}, the folder of its cell",
@@ -208,7 +222,9 @@ fn gather(folder: &Path, all: &mut Vec<PathBuf>) -> Result<(), Failure> {
             if !path.join("CACHEDIR.TAG").is_file() {
                 gather(&path, all)?;
             }
-        } else if path.extension().is_some_and(|it| ENDINGS.iter().any(|ending| it.eq_ignore_ascii_case(ending))) {
+        } else if path.is_file()
+            && path.extension().is_some_and(|it| ENDINGS.iter().any(|ending| it.eq_ignore_ascii_case(ending)))
+        {
             all.push(path);
         }
         if all.len() > MOST_FILES {
@@ -227,7 +243,12 @@ fn too_much(folder: &Path) -> Failure {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|error| Failure::io("read", path, &error))
+    regular_file::read(path).map_err(|error| Failure::io("read", path, &error))
+}
+
+/// A path from the root, without `..`.
+fn full(path: &Path) -> Result<PathBuf, Failure> {
+    Ok(clean(&several::absolute(path)?))
 }
 
 fn with_slashes(path: &Path) -> String {

@@ -1,8 +1,9 @@
 //! The folder that a worker's program runs in, which is that of the bundle again before each run.
 
 use super::bundle::{Bundle, PROGRAM};
+use std::fs::File;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::SystemTime;
@@ -14,14 +15,45 @@ pub struct Spread {
     root: Arc<Root>,
 }
 
-/// A folder that goes with its last owner.
+/// A folder that goes with its last owner. A file in it is locked as long as there is one: what an owner has left that was killed goes with the
+/// next folder that is made.
 #[derive(Debug)]
-struct Root(PathBuf);
+struct Root {
+    path: PathBuf,
+    _lock: File,
+}
+
+/// How such folders are called, before a number.
+const ROOT: &str = "arl2rs-sweep-";
+/// The file that is locked.
+const LOCK: &str = "lock";
+
+impl Root {
+    fn new() -> io::Result<Self> {
+        remove_left();
+        let path = new_folder()?;
+        let lock = File::create(path.join(LOCK))?;
+        lock.lock()?;
+        Ok(Self { path, _lock: lock })
+    }
+}
 
 impl Drop for Root {
     fn drop(&mut self) {
         // It lies in the system's folder for files that go.
-        let _ = std::fs::remove_dir_all(&self.0);
+        let _ = std::fs::remove_dir_all(&self.path);
+    }
+}
+
+/// Removes folders whose owners are gone.
+fn remove_left() {
+    let Ok(entries) = std::fs::read_dir(std::env::temp_dir()) else { return };
+    let ours = entries.filter_map(Result::ok).filter(|entry| entry.file_name().to_string_lossy().starts_with(ROOT));
+    for folder in ours.map(|entry| entry.path()) {
+        let is_left = File::open(folder.join(LOCK)).is_ok_and(|lock| lock.try_lock().is_ok());
+        if is_left {
+            let _ = std::fs::remove_dir_all(&folder);
+        }
     }
 }
 
@@ -39,11 +71,15 @@ impl Spread {
     /// # Errors
     /// They cannot be written, or have no program.
     pub fn of(mut files: Vec<(String, Vec<u8>)>) -> io::Result<Self> {
-        let root = Root(new_folder()?);
+        let is_inside = |place: &str| Path::new(place).components().all(|part| matches!(part, Component::Normal(_)));
+        if let Some((place, _)) = files.iter().find(|(place, _)| !is_inside(place)) {
+            return Err(io::Error::other(format!("{place} lies outside of the bundle")));
+        }
+        let root = Root::new()?;
         files.sort();
         let program = files.iter().position(|(path, _)| path == PROGRAM).map(|at| files.remove(at));
         let program = program.ok_or_else(|| io::Error::other("the bundle has no program"))?;
-        let path = root.0.join(PROGRAM);
+        let path = root.path.join(PROGRAM);
         std::fs::write(&path, program.1)?;
         #[cfg(unix)]
         std::fs::set_permissions(&path, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
@@ -56,13 +92,16 @@ fn new_folder() -> io::Result<PathBuf> {
     static NEXT: AtomicUsize = AtomicUsize::new(0);
     loop {
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
-        let path = std::env::temp_dir().join(format!("arl2rs-sweep-{}-{number}", std::process::id()));
+        let path = std::env::temp_dir().join(format!("{ROOT}{}-{number}", std::process::id()));
         match std::fs::create_dir(&path) {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
             made => return made.map(|()| path),
         }
     }
 }
+
+/// When files are said to have been written that no run has changed.
+const LONG_AGO: SystemTime = SystemTime::UNIX_EPOCH;
 
 /// The folder of a worker.
 #[derive(Debug)]
@@ -78,7 +117,7 @@ type Seen = (PathBuf, u64, Option<SystemTime>);
 impl Folder {
     pub(super) fn new(spread: &Spread) -> io::Result<Self> {
         static NEXT: AtomicUsize = AtomicUsize::new(1);
-        let path = spread.root.0.join(NEXT.fetch_add(1, Ordering::Relaxed).to_string());
+        let path = spread.root.path.join(NEXT.fetch_add(1, Ordering::Relaxed).to_string());
         let mut folder = Self { spread: spread.clone(), path, written: Vec::new() };
         folder.write()?;
         Ok(folder)
@@ -89,7 +128,7 @@ impl Folder {
     }
 
     pub(super) fn program(&self) -> PathBuf {
-        self.spread.root.0.join(PROGRAM)
+        self.spread.root.path.join(PROGRAM)
     }
 
     /// Makes it that of the bundle again, if a run has changed something.
@@ -115,6 +154,8 @@ impl Folder {
             let path = self.path.join(place);
             path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
             std::fs::write(&path, bytes)?;
+            // So that a change is seen that comes within a tick of the clock of the disk.
+            File::options().write(true).open(&path)?.set_modified(LONG_AGO)?;
         }
         self.written.clear();
         look(&self.path, &mut self.written)?;

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::Path;
+use twox_hash::XxHash3_64;
 
 /// The results that are known of a bundle.
 #[derive(Debug)]
@@ -18,6 +19,12 @@ pub struct Kept {
 struct Line {
     words: Vec<String>,
     result: RunResult,
+    /// What the rest of the line gives, so that one that is damaged is none.
+    check: u64,
+}
+
+fn check(words: &[String], result: &RunResult) -> u64 {
+    XxHash3_64::oneshot(&serde_json::to_vec(&(words, result)).unwrap_or_default())
 }
 
 impl Kept {
@@ -33,7 +40,9 @@ impl Kept {
         let mut line = Vec::new();
         while reader.read_until(b'\n', &mut line)? > 0 {
             is_whole = line.ends_with(b"\n");
-            if let Ok(Line { words, result }) = serde_json::from_slice(&line) {
+            if let Ok(Line { words, result, check }) = serde_json::from_slice(&line)
+                && check == self::check(&words, &result)
+            {
                 known.insert(words, result);
             }
             line.clear();
@@ -60,7 +69,7 @@ impl Kept {
     /// It cannot be written. Nothing more is then.
     pub fn keep(&mut self, words: &[String], result: &RunResult) -> io::Result<()> {
         let Some(file) = &mut self.file else { return Ok(()) };
-        let line = Line { words: words.to_vec(), result: result.clone() };
+        let line = Line { words: words.to_vec(), result: result.clone(), check: check(words, result) };
         let mut text = serde_json::to_vec(&line).map_err(io::Error::other)?;
         text.push(b'\n');
         let written = file.write_all(&text);
@@ -90,6 +99,9 @@ mod tests {
         let kept = Kept::open(&path).unwrap();
         assert_eq!(kept.find(&words("a")), Some(&result(1.25)));
         assert_eq!(kept.find(&words("b")), None);
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, text.replacen("1.25", "1.35", 1)).unwrap();
+        assert_eq!(Kept::open(&path).unwrap().find(&words("a")), None, "a digit has changed");
         assert_eq!(kept.find(&words("c")), Some(&result(0.1)));
         std::fs::remove_dir_all(path.parent().unwrap()).unwrap();
     }

@@ -47,7 +47,8 @@ pub(super) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
     let processes = options.jobs.map_or_else(cores, |jobs| usize::from(jobs.get()));
     // Better now than after a long run.
     if let Some(out) = &options.out {
-        std::fs::write(out, "").map_err(|error| Failure::io("write", out, &error))?;
+        let open = std::fs::OpenOptions::new().append(true).create(true).open(out);
+        open.map_err(|error| Failure::io("write", out, &error))?;
     }
     cargo::leave_interrupts_to_the_program();
     let bar = bar(rows.len());

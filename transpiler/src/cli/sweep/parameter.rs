@@ -34,10 +34,16 @@ impl Parameters {
     pub fn words(&self) -> Result<Vec<String>, String> {
         let mut words = Vec::new();
         for (name, value) in &self.0 {
-            if ["robot", "io"].contains(&name.as_str()) {
-                continue;
+            match (name.as_str(), value) {
+                ("robot" | "io", Value::String(_)) => {}
+                ("robot" | "io", _) => {
+                    return Err(format!(
+                        "parameter `{name}`: expected the name of a file, found {value}; a place in it stands in quotes: \
+                         \"io.event.1.at\" = 2.5"
+                    ));
+                }
+                _ => words.extend(word(name, value)?),
             }
-            words.extend(word(name, value)?);
         }
         Ok(words)
     }
@@ -171,6 +177,7 @@ mod tests {
             assert_eq!(words(name, value).unwrap(), expected);
         }
         assert_eq!(words("io", json!("a.toml")).unwrap(), Vec::<String>::new());
+        assert!(words("robot", json!({"axis": 1})).unwrap_err().contains("stands in quotes"));
         assert!(words("pitch", json!(1)).unwrap_err().contains("there is no parameter `pitch`"));
         assert!(words("global.pitch", Value::Null).unwrap_err().contains("null"));
         assert!(words("override", json!([1])).unwrap_err().contains("expected a number or a text"));

@@ -1,6 +1,7 @@
 //! Results as a Parquet file: a column for each parameter and each figure.
 
 use super::result::Row;
+use arl_robot::atomic_file;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::Result;
@@ -8,7 +9,6 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{Type, TypePtr};
 use serde_json::Value;
-use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -28,8 +28,9 @@ pub(super) fn write(path: &Path, rows: &[Row]) -> Result<()> {
     let columns = columns(rows);
     let fields: Result<Vec<TypePtr>> = columns.iter().map(|(name, column)| field(name, column)).collect();
     let schema = Type::group_type_builder("results").with_fields(fields?).build()?;
-    let file = File::create(path)?;
-    let mut writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(WriterProperties::builder().build()))?;
+    let (schema, properties) = (Arc::new(schema), Arc::new(WriterProperties::builder().build()));
+    let mut bytes = Vec::new();
+    let mut writer = SerializedFileWriter::new(&mut bytes, schema, properties)?;
     let mut group = writer.next_row_group()?;
     for (_, column) in &columns {
         match column {
@@ -43,11 +44,11 @@ pub(super) fn write(path: &Path, rows: &[Row]) -> Result<()> {
     }
     group.close()?;
     writer.close()?;
-    Ok(())
+    Ok(atomic_file::write(path, &bytes)?)
 }
 
 fn put<T: DataType>(
-    group: &mut SerializedRowGroupWriter<'_, File>,
+    group: &mut SerializedRowGroupWriter<'_, &mut Vec<u8>>,
     values: impl Iterator<Item = Option<T::T>>,
 ) -> Result<()> {
     let Some(mut column) = group.next_column()? else { return Ok(()) };

@@ -100,11 +100,16 @@ impl RunResult {
         let Some(Summary { outcome, code, cycle_time, moving, standing, motions, way, alarms, real_time }) =
             answer.summary
         else {
-            return Ok((Self::lost("refused", answer.refused.unwrap_or_default()), true));
+            // It may be for something outside, as an io island that is switched off.
+            return Ok((Self::lost("refused", answer.refused.unwrap_or_default()), false));
         };
         let messages = answer.said.into_iter().filter_map(|said| said.message);
         let shown = messages.filter(|message| message.hmi || message.console);
-        let output = shown.flat_map(|message| message.text.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
+        let lines = |message: Message| -> Vec<String> {
+            let text = message.text.strip_suffix('\n').unwrap_or(&message.text);
+            text.split('\n').map(str::to_owned).collect()
+        };
+        let output = shown.flat_map(lines).collect();
         let cycle_time = Some(cycle_time);
         let result = Self { outcome, code, cycle_time, moving, standing, motions, way, alarms, output, problem: None };
         Ok((result, !real_time))

@@ -12,6 +12,9 @@ use std::path::{Path, PathBuf};
 /// So many runs a sweep has at most: more is a slip of the pen.
 const MOST: usize = 10_000_000;
 
+/// Longer than anybody waits: s.
+const LONGEST: f64 = 1e9;
+
 /// What is run again and again.
 #[derive(Clone, Default, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -33,6 +36,18 @@ pub struct Settings {
     pub max_time: Option<f64>,
     /// After how many seconds on the clock of the computer a run is given up.
     pub timeout: Option<f64>,
+}
+
+impl Settings {
+    /// Whether its times are such.
+    pub(super) fn check(&self) -> Result<(), String> {
+        for (name, seconds) in [("timeout", self.timeout), ("max-time", self.max_time)] {
+            if seconds.is_some_and(|seconds| !(0.0..=LONGEST).contains(&seconds)) {
+                return Err(format!("{name}: expected seconds from 0 to {LONGEST}"));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// A sweep: what is run, and the parameters of each run.

@@ -91,7 +91,7 @@ impl Worker {
         let question = question.join("\t") + "\n";
         // Where nobody reads it, there is no answer, either.
         let _ = process.questions.write_all(question.as_bytes());
-        let until = Instant::now() + self.timeout;
+        let begun = Instant::now();
         let answer = loop {
             let answer = process.answers.recv_timeout(SIGNAL_INTERVAL);
             if !matches!(answer, Err(RecvTimeoutError::Timeout)) {
@@ -101,7 +101,7 @@ impl Worker {
                 end(process, Duration::ZERO);
                 return Err(Lost::Enough);
             }
-            if Instant::now() >= until {
+            if begun.elapsed() >= self.timeout {
                 break answer;
             }
         };
