@@ -2,28 +2,34 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from .trace import Trace
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 __all__ = ["plot", "plot_sweep"]
 
 _MOST_POINTS = 20_000
 
 
+class Picture(Figure):
+    """A figure that a notebook shows by itself."""
+
+    def _repr_png_(self) -> bytes:
+        image = io.BytesIO()
+        self.savefig(image, format="png")
+        return image.getvalue()
+
+
 def plot(trace: Trace) -> Figure:
     """The way of the TCP from above and from the front, its speed, and the velocities of the axes over time."""
-    from matplotlib.figure import Figure
-
     step = max(1, len(trace) // _MOST_POINTS)
     t, tcp, speed, velocities = (all[::step] for all in (trace.t, trace.tcp, trace.speed, trace.velocities))
-    figure = Figure(figsize=(10, 7), layout="constrained")
+    figure = Picture(figsize=(10, 7), layout="constrained")
     above, front, over_time, axes = figure.subplots(2, 2).flat
     for place, (across, up), names in ((above, (0, 1), "xy"), (front, (0, 2), "xz")):
         place.plot(tcp[:, across], tcp[:, up], linewidth=1)
@@ -44,11 +50,9 @@ _UNITS = {"cycle_time": "s", "moving": "s", "standing": "s", "way": "mm"}
 
 def plot_sweep(rows: Sequence[dict[str, Any]], parameter: str, figure: str) -> Figure:
     """A figure of the runs that ended over a parameter; the others as crosses at the bottom."""
-    from matplotlib.figure import Figure
-
     rows = [row for row in rows if row.get(parameter) is not None]
     ended = [row for row in rows if row["outcome"] == "ended"]
-    picture = Figure(figsize=(8, 5), layout="constrained")
+    picture = Picture(figsize=(8, 5), layout="constrained")
     axes = picture.subplots()
     axes.plot([row[parameter] for row in ended], [row[figure] for row in ended], ".", label="ended")
     others = [row[parameter] for row in rows if row["outcome"] != "ended"]

@@ -1,8 +1,11 @@
 """What the documents and the examples say, done."""
 
+import doctest
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
 
 import arl2rs
 
@@ -23,6 +26,13 @@ def test_the_code_of_the_page_runs(example, monkeypatch):
         exec(compile(code, "docs/python.md", "exec"), names)
     assert names["result"].ended and names["session"].is_over and len(names["results"]) == 9
     assert len(arl2rs.load_sweep("pitch.toml")[1]) == 18
+
+
+@pytest.mark.parametrize("module", [arl2rs, arl2rs.program, arl2rs.sweeps], ids=lambda module: module.__name__)
+def test_the_examples_of_docstrings_hold(module):
+    tried = doctest.testmod(module)
+    assert tried.failed == 0
+    assert tried.attempted > 0
 
 
 def test_the_example_of_the_readme_draws_its_picture(tmp_path):
