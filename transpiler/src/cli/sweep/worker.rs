@@ -168,7 +168,8 @@ fn escaped(word: &str) -> String {
     word.replace('\\', "\\\\").replace('\t', "\\t").replace('\n', "\\n")
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use super::*;
 
