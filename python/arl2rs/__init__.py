@@ -8,7 +8,9 @@
 '5 parts\\n'
 """
 
-from .problems import AlarmError, ArlError, CompileError, Diagnostic, RefusedError
+from importlib.metadata import version as _version
+
+from .problems import AlarmError, ArlError, CompileError, Diagnostic, RefusedError, SessionError, UnfinishedError
 from .program import Program, check, compile, run
 from .result import Alarm, Message, Result
 from .session import Session
@@ -22,7 +24,6 @@ __all__ = [
     "ArlError",
     "CompileError",
     "Diagnostic",
-    "Environment",
     "Literal",
     "Message",
     "Program",
@@ -30,7 +31,9 @@ __all__ = [
     "Result",
     "Results",
     "Session",
+    "SessionError",
     "Trace",
+    "UnfinishedError",
     "check",
     "compile",
     "grid",
@@ -38,6 +41,13 @@ __all__ = [
     "run",
     "sweep",
 ]
+
+
+__version__ = _version("arl2rs")
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "Environment"]
 
 
 def __getattr__(name: str) -> object:

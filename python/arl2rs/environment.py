@@ -10,6 +10,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
+from .problems import RefusedError
 from .program import Program
 from .session import Session
 
@@ -55,8 +56,14 @@ class Environment(gymnasium.Env[Observation, Action]):
         self._truths = {name for name, bounds in actions.items() if bounds is bool}
         self.action_space = spaces.Dict(names)
         with program.session(**self._arguments) as session:
+            session.step(1)
+            for name, bounds in actions.items():
+                self._set(session, name, False if bounds is bool else float(bounds[0]))
             there = [name for name in session.columns[3:] if not np.isnan(session[name])]
             all_names = [*session.columns, *watch]
+            unknown = [name for name in (observe or ()) if name not in all_names]
+            if unknown or observe == []:
+                raise RefusedError(f"observe: {unknown[0] if unknown else 'nothing'} is not there: {', '.join(all_names)} are")
             self.observed = [*(there if observe is None else observe), *watch]
             self._at = np.array([all_names.index(name) for name in self.observed])
         self.observation_space = spaces.Box(-np.inf, np.inf, (len(self.observed),), np.float64)
@@ -72,12 +79,16 @@ class Environment(gymnasium.Env[Observation, Action]):
         """Begins an episode."""
         super().reset(seed=seed)
         self.close()
-        arguments = {**self._arguments, **(options or {})}
+        arguments = dict(self._arguments)
+        for name, value in (options or {}).items():
+            before = arguments.get(name)
+            arguments[name] = {**before, **value} if isinstance(before, dict) and isinstance(value, dict) else value
         if seed is not None:
             arguments["seed"] = seed
         self._session = self.program.session(**arguments)
         self._before: dict[str, Any] = {}
-        return self._observation(self._session.observe()), {}
+        # Variables have their first values from the first cycle on.
+        return self._observation(self._session.step(1)), {}
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Sets what the action says, and goes on for some control cycles."""

@@ -13,7 +13,7 @@ from . import _arl2rs
 if TYPE_CHECKING:
     from .result import Alarm
 
-__all__ = ["AlarmError", "ArlError", "CompileError", "Diagnostic", "RefusedError"]
+__all__ = ["AlarmError", "ArlError", "CompileError", "Diagnostic", "RefusedError", "SessionError", "UnfinishedError"]
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,9 @@ class CompileError(ArlError):
         self.file = errors[0].file if errors else None
         self.line = errors[0].line if errors else None
 
+    def __reduce__(self) -> tuple[type[CompileError], tuple[list[Diagnostic]]]:
+        return type(self), (self.diagnostics,)
+
 
 class RefusedError(ArlError, ValueError):
     """What is asked for cannot be: a variable that is not there, a value that does not fit, a file that is none."""
@@ -77,6 +80,17 @@ class AlarmError(ArlError):
         super().__init__(alarm.text)
         self.number, self.file, self.line = alarm.number, alarm.file, alarm.line
 
+    def __reduce__(self) -> tuple[type[AlarmError], tuple[Alarm]]:
+        return type(self), (self.alarm,)
+
+
+class UnfinishedError(ArlError):
+    """A run did not come to its end, and no alarm ended it: its time was over, it waited in vain, or it was stopped."""
+
+
+class SessionError(ArlError, RuntimeError):
+    """A session is closed, is on another thread, or has crashed."""
+
 
 @contextmanager
 def told() -> Iterator[None]:
@@ -87,5 +101,7 @@ def told() -> Iterator[None]:
         raise CompileError([Diagnostic.of_json(text) for text in mistakes.args[0]]) from None
     except _arl2rs.Refused as refused:
         raise RefusedError(refused.args[0]) from None
+    except RuntimeError as problem:
+        raise SessionError(str(problem)) from None
     except OSError as problem:
         raise ArlError(str(problem)) from None

@@ -8,20 +8,25 @@ import sys
 import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _arl2rs
-from .problems import ArlError, Diagnostic, told
+from .problems import ArlError, Diagnostic, RefusedError, told
 from .result import Result, of_summary
 from .session import Session
 from .trace import Trace
 from .values import Parameters, as_json, gathered
 
+if TYPE_CHECKING:
+    from .sweeps import Results
+
 __all__ = ["Program", "check", "compile", "run"]
 
 StrPath = str | os.PathLike[str]
+MAX_TIME = 3600.0
+"""A run that takes longer in the robot's time is ended, where nobody says otherwise; s."""
 
 
 def given(
@@ -68,7 +73,9 @@ def check(
     >>> diagnostic.line, diagnostic.severity
     (2, 'error')
     """
-    settings = given(files[0] if files else "", robot=robot, cell=cell, script_dir=script_dir)
+    if not files:
+        raise RefusedError("check() needs a file")
+    settings = given(files[0], robot=robot, cell=cell, script_dir=script_dir)
     with told():
         found = _arl2rs.check([Path(file) for file in files], settings, strict, background)
     return [Diagnostic.of_json(text) for text in found]
@@ -91,9 +98,25 @@ def compile(
     return Program(program, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
 
 
-def run(program: StrPath, *, robot: StrPath | None = None, cell: StrPath | None = None, **arguments: Any) -> Result:
+def run(
+    program: StrPath,
+    *,
+    robot: StrPath | None = None,
+    cell: StrPath | None = None,
+    script_dir: StrPath | None = None,
+    **arguments: Any,
+) -> Result:
     """Compiles a program where needed, and runs it: `compile(..).run(..)`."""
-    return compile(program, robot=robot, cell=cell).run(**arguments)
+    return compile(program, robot=robot, cell=cell, script_dir=script_dir).run(**arguments)
+
+
+def _compiled(program: Path, arguments: dict[str, Any]) -> Program:
+    return Program(program, **arguments)
+
+
+def _full(path: StrPath | None) -> StrPath | None:
+    """A file in full; the name of a robot stays."""
+    return Path(path).absolute() if path is not None and Path(path).exists() else path
 
 
 class Program:
@@ -110,11 +133,22 @@ class Program:
     ) -> None:
         self.path = Path(program)
         self._given = given(program, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
+        self._arguments = {"robot": robot, "cell": cell, "scenario": scenario, "script_dir": script_dir}
         with told():
             self._library = _arl2rs.Library(self._given)
 
     def __repr__(self) -> str:
         return f"Program({str(self.path)!r})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Another process loads it again, from where it is compiled."""
+        return _compiled, (self.path.absolute(), {name: _full(path) for name, path in self._arguments.items()})
+
+    def sweep(self, rows: Iterable[Parameters], **arguments: Any) -> Results:
+        """Runs it once for each row of parameters: `arl2rs.sweep` with the robot, the cell and the scenario that it was compiled with."""
+        from .sweeps import sweep
+
+        return sweep(self.path, rows, **{**self._arguments, **arguments})
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -132,7 +166,7 @@ class Program:
         override: float | None = None,
         mode: str | None = None,
         seed: int | None = None,
-        max_time: float | None = None,
+        max_time: float | None = MAX_TIME,
         start_time: str | None = None,
         state_dir: StrPath | None = None,
         trace: bool = True,
@@ -145,7 +179,7 @@ class Program:
           missing components keep their values: `points={"feeder": {"z": 120}}`.
         - `set`: other values at single places: `{"robot.axis.1.vel": 90, "io.event.2.at": 1.5, "cell.controller.cycle": 2}`.
         - `override` in percent; `mode`: `auto`, `manual`, `manufast`; `seed` of `rand`.
-        - `max_time`: after so many seconds of the robot's time it is ended.
+        - `max_time`: after so many seconds of the robot's time it is ended; None: never.
         - `start_time`: the date at the start, `2000-01-01T00:00:00`.
         - `state_dir`: the folder that keeps system variables between runs; without it nothing is kept.
         - `trace`: whether to keep the motion; a second of it takes some 170 kB.
@@ -183,11 +217,11 @@ class Program:
         parameters = gathered(globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time)
         words = self._words(scenario, robot, state_dir, parameters)
         with told():
-            return Session(self._library.begin([*words, "--report"], trace), self.columns, tuple(watch))
+            return Session(self._library.begin([*words, "--report"], trace), self.columns, tuple(watch), trace)
 
     def record(self, recording: StrPath, **arguments: Any) -> None:
-        """Runs the program by the command, and records the run for `arl2rs view` and viewers of robot data, as an mcap file. The arguments are
-        `scenario`, `robot`, `globals`, `points`, `set`, `override`, `mode`, `seed`, `max_time` of `run`."""
+        """Runs the program by the command, and records the run for `arl2rs view` and viewers of robot data, as an mcap file; the description of the
+        robots is written beside it, `cell.urdf`. The arguments are `scenario`, `robot`, `globals`, `points`, `set`, `override`, `mode`, `seed`, `max_time` of `run`."""
         scenario, robot = arguments.pop("scenario", None), arguments.pop("robot", None)
         named = [arguments.pop(name, None) for name in ("globals", "points", "set")]
         with tempfile.TemporaryDirectory() as nothing_kept:
@@ -216,5 +250,9 @@ class Program:
             named[option] = parameters.pop(name, named[option])
         words = dict(zip(self._library.words[::2], self._library.words[1::2], strict=True))
         words.update({option: os.fspath(value) for option, value in named.items() if value is not None})
+        for what, option, argument in (("robot.", "--robot", "robot"), ("cell.", "--cell", "cell"), ("io.", "--io", "scenario")):
+            places = [place for place in parameters if place.startswith(what)]
+            if places and option not in words:
+                raise RefusedError(f"{places[0]}: `{argument}` says whose value this is: name it, in compile() or here")
         with told():
             return [word for pair in words.items() for word in pair] + _arl2rs.words(as_json(parameters))

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from .problems import AlarmError, RefusedError
+from .problems import AlarmError, RefusedError, UnfinishedError
 from .trace import Trace
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class Result:
     way: float | None = None
     """How far its TCP went, mm."""
     alarms: tuple[Alarm, ...] = ()
-    messages: tuple[Message, ...] = ()
+    messages: tuple[Message, ...] = field(default=(), repr=False)
     warnings: tuple[str, ...] = ()
     report: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
     """What each motion did, as `arl2rs run --report=FILE` writes it."""
@@ -85,12 +85,12 @@ class Result:
     def check(self) -> Result:
         """The result itself, if the program came to its end.
 
-        Raises `AlarmError` with file and line where an alarm ended it, `RefusedError` where something else did.
+        Raises `AlarmError` with file and line where an alarm ended it, `UnfinishedError` where it did not end.
         """
         if self.alarms and self.outcome == "alarm":
             raise AlarmError(self.alarms[0])
         if not self.ended:
-            raise RefusedError("; ".join(self.warnings) or f"the run did not come to its end: {self.outcome}")
+            raise UnfinishedError("; ".join(self.warnings) or f"the run did not come to its end: {self.outcome}")
         return self
 
     def plot(self) -> Figure:

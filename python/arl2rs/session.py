@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arl2rs
-from .problems import told
+from .problems import RefusedError, told
 from .result import Result, of_summary
 from .trace import Trace
 from .values import plain
@@ -24,12 +24,16 @@ class Session:
     It may be used in a `with` statement; at its end the run ends.
     """
 
-    def __init__(self, run: _arl2rs.Session, columns: tuple[str, ...], watched: tuple[str, ...]) -> None:
-        self._run, self.columns, self.watched = run, columns, watched
+    def __init__(self, run: _arl2rs.Session, columns: tuple[str, ...], watched: tuple[str, ...], traced: bool) -> None:
+        self._run, self.columns, self.watched, self._traced = run, columns, watched, traced
         self._numbers = np.full(len(columns) + len(watched), np.nan)
         if watched:
             run.watch(list(watched))
         run.observe(self._numbers)
+        # Variables have their first values in the first cycle.
+        for at, name in enumerate(watched):
+            if name.startswith("global."):
+                self._numbers[len(columns) + at] = np.nan
         self.code: int | None = None
         """The exit code, once the run is over."""
         self._said = ""
@@ -47,13 +51,16 @@ class Session:
         The array is that of the last call: `columns` of the trace (time in s, line, motion, axes in deg, TCP in mm and deg), then what is
         `watched`. `alone`: nobody changes anything any more, so that a program that waits in vain ends the run.
         """
+        if cycles < 0:
+            raise RefusedError(f"a session does not step back: {cycles} cycles")
         with told():
             self.code = self._run.step(cycles, alone, self._numbers)
         return self._numbers
 
     def observe(self) -> NDArray[np.float64]:
         """What `step` gave last, as it is now."""
-        self._run.observe(self._numbers)
+        with told():
+            self._run.observe(self._numbers)
         return self._numbers
 
     def __getitem__(self, name: str) -> float:
@@ -71,7 +78,8 @@ class Session:
     @property
     def time(self) -> float:
         """Controller time, s."""
-        return self._run.time
+        with told():
+            return self._run.time
 
     def order(self, order: str) -> None:
         """Does what an event of a scenario does: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`."""
@@ -79,38 +87,58 @@ class Session:
             self._run.order(order)
 
     def set(self, **signals: bool | float) -> None:
-        """Sets inputs, by what the cell calls them or as `di_5`, `ai_2`."""
+        """Sets inputs, by what the cell calls them or as `di_5`, `ai_2`. Digital ones take truth values, 0 and 1."""
         for name, value in signals.items():
             kind, _, channel = name.partition("_")
-            place = f"{kind}.{channel}" if kind in ("di", "ai", "internal") and channel.isdigit() else name
-            self.order(f"{place} = {json.dumps(plain(value))}")
+            is_numbered = kind in ("di", "ai", "internal") and channel.isdigit()
+            given = plain(value, name)
+            # What is observed is a number.
+            if given in (0, 1) and is_numbered and kind != "ai":
+                given = bool(given)
+            self.order(f"{f'{kind}.{channel}' if is_numbered else name} = {json.dumps(given)}")
+        self.observe()
 
     def global_value(self, name: str) -> str:
         """The value of a global variable, as a literal of ARL."""
+        self._has_values()
         with told():
             return self._run.global_value(name)
 
     def set_global(self, name: str, value: Any) -> None:
         """Gives a global variable a value; components that a dictionary leaves out keep theirs."""
+        self._has_values()
         with told():
-            self._run.set_global(name, _arl2rs.literal(json.dumps(plain(value))))
+            self._run.set_global(name, _arl2rs.literal(json.dumps(plain(value, name))))
+        self.observe()
+
+    def _has_values(self) -> None:
+        if self.time == 0:
+            raise RefusedError("global variables get their first values in the first cycle: step first, or give `globals` to the session")
 
     def state(self) -> dict[str, Any]:
         """How everything stands: channels, axes, TCP, inputs and outputs."""
-        state: dict[str, Any] = json.loads(self._run.state())["state"]
+        with told():
+            state: dict[str, Any] = json.loads(self._run.state())["state"]
         return state
 
     def stop(self) -> None:
         """Ends the programs: the robots stop on their paths within the steps that follow."""
-        self._run.stop()
+        with told():
+            self._run.stop()
 
     def result(self) -> Result:
         """What came of the run, or how far it is."""
-        self._said += self._run.take_said()
-        rows = np.frombuffer(self._run.take_rows(), dtype=np.float64).reshape(-1, len(self.columns))
-        self._rows = np.vstack([self._rows, rows])
-        return of_summary(self._run.summary(), self._said, self._run.report(), Trace(self._rows, self.columns))
+        with told():
+            self._said += self._run.take_said()
+            rows = np.frombuffer(self._run.take_rows(), dtype=np.float64).reshape(-1, len(self.columns))
+            self._rows = np.vstack([self._rows, rows])
+            trace = Trace(self._rows, self.columns) if self._traced else None
+            return of_summary(self._run.summary(), self._said, self._run.report(), trace)
 
     def close(self) -> None:
         """Ends the run."""
-        self._run.close()
+        with told():
+            self._run.close()
+
+    def __repr__(self) -> str:
+        return f"Session({self.time:.3f} s, {'over' if self.is_over else 'runs'})"

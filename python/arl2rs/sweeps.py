@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from . import _arl2rs
-from .problems import ArlError, told
+from .problems import ArlError, RefusedError, told
 from .program import StrPath, given
 from .values import Parameters, as_json
 
@@ -62,12 +62,13 @@ class Results(Sequence[dict[str, Any]]):
         """The run that ended with the smallest value of a figure."""
         ended = [row for row in self if row["outcome"] == "ended"]
         if not ended:
-            raise ArlError("no run came to its end")
+            why = [row.get("problem") or (row["alarms"] or [{"text": row["outcome"]}])[0]["text"] for row in self]
+            raise ArlError(f"no run came to its end{': ' + why[0] if why else ''}")
         return min(ended, key=lambda row: row[figure])
 
     def flat(self) -> list[dict[str, Any]]:
         """The rows with a value for each column: parameters by their names, of alarms the first."""
-        return [dict(_flat(row)) for row in self]
+        return [{**dict(_flat(row)), "problem": row.get("problem")} for row in self]
 
     def to_pandas(self) -> pandas.DataFrame:
         """A frame of pandas, which has to be installed."""
@@ -85,6 +86,8 @@ class Results(Sequence[dict[str, Any]]):
         """A picture of a figure over a parameter; runs that did not end are crosses at the bottom. matplotlib has to be installed."""
         from .plots import plot_sweep
 
+        if not any(parameter in row["parameters"] for row in self):
+            raise RefusedError(f"no run has a parameter {parameter!r}")
         return plot_sweep(self.flat(), parameter, figure)
 
     def write(self, path: StrPath) -> None:
@@ -151,8 +154,11 @@ def sweep(
         max_time=max_time,
         timeout=timeout,
     )
+    if processes < 0:
+        raise RefusedError(f"{processes} processes: expected 0 or more")
     with told():
         bundle = _arl2rs.Bundle(settings, texts)
+    _expect_one(bundle, texts)
     if engine == "ray":
         from . import farm
 
@@ -169,6 +175,20 @@ def sweep(
 
         _arl2rs.sweep(bundle, texts, processes, cache, take, lambda text: warnings.warn(text, stacklevel=4))
     return Results(lines)
+
+
+def _expect_one(bundle: _arl2rs.Bundle, rows: list[str]) -> None:
+    """Refuses a table of which no run could begin: that is a slip in a name."""
+    first: _arl2rs.Refused | None = None
+    for row in rows:
+        try:
+            bundle.words(row)
+        except _arl2rs.Refused as problem:
+            first = first or problem
+        else:
+            return
+    if first is not None:
+        raise RefusedError(first.args[0])
 
 
 class Bar:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,8 @@ class Trace:
 
     def __getitem__(self, column: str) -> NDArray[np.float64]:
         """A column by its name: `trace["j1"]`."""
+        if column not in self.columns:
+            raise KeyError(f"{column!r} is no column: {', '.join(self.columns)} are")
         return self.array[:, self.columns.index(column)]
 
     @property
@@ -71,6 +73,12 @@ class Trace:
         """The speed of the TCP, mm/s."""
         return np.asarray(np.linalg.norm(_rate(self.tcp[:, :3], self.t), axis=1))
 
+    def _frame(self) -> dict[str, NDArray[Any]]:
+        """The columns that the robot has; line and motion are whole numbers."""
+        whole = {"line": self.line, "motion": self.motion}
+        there = (name for name in self.columns if not (len(self) and np.isnan(self[name]).all()))
+        return {name: whole.get(name, self[name]) for name in there}
+
     def _there(self, kind: str) -> NDArray[np.float64]:
         at = [index for index, name in enumerate(self.columns) if name.rstrip("123456") == kind]
         axes = self.array[:, at]
@@ -80,13 +88,13 @@ class Trace:
         """The same as a frame of pandas, which has to be installed."""
         import pandas
 
-        return pandas.DataFrame(self.array, columns=list(self.columns))
+        return pandas.DataFrame(self._frame())
 
     def to_polars(self) -> polars.DataFrame:
         """The same as a frame of polars, which has to be installed."""
         import polars
 
-        return polars.DataFrame(self.array, schema=list(self.columns))
+        return polars.DataFrame(self._frame())
 
 
 def _rate(places: NDArray[np.float64], t: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -2,6 +2,7 @@
 
 import _thread
 import json
+import pickle
 import subprocess
 import sys
 import threading
@@ -32,6 +33,22 @@ def test_warnings_are_no_errors(tmp_path):
     assert found and not any(it.is_error for it in found)
 
 
+def test_programs_and_exceptions_go_to_other_processes(short, tmp_path):
+    program = pickle.loads(pickle.dumps(arl2rs.compile(short)))
+    result = program.run(globals={"parts": 0})
+    with pytest.raises(arl2rs.AlarmError) as alarmed:
+        result.check()
+    wrong = tmp_path / "wrong.arl"
+    wrong.write_text("func void main()\n    movej 5\nendfunc\n")
+    with pytest.raises(arl2rs.CompileError) as refused:
+        arl2rs.compile(wrong)
+    for raised in (alarmed.value, refused.value):
+        again = pickle.loads(pickle.dumps(raised))
+        assert (type(again), str(again), again.line) == (type(raised), str(raised), raised.line)
+    with pytest.raises(arl2rs.RefusedError, match="a file"):
+        arl2rs.check()
+
+
 def test_what_is_not_there_is_told(tmp_path):
     with pytest.raises(arl2rs.ArlError, match=r"none\.arl"):
         arl2rs.compile(tmp_path / "none.arl")
@@ -60,7 +77,10 @@ def test_the_trace_has_views(program):
     assert trace.tcp.shape == trace.velocities.shape == (len(trace), 6)
     assert trace.t[1] == 0.001 and trace.line.max() == 56 and trace.motion.max() == 38
     assert 500 < trace.speed.max() < 5000
-    assert list(trace.to_pandas().columns) == list(trace.to_polars().columns) == list(trace.columns)
+    assert list(trace.to_pandas().columns) == list(trace.to_polars().columns) == [it for it in trace.columns if it[:2] != "ej"]
+    assert trace.to_pandas()["line"].dtype == np.int64 and trace.to_pandas().notna().all().all()
+    with pytest.raises(KeyError, match="nope"):
+        trace["nope"]
 
 
 def test_parameters_are_other_values(short):
@@ -84,16 +104,21 @@ def test_what_does_not_fit_is_told_by_its_name(short):
     for arguments, words in [
         ({"globals": {"part": 1}}, "did you mean `parts`"),
         ({"globals": {"parts": "x"}}, "expected a value of type int, found a string"),
-        ({"globals": {"parts": None}}, "null"),
+        ({"globals": {"parts": None}}, "None is nothing"),
         ({"set": {"speed": 1}}, "there is no parameter `speed`"),
-        ({"set": {"io.event.1.at": 1}}, "--io"),
+        ({"set": {"io.event.1.at": 1}}, "`scenario` says whose"),
+        ({"set": {"robot.axis.1.vel": 1}}, "`robot` says whose"),
+        ({"globals": ["parts"]}, "dictionaries"),
         ({"robot": "nobody"}, "no robot of this name"),
         ({"mode": "fast"}, "--mode fast"),
     ]:
         with pytest.raises(arl2rs.RefusedError, match=words):
             program.run(**arguments)
-    with pytest.raises(ValueError, match="JSON"):
-        program.run(globals={"angle": float("nan")})
+    for value in (float("nan"), np.inf, object(), {1}, b"a", arl2rs.Literal(5)):
+        with pytest.raises(arl2rs.RefusedError, match="angle"):
+            program.run(globals={"angle": value})
+    with pytest.raises(arl2rs.RefusedError, match=r"global\.parts is given twice"):
+        program.run(globals={"parts": 1}, set={"global.parts": 2})
 
 
 def test_a_program_that_changes_is_compiled_while_the_old_one_lives(tmp_path):
@@ -109,6 +134,7 @@ def test_numbers_arrive_to_the_last_bit(short):
     program = arl2rs.compile(short)
     random = np.random.default_rng(1)
     with program.session() as session:
+        session.step()
         for number in random.uniform(0, 1000, 200):
             session.set_global("angle", number)
             assert float(session.global_value("angle")) == number
@@ -132,7 +158,7 @@ def test_alarms_have_file_and_line(short):
 def test_a_run_that_waits_in_vain_ends(short):
     result = arl2rs.compile(short).run(globals={"waits": True})
     assert result.outcome == "stuck" and "nothing can change any more" in result.warnings[0]
-    with pytest.raises(arl2rs.RefusedError, match="nothing can change"):
+    with pytest.raises(arl2rs.UnfinishedError, match="nothing can change"):
         result.check()
     assert arl2rs.compile(short).run(globals={"angle": 90}, max_time=0.1).outcome == "time_over"
 

@@ -13,13 +13,17 @@ import arl2rs
 def test_a_session_gets_inputs_and_gives_observations(short):
     program = arl2rs.compile(short)
     with program.session(globals={"waits": True}, watch=["do.2", "di.1", "global.parts"]) as session:
-        assert session["do.2"] == 0 and session["t"] == 0
+        assert session["do.2"] == 0 and session["t"] == 0 and np.isnan(session["global.parts"])
+        with pytest.raises(arl2rs.RefusedError, match="first cycle"):
+            session.set_global("parts", 6)
         while session["line"] == 0 or session["j1"] < 1 - 1e-9:
             session.step()
         session.step(1000)
         assert (session["do.2"], session["di.1"], session["global.parts"]) == (0, 0, 3)
-        session.set(di_1=True)
+        session.set(di_1=session["do.2"] + 1)
+        assert session["di.1"] == 1
         session.set_global("parts", 6)
+        assert session["global.parts"] == 6
         session.set_global("place", {"x": -1})
         assert session.global_value("parts") == "6" and not session.is_over
         while not session.is_over:
@@ -27,7 +31,7 @@ def test_a_session_gets_inputs_and_gives_observations(short):
         assert session.code == 0 and session["do.2"] == 1
         assert session.result().output == "a 2 -1 2 12\n"
         assert session.state()["do"][:3] == "010"
-    with pytest.raises(RuntimeError, match="closed"):
+    with pytest.raises(arl2rs.SessionError, match="closed"):
         session.step()
 
 
@@ -124,6 +128,13 @@ def test_an_episode_terminates_with_the_run_and_is_truncated_with_its_time(envir
         _, _, terminated, truncated, info = environment.step({**action, "di.1": 1})
         assert not truncated
     assert info["outcome"] == "alarm" and info["alarms"][0].line == 15
+    with pytest.raises(arl2rs.RefusedError, match="speed"):
+        arl2rs.Environment(environment.program, actions={}, reward=float, observe=["speed"])
+    for action in ("foo", "di.x", "do.1", "global.nobody"):
+        with pytest.raises(arl2rs.RefusedError):
+            arl2rs.Environment(environment.program, actions={action: bool}, reward=float)
+    environment.reset(options={"globals": {"parts": 4}})
+    assert environment.session.global_value("waits") == "true" and environment.session.global_value("parts") == "4"
     environment.close()
     with pytest.raises(gymnasium.error.ResetNeeded):
         environment.step(action)

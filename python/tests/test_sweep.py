@@ -26,8 +26,8 @@ def test_a_table_comes_back_in_its_order(example):
     assert serial.lines == results.lines
 
 
-def test_a_row_is_what_a_run_says(example, program):
-    [row] = arl2rs.sweep(example / "pick_and_place.arl", [{"global.pitch": 100}], scenario=example / "scenario.toml")
+def test_a_row_is_what_a_run_says(program):
+    [row] = program.sweep([{"global.pitch": 100}])
     result = program.run(globals={"pitch": 100})
     assert (row["cycle_time"], row["moving"], row["way"], row["motions"]) == (
         result.cycle_time,
@@ -67,7 +67,13 @@ def test_the_file_of_a_sweep_is_that_of_the_command(example, tmp_path, capfd):
 
 
 def test_what_cannot_begin_has_a_row(example):
+    with pytest.raises(arl2rs.RefusedError, match="there is no parameter `pitch`"):
+        arl2rs.sweep(example / "pick_and_place.arl", [{"pitch": 1}, {"pitch": 2}])
     results = arl2rs.sweep(example / "pick_and_place.arl", [{"global.pich": 1}, {"robot": "nobody"}, {"speed": 1}])
+    with pytest.raises(arl2rs.ArlError, match="pich"):
+        results.best()
+    with pytest.raises(arl2rs.RefusedError, match="speed2"):
+        results.plot("speed2")
     assert [row["outcome"] for row in results] == ["refused"] * 3
     assert ["pich" in results[0]["problem"], "nobody" in results[1]["problem"], "speed" in results[2]["problem"]] == [True] * 3
 
