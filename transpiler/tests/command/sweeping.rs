@@ -127,4 +127,5 @@ fn mistakes_are_told_before_anything_runs() {
     let (code, error) = run("program = \"p.arl\"\nio = \"none.toml\"\n");
     assert!(code == Some(1) && error.contains("none.toml"), "{error}");
     assert_eq!(folder.arl2rs(&["sweep", "s.toml", "--shard", "3/2"]).code, Some(2));
+    folder.arl2rs(&["sweep", "s.toml", "-o", "r.csv"]).is(2, "").says("FILE.parquet");
 }

@@ -69,6 +69,9 @@ fn word(name: &str, value: &Value) -> Result<[String; 2], String> {
     }
 }
 
+/// The key under which a time comes from TOML.
+const TIME: &str = "$__toml_private_datetime";
+
 /// The key of a table that has a literal of ARL as it stands: `{ arl = "controlmode::auto" }`.
 const AS_IT_STANDS: &str = "arl";
 
@@ -148,7 +151,9 @@ impl<'de> de::Visitor<'de> for InOrder {
     fn visit_map<A: de::MapAccess<'de>>(self, mut map: A) -> Result<Parameters, A::Error> {
         let mut all = Parameters::default();
         while let Some((name, value)) = map.next_entry::<String, Value>()? {
-            all.set(&name, value);
+            // A time of TOML is the text that it was.
+            let time = value.as_object().and_then(|table| table.get(TIME)).cloned();
+            all.set(&name, time.unwrap_or(value));
         }
         Ok(all)
     }
@@ -181,6 +186,12 @@ mod tests {
         assert!(words("pitch", json!(1)).unwrap_err().contains("there is no parameter `pitch`"));
         assert!(words("global.pitch", Value::Null).unwrap_err().contains("null"));
         assert!(words("override", json!([1])).unwrap_err().contains("expected a number or a text"));
+    }
+
+    #[test]
+    fn times_of_toml_are_texts() {
+        let read: Parameters = toml::from_str("start-time = 2026-11-28T12:00:00\n").unwrap();
+        assert_eq!(read.words().unwrap(), ["--start-time", "2026-11-28T12:00:00"]);
     }
 
     #[test]

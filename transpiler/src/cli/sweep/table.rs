@@ -153,10 +153,15 @@ fn values_of(place: &str, values: &Value) -> Result<Vec<Value>, String> {
     match values {
         Value::Array(values) if !values.is_empty() => Ok(values.clone()),
         Value::Object(range) => {
+            if !["from", "to", "count"].iter().any(|key| range.contains_key(*key)) {
+                return Err(format!(
+                    "{EXPECTED}; a place with points in it stands in quotes: \"global.pitch\" = [80, 100]"
+                ));
+            }
             let number = |key: &str| range.get(key).and_then(Value::as_f64).filter(|number| number.is_finite());
             let count = range.get("count").and_then(Value::as_u64).filter(|count| (2..=MOST as u64).contains(count));
             let (Some(from), Some(to), Some(count), 3) = (number("from"), number("to"), count, range.len()) else {
-                return Err(format!("{EXPECTED}, with a count of 2 or more"));
+                return Err(format!("{EXPECTED}, with a count from 2 to {MOST}"));
             };
             let is_whole = ["seed"].contains(&place)
                 || [from, to, (to - from) / (count - 1) as f64].iter().all(|it| it.fract() == 0.0);
@@ -215,8 +220,9 @@ mod tests {
             ("io = \"a\"\n", "missing field `program`"),
             ("program = \"a\"\nspeed = 1\n", "s.toml:2: unknown field `speed`"),
             ("program = \"a\"\n[grid]\nseed = 3\n", "[grid] seed: expected a list"),
-            ("program = \"a\"\n[grid]\nseed = { from = 1, to = 2 }\n", "with a count of 2 or more"),
+            ("program = \"a\"\n[grid]\nseed = { from = 1, to = 2 }\n", "with a count from 2 to 10000000"),
             ("program = \"a\"\n[grid]\nseed = []\n", "expected a list"),
+            ("program = \"a\"\n[grid]\nglobal.pitch = [1]\n", "stands in quotes"),
             (
                 "program = \"a\"\n[grid]\na = { from = 1, to = 2, count = 9000 }\nb = { from = 1, to = 2, count = 9000 }\n",
                 "more than",
