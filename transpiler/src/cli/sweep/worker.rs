@@ -93,7 +93,8 @@ impl Worker {
         let _ = process.questions.write_all(question.as_bytes());
         let begun = Instant::now();
         let answer = loop {
-            let answer = process.answers.recv_timeout(SIGNAL_INTERVAL);
+            let answer =
+                process.answers.recv_timeout(SIGNAL_INTERVAL.min(self.timeout.saturating_sub(begun.elapsed())));
             if !matches!(answer, Err(RecvTimeoutError::Timeout)) {
                 break answer;
             }
