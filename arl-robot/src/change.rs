@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-use crate::settings::{SettingsError, Source, Value, hint};
+use crate::settings::{SettingsError, Source, Value, hint, quoted};
 
 /// The text of a settings file in which the value at `path` is `value`. The path is that of the keys, with points between; entries of lists
 /// count from 1: `axis.1.vel`. The last key may be a new one. What is no TOML value is a text.
@@ -142,20 +142,7 @@ impl<'a> Place<'a> {
 fn as_toml(value: &str) -> String {
     let text = format!("v = {value}\n");
     let alone = !value.contains('\n') && DeTable::parse(&text).is_ok_and(|table| table.get_ref().len() == 1);
-    if alone { value.to_owned() } else { toml_text(value) }
-}
-
-fn toml_text(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => quoted.extend(['\\', c]),
-            c if c.is_control() => quoted.push_str(&format!("\\u{:04x}", u32::from(c))),
-            c => quoted.push(c),
-        }
-    }
-    quoted.push('"');
-    quoted
+    if alone { value.to_owned() } else { quoted(value) }
 }
 
 #[cfg(test)]

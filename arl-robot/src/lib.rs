@@ -5,6 +5,7 @@
 pub mod atomic_file;
 pub mod cell;
 pub mod change;
+pub mod changes;
 pub mod channels;
 pub mod frames;
 pub mod islands;

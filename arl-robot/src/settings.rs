@@ -1,6 +1,6 @@
 //! TOML files that users write, read key by key: errors name the line, what is wrong and what was expected.
 
-use std::fmt;
+use std::fmt::{self, Write};
 use std::ops::Range;
 
 use toml::Spanned;
@@ -237,6 +237,22 @@ pub fn kind(value: &DeValue<'_>) -> String {
         DeValue::Array(_) => "an array".to_owned(),
         DeValue::Table(_) => "a table".to_owned(),
     }
+}
+
+/// A text as TOML and JSON write it.
+pub fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04x}", u32::from(c));
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
 }
 
 /// `did you mean ...?`, or what there is.

@@ -50,8 +50,8 @@ class Environment(gymnasium.Env[Observation, Action]):
     ) -> None:
         self.program, self.cycles, self._reward = program, cycles, reward
         self._arguments = {**arguments, "watch": watch, "max_time": max_time}
-        self._max_time = max_time
         self._session: Session | None = None
+        self._before: dict[str, bool | float] = {}
         names: dict[str, spaces.Space[Any]] = {name: _space(bounds) for name, bounds in actions.items()}
         self._truths = {name for name, bounds in actions.items() if bounds is bool}
         self.action_space = spaces.Dict(names)
@@ -86,7 +86,7 @@ class Environment(gymnasium.Env[Observation, Action]):
         if seed is not None:
             arguments["seed"] = seed
         self._session = self.program.session(**arguments)
-        self._before: dict[str, Any] = {}
+        self._before = {}
         # Variables have their first values from the first cycle on.
         return self._observation(self._session.step(1)), {}
 
@@ -100,12 +100,12 @@ class Environment(gymnasium.Env[Observation, Action]):
                 self._before[name] = value
                 self._set(session, name, value)
         observation = self._observation(session.step(self.cycles))
-        over, late = session.is_over, session.code == 4
-        info: dict[str, Any] = {}
-        if over:
+        reward, info, late = float(self._reward(session)), {}, False
+        if session.is_over:
             result = session.result()
             info = {"outcome": result.outcome, "cycle_time": result.cycle_time, "alarms": result.alarms}
-        return observation, float(self._reward(session)), over and not late, late, info
+            late = result.outcome == "time_over"
+        return observation, reward, session.is_over and not late, late, info
 
     def close(self) -> None:
         """Ends the episode."""

@@ -7,23 +7,21 @@ counts. The nodes have the same system and processor as this computer.
 
 from __future__ import annotations
 
+import json
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import ray
 
 from . import _arl2rs
-from .sweeps import Bar
 
 __all__ = ["run"]
 
 BATCH_S = 2.0
 """So long a task should take; s."""
-TIMEOUT_S = 600.0
-"""After so long a run is given up where nobody says otherwise; s."""
 GRACE_S = 60.0
 """So much longer than a run may take, a task may; s."""
 TRIES = 3
@@ -76,7 +74,7 @@ class _Farm:
         for task in done:
             self.begun.pop(task)
             self._take(task, self.tasks.pop(task))
-        allowed = (self.timeout or TIMEOUT_S) + 10 * BATCH_S + GRACE_S
+        allowed = (self.timeout or _arl2rs.TIMEOUT) + 10 * BATCH_S + GRACE_S
         for task, began in list(self.begun.items()):
             if time.monotonic() - began > allowed:
                 self.batch = 1
@@ -107,7 +105,7 @@ class _Farm:
                     self.results.setdefault(at, _arl2rs.lost("crashed", why[-1] if why else type(problem).__name__))
             return
         for (at, words), (_, result, again) in zip(runs, came, strict=True):
-            if '"outcome":"crashed"' in result and self._counts(at):
+            if json.loads(result)["outcome"] == "crashed" and self._counts(at):
                 self.waiting.append((at, words))
                 continue
             if at not in self.results and again and self.kept is not None:
@@ -126,16 +124,16 @@ class _Farm:
             _not_kept(problem)
 
 
-def _not_kept(problem: OSError) -> None:
+def _not_kept(problem: Exception) -> None:
     warnings.warn(f"results cannot be kept for the next time: {problem}", stacklevel=4)
 
 
-def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache: bool, progress: Bar) -> Iterator[str]:
-    """Makes the runs of a bundle on the cluster that Ray is connected to, or on this computer; gives their rows as JSON, in order."""
+def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache: bool, came: Callable[[int], None]) -> Iterator[str]:
+    """Makes the runs of a bundle on the cluster that Ray is connected to, or on this computer; gives their rows as JSON, in order. `came` hears how many are done."""
     kept = None
     try:
         kept = _arl2rs.Kept(bundle) if cache else None
-    except OSError as problem:
+    except _arl2rs.Failed as problem:
         _not_kept(problem)
     results: dict[int, str] = {}
     waiting: list[tuple[int, Words]] = []
@@ -150,9 +148,9 @@ def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache
             waiting.append((at, words))
         else:
             results[at] = known
-    with progress as bar:
-        if waiting:
-            _make_all(bundle, timeout, waiting, kept, results, bar)
+    if waiting:
+        _make_all(bundle, timeout, waiting, kept, results, came)
+    came(len(results))
     return (_arl2rs.row(at + 1, row, results[at]) for at, row in enumerate(rows))
 
 
@@ -162,7 +160,7 @@ def _make_all(
     waiting: list[tuple[int, Words]],
     kept: _arl2rs.Kept | None,
     results: dict[int, str],
-    bar: Bar,
+    came: Callable[[int], None],
 ) -> None:
     if not ray.is_initialized():
         ray.init(log_to_driver=False)
@@ -172,7 +170,7 @@ def _make_all(
         while farm.waiting or farm.tasks:
             farm.begin()
             farm.wait()
-            bar.update(len(results))
+            came(len(results))
             farm.batch = _batch(farm, (len(results) - before) / max(time.monotonic() - began, 1e-3))
     finally:
         farm.end()

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
+from types import TracebackType
 from typing import TYPE_CHECKING
 
 from . import _arl2rs
@@ -92,16 +91,23 @@ class SessionError(ArlError, RuntimeError):
     """A session is closed, is on another thread, or has crashed."""
 
 
-@contextmanager
-def told() -> Iterator[None]:
+class _Told:
     """Makes the exceptions of the Rust side into those of the package."""
-    try:
-        yield
-    except _arl2rs.Mistakes as mistakes:
-        raise CompileError([Diagnostic.of_json(text) for text in mistakes.args[0]]) from None
-    except _arl2rs.Refused as refused:
-        raise RefusedError(refused.args[0]) from None
-    except RuntimeError as problem:
-        raise SessionError(str(problem)) from None
-    except OSError as problem:
-        raise ArlError(str(problem)) from None
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: type[BaseException] | None, problem: BaseException | None, trace: TracebackType | None) -> None:
+        match problem:
+            case _arl2rs.Mistakes():
+                raise CompileError([Diagnostic.of_json(text) for text in problem.args[0]]) from None
+            case _arl2rs.Refused():
+                raise RefusedError(problem.args[0]) from None
+            case _arl2rs.Gone():
+                raise SessionError(problem.args[0]) from None
+            case _arl2rs.Failed():
+                raise ArlError(problem.args[0]) from None
+
+
+told = _Told()
+"""Within it the exceptions are those of the package. There is one for all: a step of a session takes microseconds."""

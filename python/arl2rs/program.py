@@ -10,13 +10,10 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from . import _arl2rs
 from .problems import ArlError, Diagnostic, RefusedError, told
-from .result import Result, of_summary
+from .result import Result
 from .session import Session
-from .trace import Trace
 from .values import Parameters, as_json, gathered
 
 if TYPE_CHECKING:
@@ -25,7 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["Program", "check", "compile", "run"]
 
 StrPath = str | os.PathLike[str]
-MAX_TIME = 3600.0
+MAX_TIME = _arl2rs.MAX_TIME
 """A run that takes longer in the robot's time is ended, where nobody says otherwise; s."""
 
 
@@ -76,7 +73,7 @@ def check(
     if not files:
         raise RefusedError("check() needs a file")
     settings = given(files[0], robot=robot, cell=cell, script_dir=script_dir)
-    with told():
+    with told:
         found = _arl2rs.check([Path(file) for file in files], settings, strict, background)
     return [Diagnostic.of_json(text) for text in found]
 
@@ -134,7 +131,7 @@ class Program:
         self.path = Path(program)
         self._given = given(program, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
         self._arguments = {"robot": robot, "cell": cell, "scenario": scenario, "script_dir": script_dir}
-        with told():
+        with told:
             self._library = _arl2rs.Library(self._given)
 
     def __repr__(self) -> str:
@@ -187,13 +184,8 @@ class Program:
         Other threads go on meanwhile; Ctrl-C ends it. Raises `RefusedError` where something is not there or does not fit.
         """
         parameters = gathered(globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time)
-        words = self._words(scenario, robot, state_dir, parameters)
-        with told():
-            session = self._library.begin([*words, "--report"], trace)
-            session.go_on(2**63, True)
-            rows = np.frombuffer(session.take_rows(), dtype=np.float64) if trace else None
-            found = None if rows is None else Trace(rows.reshape(-1, len(self.columns)), self.columns)
-            return of_summary(session.summary(), session.take_said(), session.report(), found)
+        with self._begin(self._words(scenario, robot, state_dir, parameters), trace) as session:
+            return session.finish()
 
     def session(
         self,
@@ -215,8 +207,10 @@ class Program:
         """A run that is stepped: inputs in, observations out. The arguments are those of `run`; `watch` names signals (`do.1`, or what the
         cell calls them) and global variables (`global.placed`) that are observed."""
         parameters = gathered(globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time)
-        words = self._words(scenario, robot, state_dir, parameters)
-        with told():
+        return self._begin(self._words(scenario, robot, state_dir, parameters), trace, watch)
+
+    def _begin(self, words: list[str], trace: bool, watch: Sequence[str] = ()) -> Session:
+        with told:
             return Session(self._library.begin([*words, "--report"], trace), self.columns, tuple(watch), trace)
 
     def record(self, recording: StrPath, **arguments: Any) -> None:
@@ -226,20 +220,8 @@ class Program:
         named = [arguments.pop(name, None) for name in ("globals", "points", "set")]
         with tempfile.TemporaryDirectory() as nothing_kept:
             words = self._words(scenario, robot, nothing_kept, gathered(*named, **arguments))
-            self._record(recording, words)
-
-    def _record(self, recording: StrPath, words: list[str]) -> None:
-        command = [
-            sys.executable,
-            "-m",
-            "arl2rs",
-            "run",
-            os.fspath(self.path.absolute()),
-            "--record",
-            os.fspath(recording),
-            *words,
-        ]
-        ran = subprocess.run(command, capture_output=True, text=True, check=False)
+            command = [sys.executable, "-m", "arl2rs", "run", self.path.absolute(), "--record", recording, *words]
+            ran = subprocess.run(command, capture_output=True, text=True, check=False)
         if ran.returncode not in (0, 3, 4):
             raise ArlError(ran.stderr.strip())
 
@@ -254,5 +236,5 @@ class Program:
             places = [place for place in parameters if place.startswith(what)]
             if places and option not in words:
                 raise RefusedError(f"{places[0]}: `{argument}` says whose value this is: name it, in compile() or here")
-        with told():
+        with told:
             return [word for pair in words.items() for word in pair] + _arl2rs.words(as_json(parameters))

@@ -37,7 +37,7 @@ class Session:
         self.code: int | None = None
         """The exit code, once the run is over."""
         self._said = ""
-        self._rows: NDArray[np.float64] = np.empty((0, len(columns)))
+        self._rows: list[NDArray[np.float64]] = []
 
     def __enter__(self) -> Self:
         return self
@@ -53,13 +53,13 @@ class Session:
         """
         if cycles < 0:
             raise RefusedError(f"a session does not step back: {cycles} cycles")
-        with told():
+        with told:
             self.code = self._run.step(cycles, alone, self._numbers)
         return self._numbers
 
     def observe(self) -> NDArray[np.float64]:
         """What `step` gave last, as it is now."""
-        with told():
+        with told:
             self._run.observe(self._numbers)
         return self._numbers
 
@@ -78,12 +78,12 @@ class Session:
     @property
     def time(self) -> float:
         """Controller time, s."""
-        with told():
+        with told:
             return self._run.time
 
     def order(self, order: str) -> None:
         """Does what an event of a scenario does: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`."""
-        with told():
+        with told:
             self._run.order(order)
 
     def set(self, **signals: bool | float) -> None:
@@ -101,13 +101,13 @@ class Session:
     def global_value(self, name: str) -> str:
         """The value of a global variable, as a literal of ARL."""
         self._has_values()
-        with told():
+        with told:
             return self._run.global_value(name)
 
     def set_global(self, name: str, value: Any) -> None:
         """Gives a global variable a value; components that a dictionary leaves out keep theirs."""
         self._has_values()
-        with told():
+        with told:
             self._run.set_global(name, _arl2rs.literal(json.dumps(plain(value, name))))
         self.observe()
 
@@ -117,27 +117,34 @@ class Session:
 
     def state(self) -> dict[str, Any]:
         """How everything stands: channels, axes, TCP, inputs and outputs."""
-        with told():
+        with told:
             state: dict[str, Any] = json.loads(self._run.state())["state"]
         return state
 
     def stop(self) -> None:
         """Ends the programs: the robots stop on their paths within the steps that follow."""
-        with told():
+        with told:
             self._run.stop()
 
     def result(self) -> Result:
         """What came of the run, or how far it is."""
-        with told():
+        with told:
             self._said += self._run.take_said()
-            rows = np.frombuffer(self._run.take_rows(), dtype=np.float64).reshape(-1, len(self.columns))
-            self._rows = np.vstack([self._rows, rows])
-            trace = Trace(self._rows, self.columns) if self._traced else None
+            self._rows.append(np.frombuffer(self._run.take_rows()).reshape(-1, len(self.columns)))
+            if len(self._rows) > 1:
+                self._rows = [np.concatenate(self._rows)]
+            trace = Trace(self._rows[0], self.columns) if self._traced else None
             return of_summary(self._run.summary(), self._said, self._run.report(), trace)
+
+    def finish(self) -> Result:
+        """Goes on to the end of the run, where nobody changes anything any more; gives what came of it."""
+        with told:
+            self.code = self._run.go_on(2**63, True)
+        return self.result()
 
     def close(self) -> None:
         """Ends the run."""
-        with told():
+        with told:
             self._run.close()
 
     def __repr__(self) -> str:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import itertools
 import json
-import os
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
+
+from tqdm.auto import tqdm
 
 from . import _arl2rs
 from .problems import ArlError, RefusedError, told
@@ -108,7 +109,7 @@ def _flat(row: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
 
 def load_sweep(file: StrPath) -> tuple[dict[str, Any], list[dict[str, Any]]]:
     """The file of `arl2rs sweep`: the arguments of `sweep` but for its rows, and the rows."""
-    with told():
+    with told:
         settings, rows = _arl2rs.table(Path(file))
     settings["scenario"] = settings.pop("io")
     return settings, [json.loads(row) for row in rows]
@@ -156,64 +157,24 @@ def sweep(
     )
     if processes < 0:
         raise RefusedError(f"{processes} processes: expected 0 or more")
-    with told():
+    if engine not in ("local", "ray"):
+        raise RefusedError(f"engine {engine!r}: expected 'local' or 'ray'")
+    with told:
         bundle = _arl2rs.Bundle(settings, texts)
-    _expect_one(bundle, texts)
-    if engine == "ray":
-        from . import farm
-
-        with told():
-            return Results(farm.run(bundle, texts, timeout=timeout, cache=cache, progress=_bar(len(texts), progress)))
-    if engine != "local":
-        raise ValueError(f"engine {engine!r}: expected 'local' or 'ray'")
     lines: list[str] = []
-    with _bar(len(texts), progress) as bar, told():
+    with tqdm(total=len(texts), unit="run", disable=None if progress is None else not progress) as bar, told:
+
+        def came(count: int) -> None:
+            bar.update(count - bar.n)
 
         def take(line: str) -> None:
             lines.append(line)
-            bar.update(len(lines))
+            came(len(lines))
 
-        _arl2rs.sweep(bundle, texts, processes, cache, take, lambda text: warnings.warn(text, stacklevel=4))
-    return Results(lines)
+        if engine == "ray":
+            from . import farm
 
-
-def _expect_one(bundle: _arl2rs.Bundle, rows: list[str]) -> None:
-    """Refuses a table of which no run could begin: that is a slip in a name."""
-    first: _arl2rs.Refused | None = None
-    for row in rows:
-        try:
-            bundle.words(row)
-        except _arl2rs.Refused as problem:
-            first = first or problem
+            lines.extend(farm.run(bundle, texts, timeout=timeout, cache=cache, came=came))
         else:
-            return
-    if first is not None:
-        raise RefusedError(first.args[0])
-
-
-class Bar:
-    """A bar on the standard error."""
-
-    _WIDTH = 30
-
-    def __init__(self, count: int, shown: bool) -> None:
-        self._count, self._shown, self._last = count, shown and count > 0, -1
-
-    def update(self, done: int) -> None:
-        """So many are done."""
-        filled = self._WIDTH * done // max(self._count, 1)
-        if self._shown and (filled, done == self._count) != (self._last, False):
-            self._last = filled
-            os.write(2, f"\r{'█' * filled:░<{self._WIDTH}} {done}/{self._count} runs".encode())
-
-    def __enter__(self) -> Bar:
-        self.update(0)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self._shown:
-            os.write(2, b"\r\x1b[K")
-
-
-def _bar(count: int, shown: bool | None) -> Bar:
-    return Bar(count, os.isatty(2) if shown is None else shown)
+            _arl2rs.sweep(bundle, texts, processes, cache, take, lambda text: warnings.warn(text, stacklevel=4))
+    return Results(lines)

@@ -4,32 +4,22 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use arl2rs::cli::host::{self, Parameters, Row, RunResult, Settings, Spread};
+use arl2rs::cli::host::{self, Parameters, Row, RunResult, Settings, Spread, Sweep};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::problem::{Refused, of_host};
-use crate::{Given, interruptible};
+use crate::problem::{Failed, Refused, of_host};
+use crate::{Given, LOOK_INTERVAL, interruptible};
 
 /// The file of a sweep: what is run, as a dictionary, and the parameters of each run, as JSON.
 #[pyfunction]
-pub(crate) fn table(py: Python<'_>, file: PathBuf) -> PyResult<(Bound<'_, PyAny>, Vec<String>)> {
-    let sweep = host::table(&file).map_err(of_host)?;
-    let Settings { program, robot, cell, io, script_dir, files, max_time, timeout } = sweep.settings;
-    let given = pyo3::types::PyDict::new(py);
-    given.set_item("program", program)?;
-    given.set_item("robot", robot)?;
-    given.set_item("cell", cell)?;
-    given.set_item("io", io)?;
-    given.set_item("script_dir", script_dir)?;
-    given.set_item("files", files)?;
-    given.set_item("max_time", max_time)?;
-    given.set_item("timeout", timeout)?;
-    let rows: PyResult<Vec<String>> = sweep.rows.iter().map(written).collect();
-    Ok((given.into_any(), rows?))
+pub(crate) fn table(file: PathBuf) -> PyResult<(Given, Vec<String>)> {
+    let Sweep { settings, rows } = host::table(&file).map_err(of_host)?;
+    let rows: PyResult<Vec<String>> = rows.iter().map(written).collect();
+    Ok((settings.into(), rows?))
 }
 
 /// JSON of the Python side.
@@ -157,7 +147,7 @@ pub(crate) fn sweep(
                 host::sweep(&bundle.bundle, &rows, how, &is_enough, &mut row, &mut |text| call(&warn, text))
             });
             while !runs.is_finished() {
-                std::thread::park_timeout(std::time::Duration::from_millis(20));
+                std::thread::sleep(LOOK_INTERVAL);
                 if let Err(error) = Python::attach(|py| py.check_signals()) {
                     fail(error);
                 }
@@ -170,7 +160,7 @@ pub(crate) fn sweep(
     }
     match ended {
         Ok(ended) => ended.map_err(of_host),
-        Err(_) => Err(PyOSError::new_err("a bug of arl2rs: the sweep panicked")),
+        Err(_) => Err(Failed::new_err("a bug of arl2rs: the standard error says where the sweep panicked")),
     }
 }
 

@@ -6,10 +6,9 @@ mod session;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
-use std::sync::mpsc::RecvTimeoutError;
+use std::time::Duration;
 
 use arl2rs::cli::host::{self, Settings};
-use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 
 #[pymodule]
@@ -17,12 +16,17 @@ mod _arl2rs {
     #[pymodule_export]
     use super::farm::{Bundle, Kept, Worker, lost, row, sweep, table};
     #[pymodule_export]
-    use super::problem::{Mistakes, Refused};
+    use super::problem::{Failed, Gone, Mistakes, Refused};
     #[pymodule_export]
     use super::session::{Library, Session};
     #[pymodule_export]
     use super::{check, command, literal, words};
     use pyo3::prelude::*;
+
+    #[pymodule_export]
+    const MAX_TIME: f64 = super::host::MAX_TIME;
+    #[pymodule_export]
+    const TIMEOUT: f64 = super::host::TIMEOUT;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -35,7 +39,7 @@ mod _arl2rs {
 }
 
 /// What is run, of what Python says.
-#[derive(FromPyObject)]
+#[derive(FromPyObject, IntoPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Given {
     program: PathBuf,
@@ -46,6 +50,13 @@ pub(crate) struct Given {
     files: Vec<PathBuf>,
     max_time: Option<f64>,
     timeout: Option<f64>,
+}
+
+impl From<Settings> for Given {
+    fn from(settings: Settings) -> Self {
+        let Settings { program, robot, cell, io, script_dir, files, max_time, timeout } = settings;
+        Self { program, robot, cell, io, script_dir, files, max_time, timeout }
+    }
 }
 
 impl From<Given> for Settings {
@@ -75,28 +86,20 @@ fn literal(value: &str) -> PyResult<String> {
     host::as_arl(&value).ok_or_else(|| problem::Refused::new_err("None is no value of ARL"))
 }
 
+/// How often it is looked whether Ctrl-C was pressed, and whether something has ended.
+pub(crate) const LOOK_INTERVAL: Duration = Duration::from_millis(2);
+
 /// Does something long on a thread of its own, while this one hears Ctrl-C. What is given up is left to itself.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> PyResult<T> {
-    let (tell, done) = std::sync::mpsc::channel();
-    let worker = std::thread::spawn(move || tell.send(work()));
-    let done = std::sync::Mutex::new(done);
-    loop {
-        let came = py.detach(|| {
-            let done = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            done.recv_timeout(std::time::Duration::from_millis(50))
-        });
-        match came {
-            Ok(came) => return Ok(came),
-            Err(RecvTimeoutError::Timeout) => py.check_signals()?,
-            Err(RecvTimeoutError::Disconnected) => {
-                let panicked = worker.join().is_err();
-                return Err(PyOSError::new_err(format!("a bug of arl2rs: its thread has ended, panicked: {panicked}")));
-            }
-        }
+    let worker = std::thread::spawn(work);
+    while !worker.is_finished() {
+        py.detach(|| std::thread::sleep(LOOK_INTERVAL));
+        py.check_signals()?;
     }
+    worker.join().map_err(|_| problem::Failed::new_err("a bug of arl2rs: the standard error says where it panicked"))
 }
 
 /// Does what these words say, as the command does; gives its exit code.

@@ -6,11 +6,10 @@ use std::thread::{self, ThreadId};
 use arl_library::{Library as Loaded, LoadError, Session as Run};
 use arl2rs::cli::host::{self, Settings};
 use pyo3::buffer::PyBuffer;
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::problem::{of_host, of_library};
+use crate::problem::{Gone, of_host, of_library};
 use crate::{Given, interruptible};
 
 /// So many cycles may go by before somebody looks whether Ctrl-C was pressed; some 50 ms.
@@ -67,7 +66,7 @@ pub(crate) struct Session {
 impl Session {
     /// The run. Another thread is sent away, not kept waiting.
     fn own(&self) -> PyResult<MutexGuard<'_, Option<Run>>> {
-        let wrong = || PyRuntimeError::new_err(LoadError::WrongThread.to_string());
+        let wrong = || Gone::new_err(LoadError::WrongThread.to_string());
         if thread::current().id() != self.thread {
             return Err(wrong());
         }
@@ -84,7 +83,7 @@ impl Session {
 
     fn with<T>(&self, act: impl FnOnce(&mut Run) -> T) -> PyResult<T> {
         let mut run = self.own()?;
-        run.as_mut().map(act).ok_or_else(|| PyRuntimeError::new_err("the session is closed"))
+        run.as_mut().map(act).ok_or_else(|| Gone::new_err("the session is closed"))
     }
 
     fn tried<T>(&self, act: impl FnOnce(&mut Run) -> Result<T, LoadError>) -> PyResult<T> {

@@ -1,6 +1,7 @@
 """Sweeps on several machines: Ray as three nodes on one."""
 
 import pytest
+from tqdm import tqdm
 
 import arl2rs
 
@@ -46,21 +47,16 @@ def test_what_is_lost_in_between_is_done_again_and_the_table_is_the_serial_one(c
 
     killed = []
 
-    class Killer:
+    class Killer(tqdm):
         """Kills a node once a third is done."""
 
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *_):
-            pass
-
-        def update(self, done):
-            if done > 3_000 and not killed:
-                killed.append(done)
+        def update(self, n=1):
+            super().update(n)
+            if self.n > 3_000 and not killed:
+                killed.append(self.n)
                 cluster.remove_node(nodes[0], allow_graceful=False)
 
-    monkeypatch.setattr("arl2rs.sweeps._bar", lambda *_: Killer())
+    monkeypatch.setattr("arl2rs.sweeps.tqdm", Killer)
     farmed = arl2rs.sweep(source, rows, engine="ray", **arguments)
     assert killed and killed[0] < 9_000
     assert farmed.lines == serial.lines
@@ -86,19 +82,13 @@ def test_who_stops_leaves_nothing_on_the_cluster(cluster, tmp_path, monkeypatch)
     class Stopped(Exception):
         pass
 
-    class Stopper:
-        def __enter__(self):
-            return self
-
-        def __exit__(self, *_):
-            pass
-
-        def update(self, done):
+    class Stopper(tqdm):
+        def update(self, n=1):
             raise Stopped
 
-    monkeypatch.setattr("arl2rs.sweeps._bar", lambda *_: Stopper())
+    monkeypatch.setattr("arl2rs.sweeps.tqdm", Stopper)
     with pytest.raises(Stopped):
-        arl2rs.sweep(source, [{"global.hangs": True}] * 2, engine="ray", max_time=1e9, cache=False)
+        arl2rs.sweep(source, [{"global.hangs": True}] * 2, engine="ray", max_time=1e9, timeout=1e6, cache=False)
     monkeypatch.undo()
     # The cores are free again.
     assert arl2rs.sweep(source, [{}], engine="ray", cache=False)[0]["outcome"] == "ended"

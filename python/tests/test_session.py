@@ -85,7 +85,7 @@ def test_a_session_stays_on_its_thread(short):
         for act in (session.step, session.state, session.result, session.observe, session.close):
             try:
                 act()
-            except RuntimeError as problem:
+            except arl2rs.SessionError as problem:
                 problems.append(str(problem))
 
     thread = threading.Thread(target=step)

@@ -85,6 +85,7 @@ use super::{
     Body, BusSettings, Carrier, DriverSettings, Homes, LateCycles, Names, NetworkSettings, Programs, Rate, Sensitivity,
     Stands, Wiring, collisions,
 };
+use crate::changes::{Changes, Part};
 use crate::channels::Channels;
 use crate::islands::Island;
 use crate::regular_file;
@@ -154,10 +155,18 @@ impl Cell {
     /// # Errors
     /// The file cannot be read, or what it says is not a cell.
     pub fn load(path: &Path) -> Result<Cell, SettingsError> {
+        Cell::load_with(path, &Changes::default())
+    }
+
+    /// The same with other values at some places.
+    ///
+    /// # Errors
+    /// As for [`load`](Self::load), or the file has no such place.
+    pub fn load_with(path: &Path, changes: &Changes) -> Result<Cell, SettingsError> {
         let name = path.display().to_string();
         let text = regular_file::read_text(path)
             .map_err(|error| SettingsError::of_file(&name, format!("cannot read the cell file: {error}")))?;
-        Cell::parse(&name, &text)
+        Cell::parse(&name, &changes.apply(Part::Cell, &name, text)?)
     }
 
     /// The cell that `text` describes; `file` names the text in errors.

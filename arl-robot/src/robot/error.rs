@@ -3,6 +3,8 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::settings::SettingsError;
+
 /// What is wrong with a robot file, and where.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct RobotError {
@@ -40,3 +42,10 @@ impl fmt::Display for RobotError {
 }
 
 impl std::error::Error for RobotError {}
+
+impl From<SettingsError> for RobotError {
+    fn from(error: SettingsError) -> Self {
+        let SettingsError { file, line, column, message } = error;
+        Self { file, line, column, message }
+    }
+}

@@ -12,6 +12,7 @@ pub use arl_lang::catalog::Family;
 pub use error::RobotError;
 pub use limbs::Limb;
 
+use crate::changes::{Changes, Part};
 use crate::kinematics::Kinematics;
 use crate::regular_file;
 use std::borrow::Cow;
@@ -168,14 +169,20 @@ impl Robot {
     /// # Errors
     /// Nothing of this name is built in and no such file can be read, or the file is wrong: then with line and column.
     pub fn load(name_or_path: &str) -> Result<Robot, RobotError> {
-        Robot::parse(name_or_path, &Robot::source(name_or_path)?)
+        Robot::load_with(name_or_path, &Changes::default())
+    }
+
+    /// The same with other values at some places.
+    ///
+    /// # Errors
+    /// As for [`load`](Self::load), or the file has no such place.
+    pub fn load_with(name_or_path: &str, changes: &Changes) -> Result<Robot, RobotError> {
+        let text = changes.apply(Part::Robot, name_or_path, Robot::source(name_or_path)?.into_owned())?;
+        Robot::parse(name_or_path, &text)
     }
 
     /// The robot file of a robot that is built in, or that at this path.
-    ///
-    /// # Errors
-    /// Nothing of this name is built in and no such file can be read.
-    pub fn source(name_or_path: &str) -> Result<Cow<'static, str>, RobotError> {
+    fn source(name_or_path: &str) -> Result<Cow<'static, str>, RobotError> {
         if let Some(text) = Robot::text(name_or_path) {
             return Ok(Cow::Borrowed(text));
         }

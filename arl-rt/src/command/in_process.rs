@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::command::live::{alarm_line, message_line, push_state, warning_line};
 use crate::command::observation::Observation;
-use crate::command::program_main::{self, EXIT_ALARM, EXIT_ENDED, EXIT_INTERRUPTED, EXIT_MAX_TIME, Other, listed};
+use crate::command::program_main::{self, Other, listed};
 use crate::command::report;
 use crate::command::summary::{Ending, summary};
 use crate::context::output::Message;
@@ -27,8 +27,8 @@ pub struct Run {
     last: u64,
     /// Why it ends before its programs do.
     cut: Option<Ending>,
-    /// How it ended, and its exit code, once it is over.
-    ended: Option<(Ending, u8)>,
+    /// How it ended, once it is over.
+    ended: Option<Ending>,
     /// All alarms.
     alarms: Vec<Alarm>,
     observation: Observation,
@@ -125,7 +125,7 @@ impl Run {
     }
 
     fn code(&self) -> Option<u8> {
-        self.ended.map(|(_, code)| code)
+        self.ended.map(Ending::code)
     }
 
     fn cut(&mut self, ending: Ending, why: &str) {
@@ -149,8 +149,7 @@ impl Run {
                 program_main::lateness(&self.controller).iter().for_each(|text| self.say(&warning_line(text)));
             }
             let alarmed = matches!(self.controller.outcome(), Some(Outcome::Alarm(_)));
-            let ending = self.cut.unwrap_or(if alarmed { Ending::Alarm } else { Ending::Ended });
-            self.ended = Some((ending, code(ending)));
+            self.ended = Some(self.cut.unwrap_or(if alarmed { Ending::Alarm } else { Ending::Ended }));
         }
         is_over
     }
@@ -200,8 +199,7 @@ impl Run {
     /// What came of it, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s, the alarms, and with `--report` what
     /// the motions of the first robot were together.
     pub fn summary(&self) -> String {
-        let (ending, code) = self.ended.map_or((Ending::Runs, None), |(ending, code)| (ending, Some(code)));
-        summary(&self.controller, (ending, code), &self.alarms)
+        summary(&self.controller, self.ended, &self.alarms)
     }
 
     /// What each motion did, a JSON object a line, where `--report` asked for it.
@@ -246,16 +244,6 @@ impl Run {
     /// Controller time in s: the start of the next cycle.
     pub fn time(&self) -> f64 {
         self.controller.time()
-    }
-}
-
-/// The exit code of a run that ended like that.
-fn code(ending: Ending) -> u8 {
-    match ending {
-        Ending::Runs | Ending::Ended => EXIT_ENDED,
-        Ending::Alarm => EXIT_ALARM,
-        Ending::TimeOver | Ending::Stuck => EXIT_MAX_TIME,
-        Ending::Stopped => EXIT_INTERRUPTED,
     }
 }
 

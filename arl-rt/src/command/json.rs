@@ -2,21 +2,7 @@
 
 use std::fmt::Write;
 
-/// A text as JSON writes it.
-pub(crate) fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => out.extend(['\\', c]),
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04x}", u32::from(c));
-            }
-            c => out.push(c),
-        }
-    }
-    out.push('"');
-    out
-}
+pub(crate) use arl_robot::settings::quoted;
 
 /// Millionths up to this many fit into whole numbers.
 const LARGEST_OF_MILLIONTHS: f64 = 9e9;

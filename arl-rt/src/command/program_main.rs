@@ -1,6 +1,5 @@
 //! The command line of a compiled program.
 
-mod changes;
 mod several;
 
 use std::ffi::OsString;
@@ -27,12 +26,13 @@ use crate::context::standstill::Standstill;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{RealClock, VirtualClock};
 use crate::cycle::realtime::Realtime;
-use crate::io::Pendant;
+use crate::io::{Pendant, Scenario};
 use crate::storage::state::{Directory, Memory};
 use crate::unit::robot_driver::Connect;
 use crate::values::Controlmode;
-use arl_robot::cell::Names;
-use changes::Changes;
+use arl_robot::cell::{Cell, Names};
+use arl_robot::changes::{Changes, Part};
+use arl_robot::robot::Robot;
 
 /// What the program's functions may fill of the stack, and what the thread has on top of that for everything else. Each
 /// cycle goes down the whole chain of functions that wait for each other, so that a long one takes long.
@@ -396,8 +396,12 @@ fn parse(
         options.clock = Some(Pace::Real);
     }
     let Options { robot, cell, io, changes, .. } = &options;
-    if let Some((what, option)) = changes.lacks(robot.is_some(), cell.is_some(), io.is_some()) {
-        return Err(format!("--set {what}.…: {option} says of which file").into());
+    let files =
+        [(Part::Robot, robot.is_some(), "robot"), (Part::Cell, cell.is_some(), "cell"), (Part::Io, io.is_some(), "io")];
+    for (part, is_named, option) in files {
+        if let (false, Some((path, _))) = (is_named, changes.of_part(part).next()) {
+            return Err(format!("--set {option}.{path}: --{option} has to name the file whose value this is").into());
+        }
     }
     Ok(Some(options))
 }
@@ -693,11 +697,11 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
     let mut builder =
         Controller::builder().mode(options.mode).speed_override(options.override_percent).stack(PROGRAM_STACK_BYTES);
     if let Some(robot) = &options.robot {
-        builder = builder.robot(options.changes.robot(robot).map_err(SetupFailure::usage)?);
+        builder = builder.robot(Robot::load_with(robot, &options.changes).map_err(SetupFailure::usage)?);
     }
     let mut names = Names::default();
     if let Some(cell) = &options.cell {
-        let cell = options.changes.cell(cell).map_err(SetupFailure::usage)?;
+        let cell = Cell::load_with(cell, &options.changes).map_err(SetupFailure::usage)?;
         names = cell.names.clone();
         builder = builder.cell_with(cell, others)?;
         builder = several::trace(builder, options.trace.as_deref())?;
@@ -707,9 +711,11 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
         builder = builder.drivers(*connect);
     }
     if let Some(io) = &options.io {
-        builder = builder.scenario(options.changes.scenario(io, &names).map_err(SetupFailure::usage)?);
+        let scenario = Scenario::load_changed(io, &names, &options.changes);
+        builder = builder.scenario(scenario.map_err(SetupFailure::usage)?);
     }
-    builder = options.changes.globals(builder);
+    let globals = options.changes.of_part(Part::Global);
+    builder = globals.fold(builder, |builder, (name, value)| builder.global(name, value));
     if let Some(trace) = &options.trace {
         let file = File::create(trace);
         builder = builder.trace(file.map_err(|error| SetupFailure::usage(format!("{}: {error}", trace.display())))?);

@@ -146,7 +146,7 @@ fn rate(closest: &Closest) -> &'static str {
 }
 
 /// Over the motions that began; 0 without any, not the -0 that sums of nothing are.
-fn sum(records: &[MotionRecord], of: impl Fn(&MotionRecord) -> f64) -> f64 {
+pub(crate) fn sum(records: &[MotionRecord], of: impl Fn(&MotionRecord) -> f64) -> f64 {
     executed(records).map(of).fold(0.0, |sum, value| sum + value)
 }
 

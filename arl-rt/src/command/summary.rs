@@ -3,16 +3,15 @@
 use std::fmt::Write;
 
 use crate::command::json::{number, push_array, quoted};
+use crate::command::program_main::{EXIT_ALARM, EXIT_ENDED, EXIT_INTERRUPTED, EXIT_MAX_TIME};
 use crate::command::report;
 use crate::controller::Controller;
 use crate::fault::Alarm;
 use crate::motion::MotionRecord;
 
-/// How a run ended, or that it has not.
+/// How a run ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Ending {
-    /// It goes on.
-    Runs,
     /// The program ended.
     Ended,
     /// An alarm ended it.
@@ -28,7 +27,6 @@ pub(crate) enum Ending {
 impl Ending {
     fn word(self) -> &'static str {
         match self {
-            Ending::Runs => "runs",
             Ending::Ended => "ended",
             Ending::Alarm => "alarm",
             Ending::TimeOver => "time_over",
@@ -36,15 +34,26 @@ impl Ending {
             Ending::Stopped => "stopped",
         }
     }
+
+    /// The exit code of a command whose run ended like that.
+    pub(crate) fn code(self) -> u8 {
+        match self {
+            Ending::Ended => EXIT_ENDED,
+            Ending::Alarm => EXIT_ALARM,
+            Ending::TimeOver | Ending::Stuck => EXIT_MAX_TIME,
+            Ending::Stopped => EXIT_INTERRUPTED,
+        }
+    }
 }
 
 /// A JSON object without newline: the ending, the exit code, the time in s, what the first robot's motions were together, and the alarms.
-/// The figures of motions are there where the controller records them.
-pub(crate) fn summary(controller: &Controller, (ending, code): (Ending, Option<u8>), alarms: &[Alarm]) -> String {
+/// The figures of motions are 0 where the controller does not record them.
+pub(crate) fn summary(controller: &Controller, ending: Option<Ending>, alarms: &[Alarm]) -> String {
     let mut text = String::new();
-    let code = code.map_or("null".to_owned(), |code| code.to_string());
+    let outcome = ending.map_or("runs", Ending::word);
+    let code = ending.map_or("null".to_owned(), |ending| ending.code().to_string());
     let time = controller.time();
-    let _ = write!(text, "{{\"outcome\":\"{}\",\"code\":{code},\"cycle_time\":{}", ending.word(), number(time));
+    let _ = write!(text, "{{\"outcome\":\"{outcome}\",\"code\":{code},\"cycle_time\":{}", number(time));
     let _ = write!(text, ",\"real_time\":{}", controller.is_real());
     let mut of_first = None;
     controller.each_record(|_, records, _| {
@@ -58,14 +67,13 @@ pub(crate) fn summary(controller: &Controller, (ending, code): (Ending, Option<u
 }
 
 fn figures(records: &[MotionRecord], time: f64) -> String {
-    let executed = || report::executed(records);
-    let moving: f64 = executed().map(|record| record.duration).sum();
-    let way: f64 = executed().map(|record| record.way).sum();
+    let moving = report::sum(records, |record| record.duration);
+    let way = report::sum(records, |record| record.way);
     format!(
         ",\"moving\":{},\"standing\":{},\"motions\":{},\"way\":{}",
         number(moving),
         number((time - moving).max(0.0)),
-        executed().count(),
+        report::executed(records).count(),
         number(way)
     )
 }

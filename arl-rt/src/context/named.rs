@@ -2,7 +2,7 @@
 
 use crate::context::program::Program;
 use crate::storage::data::DataVar;
-use arl_lang::symbol::Interner;
+use crate::values::{Onto, teach_text};
 use arl_robot::settings::nearest;
 
 /// Another first value for a global variable.
@@ -16,32 +16,19 @@ impl Named {
         Self { name, literal }
     }
 
-    /// Whether one of the programs takes it. The programs have not begun: it comes into variables that get their first values later.
+    /// Puts the value into the variable, in each program that has one.
     ///
     /// # Errors
-    /// No program has a variable of this name, several have, or the value does not fit.
-    pub(crate) fn check(&self, programs: &[&dyn Program]) -> Result<(), String> {
+    /// No program has a variable of this name, several files of one have, or the value does not fit.
+    pub(crate) fn put(&self, programs: &[&dyn Program]) -> Result<(), String> {
+        let Self { name, literal } = self;
+        let put = |variable: &DataVar<'_>| teach_text(variable.slot, Onto::Value, variable.sizes, literal);
         let mut found = false;
         for program in programs {
-            found |= with_variable(*program, &self.name, |variable| self.change(variable))?.transpose()?.is_some();
+            let done = with_variable(*program, name, put)?.transpose();
+            found |= done.map_err(|problem| format!("global variable `{name}` = {literal}: {problem}"))?.is_some();
         }
-        if found { Ok(()) } else { Err(unknown(&self.name, programs)) }
-    }
-
-    /// Sets the variable, where the program has it.
-    pub(crate) fn set(&self, program: &dyn Program) {
-        // What does not fit was told before anything began.
-        let _ = with_variable(program, &self.name, |variable| self.change(variable));
-    }
-
-    fn change(&self, variable: &DataVar<'_>) -> Result<(), String> {
-        let fail = |why: String| format!("global variable `{}` = {}: {why}", self.name, self.literal);
-        let mut names = Interner::default();
-        let parsed = arl_lang::parse_expression(&self.literal, &mut names, arl_lang::ParseOptions::default());
-        if let Some(error) = parsed.errors.first() {
-            return Err(fail(error.kind.message()));
-        }
-        variable.slot.change(&parsed.expr, variable.sizes, &names).map_err(|error| fail(error.to_string()))
+        if found { Ok(()) } else { Err(unknown(name, programs)) }
     }
 }
 

@@ -145,7 +145,7 @@ impl Builder {
         self
     }
 
-    /// Gives a global variable another first value, by its name and as a literal of ARL: `("pitch", "80.5")`, `("feeder", "{z 120}")`.
+    /// Gives a global variable another first value, by its name in any case and as a literal of ARL: `("pitch", "80.5")`, `("feeder", "{z 120}")`.
     /// Components that the literal leaves out keep theirs. It comes when [`Builder::on_init`] does, and only to programs that were
     /// compiled with the names of their variables. A name that several files have is written `FILE::NAME`.
     pub fn global(mut self, name: impl Into<String>, literal: impl Into<String>) -> Self {
@@ -358,9 +358,12 @@ impl Builder {
         let all = std::iter::once(&program).chain(self.foreground.iter().map(|it| &it.program)).chain(&background);
         let all: Vec<&dyn Program> = all.map(|program| &**program).collect();
         all.iter().for_each(|program| atomic_file::remove_leftovers(&self.script_dir.join(program.folder())));
-        self.named.iter().try_for_each(|named| named.check(&all)).map_err(SetupError::Globals)?;
+        // What does not fit is told now; what is put in comes once more when the variables have their first values.
+        self.named.iter().try_for_each(|named| named.put(&all)).map_err(SetupError::Globals)?;
         let named = self.named;
-        self.initialised.push(Box::new(move |program| named.iter().for_each(|named| named.set(program))));
+        self.initialised.push(Box::new(move |program| {
+            named.iter().for_each(|named| drop(named.put(&[program])));
+        }));
         let common = Rc::new(Common::new());
         let mut state = State::new(self.storage);
         system::load(&common.kept_own(), &mut state)?;

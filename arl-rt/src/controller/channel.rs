@@ -121,10 +121,6 @@ impl Channel {
         &self.cx
     }
 
-    pub(super) fn program_itself(&self) -> &dyn Program {
-        &*self.program
-    }
-
     /// The global variables of its program, where they are of this type.
     pub(super) fn globals<G: 'static>(&self) -> Option<&G> {
         self.program.globals().downcast_ref()

@@ -485,12 +485,12 @@ impl Controller {
     /// # Errors
     /// As [`Controller::global`], or the value does not fit.
     pub fn set_global(&mut self, name: &str, literal: &str) -> Result<(), String> {
-        Named::new(name.to_owned(), literal.to_owned()).check(&[self.first_program()])
+        Named::new(name.to_owned(), literal.to_owned()).put(&[self.first_program()])
     }
 
     /// The program of the first channel.
     pub(crate) fn first_program(&self) -> &dyn Program {
-        self.channels.first().program_itself()
+        self.channels.first().cx().program_itself()
     }
 
     /// The system variables.

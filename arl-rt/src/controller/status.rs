@@ -107,12 +107,6 @@ impl Controller {
         }
     }
 
-    /// The levels of the digital inputs and outputs, from channel 1.
-    pub(crate) fn with_levels(&self, see: impl FnOnce(&[bool], &[bool])) {
-        let io = self.shared.io.borrow();
-        see(io.inputs().levels(), io.outputs().levels());
-    }
-
     /// Shows the inputs and outputs.
     pub(crate) fn with_signals<T>(&self, see: impl FnOnce(&Image) -> T) -> T {
         see(&self.shared.io.borrow())

@@ -22,7 +22,8 @@ pub use scara::AsScara;
 pub use shared::Shared;
 pub use str::Str;
 pub use structs::*;
-pub use teach::{Fixed, Teach, teach_variable};
+pub(crate) use teach::teach_text;
+pub use teach::{Fixed, Onto, Teach, teach_variable};
 pub use teach_error::{TeachError, TeachProblem};
 pub use watched::Watched;
 

@@ -11,6 +11,15 @@ use arl_lang::span::Span;
 use arl_lang::symbol::Interner;
 use std::cell::Cell;
 
+/// What a literal is put onto: it has what the literal leaves out.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Onto {
+    /// The start value.
+    Start,
+    /// The value that the variable has.
+    Value,
+}
+
 /// A variable that takes a literal value.
 pub trait Teach {
     /// Puts the value in; the variable stays as it was where the value does not fit.
@@ -25,13 +34,15 @@ pub trait Teach {
     ///
     /// # Errors
     /// What does not fit, and in which component.
-    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError>;
+    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        self.teach_onto(Onto::Start, value, sizes, names)
+    }
 
-    /// The same, but components and elements that the literal leaves out keep their values.
+    /// The same, onto what the variable has: components and elements that the literal leaves out are those.
     ///
     /// # Errors
     /// What does not fit, and in which component.
-    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError>;
+    fn teach_onto(&self, onto: Onto, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError>;
 
     /// Gives the variable its start value.
     ///
@@ -50,6 +61,19 @@ fn written(value: &impl Literal) -> String {
     let mut text = String::new();
     value.write(&mut text);
     text
+}
+
+/// Gives a variable the value of a literal, in words of ARL; `sizes` are those of an array of several dimensions.
+///
+/// # Errors
+/// The text is no literal, or does not fit: in words.
+pub(crate) fn teach_text(variable: &dyn Teach, onto: Onto, sizes: &[usize], literal: &str) -> Result<(), String> {
+    let mut names = Interner::default();
+    let parsed = arl_lang::parse_expression(literal, &mut names, arl_lang::ParseOptions::default());
+    if let Some(error) = parsed.errors.first() {
+        return Err(error.kind.message());
+    }
+    variable.teach_onto(onto, &parsed.expr, sizes, &names).map_err(|error| error.to_string())
 }
 
 /// Takes the value of a declaration, which has to be of the type that the variable was compiled with; `sizes` are those
@@ -89,17 +113,13 @@ pub fn teach_variable(
 }
 
 impl<T: Literal + Default + Copy> Teach for Cell<T> {
-    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        let mut fresh = T::default();
-        fresh.put_nested(value, sizes, names)?;
-        self.set(fresh);
-        Ok(())
-    }
-
-    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        let mut changed = self.get();
-        changed.put_nested(value, sizes, names)?;
-        self.set(changed);
+    fn teach_onto(&self, onto: Onto, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        let mut taught = match onto {
+            Onto::Start => T::default(),
+            Onto::Value => self.get(),
+        };
+        taught.put_nested(value, sizes, names)?;
+        self.set(taught);
         Ok(())
     }
 
@@ -120,17 +140,13 @@ impl<T: Literal + Default + Copy> Teach for Cell<T> {
 macro_rules! teaches_shared {
     ($($Variable:ident)*) => { $(
         impl<T: Literal + Default + Clone> Teach for $Variable<T> {
-            fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-                let mut fresh = T::default();
-                fresh.put_nested(value, sizes, names)?;
-                self.set(fresh);
-                Ok(())
-            }
-
-            fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-                let mut changed = self.get();
-                changed.put_nested(value, sizes, names)?;
-                self.set(changed);
+            fn teach_onto(&self, onto: Onto, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+                let mut taught = match onto {
+                    Onto::Start => T::default(),
+                    Onto::Value => self.get(),
+                };
+                taught.put_nested(value, sizes, names)?;
+                self.set(taught);
                 Ok(())
             }
 
@@ -156,17 +172,13 @@ impl<T: Copy + Default, const N: usize, S: Store<T, N>> Teach for Cells<T, N, S>
 where
     Array<T, N, S>: Literal,
 {
-    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        let mut fresh = Array::start();
-        fresh.put_nested(value, sizes, names)?;
-        self.set(fresh);
-        Ok(())
-    }
-
-    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        let mut changed = self.get();
-        changed.put_nested(value, sizes, names)?;
-        self.set(changed);
+    fn teach_onto(&self, onto: Onto, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        let mut taught = match onto {
+            Onto::Start => Array::start(),
+            Onto::Value => self.get(),
+        };
+        taught.put_nested(value, sizes, names)?;
+        self.set(taught);
         Ok(())
     }
 
@@ -189,14 +201,10 @@ where
 pub struct Fixed<T>(pub T);
 
 impl<T: Literal + Default + PartialEq> Teach for Fixed<T> {
-    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+    fn teach_onto(&self, _onto: Onto, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
         let mut fresh = T::default();
         fresh.put_nested(value, sizes, names)?;
         if fresh == self.0 { Ok(()) } else { Err(TeachError::new(constant(&self.0), value)) }
-    }
-
-    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        self.teach_nested(value, sizes, names)
     }
 
     fn restart(&self) -> Result<(), TeachError> {
@@ -213,12 +221,8 @@ impl<T: Literal + Default + PartialEq> Teach for Fixed<T> {
 }
 
 impl Teach for Fixed<&'static str> {
-    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        Fixed(Str::literal(self.0)).teach_nested(value, sizes, names)
-    }
-
-    fn change(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        self.teach_nested(value, sizes, names)
+    fn teach_onto(&self, onto: Onto, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        Fixed(Str::literal(self.0)).teach_onto(onto, value, sizes, names)
     }
 
     fn restart(&self) -> Result<(), TeachError> {

@@ -1,6 +1,8 @@
 //! What the command understands.
 
+use super::failure::Failure;
 use super::show::MOST_SHOWN;
+use arl_robot::changes::Changes;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -482,9 +484,12 @@ impl RunOptions {
         arguments
     }
 
-    /// Whether a global variable has another value: then the program needs their names.
-    pub(super) fn sets_globals(&self) -> bool {
-        self.changes.iter().any(|change| change.trim_start().starts_with("global."))
+    /// What `--set` changes.
+    ///
+    /// # Errors
+    /// One of the words is no change.
+    pub(super) fn changed(&self) -> Result<Changes, Failure> {
+        Changes::of(&self.changes).map_err(Failure::Usage)
     }
 
     /// The part that the compiler needs.

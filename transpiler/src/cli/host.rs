@@ -8,7 +8,9 @@ use super::check;
 use super::failure::Failure;
 use super::program::{self, prepare_checked};
 use super::sweep;
-pub use super::sweep::{Bundle, Kept, Parameters, Row, RunResult, Settings, Spread, Sweep, Worker, as_arl};
+pub use super::sweep::{
+    Bundle, Kept, MAX_TIME, Parameters, Row, RunResult, Settings, Spread, Sweep, TIMEOUT, Worker, as_arl,
+};
 use crate::compile::{guard, on_large_stack};
 use arl_robot::Robot;
 use std::fmt;
@@ -100,10 +102,10 @@ pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
 /// Compiles a program for a sweep, and gathers all that its runs depend on. `rows` may name robots and scenarios of their own.
 ///
 /// # Errors
-/// It has mistakes, cannot be compiled here, or a file cannot be read.
+/// It has mistakes, cannot be compiled here, a file cannot be read, or no row has parameters that there are.
 pub fn bundle(settings: &Settings, rows: &[Parameters]) -> Result<Bundle, HostError> {
     mistakes(settings)?;
-    safely(|| Bundle::new(settings, rows))
+    safely(|| Bundle::new(settings, rows.iter()))
 }
 
 /// The file of a sweep.

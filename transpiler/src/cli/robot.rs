@@ -2,6 +2,7 @@
 
 use super::failure::Failure;
 use super::robots;
+use arl_robot::changes::{Changes, Part};
 use arl_robot::robot;
 
 /// How many axes a trace holds: six of the robot, six external ones.
@@ -29,8 +30,15 @@ pub(super) struct Robot {
 
 /// The robot that `--robot` names, or the default one.
 pub(super) fn load(robot: Option<&str>) -> Result<robot::Robot, Failure> {
+    load_with(robot, &Changes::default())
+}
+
+/// The same with other values at some places.
+pub(super) fn load_with(robot: Option<&str>, changes: &Changes) -> Result<robot::Robot, Failure> {
     let (name, text) = robots::text(robot)?;
-    robot::Robot::parse(&name, &text).map_err(|error| Failure::Usage(error.to_string()))
+    let usage = |error: &dyn std::fmt::Display| Failure::Usage(error.to_string());
+    let text = changes.apply(Part::Robot, &name, text.into_owned()).map_err(|error| usage(&error))?;
+    robot::Robot::parse(&name, &text).map_err(|error| usage(&error))
 }
 
 impl Robot {

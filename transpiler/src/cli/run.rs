@@ -11,12 +11,13 @@ use super::plot::{self, Lane, Ran};
 use super::program::{Ready, prepare};
 use super::record::Recording;
 use super::report::Reporting;
+use super::robot;
 use super::scenery::Scenery;
 use super::show;
 use super::signals::Signals;
 use crate::cli::exit::Exit;
-use arl_robot::cell::{Cell, SettingsError};
-use arl_robot::{change, regular_file};
+use arl_robot::cell::Cell;
+use arl_robot::changes::Part;
 use std::cell::RefCell;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -29,7 +30,7 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
     let on_screen = options.pendant && options.plot.is_none() && std::io::stdout().is_terminal();
     let kind = match on_screen {
         true => Kind::Watched,
-        false if options.sets_globals() => Kind::Named,
+        false if options.changed()?.of_part(Part::Global).next().is_some() => Kind::Named,
         false => Kind::Program,
     };
     let ready = prepare(kind, file, options.cell.as_deref(), &options.checking())?;
@@ -53,9 +54,7 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
 
 /// Who is to hear what the program does: collisions come first, so that they are recorded.
 fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hears>>, Failure> {
-    let scenery = Scenery::of(&cell(options)?, options.robot.as_deref())?;
-    let shapes = ["robot.geometry", "robot.tcp", "robot.link"];
-    let is_of_shape = |change: &&String| shapes.iter().any(|place| change.trim_start().starts_with(place));
+    let scenery = Scenery::with(&cell(options)?, robot::load_with(options.robot.as_deref(), &options.changed()?)?)?;
     let mut hearers = watchers(&scenery, options.clearance)?;
     if let Some(path) = &options.record {
         hearers.push(Box::new(Recording::create(path, &scenery, sources)?));
@@ -63,28 +62,14 @@ fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hear
     if let (Some(file), Some(format @ (ReportFormat::Json | ReportFormat::Html))) = (&options.report, options.format) {
         hearers.push(Box::new(Reporting::create(file, format, &scenery)?));
     }
-    if let (false, Some(change)) = (hearers.is_empty(), options.changes.iter().find(is_of_shape)) {
-        let text = format!("--set {change}: recordings, reports and collisions know the robot as its file has it");
-        return Err(Failure::Usage(text));
-    }
     Ok(hearers)
 }
 
-/// The cell of a run, as `--set` changes it; one with nothing in it where none is named.
+/// The cell of a run; one with nothing in it where none is named.
 pub(super) fn cell(options: &RunOptions) -> Result<Cell, Failure> {
-    let Some(path) = &options.cell else { return Ok(Cell::default()) };
-    let usage = |error: SettingsError| Failure::Usage(error.to_string());
-    let name = path.display().to_string();
-    let changes = options.changes.iter().filter_map(|change| change.trim().strip_prefix("cell.")?.split_once('='));
-    let changes: Vec<_> = changes.collect();
-    if changes.is_empty() {
-        return Cell::load(path).map_err(usage);
-    }
-    let text = regular_file::read_text(path).map_err(|error| Failure::io("read", path, &error))?;
-    let text = changes
-        .into_iter()
-        .try_fold(text, |text, (place, value)| change::set(&name, &text, place.trim(), value.trim()).map_err(usage))?;
-    Cell::parse(&name, &text).map_err(usage)
+    let changes = options.changed()?;
+    let cell = options.cell.as_deref().map(|cell| Cell::load_with(cell, &changes)).transpose();
+    Ok(cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default())
 }
 
 /// Who watches what robots touch, and what they take along: where the cell has bodies, or somebody asks for a clearance.

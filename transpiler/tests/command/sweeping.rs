@@ -30,7 +30,7 @@ fn single_values_are_others_for_a_run() {
             "s.toml: `event.2.at` is not there: at `event` `2` is no entry: there are 1, which count from 1",
         ),
         ("robot.axis.1.vel=fast", "[[axis]]"),
-        ("cell.io.di=4", "--set cell.…: --cell says of which file"),
+        ("cell.io.di=4", "--set cell.io.di: --cell has to name the file"),
         ("pitch=1", "expected a place and a value"),
     ] {
         let (code, _, error) = said(&[change]);

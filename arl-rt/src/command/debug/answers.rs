@@ -10,8 +10,7 @@ use crate::context::frames::Record;
 use crate::context::shown::Shown;
 use crate::fault::{Fault, File};
 use crate::io::Digital;
-use crate::values::Teach;
-use arl_lang::symbol::Interner;
+use crate::values::{Onto, Teach, teach_text};
 
 /// The fields of the answer to a request.
 ///
@@ -214,12 +213,7 @@ fn robot(cx: &Cx) -> String {
 
 /// Gives a variable a value.
 fn teach(variable: &dyn Teach, sizes: &[usize], literal: &str) -> Result<String, String> {
-    let mut names = Interner::default();
-    let parsed = arl_lang::parse_expression(literal, &mut names, arl_lang::ParseOptions::default());
-    if let Some(error) = parsed.errors.first() {
-        return Err(error.kind.message());
-    }
-    variable.teach_nested(&parsed.expr, sizes, &names).map_err(|error| error.to_string())?;
+    teach_text(variable, Onto::Start, sizes, literal)?;
     Ok(format!("\"value\":{}", quoted(&variable.written())))
 }
 

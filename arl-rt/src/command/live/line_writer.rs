@@ -307,10 +307,10 @@ pub(super) fn push_cycle(out: &mut String, controller: &Controller) {
         first = false;
     });
     out.push_str("],\"di\":\"");
-    controller.with_levels(|di, dout| {
-        push_levels(out, di);
+    controller.with_signals(|io| {
+        push_levels(out, io.inputs().levels());
         out.push_str("\",\"do\":\"");
-        push_levels(out, dout);
+        push_levels(out, io.outputs().levels());
     });
     out.push_str("\"}}\n");
 }

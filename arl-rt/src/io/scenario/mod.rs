@@ -38,6 +38,7 @@ use std::path::Path;
 use super::image::PWM_CHANNELS;
 use super::{Channels, Digital, Image};
 use arl_robot::cell::Names;
+use arl_robot::changes::{Changes, Part};
 use arl_robot::regular_file;
 use arl_robot::robot::Robot;
 use arl_robot::settings::SettingsError;
@@ -221,10 +222,18 @@ impl Scenario {
     /// # Errors
     /// The file cannot be read, or what it says is not a scenario.
     pub fn load_with(path: &Path, names: &Names) -> Result<Scenario, SettingsError> {
+        Scenario::load_changed(path, names, &Changes::default())
+    }
+
+    /// The same with other values at some places.
+    ///
+    /// # Errors
+    /// As for [`load_with`](Self::load_with), or the file has no such place.
+    pub(crate) fn load_changed(path: &Path, names: &Names, changes: &Changes) -> Result<Scenario, SettingsError> {
         let name = path.display().to_string();
         let text = regular_file::read_text(path)
             .map_err(|error| SettingsError::of_file(&name, format!("cannot read the io scenario: {error}")))?;
-        Scenario::parse_with(&name, &text, names)
+        Scenario::parse_with(&name, &changes.apply(Part::Io, &name, text)?, names)
     }
 
     /// The scenario that `text` describes; `file` names the text in errors.

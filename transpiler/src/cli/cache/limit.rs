@@ -31,7 +31,7 @@ pub(super) fn read() -> Result<Option<u64>, Failure> {
 }
 
 impl Cache {
-    /// Removes programs and runtimes, first what was not used for longest, until the rest is within the limit. The program
+    /// Removes programs, runtimes and results of sweeps, first what was not used for longest, until the rest is within the limit. The program
     /// that was just made stays. Its runtime goes last: the next program then compiles it again.
     pub(in crate::cli) fn keep_limit(&self, made: &Place, runtime: &Path) -> Removed {
         let mut removed = Removed::default();
@@ -41,9 +41,9 @@ impl Cache {
             return removed;
         }
         let mut entries = self.entries();
-        entries.retain(|entry| entry.folder != made.folder);
-        let is_last = |entry: &Entry| entry.folder == runtime;
-        entries.sort_by(|a, b| (is_last(a), a.used, &a.folder).cmp(&(is_last(b), b.used, &b.folder)));
+        entries.retain(|entry| entry.path != made.folder);
+        let is_last = |entry: &Entry| entry.path == runtime;
+        entries.sort_by(|a, b| (is_last(a), a.used, &a.path).cmp(&(is_last(b), b.used, &b.path)));
         for entry in &entries {
             if total <= limit {
                 break;

@@ -17,23 +17,35 @@ pub(in crate::cli) struct Removed {
     pub(in crate::cli) kept: Vec<PathBuf>,
 }
 
-/// A folder of the cache.
+/// What an entry of the cache is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum What {
+    /// The folder of a program.
+    Program,
+    /// The folder of a runtime.
+    Runtime,
+    /// The file with what came of a sweep.
+    Results,
+}
+
+/// A folder or a file of the cache.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
-    pub(super) folder: PathBuf,
-    pub(super) is_program: bool,
+    pub(super) path: PathBuf,
+    what: What,
     pub(super) used: SystemTime,
 }
 
 impl Cache {
-    /// What it holds, programs first, each from the one that was not used for longest.
+    /// What it holds, results and programs first, each from the one that was not used for longest.
     pub(super) fn entries(&self) -> Vec<Entry> {
         let mut all = Vec::new();
-        for (name, is_program) in [(PROGRAMS, true), (RUNTIMES, false)] {
-            let mut some: Vec<Entry> = folders(&self.root.join(name))
-                .map(|folder| Entry { used: last_use(&folder).unwrap_or(SystemTime::UNIX_EPOCH), folder, is_program })
+        for (name, what) in [(RESULTS, What::Results), (PROGRAMS, What::Program), (RUNTIMES, What::Runtime)] {
+            let some = entries(&self.root.join(name)).filter(|path| path.is_dir() != (what == What::Results));
+            let mut some: Vec<Entry> = some
+                .map(|path| Entry { used: last_use(&path).unwrap_or(SystemTime::UNIX_EPOCH), path, what })
                 .collect();
-            some.sort_by(|a, b| (a.used, &a.folder).cmp(&(b.used, &b.folder)));
+            some.sort_by(|a, b| (a.used, &a.path).cmp(&(b.used, &b.path)));
             all.append(&mut some);
         }
         all
@@ -50,41 +62,32 @@ impl Cache {
         for entry in self.entries().iter().filter(|entry| is_old(entry)) {
             self.remove(entry, &mut removed);
         }
-        let time = |path: &Path| path.metadata().and_then(|about| about.modified()).ok();
-        let is_unused = |path: &PathBuf| {
-            let age = time(path).and_then(|written| now.duration_since(written).ok());
-            unused_for.is_zero() || age.is_some_and(|age| age >= unused_for)
-        };
-        for file in entries(&self.root.join(RESULTS)).filter(is_unused) {
-            let bytes = bytes(&file);
-            if std::fs::remove_file(&file).is_ok() {
-                removed.bytes += bytes;
-                removed.results += 1;
-            }
-        }
         removed
     }
 
-    /// Removes a program with what cargo keeps of it, or a runtime; not one that somebody uses.
-    pub(super) fn remove(&self, entry: &Entry, removed: &mut Removed) {
-        let Some(lock) = Lock::of_unused(&entry.folder) else {
-            removed.kept.push(entry.folder.clone());
+    /// Removes a program with what cargo keeps of it, a runtime, or results; not a folder that somebody uses.
+    pub(super) fn remove(&self, Entry { path, what, .. }: &Entry, removed: &mut Removed) {
+        // Who writes results goes on in the file that he has, and the next one begins anew.
+        let lock = (*what != What::Results).then(|| Lock::of_unused(path));
+        if matches!(lock, Some(None)) {
+            removed.kept.push(path.clone());
             return;
-        };
+        }
         let mut bytes = 0;
-        if entry.is_program {
-            let made = folders(&self.root.join(RUNTIMES)).flat_map(|runtime| made_of(&entry.folder, &runtime));
+        if *what == What::Program {
+            let made = folders(&self.root.join(RUNTIMES)).flat_map(|runtime| made_of(path, &runtime));
             bytes += made.map(|path| remove(&path)).sum::<u64>();
         }
         // Windows removes no folder with an open file in it; elsewhere nobody gets in between.
         let lock = (!cfg!(windows)).then_some(lock);
-        bytes += remove(&entry.folder);
+        bytes += remove(path);
         drop(lock);
         removed.bytes += bytes;
-        match (entry.folder.exists(), entry.is_program) {
-            (true, _) => removed.kept.push(entry.folder.clone()),
-            (false, true) => removed.programs += 1,
-            (false, false) => removed.runtimes += 1,
+        match what {
+            _ if path.exists() => removed.kept.push(path.clone()),
+            What::Program => removed.programs += 1,
+            What::Runtime => removed.runtimes += 1,
+            What::Results => removed.results += 1,
         }
     }
 }
@@ -197,6 +200,11 @@ mod tests {
         program("arl-b-00000002", 1);
         program("arl-c-00000003", 3);
         std::fs::write(root.join("not ours"), "stays").expect("written");
+        let results = cache.results("0a1b");
+        std::fs::create_dir_all(results.parent().expect("a folder")).expect("a folder");
+        std::fs::write(&results, "12345").expect("written");
+        let old = std::fs::File::options().write(true).open(&results).expect("the file");
+        old.set_modified(SystemTime::now() - day * 3).expect("the time is set");
         let used = Lock::take(&root.join("programs/arl-c-00000003"), true, "").expect("a lock");
         std::fs::File::options()
             .write(true)
@@ -206,7 +214,7 @@ mod tests {
 
         let removed = cache.clean(day * 2);
         let kept = vec![root.join("programs/arl-c-00000003")];
-        assert_eq!(removed, Removed { programs: 1, runtimes: 0, results: 0, bytes: 11, kept });
+        assert_eq!(removed, Removed { programs: 1, runtimes: 0, results: 1, bytes: 16, kept });
         let left: Vec<_> = entries(&root.join("runtime/r/target/debug/deps")).collect();
         assert_eq!(left.len(), 2, "{left:?}");
 

@@ -8,6 +8,7 @@ pub(super) mod tests;
 
 use arl_robot::cell::{Body, Carrier, Cell, Form, Solid, Stands};
 use arl_robot::kinematics::Frame;
+use arl_robot::robot::Robot;
 
 use super::failure::Failure;
 use super::robot;
@@ -45,6 +46,14 @@ impl Scenery {
     /// # Errors
     /// A URDF file of a body cannot be read, or a robot is none, or has not the axis of a carrier.
     pub(super) fn of(cell: &Cell, robot: Option<&str>) -> Result<Self, Failure> {
+        Self::with(cell, robot::load(robot)?)
+    }
+
+    /// The same, with the robot of the first channel as it is.
+    ///
+    /// # Errors
+    /// As for [`of`](Self::of).
+    pub(super) fn with(cell: &Cell, robot: Robot) -> Result<Self, Failure> {
         let looks = |body: &Body| match &body.form {
             Form::Solid(solid) => Ok((body.clone(), Looks::of(solid))),
             Form::Urdf(file) => {
@@ -54,14 +63,14 @@ impl Scenery {
         };
         let bodies = cell.bodies.iter().map(looks).collect::<Result<_, Failure>>()?;
         let others = cell.programs.channels.iter().filter(|channel| !channel.background);
-        let others = others.map(|channel| (channel.robot.as_deref(), &channel.stands));
-        let all = std::iter::once((robot, &cell.stands)).chain(others);
-        let all: Vec<_> = all.collect();
+        let others = others.map(|channel| Ok((robot::load(channel.robot.as_deref())?, &channel.stands)));
+        let all = std::iter::once(Ok((robot, &cell.stands))).chain(others);
+        let all: Vec<_> = all.collect::<Result<_, Failure>>()?;
         for carrier in &cell.carriers {
             let Some((robot, _)) = all.get(carrier.channel as usize - 1) else { continue };
-            has_axis(*robot, carrier)?;
+            has_axis(robot, carrier)?;
         }
-        let shapes = all.iter().map(|(robot, stands)| shape_of(*robot, stands)).collect::<Result<_, Failure>>()?;
+        let shapes = all.iter().map(|(robot, stands)| shape_of(robot, stands)).collect::<Result<_, Failure>>()?;
         Ok(Self { bodies, carriers: cell.carriers.clone(), shapes })
     }
 
@@ -72,8 +81,7 @@ impl Scenery {
 }
 
 /// That a robot has the axis of a carrier.
-fn has_axis(robot: Option<&str>, Carrier { axis, channel, .. }: &Carrier) -> Result<(), Failure> {
-    let robot = robot::load(robot)?;
+fn has_axis(robot: &Robot, Carrier { axis, channel, .. }: &Carrier) -> Result<(), Failure> {
     if robot.external_axes().iter().any(|external| external.name == *axis) {
         return Ok(());
     }
@@ -86,9 +94,9 @@ fn has_axis(robot: Option<&str>, Carrier { axis, channel, .. }: &Carrier) -> Res
     Err(Failure::Usage(text))
 }
 
-fn shape_of(robot: Option<&str>, stands: &Stands) -> Result<Option<Shape>, Failure> {
+fn shape_of(robot: &Robot, stands: &Stands) -> Result<Option<Shape>, Failure> {
     let Some(file) = &stands.urdf else { return Ok(None) };
-    let shape = Shape::read(file, &robot::load(robot)?);
+    let shape = Shape::read(file, robot);
     let tell = |problem| show::warning(&format!("{}: {problem}; the robot has capsules in its place", file.display()));
     Ok(shape.map_err(tell).ok())
 }

@@ -18,7 +18,7 @@ use twox_hash::XxHash3_128;
 const MOST_FILES: usize = 2000;
 const MOST_BYTES: usize = 64 << 20;
 /// A run that takes longer in the robot's time is ended, where nobody says otherwise: s.
-const MAX_TIME: f64 = 3600.0;
+pub const MAX_TIME: f64 = 3600.0;
 /// The folder of the program's files in a bundle.
 const SCRIPT: &str = "script";
 /// What belongs to a program without being named: programs and data files, and texts that it reads.
@@ -41,7 +41,13 @@ pub struct Bundle {
 
 impl Bundle {
     /// Compiles the program where needed, and gathers what it reads. `rows` may name robots and scenarios of their own.
-    pub(in crate::cli) fn new(settings: &Settings, rows: &[Parameters]) -> Result<Self, Failure> {
+    ///
+    /// # Errors
+    /// There is nothing to compile or to read, or no row has parameters that there are: that is a slip in a name.
+    pub(in crate::cli) fn new<'p>(
+        settings: &Settings,
+        rows: impl Iterator<Item = &'p Parameters> + Clone,
+    ) -> Result<Self, Failure> {
         settings.check().map_err(Failure::Usage)?;
         let Settings { program, robot, cell, io, script_dir, files, .. } = settings.clone();
         let options = RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }.of_program(&program)?;
@@ -80,13 +86,17 @@ impl Bundle {
         let first =
             [("robot", options.robot.map(Value::from)), ("io", options.io.map(|io| io.display().to_string().into()))];
         let first = Parameters(first.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect());
-        for row in std::iter::once(&first).chain(rows) {
-            for file in row.files() {
-                bundle.add(&full(Path::new(file))?)?;
+        first.files().try_for_each(|file| bundle.add(file))?;
+        rows.clone().flat_map(Parameters::files).try_for_each(|file| bundle.add(file))?;
+        bundle.words.extend(bundle.file_words(&first));
+        let mut words = rows.map(|row| bundle.words(row));
+        match words.next() {
+            Some(Err(problem)) if words.all(|words| words.is_err()) => Err(Failure::Usage(problem)),
+            _ => {
+                drop(words);
+                Ok(bundle)
             }
         }
-        bundle.words.extend(bundle.file_words(&first));
-        Ok(bundle)
     }
 
     /// The words of a run with these parameters; what comes later goes first.
@@ -128,17 +138,18 @@ impl Bundle {
     }
 
     /// Adds a robot file or a scenario.
-    fn add(&mut self, path: &Path) -> Result<(), Failure> {
-        if self.places.iter().any(|(known, _)| known == path) {
+    fn add(&mut self, file: &str) -> Result<(), Failure> {
+        let path = full(Path::new(file))?;
+        if self.places.iter().any(|(known, _)| *known == path) {
             return Ok(());
         }
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let content = read(path)?;
+        let content = read(&path)?;
         let place = format!("{NAMED}/{:032x}/{name}", XxHash3_128::oneshot(&content));
         if !self.files.iter().any(|(known, _)| *known == place) {
             self.files.push((place.clone(), content));
         }
-        self.places.push((path.to_path_buf(), place));
+        self.places.push((path, place));
         Ok(())
     }
 

@@ -25,17 +25,30 @@ struct Root {
 
 /// How such folders are called, before a number.
 const ROOT: &str = "arl2rs-sweep-";
+/// The file that is locked while a folder is made.
+const TURN: &str = "arl2rs-sweeps.lock";
 /// The file that is locked.
 const LOCK: &str = "lock";
 
 impl Root {
     fn new() -> io::Result<Self> {
-        remove_left();
+        let turn = turn();
+        if turn.is_some() {
+            remove_left();
+        }
         let path = new_folder()?;
         let lock = File::create(path.join(LOCK))?;
         lock.lock()?;
         Ok(Self { path, _lock: lock })
     }
+}
+
+/// As long as this lives nobody else removes what was left: he would take a folder that is not locked yet for such. `None` where the file is somebody
+/// else's, who cannot remove ours either.
+fn turn() -> Option<File> {
+    let path = std::env::temp_dir().join(TURN);
+    let file = File::options().write(true).create(true).truncate(false).open(path).ok()?;
+    file.lock().ok().map(|()| file)
 }
 
 impl Drop for Root {

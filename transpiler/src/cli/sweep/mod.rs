@@ -19,7 +19,7 @@ use super::cargo;
 use super::failure::{Failure, INTERRUPTED};
 use super::{answer, show};
 use crate::cli::exit::Exit;
-pub use bundle::Bundle;
+pub use bundle::{Bundle, MAX_TIME};
 pub use folder::Spread;
 use indicatif::{ProgressBar, ProgressStyle};
 pub use kept::Kept;
@@ -29,7 +29,7 @@ pub use result::{Row, RunResult};
 use std::ops::ControlFlow;
 use std::path::Path;
 pub use table::{Settings, Sweep};
-pub use worker::Worker;
+pub use worker::{TIMEOUT, Worker};
 
 /// What is said where runs did not come to an end of their own.
 const LOST: u8 = 1;
@@ -45,7 +45,7 @@ pub(super) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
         Some(shard) => numbered.filter(|(number, _)| (number - 1) % shard.count == shard.index).collect(),
         None => numbered.collect(),
     };
-    let bundle = Bundle::new(&settings, &rows.iter().map(|(_, row)| (*row).clone()).collect::<Vec<_>>())?;
+    let bundle = Bundle::new(&settings, rows.iter().map(|(_, row)| *row))?;
     let kept = if options.no_cache { Kept::nothing() } else { kept(&bundle, show::warning)? };
     let processes = options.jobs.map_or_else(cores, |jobs| usize::from(jobs.get()));
     // Better now than after a long run.

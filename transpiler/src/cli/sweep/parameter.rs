@@ -102,25 +102,18 @@ fn quoted(text: &str) -> String {
     quoted
 }
 
-/// A value as TOML has it. A text stands for itself.
+/// A value as TOML has it.
 fn as_toml(value: &Value) -> Option<String> {
-    match value {
-        Value::String(text) => Some(text.clone()),
-        value => inline(value),
-    }
-}
-
-fn inline(value: &Value) -> Option<String> {
     Some(match value {
         Value::Null => return None,
         Value::Array(values) => {
-            let values: Option<Vec<String>> = values.iter().map(inline).collect();
+            let values: Option<Vec<String>> = values.iter().map(as_toml).collect();
             format!("[{}]", values?.join(", "))
         }
         Value::Object(values) => {
             let key = |key: &String| Value::from(key.as_str()).to_string();
             let values: Option<Vec<String>> =
-                values.iter().map(|(name, value)| Some(format!("{} = {}", key(name), inline(value)?))).collect();
+                values.iter().map(|(name, value)| Some(format!("{} = {}", key(name), as_toml(value)?))).collect();
             format!("{{ {} }}", values?.join(", "))
         }
         other => other.to_string(),
@@ -174,7 +167,7 @@ mod tests {
             ("global.feeder", json!({"z": 120.5}), ["--set", "global.feeder={z 120.5}"]),
             ("global.row", json!([[1, 2], true]), ["--set", "global.row={{1, 2}, true}"]),
             ("robot.axis.1.range", json!([-1, "a"]), ["--set", "robot.axis.1.range=[-1, \"a\"]"]),
-            ("io.event.1.when", json!("do.1"), ["--set", "io.event.1.when=do.1"]),
+            ("io.event.1.when", json!("do.1"), ["--set", "io.event.1.when=\"do.1\""]),
             ("cell.x", json!({"a": 1}), ["--set", "cell.x={ \"a\" = 1 }"]),
             ("override", json!(50.5), ["--override", "50.5"]),
             ("mode", json!("manual"), ["--mode", "manual"]),

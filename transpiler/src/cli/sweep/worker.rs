@@ -7,8 +7,8 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-/// A run that takes longer on the clock of the computer is given up, where nobody says otherwise.
-pub(super) const TIMEOUT: Duration = Duration::from_secs(600);
+/// A run that takes longer on the clock of the computer is given up, where nobody says otherwise: s.
+pub const TIMEOUT: f64 = 600.0;
 
 /// How long a process may take to end by itself.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -49,7 +49,7 @@ impl Worker {
     /// Its folder cannot be made, in words.
     pub fn new(spread: &Spread, timeout: Option<f64>) -> Result<Self, String> {
         let timeout =
-            timeout.map_or(Ok(TIMEOUT), Duration::try_from_secs_f64).map_err(|error| format!("timeout: {error}"))?;
+            Duration::try_from_secs_f64(timeout.unwrap_or(TIMEOUT)).map_err(|error| format!("timeout: {error}"))?;
         let folder = Folder::new(spread).map_err(|error| format!("the folder of a worker: {error}"))?;
         Ok(Self { folder, timeout, process: None })
     }
