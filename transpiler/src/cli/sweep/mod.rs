@@ -37,7 +37,7 @@ const LOST: u8 = 1;
 /// Makes all runs of a sweep: a JSON object for each on the standard output, in order, and with `-o` a Parquet file.
 pub(super) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure> {
     let Sweep { settings, rows } = Sweep::read(file)?;
-    if options.out.as_ref().is_some_and(|out| !out.extension().is_some_and(|ending| ending == "parquet")) {
+    if options.out.as_ref().is_some_and(|out| out.extension().is_none_or(|ending| ending != "parquet")) {
         return Err(Failure::Usage("-o writes a Parquet file: name it FILE.parquet".into()));
     }
     let numbered = rows.iter().enumerate().map(|(at, row)| (at + 1, row));
