@@ -256,6 +256,23 @@ fn it_ends_when_its_time_is_over_or_it_is_told_to_stop() {
 }
 
 #[test]
+fn who_listens_hears_a_run_to_its_end() {
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap().to_string();
+    let mut run = begun(&["--listener", &address, "--each-cycle", "--max-time", "0.1"]);
+    assert_eq!(run.go_on(u64::MAX, false), Ok(Some(4)));
+    // It is over for who listens, too, while the run is still there.
+    let heard = std::io::read_to_string(listener.accept().unwrap().0).unwrap();
+    assert!(heard.starts_with("{\"hello\":") && heard.ends_with("{\"ended\":null}\n"), "{heard}");
+    assert_eq!(heard.matches("{\"cycle\":").count(), 100);
+    assert!(run.summary().contains("time_over"), "{}", run.summary());
+    match library().begin(&["--listener", "127.0.0.1:1"], false) {
+        Err(LoadError::Refused(why)) => assert!(why.contains("there is no listener at 127.0.0.1:1"), "{why}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
 fn what_is_wrong_is_said() {
     let refused = |arguments: &[&str]| match library().begin(arguments, false) {
         Err(LoadError::Refused(why)) => why,

@@ -17,6 +17,7 @@ from typing import Any
 import ray
 
 from . import _arl2rs
+from .problems import ArlError
 
 __all__ = ["run"]
 
@@ -28,15 +29,17 @@ TRIES = 3
 """So often a run is asked for where its process or its node is lost."""
 
 Words = list[str]
-_workers: dict[tuple[str, float | None], _arl2rs.Worker] = {}
+How = tuple[float | None, float | None]
+"""After how many seconds a run is given up, and the clearance where it is looked for collisions."""
+_workers: dict[tuple[str, How], _arl2rs.Worker] = {}
 
 
-def _make(key: str, files: list[tuple[str, bytes]], timeout: float | None, runs: list[tuple[int, Words]]) -> list[tuple[int, str, bool]]:
+def _make(key: str, files: list[tuple[str, bytes]], how: How, runs: list[tuple[int, Words]]) -> list[tuple[int, str, bool]]:
     """Makes runs, on a node. Its process keeps the worker for the next task; runs that take too long are the worker's business."""
-    if (key, timeout) not in _workers:
+    if (key, how) not in _workers:
         _workers.clear()
-        _workers[key, timeout] = _arl2rs.Worker(files, timeout)
-    return [(at, *_workers[key, timeout].run(words)) for at, words in runs]
+        _workers[key, how] = _arl2rs.Worker(files, *how)
+    return [(at, *_workers[key, how].run(words)) for at, words in runs]
 
 
 @dataclass
@@ -64,7 +67,7 @@ class _Farm:
         most = 2 * _cores()
         while self.waiting and len(self.tasks) < most:
             runs, self.waiting = self.waiting[: self.batch], self.waiting[self.batch :]
-            task = self._remote.remote(self._key, self._files, self.timeout, runs)
+            task = self._remote.remote(self._key, self._files, (self.timeout, self.bundle.clearance), runs)
             self.tasks[task], self.begun[task] = runs, time.monotonic()
 
     def wait(self) -> None:
@@ -95,6 +98,7 @@ class _Farm:
         try:
             came = ray.get(task)
         except ray.exceptions.RayError as problem:
+            _refuse_nodes_without_the_package(problem)
             # One run may be what kills its node: from now on it is alone.
             self.batch = 1
             for at, words in runs:
@@ -122,6 +126,14 @@ class _Farm:
         except OSError as problem:
             self.kept = None
             _not_kept(problem)
+
+
+def _refuse_nodes_without_the_package(problem: ray.exceptions.RayError) -> None:
+    """A node that cannot import what this file needs would lose every run that it is given, and swiftly."""
+    cause = getattr(problem, "cause", None)
+    if isinstance(cause, ImportError) or str(cause).startswith("The remote function failed to import"):
+        why = str(cause).strip().splitlines()[-1]
+        raise ArlError(f"a node cannot import arl2rs: install the same version on all nodes of the cluster ({why})") from problem
 
 
 def _not_kept(problem: Exception) -> None:

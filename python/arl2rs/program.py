@@ -36,6 +36,8 @@ def given(
     files: Iterable[StrPath] = (),
     max_time: float | None = None,
     timeout: float | None = None,
+    collisions: bool = False,
+    clearance: float | None = None,
 ) -> dict[str, Any]:
     """What is run, as the Rust side has it."""
     return {
@@ -47,6 +49,8 @@ def given(
         "files": [Path(file) for file in files],
         "max_time": max_time,
         "timeout": timeout,
+        "collisions": collisions,
+        "clearance": clearance,
     }
 
 

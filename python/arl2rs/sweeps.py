@@ -35,7 +35,7 @@ def grid(values: Mapping[str, Iterable[Any]]) -> list[dict[str, Any]]:
 
 class Results(Sequence[dict[str, Any]]):
     """What came of runs, a row each: `run`, `parameters`, `outcome`, `code`, `cycle_time` (s), `moving`, `standing` (s), `motions`, `way` (mm),
-    `alarms`, `output`, and `problem` where a run could not begin or was lost."""
+    `alarms`, `output`, `collisions` where they were looked for, and `problem` where a run could not begin or was lost."""
 
     def __init__(self, lines: Iterable[str]) -> None:
         self.lines = list(lines)
@@ -68,8 +68,9 @@ class Results(Sequence[dict[str, Any]]):
         return min(ended, key=lambda row: row[figure])
 
     def flat(self) -> list[dict[str, Any]]:
-        """The rows with a value for each column: parameters by their names, of alarms the first."""
-        return [{**dict(_flat(row)), "problem": row.get("problem")} for row in self]
+        """The rows with a value for each column: parameters by their names, of alarms the first, of collisions how many, and the first."""
+        looked = any("collisions" in row for row in self)
+        return [{**dict(_flat(row, looked)), "problem": row.get("problem")} for row in self]
 
     def to_pandas(self) -> pandas.DataFrame:
         """A frame of pandas, which has to be installed."""
@@ -96,13 +97,20 @@ class Results(Sequence[dict[str, Any]]):
         Path(path).write_text("".join(line + "\n" for line in self.lines), encoding="utf-8")
 
 
-def _flat(row: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+def _flat(row: Mapping[str, Any], looked: bool) -> Iterator[tuple[str, Any]]:
+    if looked:
+        row = {"collisions": None, **row}
     for name, value in row.items():
         if name == "parameters":
             yield from ((place, json.dumps(it) if isinstance(it, (dict, list)) else it) for place, it in value.items())
         elif name == "alarms":
             first = value[0] if value else {}
             yield from ((f"alarm_{part}", first.get(part)) for part in ("number", "text", "file", "line"))
+        elif name == "collisions":
+            first = value[0] if value else {}
+            yield name, None if value is None else len(value)
+            yield from ((f"collision_{part}", first.get(part)) for part in ("time", "file", "line", "distance"))
+            yield "collision_bodies", ", ".join(first["bodies"]) if first else None
         else:
             yield name, "\n".join(value) if name == "output" else value
 
@@ -126,6 +134,8 @@ def sweep(
     files: Iterable[StrPath] = (),
     max_time: float | None = None,
     timeout: float | None = None,
+    collisions: bool = False,
+    clearance: float | None = None,
     engine: str = "local",
     processes: int = 0,
     cache: bool = True,
@@ -137,6 +147,7 @@ def sweep(
       `seed`, `max-time`, `start-time`.
     - `files`: what the program reads beside programs, data files and texts of its folder.
     - `max_time`: after so many seconds of the robot's time a run ends (3600); `timeout`: after so many on the clock it is given up (600).
+    - `collisions`: whether each run looks for what its robots touch; with `clearance`, also for what comes nearer than so many mm.
     - `engine`: `local` makes the runs on `processes` of this computer (0: one for each core), `ray` on the nodes of a cluster of Ray
       (`arl2rs.farm`). The results are the same to the last bit.
     - `cache`: whether results that are known from earlier are taken, and new ones kept.
@@ -154,6 +165,8 @@ def sweep(
         files=files,
         max_time=max_time,
         timeout=timeout,
+        collisions=collisions,
+        clearance=clearance,
     )
     if processes < 0:
         raise RefusedError(f"{processes} processes: expected 0 or more")

@@ -105,6 +105,12 @@ impl Bundle {
         self.bundle.files.iter().map(|(place, bytes)| (place.clone(), PyBytes::new(py, bytes))).collect()
     }
 
+    /// In mm, where runs look for collisions.
+    #[getter]
+    fn clearance(&self) -> Option<f64> {
+        self.bundle.clearance
+    }
+
     /// The words of a run.
     fn words(&self, row: &str) -> PyResult<Vec<String>> {
         self.bundle.words(&parameters(row)?).map_err(Refused::new_err)
@@ -172,11 +178,11 @@ pub(crate) struct Worker {
 
 #[pymethods]
 impl Worker {
-    /// Of the files of a bundle.
+    /// Of the files of a bundle; with a clearance it looks for collisions.
     #[new]
-    fn new(files: Vec<(String, Vec<u8>)>, timeout: Option<f64>) -> PyResult<Self> {
+    fn new(files: Vec<(String, Vec<u8>)>, timeout: Option<f64>, clearance: Option<f64>) -> PyResult<Self> {
         let spread = Spread::of(files)?;
-        let worker = host::Worker::new(&spread, timeout).map_err(PyOSError::new_err)?;
+        let worker = host::Worker::new(&spread, timeout, clearance).map_err(PyOSError::new_err)?;
         Ok(Self { worker: Mutex::new(worker) })
     }
 

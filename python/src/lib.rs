@@ -50,19 +50,21 @@ pub(crate) struct Given {
     files: Vec<PathBuf>,
     max_time: Option<f64>,
     timeout: Option<f64>,
+    collisions: bool,
+    clearance: Option<f64>,
 }
 
 impl From<Settings> for Given {
     fn from(settings: Settings) -> Self {
-        let Settings { program, robot, cell, io, script_dir, files, max_time, timeout } = settings;
-        Self { program, robot, cell, io, script_dir, files, max_time, timeout }
+        let Settings { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance } = settings;
+        Self { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance }
     }
 }
 
 impl From<Given> for Settings {
     fn from(given: Given) -> Self {
-        let Given { program, robot, cell, io, script_dir, files, max_time, timeout } = given;
-        Self { program, robot, cell, io, script_dir, files, max_time, timeout }
+        let Given { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance } = given;
+        Self { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance }
     }
 }
 

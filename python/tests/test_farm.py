@@ -1,5 +1,8 @@
 """Sweeps on several machines: Ray as three nodes on one."""
 
+import subprocess
+import sys
+
 import pytest
 from tqdm import tqdm
 
@@ -57,7 +60,7 @@ def test_what_is_lost_in_between_is_done_again_and_the_table_is_the_serial_one(c
                 cluster.remove_node(nodes[0], allow_graceful=False)
 
     monkeypatch.setattr("arl2rs.sweeps.tqdm", Killer)
-    farmed = arl2rs.sweep(source, rows, engine="ray", **arguments)
+    farmed = arl2rs.sweep(source, rows, engine="ray", progress=True, **arguments)
     assert killed and killed[0] < 9_000
     assert farmed.lines == serial.lines
     assert [farmed[at]["outcome"] for at in (0, 4_000, 5_000, 6_000)] == ["ended", "hung", "alarm", "refused"]
@@ -68,11 +71,11 @@ def test_what_is_known_is_not_done_again(cluster, tmp_path, monkeypatch):
     source = tmp_path / "known.arl"
     source.write_text(PROGRAM)
     rows = [{"global.angle": 1.5}, {"global.angle": 2}]
-    farmed = arl2rs.sweep(source, rows, engine="ray")
+    farmed = arl2rs.sweep(source, rows, engine="ray", clearance=2000)
     monkeypatch.setattr("arl2rs.farm._make_all", None)
-    assert arl2rs.sweep(source, rows, engine="ray").lines == farmed.lines
+    assert arl2rs.sweep(source, rows, engine="ray", clearance=2000).lines == farmed.lines
     monkeypatch.undo()
-    assert arl2rs.sweep(source, rows, cache=False).lines == farmed.lines
+    assert arl2rs.sweep(source, rows, cache=False, clearance=2000).lines == farmed.lines
 
 
 def test_who_stops_leaves_nothing_on_the_cluster(cluster, tmp_path, monkeypatch):
@@ -92,3 +95,22 @@ def test_who_stops_leaves_nothing_on_the_cluster(cluster, tmp_path, monkeypatch)
     monkeypatch.undo()
     # The cores are free again.
     assert arl2rs.sweep(source, [{}], engine="ray", cache=False)[0]["outcome"] == "ended"
+
+
+def test_nodes_without_the_package_are_told(tmp_path):
+    """The only node has another package of that name."""
+    other = tmp_path / "other/arl2rs"
+    other.mkdir(parents=True)
+    (other / "__init__.py").write_text("from . import nothing\n")
+    source = tmp_path / "bare.arl"
+    source.write_text(PROGRAM)
+    script = f"""\
+import arl2rs, ray
+ray.init(address="local", num_cpus=1, log_to_driver=False, runtime_env={{"env_vars": {{"PYTHONPATH": {str(other.parent)!r}}}}})
+try:
+    arl2rs.sweep({str(source)!r}, [{{}}], engine="ray", cache=False)
+except arl2rs.ArlError as problem:
+    print(problem)
+"""
+    said = subprocess.run([sys.executable, "-P", "-c", script], cwd=tmp_path, check=True, capture_output=True, text=True).stdout
+    assert said.startswith("a node cannot import arl2rs: install the same version on all nodes of the cluster (")

@@ -66,6 +66,23 @@ def test_the_file_of_a_sweep_is_that_of_the_command(example, tmp_path, capfd):
     assert len(polars.read_parquet(tmp_path / "r.parquet")) == len(pandas.DataFrame(results.flat()))
 
 
+def test_runs_look_for_collisions_where_that_is_asked_for(short, tmp_path):
+    cell = tmp_path / "cell.toml"
+    cell.write_text('[[body]]\nname = "post"\ncylinder = [100, 3000]\nat = [9000, 0, 0]\n')
+    rows = [{}, {"cell.body.1.at": [600, 0, 0]}]
+    results = arl2rs.sweep(short, rows, cell=cell, collisions=True)
+    assert results[0]["collisions"] == []
+    first = results[1]["collisions"][0]
+    assert "post" in first["bodies"] and first["distance"] == 0 and first["file"] == "short.arl" and first["line"] > 0
+    frame = results.to_pandas()
+    assert list(frame["collisions"]) == [0, len(results[1]["collisions"])]
+    assert frame["collision_bodies"][1] == ", ".join(first["bodies"]) and frame["collision_time"][1] == first["time"]
+    assert arl2rs.sweep(short, rows, cell=cell, clearance=10_000)[0]["collisions"][0]["distance"] > 0
+    assert "collisions" not in arl2rs.sweep(short, rows, cell=cell)[0]
+    with pytest.raises(arl2rs.RefusedError, match="clearance"):
+        arl2rs.sweep(short, rows, cell=cell, clearance=float("nan"))
+
+
 def test_what_cannot_begin_has_a_row(example):
     with pytest.raises(arl2rs.RefusedError, match="there is no parameter `pitch`"):
         arl2rs.sweep(example / "pick_and_place.arl", [{"pitch": 1}, {"pitch": 2}])

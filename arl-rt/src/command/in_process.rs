@@ -7,9 +7,9 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::command::live::{alarm_line, message_line, push_state, warning_line};
+use crate::command::live::{Recording, alarm_line, message_line, push_state, warning_line};
 use crate::command::observation::Observation;
-use crate::command::program_main::{self, Other, listed};
+use crate::command::program_main::{self, InProcess, Other, listed};
 use crate::command::report;
 use crate::command::summary::{Ending, summary};
 use crate::context::output::Message;
@@ -38,6 +38,8 @@ pub struct Run {
     rows: Option<Vec<f64>>,
     /// Whether somebody wants it to end.
     stops: Arc<AtomicBool>,
+    /// Who listens, until it is over.
+    recording: Option<Recording>,
 }
 
 /// Who else may change something while a run goes on.
@@ -70,8 +72,9 @@ impl Run {
         let said = Rc::new(RefCell::new(String::new()));
         let lines = Rc::clone(&said);
         let output = move |message: &Message<'_>| lines.borrow_mut().push_str(&message_line(message));
-        let (controller, max_time, is_real) =
+        let InProcess { controller, max_time, is_real, recording } =
             program_main::in_process(program, (others, script_dir), arguments, output)?;
+        recording.iter().for_each(|recording| recording.begin(&controller));
         let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
         let (rows, stops, observation) = (traced.then(Vec::new), Arc::default(), Observation::default());
         Ok(Self {
@@ -86,6 +89,7 @@ impl Run {
             is_real,
             rows,
             stops,
+            recording,
         })
     }
 
@@ -104,10 +108,12 @@ impl Run {
                 let why = program_main::time_is_over(&self.controller, self.max_time.unwrap_or_default());
                 self.cut(Ending::TimeOver, &why);
             }
-            if self.cut.is_none() && self.stops.load(Ordering::Relaxed) {
+            let is_alone = self.recording.as_ref().is_some_and(Recording::is_gone);
+            if self.cut.is_none() && (is_alone || self.stops.load(Ordering::Relaxed)) {
                 self.cut(Ending::Stopped, "interrupted: the robot stops on its path");
             }
             self.controller.step();
+            self.recording.iter().for_each(|recording| recording.cycle_ended(&self.controller));
             if let Some(rows) = self.rows.as_mut().filter(|_| self.controller.first_ran()) {
                 rows.extend(self.controller.trace_row());
             }
@@ -145,6 +151,10 @@ impl Run {
             self.controller.close_robots();
             self.controller.settle_state();
             self.take_news();
+            let lost = self.recording.take().map_or(0, |recording| recording.run_ended(&self.controller));
+            if let Some(text) = program_main::left_out(lost) {
+                self.say(&warning_line(&text));
+            }
             if self.is_real {
                 program_main::lateness(&self.controller).iter().for_each(|text| self.say(&warning_line(text)));
             }
@@ -156,9 +166,11 @@ impl Run {
 
     fn take_news(&mut self) {
         for text in self.controller.take_warnings() {
+            self.recording.iter().for_each(|recording| recording.warning(&text));
             self.say(&warning_line(&text));
         }
         for alarm in self.controller.take_alarms() {
+            self.recording.iter().for_each(|recording| recording.alarm(&alarm));
             self.say(&alarm_line(&alarm));
             self.alarms.push(alarm);
         }

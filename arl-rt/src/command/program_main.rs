@@ -18,7 +18,7 @@ use crate::command::live::{self, Cut, LineWriter, Recording, STATE_INTERVAL_S, W
 use crate::command::report;
 use crate::command::say::say;
 use crate::command::serve;
-use crate::context::output::Output;
+use crate::context::output::{Output, Stream};
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
 use crate::context::standard_error::tell;
@@ -132,13 +132,12 @@ impl Options {
             (self.live, "--live"),
             (self.paused, "--paused"),
             (self.realtime.is_some(), "--realtime"),
-            (self.listener.is_some(), "--listener"),
             (matches!(self.report, Some(Report::File(_))), "--report=FILE"),
             (self.cycle_time.is_some(), "--cycle-time"),
             (self.asked.debug.is_some(), "--debug"),
             (self.asked.coverage.is_some(), "--coverage"),
-            (self.wishes.each_cycle, "--each-cycle"),
-            (self.wishes.each_motion, "--each-motion"),
+            (self.wishes.each_cycle && self.listener.is_none(), "--each-cycle"),
+            (self.wishes.each_motion && self.listener.is_none(), "--each-motion"),
             (self.wishes.state_interval != STATE_INTERVAL_S, "--state-interval"),
         ];
         asked.into_iter().find_map(|(asked, option)| asked.then_some(option))
@@ -459,18 +458,18 @@ fn run(
     let repeats = options.repeats;
     let voice = options.live.then(LineWriter::standard);
     let (wishes, paused) = (options.wishes, options.paused);
-    let connect = |address: String| Recording::connect(&address, options.wishes).map_err(|error| (address, error));
-    let recording = match options.listener.clone().filter(|_| voice.is_none()).map(connect).transpose() {
+    let address = options.listener.as_deref().filter(|_| voice.is_none());
+    let recording = match address.map(|address| connect_to(address, wishes)).transpose() {
         Ok(recording) => recording,
-        Err((address, error)) => {
-            tell(format_args!("error: there is no listener at {address}: {error}"));
+        Err(problem) => {
+            tell(format_args!("error: {problem}"));
             return EXIT_USAGE;
         }
     };
     let controller = set_up(options, others).and_then(|builder| {
         let builder = match (&voice, &recording) {
             (Some(voice), _) => builder.output(voice.messages()),
-            (None, Some(recording)) => builder.output(recording.output()),
+            (None, Some(recording)) => builder.output(recording.beside(Stream::standard())),
             (None, None) => builder,
         };
         let builder = if wishes.each_motion { builder.record_motions() } else { builder };
@@ -557,21 +556,45 @@ pub(super) fn in_process(
     (others, script_dir): (&[Other], &str),
     arguments: Vec<OsString>,
     output: impl Output + 'static,
-) -> Result<(Controller, Option<f64>, bool), String> {
+) -> Result<InProcess, String> {
     let options = parse(arguments, script_dir).map_err(|error| error.to_string())?;
     let options = options.ok_or("--help: there is no command line here")?;
     if let Some(option) = options.needs_a_process() {
         return Err(format!("{option} is for a program that runs by itself"));
     }
-    let (max_time, repeats) = (options.max_time, options.repeats);
-    let real = options.clock == Some(Pace::Real);
+    let (max_time, repeats, wishes) = (options.max_time, options.repeats, options.wishes);
+    let is_real = options.clock == Some(Pace::Real);
     let keeps = options.state_dir.is_some();
+    let recording = options.listener.as_deref().map(|address| connect_to(address, wishes)).transpose()?;
     let builder = set_up(options, others).map_err(|failure| failure.text)?.stack(HOST_STACK_BYTES);
     // Runs beside each other would share the folder of the program.
     let builder = if keeps { builder } else { builder.storage(Memory::default()) };
-    let mut controller = builder.output(output).build(program).map_err(|error| error.to_string())?;
+    let builder = match &recording {
+        Some(recording) => builder.output(recording.beside(output)),
+        None => builder.output(output),
+    };
+    let builder = if wishes.each_motion { builder.record_motions() } else { builder };
+    let mut controller = builder.build(program).map_err(|error| error.to_string())?;
     controller.set_loop(repeats);
-    Ok((controller, max_time, real))
+    Ok(InProcess { controller, max_time, is_real, recording })
+}
+
+/// A run that is part of another process, before its first cycle.
+pub(super) struct InProcess {
+    pub(super) controller: Controller,
+    pub(super) max_time: Option<f64>,
+    /// Whether it was asked to be in real time.
+    pub(super) is_real: bool,
+    pub(super) recording: Option<Recording>,
+}
+
+/// What there is to say where a listener could not hear all.
+pub(super) fn left_out(lost: u64) -> Option<String> {
+    (lost > 0).then(|| format!("who listens was too slow for real time: what happened is left out, {lost} times"))
+}
+
+fn connect_to(address: &str, wishes: Wishes) -> Result<Recording, String> {
+    Recording::connect(address, wishes).map_err(|error| format!("there is no listener at {address}: {error}"))
 }
 
 /// The exit code of a run that was driven from outside.
@@ -653,9 +676,7 @@ fn watch(
     controller.settle_state();
     say(controller, sources, recording.as_ref());
     let lost = recording.iter().map(|recording| recording.run_ended(controller)).sum::<u64>();
-    if lost > 0 {
-        warn(&format!("who listens was too slow for real time: what happened is left out, {lost} times"));
-    }
+    left_out(lost).iter().for_each(|text| warn(text));
     between.into_iter().for_each(|mut between| between.run_ended(controller));
     match (code, controller.outcome()) {
         (Some(code), _) => code,

@@ -105,7 +105,7 @@ fn accept(listener: &TcpListener, program: &mut Child) -> std::io::Result<Result
 }
 
 /// Passes on what comes until nothing comes any more. Who cannot go on is told of once; the program and the others go on.
-fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) {
+pub(super) fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) {
     let mut stream = BufReader::new(stream);
     let mut bytes = Vec::new();
     let (mut begun, mut understood) = (false, true);

@@ -3,7 +3,7 @@
 use super::args::{ReportFormat, RunOptions};
 use super::arl_toml;
 use super::cache::Kind;
-use super::collide;
+use super::collide::Scene;
 use super::failure::Failure;
 use super::listen::{Hears, Listener};
 use super::pendant;
@@ -54,7 +54,8 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
 
 /// Who is to hear what the program does: collisions come first, so that they are recorded.
 fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hears>>, Failure> {
-    let scenery = Scenery::with(&cell(options)?, robot::load_with(options.robot.as_deref(), &options.changed()?)?)?;
+    let robot = robot::load_with(options.robot.as_deref(), &options.changed()?)?;
+    let scenery = Scenery::with(&cell(options)?, robot, &show::warning)?;
     let mut hearers = watchers(&scenery, options.clearance)?;
     if let Some(path) = &options.record {
         hearers.push(Box::new(Recording::create(path, &scenery, sources)?));
@@ -77,8 +78,8 @@ pub(super) fn watchers(scenery: &Scenery, clearance: Option<f64>) -> Result<Vec<
     if clearance.is_none() && scenery.bodies.is_empty() {
         return Ok(Vec::new());
     }
-    let (watchers, _) = collide::watch(scenery, clearance.unwrap_or_default(), true)?;
-    Ok(watchers)
+    let scene = Scene::of(scenery, &show::warning)?;
+    Ok(scene.watch(clearance.unwrap_or_default(), true).0)
 }
 
 /// Draws a trace that is there.

@@ -130,3 +130,50 @@ fn mistakes_are_told_before_anything_runs() {
     assert_eq!(folder.arl2rs(&["sweep", "s.toml", "--shard", "3/2"]).code, Some(2));
     folder.arl2rs(&["sweep", "s.toml", "-o", "r.csv"]).is(2, "").says("FILE.parquet");
 }
+
+/// A wall in front of the robot, of two triangles.
+const WALL: &str = "solid wall\nfacet normal 1 0 0\nouter loop\nvertex 0 -900 -900\nvertex 0 900 -900\nvertex 0 0 2000\nendloop\nendfacet\n\
+                    facet normal 1 0 0\nouter loop\nvertex 0 -900 2000\nvertex 0 900 2000\nvertex 0 0 -900\nendloop\nendfacet\nendsolid wall\n";
+
+#[test]
+fn runs_look_for_collisions_where_a_sweep_asks_for_it() {
+    let table = "[[body]]\nname = \"table\"\nbox = [600, 600, 40]\nat = [1200, 0, 250]\n\n[[body]]\nname = \"wall\"\nmesh = \"shapes/wall.stl\"\nat = [9000, 0, 0]\n";
+    let folder = Folder::new("sweep-collisions")
+        .with("p.arl", "func void main()\n  movej j:{0,-90,90,0,0,0}\n  movej j:{0,-20,60,0,0,0}\nendfunc\n")
+        .with("cell.toml", table)
+        .with("shapes/wall.stl", WALL);
+    let sweep = |asked: &str| {
+        let places = "[[run]]\n[[run]]\n\"cell.body.1.at\" = [1200, 0, -400]\n[[run]]\n\"cell.body.1.at\" = [1200, 0, -400]\n\"cell.body.2.at\" = [900, 0, 0]\n";
+        folder.write("s.toml", &format!("program = \"p.arl\"\ncell = \"cell.toml\"\n{asked}\n{places}"));
+        folder.arl2rs(&["sweep", "s.toml", "-o", "r.parquet"])
+    };
+    let found = |asked: &str| {
+        let all = rows(&sweep(asked));
+        all.iter().map(|row| row["collisions"].clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(found(""), [serde_json::Value::Null, serde_json::Value::Null, serde_json::Value::Null]);
+    let [by_table, free, by_wall] = found("collisions = true").try_into().expect("three rows");
+    assert_eq!(free, serde_json::json!([]));
+    let names = |contacts: &serde_json::Value| {
+        let bodies = contacts.as_array().into_iter().flatten().map(|contact| contact["bodies"].to_string());
+        bodies.collect::<Vec<_>>().join(" ")
+    };
+    assert!(names(&by_table).contains("\"the forearm\",\"table\""), "{by_table}");
+    assert!(names(&by_wall).contains("wall") && !names(&by_wall).contains("table"), "{by_wall}");
+    // They are those of a check.
+    let checked = folder.arl2rs(&["check", "--collisions", "--format", "json", "--cell", "cell.toml", "p.arl"]);
+    let checked: Vec<serde_json::Value> =
+        checked.out.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+    let checked = checked.iter().filter(|object| object["code"] == "collision");
+    let parts = ["time", "file", "line", "bodies", "distance"];
+    let checked: Vec<Vec<_>> = checked.map(|object| parts.map(|part| object[part].clone()).into()).collect();
+    let contacts = by_table.as_array().expect("contacts");
+    let contacts: Vec<Vec<_>> = contacts.iter().map(|contact| parts.map(|part| contact[part].clone()).into()).collect();
+    assert_eq!(contacts, checked);
+    let near = found("clearance = 2000");
+    assert!(near[1][0]["distance"].as_f64().is_some_and(|distance| distance > 0.0), "{}", near[1]);
+    sweep("clearance = -1").is(2, "").says("clearance: expected a distance in mm");
+    folder.write("shapes/wall.stl", "no triangles here");
+    sweep("collisions = true").is(2, "").says("body `wall`");
+    assert_eq!(sweep("").code, Some(0), "nobody needs the shape");
+}

@@ -10,7 +10,7 @@ use std::net::TcpStream;
 
 use super::line_writer::{IfFull, LineWriter, Messages, push_cycle, push_state};
 use crate::command::report;
-use crate::context::output::{Message, Output, Stream};
+use crate::context::output::{Message, Output};
 use crate::controller::Controller;
 use crate::fault::Alarm;
 
@@ -51,9 +51,9 @@ impl Recording {
         Ok(Self { voice: LineWriter::to(stream, IfFull::Waits), wishes, waiting: RefCell::default() })
     }
 
-    /// The standard output, and the recording beside it.
-    pub(crate) fn output(&self) -> impl Output + use<> {
-        Both { standard: Stream::standard(), recorded: self.voice.messages() }
+    /// An output, and the recording beside it.
+    pub(crate) fn beside<O: Output>(&self, output: O) -> impl Output + use<O> {
+        Both { output, recorded: self.voice.messages() }
     }
 
     /// Whether nobody listens any more.
@@ -122,18 +122,18 @@ impl Recording {
 }
 
 /// Two takers of messages.
-struct Both {
-    standard: Stream<io::Stdout>,
+struct Both<O> {
+    output: O,
     recorded: Messages,
 }
 
-impl Output for Both {
+impl<O: Output> Output for Both<O> {
     fn message(&mut self, message: &Message<'_>) {
-        self.standard.message(message);
+        self.output.message(message);
         self.recorded.message(message);
     }
 
     fn flush(&mut self) {
-        self.standard.flush();
+        self.output.flush();
     }
 }

@@ -14,7 +14,7 @@ use super::super::program::{Ready, prepare_checked};
 use super::super::said::Contact;
 use super::super::scenery::Scenery;
 use super::super::show;
-use super::watch;
+use super::Scene;
 
 /// A run ends after so many controller seconds.
 const MOST_SECONDS: f64 = 600.0;
@@ -53,7 +53,7 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
         return Err(Failure::Usage(format!("{}: {text}", file.display())));
     }
     let scenery = Scenery::of(&cell, options.robot.as_deref())?;
-    let (watchers, found) = watch(&scenery, look.clearance, false)?;
+    let (watchers, found) = Scene::of(&scenery, &show::warning)?.watch(look.clearance, false);
     let ready = prepare_checked(Kind::Program, file, options.cell.as_deref(), &options.checking())?;
     // What another process of that number left there.
     let _ = std::fs::remove_dir_all(&state);

@@ -16,6 +16,7 @@ mod tests;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::error::Error;
+use std::fmt;
 use std::rc::Rc;
 
 use arl_robot::cell::{Carrier, MOST_FOREGROUND};
@@ -40,19 +41,43 @@ pub(super) struct Found {
     pub(super) contacts: Vec<Contact>,
 }
 
-/// Who watches bodies that robots take along, and who looks for collisions, in this order, and what that will have found. With a clearance
-/// above 0, in mm, what comes nearer is told, too; whether as it comes, `tells` says.
-///
-/// # Errors
-/// A mesh cannot be read.
-pub(super) fn watch(scenery: &Scenery, clearance: f64, tells: bool) -> Result<(Watchers, Rc<RefCell<Found>>), Failure> {
-    let mut watchers = Watchers::new();
-    if let Some(parts) = Parts::of(scenery)? {
-        watchers.push(Box::new(parts));
+/// What can touch and be touched, for run after run.
+#[derive(Clone)]
+pub(super) struct Scene {
+    parts: Option<Parts>,
+    bodies: Vec<Item>,
+    /// By channels, the forms of the robot's links, where it has such.
+    links: Vec<Vec<Item>>,
+    carriers: Vec<Carrier>,
+}
+
+impl fmt::Debug for Scene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Scene").field("carriers", &self.carriers).finish_non_exhaustive()
     }
-    let (collisions, found) = Collisions::new(scenery, clearance, tells)?;
-    watchers.push(Box::new(collisions));
-    Ok((watchers, found))
+}
+
+impl Scene {
+    /// That of a scenery. A robot whose shape cannot be read is told of, and has capsules.
+    ///
+    /// # Errors
+    /// A mesh cannot be read.
+    pub(super) fn of(scenery: &Scenery, tell: &dyn Fn(&str)) -> Result<Self, Failure> {
+        let (parts, bodies, links) = (Parts::of(scenery)?, bodies(scenery)?, links(scenery, tell));
+        Ok(Self { parts, bodies, links, carriers: scenery.carriers.clone() })
+    }
+
+    /// Who watches bodies that robots take along, and who looks for collisions, in this order, and what that will have found. With a clearance
+    /// above 0, in mm, what comes nearer is told, too; whether as it comes, `tells` says.
+    pub(super) fn watch(mut self, clearance: f64, tells: bool) -> (Watchers, Rc<RefCell<Found>>) {
+        let mut watchers = Watchers::new();
+        if let Some(parts) = self.parts.take() {
+            watchers.push(Box::new(parts));
+        }
+        let (collisions, found) = Collisions::new(self, clearance, tells);
+        watchers.push(Box::new(collisions));
+        (watchers, found)
+    }
 }
 
 type Watchers = Vec<Box<dyn Hears>>;
@@ -77,17 +102,13 @@ struct Collisions {
 }
 
 impl Collisions {
-    /// In a scenery; what it finds can be asked for.
-    ///
-    /// # Errors
-    /// A mesh cannot be read.
-    fn new(scenery: &Scenery, clearance: f64, tells: bool) -> Result<(Self, Rc<RefCell<Found>>), Failure> {
+    /// In a scene; what it finds can be asked for.
+    fn new(scene: Scene, clearance: f64, tells: bool) -> (Self, Rc<RefCell<Found>>) {
+        let Scene { bodies, links, carriers, .. } = scene;
         let found = Rc::<RefCell<Found>>::default();
         let (arms, items, pairs, touched) = (Vec::new(), Vec::new(), Vec::new(), BTreeSet::new());
-        let (bodies, links, carriers) = (bodies(scenery)?, links(scenery), scenery.carriers.clone());
         let watched = Rc::clone(&found);
-        let this = Self { bodies, links, carriers, clearance, arms, items, pairs, touched, found: watched, tells };
-        Ok((this, found))
+        (Self { bodies, links, carriers, clearance, arms, items, pairs, touched, found: watched, tells }, found)
     }
 
     fn begin(&mut self, hello: &Hello) {
@@ -260,7 +281,7 @@ fn bodies(scenery: &Scenery) -> Result<Vec<Item>, Failure> {
 }
 
 /// The forms of the links of robots, by channels: none where a robot has no shape of its own, or where that cannot be read, which is told.
-fn links(scenery: &Scenery) -> Vec<Vec<Item>> {
+fn links(scenery: &Scenery, tell: &dyn Fn(&str)) -> Vec<Vec<Item>> {
     let of_channel = |channel: usize| {
         let Some(shape) = scenery.shape(channel) else { return Vec::new() };
         let mut items = Vec::new();
@@ -270,7 +291,7 @@ fn links(scenery: &Scenery) -> Vec<Vec<Item>> {
                 Ok(forms) => items.extend(forms),
                 Err(problem) => {
                     let text = format!("{problem}; the robot of channel {} touches as capsules do", channel + 1);
-                    show::warning(&text);
+                    tell(&text);
                     return Vec::new();
                 }
             }

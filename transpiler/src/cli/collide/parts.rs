@@ -15,12 +15,14 @@ use super::arm::of_frame;
 use super::item;
 
 /// The bodies with a grip. While its gripper is on and holds nothing, a robot takes the nearest one that its TCP is near to.
+#[derive(Clone)]
 pub(super) struct Parts {
     pub(super) parts: Vec<Part>,
     /// What each channel runs.
     runs: Vec<Runs>,
 }
 
+#[derive(Clone)]
 pub(super) struct Part {
     /// Which body of the cell.
     body: usize,

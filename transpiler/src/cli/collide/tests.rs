@@ -55,8 +55,12 @@ fn scenery(text: &str) -> Scenery {
     Scenery::of(&Cell::parse("cell.toml", text).unwrap(), None).unwrap()
 }
 
+fn scene(scenery: &Scenery) -> Result<Scene, Failure> {
+    Scene::of(scenery, &|_| {})
+}
+
 fn begun(text: &str, clearance: f64, robots: &[&str]) -> Collisions {
-    let (mut collisions, _) = Collisions::new(&scenery(text), clearance, false).unwrap();
+    let (mut collisions, _) = Collisions::new(scene(&scenery(text)).unwrap(), clearance, false);
     collisions.begin(&hello(robots));
     collisions
 }
@@ -158,7 +162,7 @@ fn begun_with_table(clearance: f64) -> Collisions {
     for (name, unit, most) in [("ej1", "deg", 120.0), ("ej2", "deg", 360.0), ("ej3", "mm", 800.0)] {
         hello.channels[1].axes.push(said::Axis { name: name.into(), unit: unit.into(), min: -most, max: most });
     }
-    let (mut collisions, _) = Collisions::new(&scenery, clearance, false).unwrap();
+    let (mut collisions, _) = Collisions::new(scene(&scenery).unwrap(), clearance, false);
     collisions.begin(&hello);
     collisions
 }
@@ -333,7 +337,7 @@ fn what_is_wrong_with_bodies_is_said() {
         let _ = std::fs::remove_file(&file);
         bytes.iter().for_each(|bytes| std::fs::write(&file, bytes).unwrap());
         let text = format!("[[body]]\nname = \"a\"\nmesh = {:?}\n", file.display().to_string());
-        match Collisions::new(&scenery(&text), 0.0, false) {
+        match scene(&scenery(&text)) {
             Err(Failure::Usage(text)) => text,
             _ => panic!("it was taken"),
         }

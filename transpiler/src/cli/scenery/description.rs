@@ -28,6 +28,21 @@ pub(super) fn of_body(file: &Path) -> Result<Looks, String> {
     description.looks(&urdf::fixed_to(&description.robot, root, &[]))
 }
 
+/// A URDF file, and the meshes that it names as far as they are there.
+pub(super) fn files(file: &Path) -> Result<Vec<PathBuf>, String> {
+    let description = Description::read(file)?;
+    let links = description.robot.links.iter();
+    let forms = links.flat_map(|link| {
+        let seen = link.visual.iter().map(|visual| &visual.geometry);
+        seen.chain(link.collision.iter().map(|collision| &collision.geometry))
+    });
+    let meshes = forms.filter_map(|form| match form {
+        Geometry::Mesh { filename, .. } => description.mesh(filename).ok(),
+        _ => None,
+    });
+    Ok(std::iter::once(file.to_owned()).chain(meshes).collect())
+}
+
 impl Description {
     pub(super) fn read(file: &Path) -> Result<Self, String> {
         let text = regular_file::read_text(file).map_err(|error| format!("cannot be read: {error}"))?;

@@ -9,6 +9,7 @@ pub(super) mod tests;
 use arl_robot::cell::{Body, Carrier, Cell, Form, Solid, Stands};
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::Robot;
+use std::path::PathBuf;
 
 use super::failure::Failure;
 use super::robot;
@@ -46,14 +47,14 @@ impl Scenery {
     /// # Errors
     /// A URDF file of a body cannot be read, or a robot is none, or has not the axis of a carrier.
     pub(super) fn of(cell: &Cell, robot: Option<&str>) -> Result<Self, Failure> {
-        Self::with(cell, robot::load(robot)?)
+        Self::with(cell, robot::load(robot)?, &show::warning)
     }
 
-    /// The same, with the robot of the first channel as it is.
+    /// The same, with the robot of the first channel as it is; `tell` is told of shapes that cannot be read.
     ///
     /// # Errors
     /// As for [`of`](Self::of).
-    pub(super) fn with(cell: &Cell, robot: Robot) -> Result<Self, Failure> {
+    pub(super) fn with(cell: &Cell, robot: Robot, tell: &dyn Fn(&str)) -> Result<Self, Failure> {
         let looks = |body: &Body| match &body.form {
             Form::Solid(solid) => Ok((body.clone(), Looks::of(solid))),
             Form::Urdf(file) => {
@@ -70,7 +71,7 @@ impl Scenery {
             let Some((robot, _)) = all.get(carrier.channel as usize - 1) else { continue };
             has_axis(robot, carrier)?;
         }
-        let shapes = all.iter().map(|(robot, stands)| shape_of(robot, stands)).collect::<Result<_, Failure>>()?;
+        let shapes = all.iter().map(|(robot, stands)| shape_of(robot, stands, tell)).collect::<Result<_, Failure>>()?;
         Ok(Self { bodies, carriers: cell.carriers.clone(), shapes })
     }
 
@@ -78,6 +79,28 @@ impl Scenery {
     pub(super) fn shape(&self, channel: usize) -> Option<&Shape> {
         self.shapes.get(channel)?.as_ref()
     }
+}
+
+/// The files that say how robots and bodies of a cell look. Of a robot's that cannot be read there are none: its run says so.
+///
+/// # Errors
+/// That of a body cannot be read.
+pub(super) fn files(cell: &Cell) -> Result<Vec<PathBuf>, Failure> {
+    let mut all = Vec::new();
+    for body in &cell.bodies {
+        match &body.form {
+            Form::Urdf(file) => {
+                let wrong = |problem| Failure::Usage(format!("body `{}`: {}: {problem}", body.name, file.display()));
+                all.extend(description::files(file).map_err(wrong)?);
+            }
+            Form::Solid(Solid::Mesh { file, .. }) => all.push(file.clone()),
+            Form::Solid(_) => {}
+        }
+    }
+    let others = cell.programs.channels.iter().map(|channel| &channel.stands);
+    let robots = std::iter::once(&cell.stands).chain(others).filter_map(|stands| stands.urdf.as_deref());
+    all.extend(robots.flat_map(|file| description::files(file).unwrap_or_default()));
+    Ok(all)
 }
 
 /// That a robot has the axis of a carrier.
@@ -94,10 +117,10 @@ fn has_axis(robot: &Robot, Carrier { axis, channel, .. }: &Carrier) -> Result<()
     Err(Failure::Usage(text))
 }
 
-fn shape_of(robot: &Robot, stands: &Stands) -> Result<Option<Shape>, Failure> {
+fn shape_of(robot: &Robot, stands: &Stands, tell: &dyn Fn(&str)) -> Result<Option<Shape>, Failure> {
     let Some(file) = &stands.urdf else { return Ok(None) };
     let shape = Shape::read(file, robot);
-    let tell = |problem| show::warning(&format!("{}: {problem}; the robot has capsules in its place", file.display()));
+    let tell = |problem| tell(&format!("{}: {problem}; the robot has capsules in its place", file.display()));
     Ok(shape.map_err(tell).ok())
 }
 

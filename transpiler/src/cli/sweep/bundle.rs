@@ -5,9 +5,12 @@ use super::table::Settings;
 use crate::check::{clean, is_data};
 use crate::cli::args::RunOptions;
 use crate::cli::cache::Kind;
+use crate::cli::collide::Scene;
 use crate::cli::failure::Failure;
 use crate::cli::program::prepare;
+use crate::cli::scenery::{self, Scenery};
 use crate::cli::several;
+use crate::cli::show;
 use arl_robot::cell::Cell;
 use arl_robot::{Robot, regular_file};
 use serde_json::Value;
@@ -33,6 +36,8 @@ pub(super) const PROGRAM: &str = "program";
 pub struct Bundle {
     /// The files, by their paths in the bundle, with slashes.
     pub files: Vec<(String, Vec<u8>)>,
+    /// In mm, where runs look for collisions; 0: for contacts only.
+    pub clearance: Option<f64>,
     /// The words that all runs have.
     words: Vec<String>,
     /// Robot files and scenarios: where they are here, and in the bundle.
@@ -49,6 +54,7 @@ impl Bundle {
         rows: impl Iterator<Item = &'p Parameters> + Clone,
     ) -> Result<Self, Failure> {
         settings.check().map_err(Failure::Usage)?;
+        let clearance = settings.clearance();
         let Settings { program, robot, cell, io, script_dir, files, .. } = settings.clone();
         let options = RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }.of_program(&program)?;
         let ready = prepare(Kind::Named, &program, options.cell.as_deref(), &options.checking())?;
@@ -68,7 +74,8 @@ impl Bundle {
                 format!("{outside} lies outside of {folder}: a sweep takes programs and data files of one folder");
             return Err(Failure::Usage(text));
         }
-        let mut bundle = Self { files: vec![(PROGRAM.into(), executable)], words: Vec::new(), places: Vec::new() };
+        let mut bundle =
+            Self { files: vec![(PROGRAM.into(), executable)], clearance, words: Vec::new(), places: Vec::new() };
         bundle.add_folder(&folder)?;
         for file in files {
             if !file.components().all(|part| matches!(part, Component::Normal(_))) {
@@ -86,6 +93,9 @@ impl Bundle {
         let first =
             [("robot", options.robot.map(Value::from)), ("io", options.io.map(|io| io.display().to_string().into()))];
         let first = Parameters(first.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect());
+        if bundle.clearance.is_some() && rows.clone().all(|row| row.option("robot").is_none()) {
+            tell_of_shapes(options.cell.as_deref(), first.option("robot").and_then(Value::as_str))?;
+        }
         first.files().try_for_each(|file| bundle.add(file))?;
         rows.clone().flat_map(Parameters::files).try_for_each(|file| bundle.add(file))?;
         bundle.words.extend(bundle.file_words(&first));
@@ -117,6 +127,10 @@ impl Bundle {
     pub fn key(&self) -> String {
         let mut hasher = XxHash3_128::new();
         hasher.write(env!("CARGO_PKG_VERSION").as_bytes());
+        if let Some(clearance) = self.clearance {
+            hasher.write(b"collisions");
+            hasher.write(&clearance.to_le_bytes());
+        }
         // Those that are named stand under their hash in the words of a run.
         for (path, bytes) in self.files.iter().filter(|(path, _)| !path.starts_with(NAMED)) {
             hasher.write(&(path.len() as u64).to_le_bytes());
@@ -153,7 +167,7 @@ impl Bundle {
         Ok(())
     }
 
-    /// Adds a cell with the robot files that it names. Gives its place.
+    /// Adds a cell with the robot files that it names, and the shapes where they count. Gives its place.
     fn add_cell(&mut self, path: &Path, script: &Path) -> Result<String, Failure> {
         let folder = path.parent().unwrap_or(Path::new("/"));
         let place = |path: &Path| {
@@ -161,16 +175,16 @@ impl Bundle {
             below(path, script).or_else(in_cell)
         };
         let cell = Cell::load(path).map_err(|error| Failure::Usage(error.to_string()))?;
+        let looks = if self.clearance.is_some() { scenery::files(&cell)? } else { Vec::new() };
+        for file in looks {
+            let file = full(&file)?;
+            let place = place(&file).ok_or_else(|| outside(&file, folder))?;
+            self.add_once(&file, place)?;
+        }
         for robot in cell.programs.channels.iter().filter_map(|channel| channel.robot.as_deref()) {
             if Robot::text(robot).is_none() {
                 let robot = full(Path::new(robot))?;
-                let place = place(&robot).ok_or_else(|| {
-                    Failure::Usage(format!(
-                        "{} lies outside of {}, the folder of its cell",
-                        robot.display(),
-                        folder.display()
-                    ))
-                })?;
+                let place = place(&robot).ok_or_else(|| outside(&robot, folder))?;
                 self.add_once(&robot, place)?;
             }
         }
@@ -203,6 +217,17 @@ impl Bundle {
         }
         Ok(())
     }
+}
+
+/// Reads once what all runs read, so that what is wrong with it is told once.
+fn tell_of_shapes(cell: Option<&Path>, robot: Option<&str>) -> Result<(), Failure> {
+    let cell = cell.map(Cell::load).transpose().map_err(|error| Failure::Usage(error.to_string()))?;
+    let scenery = Scenery::of(&cell.unwrap_or_default(), robot)?;
+    Scene::of(&scenery, &show::warning).map(drop)
+}
+
+fn outside(file: &Path, folder: &Path) -> Failure {
+    Failure::Usage(format!("{} lies outside of {}, the folder of its cell", file.display(), folder.display()))
 }
 
 /// The place of a file that lies in the folder of the program.

@@ -6,6 +6,7 @@
 mod bundle;
 mod folder;
 mod kept;
+mod looking;
 mod parameter;
 mod parquet;
 mod pool;

@@ -1,6 +1,6 @@
 //! Results as a Parquet file: a column for each parameter and each figure.
 
-use super::result::Row;
+use super::result::{Collision, Row};
 use arl_robot::atomic_file;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
@@ -96,10 +96,20 @@ fn columns(rows: &[Row]) -> Vec<(String, Column)> {
         ("alarm_text".to_owned(), text(|row| row.result.alarms.first().map(|alarm| alarm.text.clone()))),
         ("alarm_file".to_owned(), text(|row| row.result.alarms.first().map(|alarm| alarm.file.clone()))),
         ("alarm_line".to_owned(), whole(|row| row.result.alarms.first().map(|alarm| i64::from(alarm.line)))),
+        ("collisions".to_owned(), whole(|row| Some(row.result.collisions.as_ref()?.len() as i64))),
+        ("collision_time".to_owned(), number(|row| Some(first_collision(row)?.time))),
+        ("collision_file".to_owned(), text(|row| Some(first_collision(row)?.file.clone()))),
+        ("collision_line".to_owned(), whole(|row| Some(i64::from(first_collision(row)?.line)))),
+        ("collision_bodies".to_owned(), text(|row| Some(first_collision(row)?.bodies.join(", ")))),
+        ("collision_distance".to_owned(), number(|row| Some(first_collision(row)?.distance))),
         ("output".to_owned(), text(|row| Some(row.result.output.join("\n")))),
         ("problem".to_owned(), text(|row| row.result.problem.clone())),
     ]);
     columns
+}
+
+fn first_collision(row: &Row) -> Option<&Collision> {
+    row.result.collisions.as_ref()?.first()
 }
 
 /// The column of a parameter: numbers or truth values where all are such, else texts.

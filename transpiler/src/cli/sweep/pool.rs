@@ -56,7 +56,7 @@ pub(super) fn run(
                 while !is_enough() {
                     let at = next.fetch_add(1, Ordering::Relaxed);
                     let Some((_, parameters)) = rows.get(at) else { break };
-                    let begin = || Worker::new(spread, timeout);
+                    let begin = || Worker::new(spread, timeout, bundle.clearance);
                     let came = one(at, bundle.words(parameters), kept, (&mut worker, &begin), is_enough);
                     if came.is_none_or(|came| tell.send(came).is_err()) {
                         break;

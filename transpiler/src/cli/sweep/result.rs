@@ -1,6 +1,7 @@
 //! What came of a run: a row of the results.
 
 use super::parameter::Parameters;
+use crate::cli::said::Contact;
 use serde::{Deserialize, Serialize};
 
 /// A row of the results.
@@ -34,6 +35,9 @@ pub struct RunResult {
     pub way: Option<f64>,
     /// The alarms.
     pub alarms: Vec<Alarm>,
+    /// What touched, or came too near to each other, where that was looked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub collisions: Option<Vec<Collision>>,
     /// What the program printed, a line each.
     pub output: Vec<String>,
     /// Why it could not begin, or was lost.
@@ -54,6 +58,28 @@ pub struct Alarm {
     pub line: u32,
     /// The channel whose program it is.
     pub channel: String,
+}
+
+/// Two bodies that touch for the first time, or the nearest that they come.
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
+pub struct Collision {
+    /// When, in s of the robot's time.
+    pub time: f64,
+    /// The file of the motion that brought them together.
+    pub file: String,
+    /// Its line, from 1.
+    pub line: u32,
+    /// Their names.
+    pub bodies: [String; 2],
+    /// How far they are apart, in mm; 0: they touch.
+    pub distance: f64,
+}
+
+impl From<Contact> for Collision {
+    fn from(contact: Contact) -> Self {
+        let Contact { time, file, line, one, other, distance } = contact;
+        Self { time, file, line, bodies: [one, other], distance }
+    }
 }
 
 /// What a compiled program answers.
@@ -91,11 +117,11 @@ struct Message {
 }
 
 impl RunResult {
-    /// The result that a program's answer tells, and whether the same run gives it again.
+    /// The result that a program's answer tells, with what was found in its run, and whether the same run gives it again.
     ///
     /// # Errors
     /// This is no answer.
-    pub(super) fn of_answer(line: &str) -> Result<(Self, bool), String> {
+    pub(super) fn of_answer(line: &str, contacts: Option<Vec<Contact>>) -> Result<(Self, bool), String> {
         let answer: Answer = serde_json::from_str(line).map_err(|error| error.to_string())?;
         let Some(Summary { outcome, code, cycle_time, moving, standing, motions, way, alarms, real_time }) =
             answer.summary
@@ -111,7 +137,20 @@ impl RunResult {
         };
         let output = shown.flat_map(lines).collect();
         let cycle_time = Some(cycle_time);
-        let result = Self { outcome, code, cycle_time, moving, standing, motions, way, alarms, output, problem: None };
+        let collisions = contacts.map(|contacts| contacts.into_iter().map(Collision::from).collect());
+        let result = Self {
+            outcome,
+            code,
+            cycle_time,
+            moving,
+            standing,
+            motions,
+            way,
+            alarms,
+            collisions,
+            output,
+            problem: None,
+        };
         Ok((result, !real_time))
     }
 

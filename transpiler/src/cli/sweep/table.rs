@@ -36,11 +36,24 @@ pub struct Settings {
     pub max_time: Option<f64>,
     /// After how many seconds on the clock of the computer a run is given up.
     pub timeout: Option<f64>,
+    /// Whether it is looked for collisions.
+    #[serde(default)]
+    pub collisions: bool,
+    /// In mm: what comes nearer to each other without touching is told, too. It is looked for collisions then.
+    pub clearance: Option<f64>,
 }
 
 impl Settings {
-    /// Whether its times are such.
+    /// The clearance where it is looked for collisions, in mm; 0: contacts only.
+    pub(super) fn clearance(&self) -> Option<f64> {
+        self.clearance.or(self.collisions.then_some(0.0))
+    }
+
+    /// Whether its times and lengths are such.
     pub(super) fn check(&self) -> Result<(), String> {
+        if let Some(clearance) = self.clearance.filter(|clearance| !clearance.is_finite() || *clearance < 0.0) {
+            return Err(format!("clearance: expected a distance in mm, 0 or more, found {clearance}"));
+        }
         for (name, seconds) in [("timeout", self.timeout), ("max-time", self.max_time)] {
             if seconds.is_some_and(|seconds| !(0.0..=LONGEST).contains(&seconds)) {
                 return Err(format!("{name}: expected seconds from 0 to {LONGEST}"));
@@ -71,6 +84,9 @@ struct File {
     files: Vec<PathBuf>,
     max_time: Option<f64>,
     timeout: Option<f64>,
+    #[serde(default)]
+    collisions: bool,
+    clearance: Option<f64>,
     /// The same in all runs.
     #[serde(default)]
     set: Parameters,
@@ -108,6 +124,8 @@ impl Sweep {
             files: file.files,
             max_time: file.max_time,
             timeout: file.timeout,
+            collisions: file.collisions,
+            clearance: file.clearance,
         };
         let mut rows = if file.run.is_empty() { vec![Parameters::default()] } else { file.run };
         for row in &mut rows {

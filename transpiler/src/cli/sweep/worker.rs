@@ -1,7 +1,9 @@
 //! A process of the program that makes run after run, in a folder of its own.
 
 use super::folder::{Folder, Spread};
+use super::looking::Looking;
 use super::result::RunResult;
+use crate::cli::said::Contact;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -23,6 +25,7 @@ pub struct Worker {
     folder: Folder,
     timeout: Duration,
     process: Option<Process>,
+    looking: Option<Looking>,
 }
 
 #[derive(Debug)]
@@ -31,6 +34,8 @@ struct Process {
     questions: ChildStdin,
     answers: Receiver<std::io::Result<String>>,
 }
+
+type Answered = (Result<String, Lost>, Option<Vec<Contact>>);
 
 /// Why there is no answer.
 enum Lost {
@@ -43,15 +48,16 @@ enum Lost {
 }
 
 impl Worker {
-    /// A worker for a bundle that lies on the disk; its process begins with the first run.
+    /// A worker for a bundle that lies on the disk; its process begins with the first run. With a clearance, in mm, it looks for collisions.
     ///
     /// # Errors
     /// Its folder cannot be made, in words.
-    pub fn new(spread: &Spread, timeout: Option<f64>) -> Result<Self, String> {
+    pub fn new(spread: &Spread, timeout: Option<f64>, clearance: Option<f64>) -> Result<Self, String> {
         let timeout =
             Duration::try_from_secs_f64(timeout.unwrap_or(TIMEOUT)).map_err(|error| format!("timeout: {error}"))?;
         let folder = Folder::new(spread).map_err(|error| format!("the folder of a worker: {error}"))?;
-        Ok(Self { folder, timeout, process: None })
+        let looking = clearance.map(|clearance| Looking::new(clearance, folder.path()));
+        Ok(Self { folder, timeout, process: None, looking })
     }
 
     /// Makes the run of these words: its result, and whether the same run gives it again. A process that is lost is begun anew, and asked once more
@@ -65,8 +71,12 @@ impl Worker {
             if let Err(error) = self.folder.restore() {
                 return Some((RunResult::lost("crashed", format!("the folder of a worker: {error}")), false));
             }
-            match self.ask(words, is_enough) {
-                Ok(answer) => match RunResult::of_answer(&answer) {
+            let (answer, contacts) = match self.answer(words, is_enough) {
+                Ok(answered) => answered,
+                Err(problem) => return Some((RunResult::lost("refused", problem), false)),
+            };
+            match answer {
+                Ok(answer) => match RunResult::of_answer(&answer, contacts) {
                     Ok(result) => return Some(result),
                     Err(problem) => why = format!("its answer is none: {problem}"),
                 },
@@ -80,6 +90,14 @@ impl Worker {
             self.end();
         }
         if is_enough() { None } else { Some((RunResult::lost("crashed", why), false)) }
+    }
+
+    /// What the program answers, and what touched in its run, where somebody looks; or why it cannot be looked for.
+    fn answer(&mut self, words: &[String], is_enough: &dyn Fn() -> bool) -> Result<Answered, String> {
+        let Some(mut looking) = self.looking.take() else { return Ok((self.ask(words, is_enough), None)) };
+        let looked = looking.look(words, |words| self.ask(&words, is_enough));
+        self.looking = Some(looking);
+        looked.map(|(answer, contacts)| (answer, Some(contacts)))
     }
 
     fn ask(&mut self, words: &[String], is_enough: &dyn Fn() -> bool) -> Result<String, Lost> {
@@ -181,7 +199,7 @@ mod tests {
     fn worker(script: &str, timeout: f64) -> Worker {
         let script = format!("#!/bin/sh\n{}\n", script.replace("ENDED", &format!("echo '{ENDED}'")));
         let files = vec![("program".into(), script.into_bytes()), ("script/a.arl".into(), b"a".to_vec())];
-        Worker::new(&Spread::of(files).unwrap(), Some(timeout)).unwrap()
+        Worker::new(&Spread::of(files).unwrap(), Some(timeout), None).unwrap()
     }
 
     fn ran(worker: &mut Worker) -> RunResult {
