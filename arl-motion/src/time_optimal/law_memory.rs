@@ -17,10 +17,11 @@ const MOST_STRETCHES: usize = 60_000;
 /// What was not found takes as much room as a law of so many stretches.
 const ROOM_OF_NOTHING: usize = 10;
 
-/// So many requests are remembered with what was found, of no more segments than this each: a loop has some, a dense chain has thousands
-/// and is not gone twice.
-const MOST_REQUESTS: usize = 64;
+/// So many requests are remembered with what was found, of no more segments than this each, and of so many together: a loop has some, a dense
+/// chain has thousands and is not gone twice.
+const MOST_REQUESTS: usize = 1024;
 const MOST_SEGMENTS: usize = 512;
+const MOST_SEGMENTS_TOGETHER: usize = 1 << 15;
 
 /// A law, and how much its set-points use of the limits; `None` where there is none.
 pub(crate) type Answer = Option<(Arc<Law>, f64)>;
@@ -73,6 +74,8 @@ impl LawMemory {
 #[derive(Default)]
 pub(crate) struct RequestMemory<F> {
     known: VecDeque<(ConstraintSampler, Edge, Option<Arc<Law>>, F)>,
+    /// How many segments they have together.
+    segments: usize,
 }
 
 impl<F: Clone> RequestMemory<F> {
@@ -91,10 +94,13 @@ impl<F: Clone> RequestMemory<F> {
         if sampler.segments() > MOST_SEGMENTS {
             return;
         }
-        if self.known.len() == MOST_REQUESTS {
-            self.known.pop_front();
-        }
+        self.segments += sampler.segments();
         self.known.push_back((sampler, start, before, found));
+        while (self.segments > MOST_SEGMENTS_TOGETHER || self.known.len() > MOST_REQUESTS)
+            && let Some((oldest, ..)) = self.known.pop_front()
+        {
+            self.segments -= oldest.segments();
+        }
     }
 }
 

@@ -7,7 +7,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread;
 
 use crate::beside;
@@ -220,8 +220,9 @@ impl Search {
 fn begin() -> Option<Sender<Task>> {
     let (tasks, asked) = channel::<Task>();
     let work = move || {
-        let mut memory = Memory::default();
+        let mut memory = Memory::begun(&LEFT);
         asked.iter().for_each(|task| task.run(&mut memory));
+        memory.leave(&LEFT);
     };
     beside::spawn(thread::Builder::new().name("laws".into()), work).ok().map(|_| tasks)
 }
@@ -231,6 +232,29 @@ fn begin() -> Option<Sender<Task>> {
 struct Memory {
     laws: LawMemory,
     requests: RequestMemory<Option<Found>>,
+}
+
+/// What threads remembered that have ended: the next run of this process may ask for the same. A request is known again by all that may be seen of
+/// the path, so that what is found depends on nothing that was before.
+static LEFT: Left = Mutex::new(Vec::new());
+type Left = Mutex<Vec<RequestMemory<Option<Found>>>>;
+/// So many of them are kept: those of the robots of a cell.
+const MOST_LEFT: usize = 8;
+
+impl Memory {
+    /// With what the thread before remembered that ended last.
+    fn begun(left: &Left) -> Self {
+        let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
+        Self { laws: LawMemory::default(), requests: left.pop().unwrap_or_default() }
+    }
+
+    /// Leaves it to the next thread.
+    fn leave(self, left: &Left) {
+        let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
+        if left.len() < MOST_LEFT {
+            left.push(self.requests);
+        }
+    }
 }
 
 impl Task {
@@ -553,6 +577,31 @@ mod tests {
         let mut memory = Memory::default();
         recall_or_find(sampler(&robot, 1, 50.0), (Edge::REST, None), &mut memory, || false);
         assert!(memory.requests.recall(&sampler(&robot, 1, 50.0), Edge::REST, None).is_none());
+    }
+
+    #[test]
+    fn the_next_run_knows_what_the_last_one_found() {
+        let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
+        let left = Left::default();
+        let law = |speed| {
+            let mut memory = Memory::begun(&left);
+            let asked = FOUND_HERE.get();
+            let found = recall_or_find(sampler(&robot, 1, speed), (Edge::REST, None), &mut memory, || true);
+            memory.leave(&left);
+            (FOUND_HERE.get() - asked, found.unwrap().law)
+        };
+        let (asked, first) = law(50.0);
+        assert_eq!(asked, 1);
+        assert_eq!(law(40.0).0, 1);
+        let (asked, again) = law(50.0);
+        assert!(asked == 0 && Arc::ptr_eq(&first, &again));
+        // Robots beside each other have memories of their own.
+        let [one, other] = [Memory::begun(&left), Memory::begun(&left)];
+        let known = |memory: &Memory| memory.requests.recall(&sampler(&robot, 1, 50.0), Edge::REST, None).is_some();
+        assert_eq!((known(&one), known(&other)), (true, false));
+        one.leave(&left);
+        (0..2 * MOST_LEFT).for_each(|_| Memory::default().leave(&left));
+        assert_eq!(left.lock().unwrap().len(), MOST_LEFT);
     }
 
     #[test]

@@ -79,8 +79,8 @@ const PROGRAM_LEVEL: u8 = 1;
 /// where it is used, or is not used at all, needs no optimisation of its own.
 const RUNTIME: &str = "\
 arl-lang = { opt-level = 1, codegen-units = 2 }
-arl-motion = { opt-level = 2, codegen-units = 8 }
-arl-robot = { opt-level = 2, codegen-units = 4 }
+arl-motion = { opt-level = 2, codegen-units = 1 }
+arl-robot = { opt-level = 2, codegen-units = 1 }
 arl-rt = { opt-level = \"s\", codegen-units = 8 }
 arl-drivers = { opt-level = \"s\" }
 encoding_rs = { opt-level = 0 }

@@ -177,3 +177,33 @@ fn runs_look_for_collisions_where_a_sweep_asks_for_it() {
     sweep("collisions = true").is(2, "").says("body `wall`");
     assert_eq!(sweep("").code, Some(0), "nobody needs the shape");
 }
+
+#[test]
+fn what_ran_before_in_a_process_changes_nothing() {
+    let program = "double angle = 1\n\nfunc void main()\n  movej j:{angle, -90, 90, 0, 90, 0}\n\
+                   \x20 ptp p:{x 900, y -500, z 550, a 0, b 180, c 0}, vp:80%, sp:30%\n\
+                   \x20 lin p:{x 900, y -500, z 400, a 0, b 180, c 0}, vl:250mm/s, sl:20mm\n\
+                   \x20 lin p:{x 800, y 300, z 500, a angle, b 180, c 0}, vl:500mm/s\nendfunc\n";
+    let folder = Folder::new("sweep-order").with("p.arl", program);
+    let runs = [
+        "\"global.angle\" = 2",
+        "override = 60",
+        "\"global.angle\" = 2.0\nseed = 3",
+        "override = 60\nseed = 3",
+        "seed = 3",
+    ];
+    let sweep = |order: &[usize]| {
+        let table: String =
+            order.iter().filter_map(|at| runs.get(*at)).map(|run| format!("[[run]]\n{run}\n")).collect();
+        folder.write("s.toml", &format!("program = \"p.arl\"\nrobot = \"kr10-r1420\"\n{table}"));
+        let answer = folder.arl2rs(&["sweep", "s.toml", "--no-cache", "--jobs", "1"]);
+        let rows = rows(&answer).into_iter().map(|row| {
+            let figures = ["outcome", "cycle_time", "moving", "way"].map(|figure| row[figure].to_string());
+            (row["parameters"].to_string(), figures)
+        });
+        rows.collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let (one, other) = (sweep(&[0, 1, 2, 3, 4]), sweep(&[4, 3, 1, 2, 0]));
+    assert_eq!(one, other);
+    assert!(one.len() == runs.len() && one.values().all(|[outcome, ..]| outcome == "\"ended\""), "{one:?}");
+}
