@@ -34,8 +34,14 @@ How = tuple[float | None, float | None]
 _workers: dict[tuple[str, How], _arl2rs.Worker] = {}
 
 
-def _make(key: str, files: list[tuple[str, bytes]], how: How, runs: list[tuple[int, Words]]) -> list[tuple[int, str, bool]]:
+class _OtherVersionError(Exception):
+    """A node has another version of the package, which may find other collisions."""
+
+
+def _make(version: str, key: str, files: list[tuple[str, bytes]], how: How, runs: list[tuple[int, Words]]) -> list[tuple[int, str, bool]]:
     """Makes runs, on a node. Its process keeps the worker for the next task; runs that take too long are the worker's business."""
+    if version != _arl2rs.VERSION:
+        raise _OtherVersionError(f"it has version {_arl2rs.VERSION}, the sweep {version}")
     if (key, how) not in _workers:
         _workers.clear()
         _workers[key, how] = _arl2rs.Worker(files, *how)
@@ -67,7 +73,7 @@ class _Farm:
         most = 2 * _cores()
         while self.waiting and len(self.tasks) < most:
             runs, self.waiting = self.waiting[: self.batch], self.waiting[self.batch :]
-            task = self._remote.remote(self._key, self._files, (self.timeout, self.bundle.clearance), runs)
+            task = self._remote.remote(_arl2rs.VERSION, self._key, self._files, (self.timeout, self.bundle.clearance), runs)
             self.tasks[task], self.begun[task] = runs, time.monotonic()
 
     def wait(self) -> None:
@@ -129,11 +135,12 @@ class _Farm:
 
 
 def _refuse_nodes_without_the_package(problem: ray.exceptions.RayError) -> None:
-    """A node that cannot import what this file needs would lose every run that it is given, and swiftly."""
+    """A node that lacks the package, or has another version of it, would lose every run that it is given, and swiftly."""
     cause = getattr(problem, "cause", None)
-    if isinstance(cause, ImportError) or str(cause).startswith("The remote function failed to import"):
+    is_import = isinstance(cause, ImportError) or str(cause).startswith("The remote function failed to import")
+    if is_import or isinstance(cause, _OtherVersionError):
         why = str(cause).strip().splitlines()[-1]
-        raise ArlError(f"a node cannot import arl2rs: install the same version on all nodes of the cluster ({why})") from problem
+        raise ArlError(f"a node does not have this arl2rs: install the same version on all nodes of the cluster ({why})") from problem
 
 
 def _not_kept(problem: Exception) -> None:

@@ -24,6 +24,8 @@ mod _arl2rs {
     use pyo3::prelude::*;
 
     #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
     const MAX_TIME: f64 = super::host::MAX_TIME;
     #[pymodule_export]
     const TIMEOUT: f64 = super::host::TIMEOUT;

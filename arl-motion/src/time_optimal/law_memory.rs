@@ -17,11 +17,14 @@ const MOST_STRETCHES: usize = 60_000;
 /// What was not found takes as much room as a law of so many stretches.
 const ROOM_OF_NOTHING: usize = 10;
 
-/// So many requests are remembered with what was found, of no more segments than this each, and of so many together: a loop has some, a dense
-/// chain has thousands and is not gone twice.
+/// So many requests are remembered with what was found, of no more segments than this each: a loop has some, a dense chain has thousands and is
+/// not gone twice.
 const MOST_REQUESTS: usize = 1024;
 const MOST_SEGMENTS: usize = 512;
-const MOST_SEGMENTS_TOGETHER: usize = 1 << 15;
+/// So much room they take together, in rows of limits of 48 bytes.
+const MOST_ROOM: usize = 300_000;
+/// The room of a segment.
+const ROOM_OF_SEGMENT: usize = 10;
 
 /// A law, and how much its set-points use of the limits; `None` where there is none.
 pub(crate) type Answer = Option<(Arc<Law>, f64)>;
@@ -74,8 +77,9 @@ impl LawMemory {
 #[derive(Default)]
 pub(crate) struct RequestMemory<F> {
     known: VecDeque<(ConstraintSampler, Edge, Option<Arc<Law>>, F)>,
-    /// How many segments they have together.
-    segments: usize,
+    /// The room that each of them takes, and all together.
+    rooms: VecDeque<usize>,
+    room: usize,
 }
 
 impl<F: Clone> RequestMemory<F> {
@@ -89,17 +93,24 @@ impl<F: Clone> RequestMemory<F> {
         known.map(|(.., found)| found.clone())
     }
 
-    /// Remembers what was found for a request that was not known, if that takes little memory.
-    pub(crate) fn remember(&mut self, sampler: ConstraintSampler, start: Edge, before: Option<Arc<Law>>, found: F) {
+    /// Remembers what was found for a request that was not known, if that takes little memory: as much as `rows` rows of limits, beside the path.
+    pub(crate) fn remember(
+        &mut self,
+        sampler: ConstraintSampler,
+        (start, before): (Edge, Option<Arc<Law>>),
+        (found, rows): (F, usize),
+    ) {
         if sampler.segments() > MOST_SEGMENTS {
             return;
         }
-        self.segments += sampler.segments();
+        let room = rows + ROOM_OF_SEGMENT * sampler.segments();
         self.known.push_back((sampler, start, before, found));
-        while (self.segments > MOST_SEGMENTS_TOGETHER || self.known.len() > MOST_REQUESTS)
-            && let Some((oldest, ..)) = self.known.pop_front()
+        self.rooms.push_back(room);
+        self.room += room;
+        while (self.room > MOST_ROOM || self.known.len() > MOST_REQUESTS)
+            && let (Some(_), Some(room)) = (self.known.pop_front(), self.rooms.pop_front())
         {
-            self.segments -= oldest.segments();
+            self.room -= room;
         }
     }
 }

@@ -238,8 +238,8 @@ struct Memory {
 /// the path, so that what is found depends on nothing that was before.
 static LEFT: Left = Mutex::new(Vec::new());
 type Left = Mutex<Vec<RequestMemory<Option<Found>>>>;
-/// So many of them are kept: those of the robots of a cell.
-const MOST_LEFT: usize = 8;
+/// So many of them are kept.
+const MOST_LEFT: usize = 4;
 
 impl Memory {
     /// With what the thread before remembered that ended last.
@@ -311,7 +311,8 @@ fn recall_or_find(
     }
     let found = find(&sampler, (start, before.as_deref()), &mut memory.laws, &wanted);
     if wanted() {
-        memory.requests.remember(sampler, start, before, found.clone());
+        let rows = found.as_ref().map_or(0, |found| 2 * found.law.stretches() + found.check.rows());
+        memory.requests.remember(sampler, (start, before), (found.clone(), rows));
     }
     found
 }

@@ -76,6 +76,11 @@ impl Timed for Law {
 }
 
 impl LimitCheck {
+    /// How many rows of limits it has.
+    pub(crate) fn rows(&self) -> usize {
+        self.way.row_count()
+    }
+
     pub(crate) fn new(way: Way) -> Self {
         let least = |index: usize| {
             let rows = way.rows(index).iter().filter(|row| row.first != 0.0);

@@ -40,6 +40,8 @@ pub struct Run {
     stops: Arc<AtomicBool>,
     /// Who listens, until it is over.
     recording: Option<Recording>,
+    /// How often something was left out that who listens should have heard.
+    left_out: u64,
 }
 
 /// Who else may change something while a run goes on.
@@ -90,6 +92,7 @@ impl Run {
             rows,
             stops,
             recording,
+            left_out: 0,
         })
     }
 
@@ -151,8 +154,8 @@ impl Run {
             self.controller.close_robots();
             self.controller.settle_state();
             self.take_news();
-            let lost = self.recording.take().map_or(0, |recording| recording.run_ended(&self.controller));
-            if let Some(text) = program_main::left_out(lost) {
+            self.left_out = self.recording.take().map_or(0, |recording| recording.run_ended(&self.controller));
+            if let Some(text) = program_main::left_out(self.left_out) {
                 self.say(&warning_line(&text));
             }
             if self.is_real {
@@ -211,7 +214,7 @@ impl Run {
     /// What came of it, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s, the alarms, and with `--report` what
     /// the motions of the first robot were together.
     pub fn summary(&self) -> String {
-        summary(&self.controller, self.ended, &self.alarms)
+        summary(&self.controller, self.ended, &self.alarms, self.left_out)
     }
 
     /// What each motion did, a JSON object a line, where `--report` asked for it.

@@ -16,6 +16,8 @@ pub enum WaitsFor {
     StartButton,
     /// Motion that was stopped, to be started again.
     Motion,
+    /// Motion while the override is 0.
+    Override,
 }
 
 impl fmt::Display for WaitsFor {
@@ -24,6 +26,7 @@ impl fmt::Display for WaitsFor {
             WaitsFor::Condition => "its condition, which does not hold",
             WaitsFor::StartButton => "the start button",
             WaitsFor::Motion => "motion that is stopped (`stopmove`)",
+            WaitsFor::Override => "motion, and the override is 0",
         })
     }
 }

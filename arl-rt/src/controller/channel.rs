@@ -178,7 +178,11 @@ impl Channel {
             || (self.actions.is_empty() && !paused && self.cx.events().borrow().has_due())
             || self.cx.acted() >= cycle
             || (self.channel_state.robot().is_some() && self.rested < SEEN_AT_REST);
-        (!goes_on).then_some(Repose::Waiting(waits_for))
+        let is_slowed = || self.channel_state.robot().is_some_and(|unit| unit.speed_override() == 0.0 && unit.moves());
+        (!goes_on).then(|| match waits_for {
+            WaitsFor::Motion if is_slowed() => Repose::Waiting(WaitsFor::Override),
+            waits_for => Repose::Waiting(waits_for),
+        })
     }
 
     /// Looks for events.
@@ -259,7 +263,8 @@ impl Channel {
     pub(super) fn step_robot(&mut self, time: f64, beat: Beat) {
         let Some(mut unit) = self.channel_state.robot_mut() else { return };
         unit.step(beat);
-        let rests = unit.rests() && (self.channel_state.paused.get() || !unit.moves());
+        let is_held = self.channel_state.paused.get() || unit.speed_override() == 0.0;
+        let rests = unit.rests() && (is_held || !unit.moves());
         self.rested = if rests { self.rested.saturating_add(1) } else { 0 };
         self.channel_state.update_system(&unit);
         let mut image = self.channel_state.shared.io.borrow_mut();

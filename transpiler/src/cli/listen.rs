@@ -104,15 +104,17 @@ fn accept(listener: &TcpListener, program: &mut Child) -> std::io::Result<Result
     }
 }
 
-/// Passes on what comes until nothing comes any more. Who cannot go on is told of once; the program and the others go on.
-pub(super) fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) {
+/// Passes on what comes until nothing comes any more; whether all came, from the first line to the last, and was understood. Who cannot go on is
+/// told of once; the program and the others go on.
+pub(super) fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> bool {
     let mut stream = BufReader::new(stream);
     let mut bytes = Vec::new();
-    let (mut begun, mut understood) = (false, true);
+    let (mut begun, mut ended, mut understood) = (false, false, true);
     while matches!(stream.read_until(b'\n', &mut bytes), Ok(1..)) {
         match serde_json::from_slice(&bytes) {
             Ok(line) => {
                 begun |= matches!(line, Line::Hello(_));
+                ended |= matches!(line, Line::Ended(()));
                 pass_on(line, &mut hearers);
             }
             Err(error) => {
@@ -124,6 +126,7 @@ pub(super) fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) {
         bytes.clear();
     }
     end(hearers, begun);
+    begun && ended && understood
 }
 
 /// What a program is to say for those who hear it.

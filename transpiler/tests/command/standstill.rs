@@ -20,6 +20,22 @@ fn a_run_ends_where_nothing_can_change() {
 }
 
 #[test]
+fn a_run_ends_whose_robot_may_not_move() {
+    let moves = "func void main()\n    movej j:{0,-90,90,0,60,0}\n    print \"planned\"\n    waittime 0\n    print \"never\"\nendfunc\n";
+    let folder = Folder::new("override-0").with("a.arl", moves);
+    folder
+        .arl2rs(&["run", "a.arl", "--override", "0"])
+        .is(4, "planned\n")
+        .says("nothing can change any more after")
+        .says("  a.arl:4 waits for motion, and the override is 0");
+    // Whoever gives it speed again lets it go on.
+    folder.write("s.toml", "[[event]]\nat = 2\noverride = 100\n");
+    folder.arl2rs(&["run", "a.arl", "--override", "0", "--io", "s.toml"]).is(0, "planned\nnever\n");
+    folder.write("s.toml", "[[event]]\nat = 0.2\noverride = 0\n");
+    folder.arl2rs(&["run", "a.arl", "--io", "s.toml"]).is(4, "planned\n").says("the override is 0");
+}
+
+#[test]
 fn a_case_that_waits_in_vain_fails_unless_it_sets_a_time() {
     let stopped = "bool started\n\nfunc void halt()\n    stopmove\nendfunc\n\nfunc void main()\n    interrupt when:started, do:halt()\n    \
                    movej j:{0,-90,90,0,60,0}\n    started = true\n    movej j:{0,-90,90,0,90,0}\n    setdo(1,true)\nendfunc\n";

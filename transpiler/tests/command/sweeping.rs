@@ -207,3 +207,43 @@ fn what_ran_before_in_a_process_changes_nothing() {
     assert_eq!(one, other);
     assert!(one.len() == runs.len() && one.values().all(|[outcome, ..]| outcome == "\"ended\""), "{one:?}");
 }
+
+#[test]
+fn shapes_go_along_with_the_runs_from_wherever_a_cell_names_them() {
+    let wall = |file: &str| format!("[[body]]\nname = \"wall\"\nmesh = \"{file}\"\nat = [900, 0, 0]\n");
+    let folder = Folder::new("sweep-shapes")
+        .with("programs/p.arl", "func void main()\n  movej j:{0,-90,90,0,0,0}\n  movej j:{0,-20,60,0,0,0}\nendfunc\n")
+        .with("cell.toml", &wall("programs/shapes/wall.stl"))
+        .with("programs/shapes/wall.stl", WALL)
+        .with("other.stl", WALL);
+    let sweep = |runs: &str| {
+        folder.write(
+            "s.toml",
+            &format!("program = \"programs/p.arl\"\ncell = \"cell.toml\"\ncollisions = true\n[[run]]\n{runs}\n"),
+        );
+        folder.arl2rs(&["sweep", "s.toml"])
+    };
+    let touches = |runs: &str| {
+        let row = rows(&sweep(runs)).remove(0);
+        let contacts = row["collisions"].as_array().unwrap_or_else(|| panic!("{row}")).clone();
+        contacts.iter().any(|contact| contact["bodies"].to_string().contains("wall"))
+    };
+    assert!(touches(""));
+    let other = "\"cell.body.1.mesh\" = \"other.stl\"";
+    assert!(touches(other));
+    // What was found with another shape counts no more.
+    folder.write("other.stl", &WALL.replace("vertex 0 ", "vertex 9000 "));
+    assert!(!touches(other));
+    let answer = sweep("\"cell.body.1.mesh\" = \"none.stl\"\n[[run]]");
+    let all = rows(&answer);
+    let problem = all[0]["problem"].as_str().unwrap_or_default();
+    assert!(problem.contains("none.stl") && !problem.contains("arl2rs-sweep"), "{problem}");
+    assert_eq!((&all[0]["outcome"], &all[1]["outcome"]), (&"refused".into(), &"ended".into()));
+    sweep("\"cell.body.1.mesh\" = \"none.stl\"").is(1, "").says("none.stl");
+    // Where the runs are made, there is nothing but what goes along.
+    folder.write("cell.toml", &wall(&folder.path.join("other.stl").display().to_string()));
+    sweep("").is(2, "").says("named by a path from the root");
+    folder.write("programs/cell.toml", &wall("../other.stl"));
+    folder.write("s.toml", "program = \"programs/p.arl\"\ncell = \"programs/cell.toml\"\nclearance = 1\n");
+    folder.arl2rs(&["sweep", "s.toml"]).is(2, "").says("lies outside of");
+}

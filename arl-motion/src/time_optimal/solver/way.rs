@@ -68,6 +68,11 @@ impl Way {
         Self::default()
     }
 
+    /// How many rows it has, those of all places.
+    pub(crate) fn row_count(&self) -> usize {
+        self.rows.len()
+    }
+
     /// Drops all places and keeps the memory.
     pub fn clear(&mut self) {
         self.at.clear();

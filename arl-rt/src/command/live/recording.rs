@@ -121,6 +121,13 @@ impl Recording {
     }
 }
 
+impl Drop for Recording {
+    /// Who ends a run before its end tells what happened until then.
+    fn drop(&mut self) {
+        self.flush();
+    }
+}
+
 /// Two takers of messages.
 struct Both<O> {
     output: O,

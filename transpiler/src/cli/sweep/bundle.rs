@@ -1,19 +1,23 @@
 //! All that runs depend on: the compiled program and the files that it reads, by paths that are the same on every machine.
 
+use super::folder::{Folder, Spread};
+use super::looking::{self, Looking};
 use super::parameter::Parameters;
 use super::table::Settings;
 use crate::check::{clean, is_data};
 use crate::cli::args::RunOptions;
 use crate::cli::cache::Kind;
-use crate::cli::collide::Scene;
 use crate::cli::failure::Failure;
 use crate::cli::program::prepare;
-use crate::cli::scenery::{self, Scenery};
+use crate::cli::scenery;
 use crate::cli::several;
 use crate::cli::show;
 use arl_robot::cell::Cell;
+use arl_robot::changes::Changes;
 use arl_robot::{Robot, regular_file};
 use serde_json::Value;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
 use twox_hash::XxHash3_128;
 
@@ -93,20 +97,20 @@ impl Bundle {
         let first =
             [("robot", options.robot.map(Value::from)), ("io", options.io.map(|io| io.display().to_string().into()))];
         let first = Parameters(first.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect());
-        if bundle.clearance.is_some() && rows.clone().all(|row| row.option("robot").is_none()) {
-            tell_of_shapes(options.cell.as_deref(), first.option("robot").and_then(Value::as_str))?;
-        }
         first.files().try_for_each(|file| bundle.add(file))?;
         rows.clone().flat_map(Parameters::files).try_for_each(|file| bundle.add(file))?;
         bundle.words.extend(bundle.file_words(&first));
-        let mut words = rows.map(|row| bundle.words(row));
+        let mut words = rows.clone().map(|row| bundle.words(row));
         match words.next() {
-            Some(Err(problem)) if words.all(|words| words.is_err()) => Err(Failure::Usage(problem)),
-            _ => {
-                drop(words);
-                Ok(bundle)
-            }
+            Some(Err(problem)) if words.all(|words| words.is_err()) => return Err(Failure::Usage(problem)),
+            _ => drop(words),
         }
+        if let (Some(cell), Some(_)) = (&options.cell, bundle.clearance) {
+            let words = rows.filter_map(|row| bundle.words(row).ok());
+            let sceneries: BTreeSet<Vec<String>> = words.map(|words| looking::naming(&words)).collect();
+            bundle.add_shapes(&full(cell)?, &folder, &sceneries)?;
+        }
+        Ok(bundle)
     }
 
     /// The words of a run with these parameters; what comes later goes first.
@@ -167,30 +171,68 @@ impl Bundle {
         Ok(())
     }
 
-    /// Adds a cell with the robot files that it names, and the shapes where they count. Gives its place.
+    /// Adds a cell with the robot files that it names. Gives its place.
     fn add_cell(&mut self, path: &Path, script: &Path) -> Result<String, Failure> {
-        let folder = path.parent().unwrap_or(Path::new("/"));
-        let place = |path: &Path| {
-            let in_cell = || Some(format!("cell/{}", with_slashes(path.strip_prefix(folder).ok()?)));
-            below(path, script).or_else(in_cell)
-        };
+        let place = |file: &Path| beside_cell(file, path, script);
         let cell = Cell::load(path).map_err(|error| Failure::Usage(error.to_string()))?;
-        let looks = if self.clearance.is_some() { scenery::files(&cell)? } else { Vec::new() };
-        for file in looks {
-            let file = full(&file)?;
-            let place = place(&file).ok_or_else(|| outside(&file, folder))?;
-            self.add_once(&file, place)?;
-        }
         for robot in cell.programs.channels.iter().filter_map(|channel| channel.robot.as_deref()) {
             if Robot::text(robot).is_none() {
                 let robot = full(Path::new(robot))?;
-                let place = place(&robot).ok_or_else(|| outside(&robot, folder))?;
-                self.add_once(&robot, place)?;
+                self.add_once(&robot, place(&robot)?)?;
             }
         }
-        let place = place(path).unwrap_or_default();
+        let place = place(path)?;
         self.add_once(path, place.clone())?;
         Ok(place)
+    }
+
+    /// Adds the shapes of robots and bodies that runs look at, by the words that decide which these are; and sees to it that they are found where
+    /// the runs are made.
+    fn add_shapes(&mut self, cell: &Path, script: &Path, sceneries: &BTreeSet<Vec<String>>) -> Result<(), Failure> {
+        let mut counts = Vec::new();
+        for words in sceneries {
+            match self.add_shapes_of(cell, script, words) {
+                // Where some runs can be made, the others say what is wrong.
+                Err(_) if sceneries.len() > 1 => {}
+                count => counts.push((words, count?)),
+            }
+        }
+        let spread = Spread::new(self).map_err(not_written)?;
+        let folder = Folder::new(&spread).map_err(not_written)?;
+        let mut looking = Looking::new(0.0, folder.path());
+        let told = RefCell::new(BTreeSet::new());
+        let tell = |text: &str| {
+            if told.borrow_mut().insert(text.to_owned()) {
+                show::warning(text);
+            }
+        };
+        for (words, count) in counts {
+            let found = looking.files(words)?;
+            if found.len() != count || found.iter().any(|file| !clean(file).starts_with(folder.path())) {
+                let text = "a shape is named by a path from the root or by a package: where the runs are made it is found only by a path from the \
+                            file that names it";
+                return Err(Failure::Usage(format!("{}: {text}", cell.display())));
+            }
+            match looking.scene(words, &tell) {
+                Err(problem) if sceneries.len() == 1 => return Err(Failure::Usage(problem)),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// How many files they are.
+    fn add_shapes_of(&mut self, cell: &Path, script: &Path, words: &[String]) -> Result<usize, Failure> {
+        let changes = words.chunks_exact(2).filter(|pair| pair.iter().any(|word| word == "--set"));
+        let changes: Vec<&str> = changes.filter_map(|pair| pair.get(1).map(String::as_str)).collect();
+        let changed = Changes::of(&changes).map_err(Failure::Usage)?;
+        let changed = Cell::load_with(cell, &changed).map_err(|error| Failure::Usage(error.to_string()))?;
+        let files = scenery::files(&changed)?;
+        for file in &files {
+            let file = full(file)?;
+            self.add_once(&file, beside_cell(&file, cell, script)?)?;
+        }
+        Ok(files.len())
     }
 
     fn add_once(&mut self, path: &Path, place: String) -> Result<(), Failure> {
@@ -219,15 +261,24 @@ impl Bundle {
     }
 }
 
-/// Reads once what all runs read, so that what is wrong with it is told once.
-fn tell_of_shapes(cell: Option<&Path>, robot: Option<&str>) -> Result<(), Failure> {
-    let cell = cell.map(Cell::load).transpose().map_err(|error| Failure::Usage(error.to_string()))?;
-    let scenery = Scenery::of(&cell.unwrap_or_default(), robot)?;
-    Scene::of(&scenery, &show::warning).map(drop)
+/// The place of what a cell file names, as far from the cell's as it is on the disk.
+///
+/// # Errors
+/// It lies outside of the cell's folder and the program's.
+fn beside_cell(file: &Path, cell: &Path, script: &Path) -> Result<String, Failure> {
+    let folder = cell.parent().unwrap_or(Path::new("/"));
+    let outside = || {
+        let (file, folder) = (file.display(), folder.display());
+        Failure::Usage(format!("{file} lies outside of {folder}, the folder of its cell"))
+    };
+    if cell.starts_with(script) {
+        return below(file, script).ok_or_else(outside);
+    }
+    file.strip_prefix(folder).map(|below| format!("cell/{}", with_slashes(below))).map_err(|_| outside())
 }
 
-fn outside(file: &Path, folder: &Path) -> Failure {
-    Failure::Usage(format!("{} lies outside of {}, the folder of its cell", file.display(), folder.display()))
+pub(super) fn not_written(error: std::io::Error) -> Failure {
+    Failure::Other(format!("the program of the sweep cannot be written: {error}"))
 }
 
 /// The place of a file that lies in the folder of the program.

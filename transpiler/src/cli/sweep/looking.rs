@@ -5,9 +5,8 @@ use crate::cli::collide::Scene;
 use crate::cli::failure::Failure;
 use crate::cli::listen::hear;
 use crate::cli::said::Contact;
-use crate::cli::scenery::Scenery;
+use crate::cli::scenery::{self, Scenery};
 use crate::cli::{robot, run};
-use arl_robot::Robot;
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,6 +16,8 @@ use std::time::Duration;
 const DECIDING: [&str; 3] = ["--robot", "--cell", "--set"];
 /// Where the places of `--set` begin that do.
 const PLACES: [&str; 2] = ["robot.", "cell."];
+/// The keys of a cell file that name the shape of something.
+const NAMING: [&str; 2] = ["mesh", "urdf"];
 /// How often it is looked whether a run has connected.
 const LOOK_INTERVAL: Duration = Duration::from_millis(1);
 
@@ -36,7 +37,8 @@ impl Looking {
         Self { clearance, folder: folder.to_owned(), last: None }
     }
 
-    /// Has `make` make the run of these words and of those that it is given besides; gives what touched, or came too near, with what it gives.
+    /// Has `make` make the run of these words and of those that it is given besides; gives what touched, or came too near, with what it gives:
+    /// `None` where not all of the run was heard.
     ///
     /// # Errors
     /// What stands in the cell cannot be read, or this computer has no connection to itself; then nothing ran.
@@ -44,8 +46,8 @@ impl Looking {
         &mut self,
         words: &[String],
         make: impl FnOnce(Vec<String>) -> T,
-    ) -> Result<(T, Vec<Contact>), String> {
-        let scene = self.scene(words).map_err(|failure| failure.to_string())?;
+    ) -> Result<(T, Option<Vec<Contact>>), String> {
+        let scene = self.scene(words, &|_| {})?;
         // The next run must not find the connection of one that was lost.
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).and_then(|listener| {
             listener.set_nonblocking(true)?;
@@ -56,29 +58,45 @@ impl Looking {
         let asked = ["--listener".into(), address.to_string(), "--each-cycle".into()];
         let (is_over, clearance) = (AtomicBool::new(false), self.clearance);
         Ok(std::thread::scope(|scope| {
-            let heard = scope.spawn(|| {
+            let is_over = &is_over;
+            let heard = scope.spawn(move || {
                 let (watchers, found) = scene.watch(clearance, false);
-                if let Some(stream) = accept(&listener, &is_over) {
-                    hear(stream, watchers);
-                }
-                std::mem::take(&mut found.borrow_mut().contacts)
+                // Where the listener is gone, the run does not wait for it.
+                let stream = accept(listener, is_over)?;
+                hear(stream, watchers).then(|| std::mem::take(&mut found.borrow_mut().contacts))
             });
             let made = make(words.iter().cloned().chain(asked).collect());
             is_over.store(true, Ordering::Release);
-            (made, heard.join().unwrap_or_default())
+            (made, heard.join().ok().flatten())
         }))
     }
 
-    fn scene(&mut self, words: &[String]) -> Result<Scene, Failure> {
+    /// What stands in the cell of the run of these words. A robot whose shape cannot be read is told of, and has capsules.
+    ///
+    /// # Errors
+    /// Something cannot be read, in words that do not name the folder of the worker.
+    pub(super) fn scene(&mut self, words: &[String], tell: &dyn Fn(&str)) -> Result<Scene, String> {
         let deciding = deciding(words);
         if let Some((_, scene)) = self.last.as_ref().filter(|(last, _)| *last == deciding) {
             return Ok(scene.clone());
         }
         let options = self.options(&deciding);
-        let robot = robot::load_with(options.robot.as_deref(), &options.changed()?)?;
-        // What cannot be read of a robot was told when the sweep began.
-        let scene = Scene::of(&Scenery::with(&run::cell(&options)?, robot, &|_| {})?, &|_| {})?;
+        let without_folder = |text: &str| text.replace(&format!("{}/", self.folder.display()), "");
+        let tell = |text: &str| tell(&without_folder(text));
+        let scene = || {
+            let robot = robot::load_with(options.robot.as_deref(), &options.changed()?)?;
+            Scene::of(&Scenery::with(&run::cell(&options)?, robot, &tell)?, &tell)
+        };
+        let scene = scene().map_err(|failure: Failure| without_folder(&failure.to_string()))?;
         Ok(self.last.insert((deciding, scene)).1.clone())
+    }
+
+    /// The files that say how robots and bodies of the cell of the run of these words look.
+    ///
+    /// # Errors
+    /// That of a body cannot be read.
+    pub(super) fn files(&self, words: &[String]) -> Result<Vec<PathBuf>, Failure> {
+        scenery::files(&run::cell(&self.options(&deciding(words)))?)
     }
 
     /// What comes later goes before.
@@ -87,9 +105,8 @@ impl Looking {
         for pair in deciding.chunks_exact(2) {
             match pair {
                 [word, robot] if word == "--robot" => {
-                    let is_file = Robot::text(robot).is_none();
-                    let file = || self.folder.join(robot).display().to_string();
-                    options.robot = Some(if is_file { file() } else { robot.clone() });
+                    let file = self.folder.join(robot);
+                    options.robot = Some(if file.is_file() { file.display().to_string() } else { robot.clone() });
                 }
                 [word, cell] if word == "--cell" => options.cell = Some(self.folder.join(cell)),
                 [_, change] => options.changes.push(change.clone()),
@@ -113,8 +130,19 @@ fn deciding(words: &[String]) -> Vec<String> {
     all
 }
 
+/// The words of a run that decide which files say how robots and bodies look.
+pub(super) fn naming(words: &[String]) -> Vec<String> {
+    let all = deciding(words);
+    let names = |pair: &[String]| {
+        let [word, value] = pair else { return false };
+        let key = value.split_once('=').map_or("", |(place, _)| place.rsplit('.').next().unwrap_or_default());
+        word != "--set" || NAMING.contains(&key.trim())
+    };
+    all.chunks_exact(2).filter(|pair| names(pair)).flatten().cloned().collect()
+}
+
 /// The connection of a run, unless it is over without one.
-fn accept(listener: &TcpListener, is_over: &AtomicBool) -> Option<TcpStream> {
+fn accept(listener: TcpListener, is_over: &AtomicBool) -> Option<TcpStream> {
     loop {
         // Asked first: a connection that was made before the end is there to be accepted then.
         let was_over = is_over.load(Ordering::Acquire);
@@ -131,6 +159,7 @@ fn accept(listener: &TcpListener, is_over: &AtomicBool) -> Option<TcpStream> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::Write;
 
     #[test]
     fn what_decides_about_a_cell_is_what_names_and_changes_it() {
@@ -152,8 +181,32 @@ mod tests {
             ]
         );
         let options = Looking::new(0.0, Path::new("/w")).options(&deciding);
-        assert_eq!(options.robot.as_deref(), Some("/w/named/1/r.toml"));
+        assert_eq!(options.robot.as_deref(), Some("named/1/r.toml"), "it is not there");
         assert_eq!(options.cell.as_deref(), Some(Path::new("/w/cell/c.toml")));
         assert_eq!(options.changes, ["cell.body.1.at=[1, 2, 3]"]);
+    }
+
+    /// What is found in a run that says these lines, by who looks in a folder without a cell.
+    fn found(lines: &str) -> Option<Vec<Contact>> {
+        let mut looking = Looking::new(0.0, Path::new("/nowhere"));
+        let run = |words: Vec<String>| {
+            assert_eq!((&*words[0], &*words[2]), ("--listener", "--each-cycle"));
+            let mut stream = TcpStream::connect(&words[1]).unwrap();
+            stream.write_all(lines.as_bytes()).unwrap();
+        };
+        looking.look(&[], run).unwrap().1
+    }
+
+    #[test]
+    fn only_who_heard_all_of_a_run_knows_that_nothing_touched() {
+        let hello = "{\"hello\":{\"channels\":[],\"names\":{}}}\n";
+        assert_eq!(found(&format!("{hello}{{\"ended\":null}}\n")), Some(Vec::new()));
+        assert_eq!(found(hello), None, "its process was lost");
+        assert_eq!(found("{\"ended\":null}\n"), None);
+        assert_eq!(found(&format!("{hello}what?\n{{\"ended\":null}}\n")), None);
+        let mut looking = Looking::new(0.0, Path::new("/nowhere"));
+        assert_eq!(looking.look(&[], |_| ()), Ok(((), None)), "it did not connect");
+        // The next run is heard by itself.
+        assert_eq!(found(&format!("{hello}{{\"ended\":null}}\n")), Some(Vec::new()));
     }
 }

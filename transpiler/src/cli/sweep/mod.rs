@@ -20,6 +20,7 @@ use super::cargo;
 use super::failure::{Failure, INTERRUPTED};
 use super::{answer, show};
 use crate::cli::exit::Exit;
+use bundle::not_written;
 pub use bundle::{Bundle, MAX_TIME};
 pub use folder::Spread;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -119,10 +120,6 @@ pub(super) fn all(
         ControlFlow::Continue(())
     };
     pool::run(Work { bundle, rows: &rows, processes, timeout, kept, is_enough }, warn, take).map_err(not_written)
-}
-
-fn not_written(error: std::io::Error) -> Failure {
-    Failure::Other(format!("the program of the sweep cannot be written: {error}"))
 }
 
 /// What is known of this bundle. Where that cannot be kept, the sweep goes on without.

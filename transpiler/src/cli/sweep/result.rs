@@ -82,6 +82,10 @@ impl From<Contact> for Collision {
     }
 }
 
+/// Not all of a run was heard, so that nobody knows what touched.
+#[derive(Debug)]
+pub(super) struct Unheard;
+
 /// What a compiled program answers.
 #[derive(Deserialize)]
 struct Answer {
@@ -102,6 +106,9 @@ struct Summary {
     way: Option<f64>,
     alarms: Vec<Alarm>,
     real_time: bool,
+    /// How often something was left out that who listens should have heard.
+    #[serde(default)]
+    left_out: u64,
 }
 
 #[derive(Deserialize)]
@@ -117,18 +124,24 @@ struct Message {
 }
 
 impl RunResult {
-    /// The result that a program's answer tells, with what was found in its run, and whether the same run gives it again.
+    /// The result that a program's answer tells, with what was found in its run where that was looked for, and whether the same run gives it again.
     ///
     /// # Errors
-    /// This is no answer.
-    pub(super) fn of_answer(line: &str, contacts: Option<Vec<Contact>>) -> Result<(Self, bool), String> {
+    /// This is no answer, or the run was not heard to its end.
+    pub(super) fn of_answer(
+        line: &str,
+        contacts: Option<Result<Vec<Contact>, Unheard>>,
+    ) -> Result<(Self, bool), String> {
         let answer: Answer = serde_json::from_str(line).map_err(|error| error.to_string())?;
-        let Some(Summary { outcome, code, cycle_time, moving, standing, motions, way, alarms, real_time }) =
-            answer.summary
-        else {
+        let Some(summary) = answer.summary else {
             // It may be for something outside, as an io island that is switched off.
             return Ok((Self::lost("refused", answer.refused.unwrap_or_default()), false));
         };
+        let Summary { outcome, code, cycle_time, moving, standing, motions, way, alarms, real_time, left_out } =
+            summary;
+        let contacts = contacts.transpose().map_err(|Unheard| "nobody heard its run to the end".to_owned())?;
+        // In real time the run does not wait for who listens: what was missed may have touched.
+        let contacts = contacts.filter(|_| left_out == 0);
         let messages = answer.said.into_iter().filter_map(|said| said.message);
         let shown = messages.filter(|message| message.hmi || message.console);
         let lines = |message: Message| -> Vec<String> {

@@ -2,7 +2,7 @@
 
 use super::folder::{Folder, Spread};
 use super::looking::Looking;
-use super::result::RunResult;
+use super::result::{RunResult, Unheard};
 use crate::cli::said::Contact;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
@@ -35,7 +35,7 @@ struct Process {
     answers: Receiver<std::io::Result<String>>,
 }
 
-type Answered = (Result<String, Lost>, Option<Vec<Contact>>);
+type Answered = (Result<String, Lost>, Option<Result<Vec<Contact>, Unheard>>);
 
 /// Why there is no answer.
 enum Lost {
@@ -97,7 +97,7 @@ impl Worker {
         let Some(mut looking) = self.looking.take() else { return Ok((self.ask(words, is_enough), None)) };
         let looked = looking.look(words, |words| self.ask(&words, is_enough));
         self.looking = Some(looking);
-        looked.map(|(answer, contacts)| (answer, Some(contacts)))
+        looked.map(|(answer, contacts)| (answer, Some(contacts.ok_or(Unheard))))
     }
 
     fn ask(&mut self, words: &[String], is_enough: &dyn Fn() -> bool) -> Result<String, Lost> {
