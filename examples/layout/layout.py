@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 import arl2rs
 
 HERE = Path(__file__).parent
-PROGRAM, SCENARIO = HERE / "layout.arl", HERE / "scenario.toml"
+PROGRAM, CELL, SCENARIO = HERE / "layout.arl", HERE / "cell.toml", HERE / "scenario.toml"
 AT_ONCE = 8
 
 START = {
@@ -38,14 +38,17 @@ BOUNDS = {
 def parameters(layout: dict[str, float]) -> dict[str, Any]:
     """The parameters of the run that tries a layout."""
     rows: dict[str, Any] = {f"global.{name}": layout[name] for name in ("lift", "zone", "fast", "slow")}
-    for point in ("feeder", "pallet"):
-        rows[f"global.{point}"] = {axis: layout[f"{point}_{axis}"] for axis in "xyz"}
+    # Where the middle of what stands there is from the point, in mm.
+    for body, (point, middle) in enumerate({"feeder": (0, 0, -300), "pallet": (60, 120, -300)}.items(), start=1):
+        at = [layout[f"{point}_{axis}"] for axis in "xyz"]
+        rows[f"global.{point}"] = dict(zip("xyz", at, strict=True))
+        rows[f"cell.body.{body}.at"] = [a + b for a, b in zip(at, middle, strict=True)]
     return rows
 
 
 def cost(row: dict[str, Any]) -> float:
-    """Seconds of a cycle; what does not end is no layout."""
-    return float(row["cycle_time"]) if row["outcome"] == "ended" else 1000.0
+    """Seconds of a cycle; what does not end, or touches something, is no layout."""
+    return float(row["cycle_time"]) if row["outcome"] == "ended" and not row["collisions"] else 1000.0
 
 
 def search(runs: int, engine: str) -> tuple[optuna.Study, list[float]]:
@@ -56,7 +59,9 @@ def search(runs: int, engine: str) -> tuple[optuna.Study, list[float]]:
     while len(costs) < runs:
         trials = [study.ask() for _ in range(min(AT_ONCE, runs - len(costs)))]
         layouts = [{name: trial.suggest_float(name, *bounds) for name, bounds in BOUNDS.items()} for trial in trials]
-        results = arl2rs.sweep(PROGRAM, map(parameters, layouts), scenario=SCENARIO, max_time=120, engine=engine, progress=False)
+        rows = map(parameters, layouts)
+        how: dict[str, Any] = {"max_time": 120, "collisions": True, "engine": engine, "progress": False}
+        results = arl2rs.sweep(PROGRAM, rows, cell=CELL, scenario=SCENARIO, **how)
         for trial, row in zip(trials, results, strict=True):
             study.tell(trial, cost(row))
             costs.append(cost(row))
@@ -84,7 +89,7 @@ def main() -> None:
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 400
     optuna.logging.set_verbosity(optuna.logging.WARNING)
     study, costs = search(runs, sys.argv[2] if len(sys.argv) > 2 else "local")
-    program = arl2rs.compile(PROGRAM, scenario=SCENARIO)
+    program = arl2rs.compile(PROGRAM, cell=CELL, scenario=SCENARIO)
     before, after = (program.run(set=parameters(layout)).check() for layout in (START, study.best_params))
     draw(before, after, costs).savefig("layout.png", dpi=150)
     print(f"{before.cycle_time:.2f} s before, {after.cycle_time:.2f} s after {len(costs)} runs")
