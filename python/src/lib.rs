@@ -58,7 +58,8 @@ pub(crate) struct Given {
 
 impl From<Settings> for Given {
     fn from(settings: Settings) -> Self {
-        let Settings { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance } = settings;
+        let Settings { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance } =
+            settings;
         Self { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance }
     }
 }
