@@ -22,6 +22,8 @@ pub(crate) fn of_host(error: HostError) -> PyErr {
 pub(crate) fn of_library(error: LoadError) -> PyErr {
     match error {
         LoadError::Refused(text) => Refused::new_err(text),
+        // It cannot be loaded: no session was ever there.
+        other @ (LoadError::Open(_) | LoadError::NotOurs | LoadError::Version(_)) => Failed::new_err(other.to_string()),
         other => Gone::new_err(other.to_string()),
     }
 }

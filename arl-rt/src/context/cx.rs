@@ -475,7 +475,7 @@ impl Cx {
         }
         while self.channel_state.has_pending_alarm() || !self.is_motion_over() {
             self.channel_state.conclude_motion();
-            self.next_cycle().await;
+            self.wait_for(WaitsFor::Motion).await;
         }
         if stepping.left.get() == 0 && stepping.on.get() {
             self.channel_state.paused.set(true);

@@ -164,12 +164,14 @@ impl Channel {
             return Some(Repose::Ended);
         }
         let paused = self.channel_state.paused.get();
+        let is_slowed = || self.channel_state.robot().is_some_and(|unit| unit.speed_override() == 0.0 && unit.moves());
         let waits_for = match self.phase {
             Phase::Running(_) | Phase::Concluding if paused => WaitsFor::StartButton,
             Phase::Running(_) => self.cx.waits_in(cycle)?,
             Phase::Concluding if !self.actions.is_empty() => self.cx.waits_in(cycle)?,
             // Statements have ended, and an interrupt may start what is stopped.
             Phase::Concluding => WaitsFor::Motion,
+            Phase::RunningOut(_) if is_slowed() => WaitsFor::Motion,
             Phase::RunningOut(_) | Phase::Ended(_) => return None,
         };
         let goes_on = self.cx.is_loading()
@@ -178,7 +180,6 @@ impl Channel {
             || (self.actions.is_empty() && !paused && self.cx.events().borrow().has_due())
             || self.cx.acted() >= cycle
             || (self.channel_state.robot().is_some() && self.rested < SEEN_AT_REST);
-        let is_slowed = || self.channel_state.robot().is_some_and(|unit| unit.speed_override() == 0.0 && unit.moves());
         (!goes_on).then(|| match waits_for {
             WaitsFor::Motion if is_slowed() => Repose::Waiting(WaitsFor::Override),
             waits_for => Repose::Waiting(waits_for),

@@ -42,9 +42,8 @@ pub(super) fn load_with(robot: Option<&str>, changes: &Changes) -> Result<robot:
 }
 
 impl Robot {
-    /// The robot that `--robot` names, or the default one.
-    pub(super) fn load(robot: Option<&str>) -> Result<Self, Failure> {
-        let robot = load(robot)?;
+    /// Of a whole one.
+    pub(super) fn of(robot: robot::Robot) -> Self {
         let own = robot.own_axes().len();
         let columns = (0..own).chain(robot::ROBOT_AXES..AXES);
         let axis = |(axis, column): (&robot::Axis, usize)| Axis {
@@ -54,7 +53,7 @@ impl Robot {
             column,
         };
         let axes = robot.axes.iter().zip(columns).map(axis).collect();
-        Ok(Self { name: robot.name, axes, tcp: robot.tcp.vel })
+        Self { name: robot.name, axes, tcp: robot.tcp.vel }
     }
 }
 
@@ -64,9 +63,9 @@ mod tests {
 
     #[test]
     fn built_in_robots_have_limits() {
-        let robot = Robot::load(Some("hsr065")).unwrap();
+        let robot = Robot::of(load(Some("hsr065")).unwrap());
         assert_eq!((robot.name.as_str(), robot.axes.len(), robot.tcp), ("hsr065", 4, 2500.0));
         assert!(robot.axes[2].linear && !robot.axes[3].linear && robot.axes[3].column == 3);
-        assert_eq!(Robot::load(None).unwrap().axes.len(), 6);
+        assert_eq!(Robot::of(load(None).unwrap()).axes.len(), 6);
     }
 }

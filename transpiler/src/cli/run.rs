@@ -16,6 +16,7 @@ use super::scenery::Scenery;
 use super::show;
 use super::signals::Signals;
 use crate::cli::exit::Exit;
+use arl_robot::Robot;
 use arl_robot::cell::Cell;
 use arl_robot::changes::Part;
 use std::cell::RefCell;
@@ -87,10 +88,10 @@ pub(super) fn plot(trace: &Path, picture: &Path, robot: Option<&str>) -> Result<
     let beside = arl_toml::of_program(trace)?.and_then(|file| file.robot);
     let robot = robot.or(beside.as_deref());
     let title = trace.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    draw(trace, picture, robot, &Ran { title, ..Ran::default() })
+    draw(trace, picture, robot::load(robot)?, &Ran { title, ..Ran::default() })
 }
 
-fn draw(trace: &Path, picture: &Path, robot: Option<&str>, ran: &Ran) -> Result<(), Failure> {
+fn draw(trace: &Path, picture: &Path, robot: Robot, ran: &Ran) -> Result<(), Failure> {
     if !plot::plot(trace, picture, robot, ran)? {
         // There may be an empty one, made to see whether it can be.
         let _ = std::fs::remove_file(picture);
@@ -121,7 +122,10 @@ fn run_and_plot(
     let code = wait(command, listener, ready)?;
     let ran = Ran { lanes: lanes.take(), ..ran };
     match trace.path().is_file() {
-        true => draw(trace.path(), picture, options.robot.as_deref(), &ran)?,
+        true => {
+            let robot = robot::load_with(options.robot.as_deref(), &options.changed()?)?;
+            draw(trace.path(), picture, robot, &ran)?;
+        }
         // The program did not even begin, and has said why.
         false => drop(std::fs::remove_file(picture)),
     }

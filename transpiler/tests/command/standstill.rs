@@ -28,6 +28,11 @@ fn a_run_ends_whose_robot_may_not_move() {
         .is(4, "planned\n")
         .says("nothing can change any more after")
         .says("  a.arl:4 waits for motion, and the override is 0");
+    let again = "func void main()\n    movej j:{0,-90,90,0,60,0}\n    restart\nendfunc\n";
+    folder.write("b.arl", again);
+    folder.arl2rs(&["run", "b.arl", "--override", "0"]).is(4, "").says("waits for motion, and the override is 0");
+    folder.write("s.toml", "[[event]]\nat = 0\npendant = \"step\"\n\n[[event]]\nat = 0.1\npendant = \"step\"\n");
+    folder.arl2rs(&["run", "a.arl", "--override", "0", "--io", "s.toml"]).is(4, "").says("nothing can change any more");
     // Whoever gives it speed again lets it go on.
     folder.write("s.toml", "[[event]]\nat = 2\noverride = 100\n");
     folder.arl2rs(&["run", "a.arl", "--override", "0", "--io", "s.toml"]).is(0, "planned\nnever\n");

@@ -246,4 +246,14 @@ fn shapes_go_along_with_the_runs_from_wherever_a_cell_names_them() {
     folder.write("programs/cell.toml", &wall("../other.stl"));
     folder.write("s.toml", "program = \"programs/p.arl\"\ncell = \"programs/cell.toml\"\nclearance = 1\n");
     folder.arl2rs(&["sweep", "s.toml"]).is(2, "").says("lies outside of");
+    // Also where other runs have other shapes.
+    let rows = "[[run]]\n[[run]]\n\"cell.body.1.mesh\" = \"shapes/wall.stl\"\n";
+    let table = format!("program = \"programs/p.arl\"\ncell = \"programs/cell.toml\"\nclearance = 1\n{rows}");
+    folder.write("s.toml", &table);
+    folder.arl2rs(&["sweep", "s.toml"]).is(2, "").says("lies outside of");
+    // What is named in another way is not looked for elsewhere.
+    let whole = folder.path.join("other.stl").display().to_string();
+    folder.write("cell.toml", "body = [{ name = \"wall\", box = [1, 1, 1] }]\n");
+    let refused = sweep(&format!("\"cell.body.1\" = {{ name = \"wall\", mesh = {whole:?} }}"));
+    assert!(refused.out.contains("is not among the files of the sweep"), "{}{}", refused.out, refused.err);
 }

@@ -42,8 +42,8 @@ pub(super) struct Ran {
 }
 
 /// Draws the trace at `trace` to the file `plot`; says whether there was a motion to draw.
-pub(super) fn plot(trace: &Path, plot: &Path, robot: Option<&str>, ran: &Ran) -> Result<bool, Failure> {
-    let robot = Robot::load(robot)?;
+pub(super) fn plot(trace: &Path, plot: &Path, robot: arl_robot::Robot, ran: &Ran) -> Result<bool, Failure> {
+    let robot = Robot::of(robot);
     let Some(outline) = Outline::of(Rows::open(trace)?)? else { return Ok(false) };
     let text = draw(&outline, &robot, ran, Rows::open(trace)?)?;
     std::fs::write(plot, text).map_err(|error| Failure::io("write", plot, &error))?;

@@ -9,7 +9,7 @@ pub(super) mod tests;
 use arl_robot::cell::{Body, Carrier, Cell, Form, Solid, Stands};
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::Robot;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::robot;
@@ -101,6 +101,17 @@ pub(super) fn files(cell: &Cell) -> Result<Vec<PathBuf>, Failure> {
     let robots = std::iter::once(&cell.stands).chain(others).filter_map(|stands| stands.urdf.as_deref());
     all.extend(robots.flat_map(|file| description::files(file).unwrap_or_default()));
     Ok(all)
+}
+
+/// The files that a cell names for how its robots and bodies look.
+pub(super) fn named(cell: &Cell) -> impl Iterator<Item = &Path> {
+    let bodies = cell.bodies.iter().filter_map(|body| match &body.form {
+        Form::Urdf(file) | Form::Solid(Solid::Mesh { file, .. }) => Some(file.as_path()),
+        Form::Solid(_) => None,
+    });
+    let others = cell.programs.channels.iter().map(|channel| &channel.stands);
+    let robots = std::iter::once(&cell.stands).chain(others).filter_map(|stands| stands.urdf.as_deref());
+    bodies.chain(robots)
 }
 
 /// That a robot has the axis of a carrier.

@@ -121,6 +121,11 @@ impl Bundle {
         if row.option("start-time").is_some_and(|time| time == "now") {
             return Err("start-time: a run of a sweep is the same every time, so `now` is no time for it".into());
         }
+        if let Some((place, _)) = row.0.iter().find(|(place, value)| names_robot(place, value)) {
+            return Err(format!(
+                "{place}: the robots of other channels are built in, or the same in all runs of a sweep: the cell file names them"
+            ));
+        }
         let mut words = self.words.clone();
         words.extend(self.file_words(row));
         words.extend(row.words()?);
@@ -189,13 +194,21 @@ impl Bundle {
     /// Adds the shapes of robots and bodies that runs look at, by the words that decide which these are; and sees to it that they are found where
     /// the runs are made.
     fn add_shapes(&mut self, cell: &Path, script: &Path, sceneries: &BTreeSet<Vec<String>>) -> Result<(), Failure> {
-        let mut counts = Vec::new();
+        let (mut counts, mut problem) = (Vec::new(), None);
         for words in sceneries {
-            match self.add_shapes_of(cell, script, words) {
+            match shapes(cell, words) {
+                Ok(shapes) => {
+                    for (file, content) in &shapes {
+                        self.add_content(beside_cell(file, cell, script)?, content.clone());
+                    }
+                    counts.push((words, shapes.len()));
+                }
                 // Where some runs can be made, the others say what is wrong.
-                Err(_) if sceneries.len() > 1 => {}
-                count => counts.push((words, count?)),
+                Err(failure) => problem = problem.or(Some(failure)),
             }
+        }
+        if let Some(problem) = problem.filter(|_| counts.is_empty()) {
+            return Err(problem);
         }
         let spread = Spread::new(self).map_err(not_written)?;
         let folder = Folder::new(&spread).map_err(not_written)?;
@@ -221,18 +234,10 @@ impl Bundle {
         Ok(())
     }
 
-    /// How many files they are.
-    fn add_shapes_of(&mut self, cell: &Path, script: &Path, words: &[String]) -> Result<usize, Failure> {
-        let changes = words.chunks_exact(2).filter(|pair| pair.iter().any(|word| word == "--set"));
-        let changes: Vec<&str> = changes.filter_map(|pair| pair.get(1).map(String::as_str)).collect();
-        let changed = Changes::of(&changes).map_err(Failure::Usage)?;
-        let changed = Cell::load_with(cell, &changed).map_err(|error| Failure::Usage(error.to_string()))?;
-        let files = scenery::files(&changed)?;
-        for file in &files {
-            let file = full(file)?;
-            self.add_once(&file, beside_cell(&file, cell, script)?)?;
+    fn add_content(&mut self, place: String, content: Vec<u8>) {
+        if !self.files.iter().any(|(known, _)| *known == place) {
+            self.files.push((place, content));
         }
-        Ok(files.len())
     }
 
     fn add_once(&mut self, path: &Path, place: String) -> Result<(), Failure> {
@@ -259,6 +264,19 @@ impl Bundle {
         }
         Ok(())
     }
+}
+
+/// The shapes of robots and bodies of a cell with the changes of these words: whole paths, and what the files have.
+///
+/// # Errors
+/// A change is none, or a file cannot be read.
+fn shapes(cell: &Path, words: &[String]) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+    let changes = words.chunks_exact(2).filter(|pair| pair.iter().any(|word| word == "--set"));
+    let changes: Vec<&str> = changes.filter_map(|pair| pair.get(1).map(String::as_str)).collect();
+    let changes = Changes::of(&changes).map_err(Failure::Usage)?;
+    let cell = Cell::load_with(cell, &changes).map_err(|error| Failure::Usage(error.to_string()))?;
+    let files = scenery::files(&cell)?.into_iter();
+    files.map(|file| full(&file).and_then(|file| Ok((file.clone(), read(&file)?)))).collect()
 }
 
 /// The place of what a cell file names, as far from the cell's as it is on the disk.
@@ -295,6 +313,12 @@ impl Parameters {
         let is_robot_file = move |file: &str| Robot::text(file).is_none() && is_file(file);
         named.filter(move |(name, file)| *name == "io" || is_robot_file(file)).map(|(_, file)| file)
     }
+}
+
+/// Whether a parameter names the robot file of a channel, which is then in no bundle.
+fn names_robot(place: &str, value: &Value) -> bool {
+    let is_channel = place.starts_with("cell.channel");
+    is_channel && place.ends_with(".robot") && value.as_str().is_none_or(|name| Robot::text(name).is_none())
 }
 
 fn gather(folder: &Path, all: &mut Vec<PathBuf>) -> Result<(), Failure> {

@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::Path;
+use std::time::SystemTime;
 use twox_hash::XxHash3_64;
 
 /// The results that are known of a bundle.
@@ -35,6 +36,8 @@ impl Kept {
     pub(in crate::cli) fn open(path: &Path) -> io::Result<Self> {
         path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
         let mut file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
+        // What is used stays; where the time cannot be set, it stays for less long.
+        let _ = file.set_modified(SystemTime::now());
         let (mut known, mut is_whole) = (HashMap::new(), true);
         let mut reader = BufReader::new(&file);
         let mut line = Vec::new();

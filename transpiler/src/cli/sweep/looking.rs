@@ -1,5 +1,6 @@
 //! Looks for collisions in the runs of a worker: each of them connects to a listener of its own, and says in each cycle where the robots are.
 
+use crate::check::clean;
 use crate::cli::args::RunOptions;
 use crate::cli::collide::Scene;
 use crate::cli::failure::Failure;
@@ -84,8 +85,14 @@ impl Looking {
         let without_folder = |text: &str| text.replace(&format!("{}/", self.folder.display()), "");
         let tell = |text: &str| tell(&without_folder(text));
         let scene = || {
+            // What lies elsewhere is not what goes along with the runs.
+            let cell = run::cell(&options)?;
+            let outside = scenery::named(&cell).find(|file| !clean(file).starts_with(&self.folder) || !file.is_file());
+            if let Some(file) = outside {
+                return Err(Failure::Usage(format!("{} is not among the files of the sweep", file.display())));
+            }
             let robot = robot::load_with(options.robot.as_deref(), &options.changed()?)?;
-            Scene::of(&Scenery::with(&run::cell(&options)?, robot, &tell)?, &tell)
+            Scene::of(&Scenery::with(&cell, robot, &tell)?, &tell)
         };
         let scene = scene().map_err(|failure: Failure| without_folder(&failure.to_string()))?;
         Ok(self.last.insert((deciding, scene)).1.clone())
