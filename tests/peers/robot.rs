@@ -97,7 +97,7 @@ impl Robot {
         let (mut out, mut said) = (String::new(), String::new());
         self.child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
         self.said.read_to_string(&mut said).unwrap();
-        let said = said.split_inclusive('\n').filter(|line| !line.contains(" control cycles began late: ")).collect();
+        let said = said.split_inclusive('\n').filter(|line| !line.contains(" control cycles began late")).collect();
         End { out, said, code: self.child.wait().unwrap().code() }
     }
 }
