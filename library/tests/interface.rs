@@ -263,7 +263,7 @@ fn who_listens_hears_a_run_to_its_end() {
     assert_eq!(run.go_on(u64::MAX, false), Ok(Some(4)));
     // It is over for who listens, too, while the run is still there.
     let heard = std::io::read_to_string(listener.accept().unwrap().0).unwrap();
-    assert!(heard.starts_with("{\"hello\":") && heard.ends_with("{\"ended\":null}\n"), "{heard}");
+    assert!(heard.starts_with("{\"hello\":") && heard.ends_with("{\"ended\":0}\n"), "{heard}");
     assert_eq!(heard.matches("{\"cycle\":").count() as f64, (run.time() * 1000.0).round());
     assert!(run.summary().contains("time_over"), "{}", run.summary());
     match library().begin(&["--listener", "127.0.0.1:1"], false) {

@@ -97,6 +97,14 @@ def test_who_stops_leaves_nothing_on_the_cluster(cluster, tmp_path, monkeypatch)
     assert arl2rs.sweep(source, [{}], engine="ray", cache=False)[0]["outcome"] == "ended"
 
 
+def test_nodes_with_another_version_are_told(cluster, tmp_path, monkeypatch):
+    source = tmp_path / "other.arl"
+    source.write_text(PROGRAM)
+    monkeypatch.setattr("arl2rs._arl2rs.VERSION", "0.0.1")
+    with pytest.raises(arl2rs.ArlError, match=r"a node does not have this arl2rs: .*the sweep 0\.0\.1"):
+        arl2rs.sweep(source, [{}], engine="ray", cache=False)
+
+
 def test_nodes_without_the_package_are_told(tmp_path):
     """The only node has another package of that name."""
     other = tmp_path / "other/arl2rs"

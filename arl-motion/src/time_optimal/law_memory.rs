@@ -76,9 +76,16 @@ impl LawMemory {
 /// The last requests for laws from a state on, where all that may be seen of the path is the same: then it is not looked at.
 #[derive(Default)]
 pub(crate) struct RequestMemory<F> {
-    known: VecDeque<(ConstraintSampler, Edge, Option<Arc<Law>>, F)>,
-    /// The room that each of them takes, and all together.
-    rooms: VecDeque<usize>,
+    known: VecDeque<Request<F>>,
+    /// The room that they take together.
+    room: usize,
+}
+
+struct Request<F> {
+    sampler: ConstraintSampler,
+    start: Edge,
+    before: Option<Arc<Law>>,
+    found: F,
     room: usize,
 }
 
@@ -86,11 +93,9 @@ impl<F: Clone> RequestMemory<F> {
     /// What was found for the same request.
     pub(crate) fn recall(&self, sampler: &ConstraintSampler, start: Edge, before: Option<&Arc<Law>>) -> Option<F> {
         let same = |law: Option<&Arc<Law>>| law.map(Arc::as_ptr) == before.map(Arc::as_ptr);
-        let known = self
-            .known
-            .iter()
-            .find(|(known, from, law, _)| *from == start && same(law.as_ref()) && known.is_like(sampler));
-        known.map(|(.., found)| found.clone())
+        let is_same =
+            |known: &&Request<F>| known.start == start && same(known.before.as_ref()) && known.sampler.is_like(sampler);
+        self.known.iter().find(is_same).map(|known| known.found.clone())
     }
 
     /// Remembers what was found for a request that was not known, if that takes little memory: as much as `rows` rows of limits, beside the path.
@@ -104,13 +109,12 @@ impl<F: Clone> RequestMemory<F> {
             return;
         }
         let room = rows + ROOM_OF_SEGMENT * sampler.segments();
-        self.known.push_back((sampler, start, before, found));
-        self.rooms.push_back(room);
+        self.known.push_back(Request { sampler, start, before, found, room });
         self.room += room;
         while (self.room > MOST_ROOM || self.known.len() > MOST_REQUESTS)
-            && let (Some(_), Some(room)) = (self.known.pop_front(), self.rooms.pop_front())
+            && let Some(oldest) = self.known.pop_front()
         {
-            self.room -= room;
+            self.room -= oldest.room;
         }
     }
 }

@@ -40,8 +40,6 @@ pub struct Run {
     stops: Arc<AtomicBool>,
     /// Who listens, until it is over.
     recording: Option<Recording>,
-    /// How often something was left out that who listens should have heard.
-    left_out: u64,
 }
 
 /// Who else may change something while a run goes on.
@@ -92,7 +90,6 @@ impl Run {
             rows,
             stops,
             recording,
-            left_out: 0,
         })
     }
 
@@ -154,8 +151,8 @@ impl Run {
             self.controller.close_robots();
             self.controller.settle_state();
             self.take_news();
-            self.left_out = self.recording.take().map_or(0, |recording| recording.run_ended(&self.controller));
-            if let Some(text) = program_main::left_out(self.left_out) {
+            let left_out = self.recording.take().map_or(0, |recording| recording.run_ended(&self.controller));
+            if let Some(text) = program_main::left_out(left_out) {
                 self.say(&warning_line(&text));
             }
             if self.is_real {
@@ -214,7 +211,7 @@ impl Run {
     /// What came of it, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s, the alarms, and with `--report` what
     /// the motions of the first robot were together.
     pub fn summary(&self) -> String {
-        summary(&self.controller, self.ended, &self.alarms, self.left_out)
+        summary(&self.controller, self.ended, &self.alarms)
     }
 
     /// What each motion did, a JSON object a line, where `--report` asked for it.

@@ -47,18 +47,14 @@ impl Ending {
 }
 
 /// A JSON object without newline: the ending, the exit code, the time in s, what the first robot's motions were together, and the alarms.
-/// The figures of motions are 0 where the controller does not record them. `left_out` is how often who listens could not hear something: it is said
-/// where that happened.
-pub(crate) fn summary(controller: &Controller, ending: Option<Ending>, alarms: &[Alarm], left_out: u64) -> String {
+/// The figures of motions are 0 where the controller does not record them.
+pub(crate) fn summary(controller: &Controller, ending: Option<Ending>, alarms: &[Alarm]) -> String {
     let mut text = String::new();
     let outcome = ending.map_or("runs", Ending::word);
     let code = ending.map_or("null".to_owned(), |ending| ending.code().to_string());
     let time = controller.time();
     let _ = write!(text, "{{\"outcome\":\"{outcome}\",\"code\":{code},\"cycle_time\":{}", number(time));
     let _ = write!(text, ",\"real_time\":{}", controller.is_real());
-    if left_out > 0 {
-        let _ = write!(text, ",\"left_out\":{left_out}");
-    }
     let mut of_first = None;
     controller.each_record(|_, records, _| {
         of_first.get_or_insert_with(|| figures(records, time));

@@ -164,14 +164,14 @@ impl Channel {
             return Some(Repose::Ended);
         }
         let paused = self.channel_state.paused.get();
-        let is_slowed = || self.channel_state.robot().is_some_and(|unit| unit.speed_override() == 0.0 && unit.moves());
+        let is_at_zero = || self.channel_state.robot().is_some_and(|unit| unit.is_at_zero_override() && unit.moves());
         let waits_for = match self.phase {
             Phase::Running(_) | Phase::Concluding if paused => WaitsFor::StartButton,
             Phase::Running(_) => self.cx.waits_in(cycle)?,
             Phase::Concluding if !self.actions.is_empty() => self.cx.waits_in(cycle)?,
             // Statements have ended, and an interrupt may start what is stopped.
             Phase::Concluding => WaitsFor::Motion,
-            Phase::RunningOut(_) if is_slowed() => WaitsFor::Motion,
+            Phase::RunningOut(_) if is_at_zero() => WaitsFor::Motion,
             Phase::RunningOut(_) | Phase::Ended(_) => return None,
         };
         let goes_on = self.cx.is_loading()
@@ -181,7 +181,7 @@ impl Channel {
             || self.cx.acted() >= cycle
             || (self.channel_state.robot().is_some() && self.rested < SEEN_AT_REST);
         (!goes_on).then(|| match waits_for {
-            WaitsFor::Motion if is_slowed() => Repose::Waiting(WaitsFor::Override),
+            WaitsFor::Motion if is_at_zero() => Repose::Waiting(WaitsFor::Override),
             waits_for => Repose::Waiting(waits_for),
         })
     }
@@ -264,8 +264,8 @@ impl Channel {
     pub(super) fn step_robot(&mut self, time: f64, beat: Beat) {
         let Some(mut unit) = self.channel_state.robot_mut() else { return };
         unit.step(beat);
-        let is_held = self.channel_state.paused.get() || unit.speed_override() == 0.0;
-        let rests = unit.rests() && (is_held || !unit.moves());
+        let goes_on = unit.moves() && !self.channel_state.paused.get() && !unit.is_at_zero_override();
+        let rests = unit.rests() && !goes_on;
         self.rested = if rests { self.rested.saturating_add(1) } else { 0 };
         self.channel_state.update_system(&unit);
         let mut image = self.channel_state.shared.io.borrow_mut();

@@ -363,6 +363,11 @@ impl Unit {
         self.override_percent
     }
 
+    /// Whether its override is 0: then it does not move on.
+    pub(crate) fn is_at_zero_override(&self) -> bool {
+        self.override_percent == 0.0
+    }
+
     /// Whether another motion can be planned by those of a level of the program.
     pub(crate) fn takes(&self, level: u32) -> bool {
         self.queue.takes(level)

@@ -4,7 +4,7 @@
 
 use std::error::Error;
 use std::io::{BufRead, BufReader};
-use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::process::{Child, Command, ExitStatus};
 use std::time::Duration;
 
@@ -44,10 +44,66 @@ pub(super) trait Hears {
     fn broken(&self) -> String;
 }
 
-/// What a program connects to.
-pub(super) struct Listener {
+/// What a run connects to.
+pub(super) struct Port {
     listener: TcpListener,
+    address: SocketAddr,
+}
+
+impl Port {
+    /// Another one, of this computer.
+    ///
+    /// # Errors
+    /// There are none left.
+    pub(super) fn open() -> Result<Self, Failure> {
+        let opened = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).and_then(|listener| {
+            listener.set_nonblocking(true)?;
+            Ok(Self { address: listener.local_addr()?, listener })
+        });
+        opened.map_err(|error| Failure::Usage(format!("this computer has no connection to itself: {error}")))
+    }
+
+    /// The words that have a run connect.
+    pub(super) fn words(&self) -> [String; 2] {
+        ["--listener".into(), self.address.to_string()]
+    }
+
+    /// The connection of a run, or how it ended without one. There is none behind it.
+    pub(super) fn accept<E>(
+        self,
+        mut ended: impl FnMut() -> std::io::Result<Option<E>>,
+    ) -> std::io::Result<Result<TcpStream, E>> {
+        loop {
+            // Asked first: a connection that was made before the end is there to be accepted then.
+            let ended = ended()?;
+            match (self.listener.accept(), ended) {
+                (Ok((stream, _)), _) => {
+                    stream.set_nonblocking(false)?;
+                    return Ok(Ok(stream));
+                }
+                (Err(error), _) if error.kind() != std::io::ErrorKind::WouldBlock => return Err(error),
+                (Err(_), Some(ended)) => return Ok(Err(ended)),
+                (Err(_), None) => std::thread::sleep(LOOK_INTERVAL),
+            }
+        }
+    }
+}
+
+/// A port for a program, and who hears it.
+pub(super) struct Listener {
+    port: Port,
     hearers: Vec<Box<dyn Hears>>,
+}
+
+/// How much of a run was heard.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Heard {
+    /// All of it.
+    All,
+    /// All but what the run could not wait to say: it was in real time.
+    WithGaps,
+    /// Not its begin, or not its end; or something was not understood.
+    Broken,
 }
 
 impl Listener {
@@ -56,65 +112,42 @@ impl Listener {
         if hearers.is_empty() {
             return Ok(None);
         }
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).and_then(|listener| {
-            listener.set_nonblocking(true)?;
-            Ok(listener)
-        });
-        let cannot = |error| Failure::Usage(format!("this computer has no connection to itself: {error}"));
-        Ok(Some(Self { listener: listener.map_err(cannot)?, hearers }))
+        Ok(Some(Self { port: Port::open()?, hearers }))
     }
 
     /// Has the program say what happens.
-    pub(super) fn ask(&self, command: &mut Command) -> std::io::Result<()> {
-        command.arg("--listener").arg(self.listener.local_addr()?.to_string());
-        command.args(wishes(&self.hearers));
-        Ok(())
+    pub(super) fn ask(&self, command: &mut Command) {
+        command.args(self.port.words()).args(wishes(&self.hearers));
     }
 
     /// Hears the program until it has ended, whatever comes between.
-    pub(super) fn hear(self, program: &mut Child) -> std::io::Result<ExitStatus> {
-        let Self { listener, hearers } = self;
-        match accept(&listener, program)? {
+    pub(super) fn hear(self, program: &mut Child) -> std::io::Result<(ExitStatus, Heard)> {
+        let Self { port, hearers } = self;
+        match port.accept(|| program.try_wait())? {
             Err(ended) => {
                 hearers.into_iter().for_each(Hears::nothing_began);
-                Ok(ended)
+                Ok((ended, Heard::Broken))
             }
             Ok(stream) => {
-                hear(stream, hearers);
-                program.wait()
+                let heard = hear(stream, hearers);
+                Ok((program.wait()?, heard))
             }
         }
     }
 }
 
-/// The program's connection, or how it ended before.
-fn accept(listener: &TcpListener, program: &mut Child) -> std::io::Result<Result<TcpStream, ExitStatus>> {
-    loop {
-        // Asked first: what it said before its end is there to be accepted then.
-        let ended = program.try_wait()?;
-        match (listener.accept(), ended) {
-            (Ok((stream, _)), _) => {
-                stream.set_nonblocking(false)?;
-                return Ok(Ok(stream));
-            }
-            (Err(error), _) if error.kind() != std::io::ErrorKind::WouldBlock => return Err(error),
-            (Err(_), Some(ended)) => return Ok(Err(ended)),
-            (Err(_), None) => std::thread::sleep(LOOK_INTERVAL),
-        }
-    }
-}
-
-/// Passes on what comes until nothing comes any more; whether all came, from the first line to the last, and was understood. Who cannot go on is
-/// told of once; the program and the others go on.
-pub(super) fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> bool {
+/// Passes on what comes until nothing comes any more. Who cannot go on is told of once; the program and the others go on.
+pub(super) fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> Heard {
     let mut stream = BufReader::new(stream);
     let mut bytes = Vec::new();
-    let (mut begun, mut ended, mut understood) = (false, false, true);
+    let (mut begun, mut left_out, mut understood) = (false, None, true);
     while matches!(stream.read_until(b'\n', &mut bytes), Ok(1..)) {
         match serde_json::from_slice(&bytes) {
             Ok(line) => {
                 begun |= matches!(line, Line::Hello(_));
-                ended |= matches!(line, Line::Ended(()));
+                if let Line::Ended(count) = line {
+                    left_out = Some(count);
+                }
                 pass_on(line, &mut hearers);
             }
             Err(error) => {
@@ -126,7 +159,11 @@ pub(super) fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> bool 
         bytes.clear();
     }
     end(hearers, begun);
-    begun && ended && understood
+    match left_out {
+        Some(0) if begun && understood => Heard::All,
+        Some(_) if begun && understood => Heard::WithGaps,
+        _ => Heard::Broken,
+    }
 }
 
 /// What a program is to say for those who hear it.
@@ -142,7 +179,7 @@ pub(super) fn end(mut hearers: Vec<Box<dyn Hears>>, begun: bool) {
         return hearers.into_iter().for_each(Hears::nothing_began);
     }
     // The program may have ended without a word.
-    pass_on(Line::Ended(()), &mut hearers);
+    pass_on(Line::Ended(0), &mut hearers);
     for hearer in hearers {
         let broken = hearer.broken();
         if let Err(error) = hearer.end() {

@@ -74,9 +74,9 @@ pub(super) fn other(other: &EmittedOther, module: &str) -> String {
 /// How far programs are optimised: far enough for loops, and soon done.
 const PROGRAM_LEVEL: u8 = 1;
 
-/// How the runtime is compiled, which everybody waits for once. What moves robots is as fast as it can be. The rest of the
-/// runtime is mostly called, and seldom loops: small is fast enough there. What reads files at the start, is only compiled
-/// where it is used, or is not used at all, needs no optimisation of its own.
+/// How the runtime is compiled, which everybody waits for once. What moves robots is as fast as it can be, in one piece each: between pieces
+/// nothing small is inlined. The rest of the runtime is mostly called, and seldom loops: small is fast enough there. What reads files at the start,
+/// is only compiled where it is used, or is not used at all, needs no optimisation of its own.
 const RUNTIME: &str = "\
 arl-lang = { opt-level = 1, codegen-units = 2 }
 arl-motion = { opt-level = 2, codegen-units = 1 }

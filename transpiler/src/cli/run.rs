@@ -185,11 +185,12 @@ fn start(command: Command, ready: Ready) -> Result<Exit, Failure> {
 fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<Exit, Failure> {
     super::cargo::leave_interrupts_to_the_program();
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
-    listener.iter().try_for_each(|listener| listener.ask(&mut command)).map_err(fail)?;
+    listener.iter().for_each(|listener| listener.ask(&mut command));
     let mut child = command.spawn().map_err(fail)?;
     drop(ready.lock);
     let ended = match listener {
-        Some(listener) => listener.hear(&mut child),
+        // What it could not say it tells itself.
+        Some(listener) => listener.hear(&mut child).map(|(status, _)| status),
         None => child.wait(),
     };
     Ok(Exit::from(code(ended.map_err(fail)?)))

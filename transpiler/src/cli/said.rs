@@ -30,8 +30,8 @@ pub(super) enum Line {
     Refused(Refused),
     /// What a motion did, or a channel: an object of the report.
     Report(serde_json::Value),
-    /// Nothing more comes.
-    Ended(()),
+    /// Nothing more comes; so often something was left out.
+    Ended(u64),
     /// A body that a robot takes along came, was taken or put down: said by who watches them.
     #[serde(skip)]
     Placing(Placing),

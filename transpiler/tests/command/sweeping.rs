@@ -22,6 +22,11 @@ fn single_values_are_others_for_a_run() {
     );
     let slow = said(&["robot.axis.1.vel=1", "io.event.1.at=2.5"]);
     assert_eq!((slow.0, slow.1.lines().next()), (Some(0), Some("a 80 1 2")), "{slow:?}");
+    // A picture shows shares of the limits that the run had.
+    folder
+        .arl2rs(&["run", "p.arl", "--robot", "six-10", "--plot", "p.svg", "--set", "robot.axis.1.vel=77"])
+        .is(0, "a 80 1 2\n4\n");
+    assert!(std::fs::read_to_string(folder.path.join("p.svg")).expect("a picture").contains("of 77 deg/s"));
     for (change, words) in [
         ("global.pich=1", "there is no global variable `pich`; did you mean `pitch`?"),
         ("global.pitch=\"x\"", "expected a value of type double, found a string"),
@@ -256,4 +261,22 @@ fn shapes_go_along_with_the_runs_from_wherever_a_cell_names_them() {
     folder.write("cell.toml", "body = [{ name = \"wall\", box = [1, 1, 1] }]\n");
     let refused = sweep(&format!("\"cell.body.1\" = {{ name = \"wall\", mesh = {whole:?} }}"));
     assert!(refused.out.contains("is not among the files of the sweep"), "{}{}", refused.out, refused.err);
+}
+
+#[test]
+fn robots_of_other_channels_go_along_with_the_runs() {
+    let slow = include_str!("../../../arl-robot/src/robot/files/kr10-r1420.toml").replace("vel = 220", "vel = 22");
+    let folder = Folder::new("sweep-channels")
+        .with("p.arl", "func void main()\n  waituntil getdi(1)\nendfunc\n")
+        .with("b.arl", "func void main()\n  movej j:{0,-90,90,0,90,0}\n  movej j:{90,-90,90,0,90,0}\n  waittime 0\n  setdo(1, true)\nendfunc\n")
+        .with("slow.toml", &slow)
+        .with("s.toml", "[[event]]\nwhen = \"do.1\"\ndi.1 = true\n")
+        .with("cell.toml", "[[channel]]\nprogram = \"b.arl\"\nrobot = \"kr10-r1420\"\n");
+    let runs = "[[run]]\n[[run]]\n\"cell.channel.1.robot\" = \"slow.toml\"\n";
+    folder.write("t.toml", &format!("program = \"p.arl\"\ncell = \"cell.toml\"\nio = \"s.toml\"\n{runs}"));
+    let all = rows(&folder.arl2rs(&["sweep", "t.toml", "--no-cache"]));
+    let time = |at: usize| all.get(at).and_then(|row| row["cycle_time"].as_f64()).unwrap_or_else(|| panic!("{all:?}"));
+    assert!(time(1) > 2.0 * time(0), "{all:?}");
+    folder.write("t.toml", "program = \"p.arl\"\ncell = \"cell.toml\"\nset.\"cell.channel.1.robot\" = \"none.toml\"\n");
+    folder.arl2rs(&["sweep", "t.toml"]).is(1, "").says("none.toml");
 }

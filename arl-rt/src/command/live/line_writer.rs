@@ -181,9 +181,9 @@ impl LineWriter {
         self.lines.say(format!("{{\"report\":{object}}}\n"));
     }
 
-    /// Nothing more comes.
+    /// Nothing more comes; so often something was left out.
     pub(super) fn ended(&self) {
-        self.lines.say("{\"ended\":null}\n".into());
+        self.lines.say(format!("{{\"ended\":{}}}\n", self.lost()));
     }
 
     /// An order that could not be carried out.

@@ -16,7 +16,7 @@
 //! `--state-interval S` has states come more often. With `--each-cycle`, `cycle` says in each cycle where the robots are, and the levels of inputs
 //! and outputs; with `--each-motion`, `report` says what a motion did, once it has ended.
 //!
-//! Who only listens (`--listener`) hears the same, reports at the end, and `ended` at last.
+//! Who only listens (`--listener`) hears the same, reports at the end, and at last `ended` with how often something was left out.
 
 mod holding;
 mod line_writer;

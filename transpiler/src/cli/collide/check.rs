@@ -9,7 +9,7 @@ use super::super::answer;
 use super::super::args::{Checking, Format, RunOptions};
 use super::super::cache::Kind;
 use super::super::failure::Failure;
-use super::super::listen::Listener;
+use super::super::listen::{Heard, Listener};
 use super::super::program::{Ready, prepare_checked};
 use super::super::said::Contact;
 use super::super::scenery::Scenery;
@@ -59,8 +59,12 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
     let _ = std::fs::remove_dir_all(&state);
     let ended = run(ready, &options, Listener::of(watchers)?);
     let _ = std::fs::remove_dir_all(&state);
-    let (code, why) = ended?;
+    let Ran { code, why, heard } = ended?;
     let found = found.borrow();
+    if found.begun && heard != Heard::All {
+        let text = "not all of its run could be heard: what it touched besides is not known";
+        show::warning(&format!("{}: {text}", file.display()));
+    }
     match code {
         Some(ENDED) => {}
         Some(ALARM | OUT_OF_TIME) if found.begun => {
@@ -74,25 +78,34 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
     Ok(!found.contacts.is_empty())
 }
 
-/// Runs the program; its exit code, and the first words of it that are no warning.
-fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result<(Option<i32>, String), Failure> {
+/// How a run went.
+struct Ran {
+    code: Option<i32>,
+    /// The first words of it that are no warning.
+    why: String,
+    heard: Heard,
+}
+
+/// Runs the program.
+fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result<Ran, Failure> {
     super::super::cargo::leave_interrupts_to_the_program();
     let mut command = Command::new(&ready.program);
     command.args(options.arguments()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
-    listener.iter().try_for_each(|listener| listener.ask(&mut command)).map_err(fail)?;
+    listener.iter().for_each(|listener| listener.ask(&mut command));
     let mut child = command.spawn().map_err(fail)?;
     drop(ready.lock);
     let errors = child.stderr.take();
     let reader = std::thread::spawn(move || errors.and_then(|errors| std::io::read_to_string(errors).ok()));
-    let status = match listener {
+    let ended = match listener {
         Some(listener) => listener.hear(&mut child),
-        None => child.wait(),
+        None => child.wait().map(|status| (status, Heard::All)),
     };
     let said = reader.join().ok().flatten().unwrap_or_default();
     let words = |line: &&str| !line.starts_with("warning") && !line.trim().is_empty();
     let why = said.lines().find(words).unwrap_or("it says no word").trim().to_owned();
-    Ok((status.map_err(fail)?.code(), why))
+    let (status, heard) = ended.map_err(fail)?;
+    Ok(Ran { code: status.code(), why, heard })
 }
 
 fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {

@@ -232,7 +232,7 @@ impl Hears for Collisions {
                 Vec::new()
             }
             Line::Cycle(cycle) => self.cycle(cycle),
-            Line::Ended(()) => self.nearest(),
+            Line::Ended(_) => self.nearest(),
             _ => Vec::new(),
         };
         Ok(self.tell(contacts))

@@ -80,7 +80,7 @@ impl Model {
             Line::Warning(text) => self.note(Weight::Warning, format!("warning: {text}")),
             Line::Alarm(alarm) => self.note_lasting(Weight::Alarm, alarm.text),
             Line::Refused(refused) => self.note(Weight::Warning, format!("{}: {}", refused.order, refused.why)),
-            Line::Report(_) | Line::Cycle(_) | Line::Contact(_) | Line::Placing(_) | Line::Ended(()) => {}
+            Line::Report(_) | Line::Cycle(_) | Line::Contact(_) | Line::Placing(_) | Line::Ended(_) => {}
             Line::Other(text) => self.note_lasting(Weight::Warning, text),
         }
     }

@@ -84,7 +84,7 @@ impl<S: Sink> Recorder<S> {
             Line::Report(object) => self.motion(object),
             Line::Contact(contact) => self.contact(contact),
             Line::Placing(placing) => self.placing(placing),
-            Line::Cycle(_) | Line::Ended(()) | Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
+            Line::Cycle(_) | Line::Ended(_) | Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
         }
     }
 

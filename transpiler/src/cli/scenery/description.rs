@@ -28,9 +28,9 @@ pub(super) fn of_body(file: &Path) -> Result<Looks, String> {
     description.looks(&urdf::fixed_to(&description.robot, root, &[]))
 }
 
-/// A URDF file, and the meshes that it names as far as they are there.
-pub(super) fn files(file: &Path) -> Result<Vec<PathBuf>, String> {
-    let description = Description::read(file)?;
+/// The meshes that a URDF file names, as far as they are there; none of what is no such file.
+pub(super) fn meshes(file: &Path) -> Vec<PathBuf> {
+    let Ok(description) = Description::read(file) else { return Vec::new() };
     let links = description.robot.links.iter();
     let forms = links.flat_map(|link| {
         let seen = link.visual.iter().map(|visual| &visual.geometry);
@@ -40,7 +40,7 @@ pub(super) fn files(file: &Path) -> Result<Vec<PathBuf>, String> {
         Geometry::Mesh { filename, .. } => description.mesh(filename).ok(),
         _ => None,
     });
-    Ok(std::iter::once(file.to_owned()).chain(meshes).collect())
+    meshes.collect()
 }
 
 impl Description {

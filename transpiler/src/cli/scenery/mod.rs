@@ -81,28 +81,6 @@ impl Scenery {
     }
 }
 
-/// The files that say how robots and bodies of a cell look. Of a robot's that cannot be read there are none: its run says so.
-///
-/// # Errors
-/// That of a body cannot be read.
-pub(super) fn files(cell: &Cell) -> Result<Vec<PathBuf>, Failure> {
-    let mut all = Vec::new();
-    for body in &cell.bodies {
-        match &body.form {
-            Form::Urdf(file) => {
-                let wrong = |problem| Failure::Usage(format!("body `{}`: {}: {problem}", body.name, file.display()));
-                all.extend(description::files(file).map_err(wrong)?);
-            }
-            Form::Solid(Solid::Mesh { file, .. }) => all.push(file.clone()),
-            Form::Solid(_) => {}
-        }
-    }
-    let others = cell.programs.channels.iter().map(|channel| &channel.stands);
-    let robots = std::iter::once(&cell.stands).chain(others).filter_map(|stands| stands.urdf.as_deref());
-    all.extend(robots.flat_map(|file| description::files(file).unwrap_or_default()));
-    Ok(all)
-}
-
 /// The files that a cell names for how its robots and bodies look.
 pub(super) fn named(cell: &Cell) -> impl Iterator<Item = &Path> {
     let bodies = cell.bodies.iter().filter_map(|body| match &body.form {
@@ -112,6 +90,11 @@ pub(super) fn named(cell: &Cell) -> impl Iterator<Item = &Path> {
     let others = cell.programs.channels.iter().map(|channel| &channel.stands);
     let robots = std::iter::once(&cell.stands).chain(others).filter_map(|stands| stands.urdf.as_deref());
     bodies.chain(robots)
+}
+
+/// The same with the meshes that are named there, as far as they can be found. Who uses what is none says so.
+pub(super) fn files(cell: &Cell) -> impl Iterator<Item = PathBuf> {
+    named(cell).flat_map(|file| std::iter::once(file.to_owned()).chain(description::meshes(file)))
 }
 
 /// That a robot has the axis of a carrier.

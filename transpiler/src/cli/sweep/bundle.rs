@@ -1,5 +1,6 @@
 //! All that runs depend on: the compiled program and the files that it reads, by paths that are the same on every machine.
 
+use super::cell_files::CellFiles;
 use super::folder::{Folder, Spread};
 use super::looking::{self, Looking};
 use super::parameter::Parameters;
@@ -9,14 +10,9 @@ use crate::cli::args::RunOptions;
 use crate::cli::cache::Kind;
 use crate::cli::failure::Failure;
 use crate::cli::program::prepare;
-use crate::cli::scenery;
 use crate::cli::several;
-use crate::cli::show;
-use arl_robot::cell::Cell;
-use arl_robot::changes::Changes;
 use arl_robot::{Robot, regular_file};
 use serde_json::Value;
-use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
 use twox_hash::XxHash3_128;
@@ -27,7 +23,7 @@ const MOST_BYTES: usize = 64 << 20;
 /// A run that takes longer in the robot's time is ended, where nobody says otherwise: s.
 pub const MAX_TIME: f64 = 3600.0;
 /// The folder of the program's files in a bundle.
-const SCRIPT: &str = "script";
+pub(super) const SCRIPT: &str = "script";
 /// What belongs to a program without being named: programs and data files, and texts that it reads.
 const ENDINGS: [&str; 2] = ["arl", "txt"];
 /// The folder of robot files and scenarios.
@@ -86,11 +82,15 @@ impl Bundle {
                 let text = format!("files: {}: expected a path in {}", file.display(), folder.display());
                 return Err(Failure::Usage(text));
             }
-            bundle.add_once(&folder.join(&file), format!("{SCRIPT}/{}", with_slashes(&file)))?;
+            bundle.add_once(format!("{SCRIPT}/{}", with_slashes(&file)), || read(&folder.join(&file)))?;
         }
         bundle.words.extend(["--report", "--script-dir", SCRIPT].map(String::from));
-        if let Some(cell) = &options.cell {
-            let place = bundle.add_cell(&full(cell)?, &folder)?;
+        let cell = options.cell.as_deref().map(full).transpose()?;
+        let looks = clearance.is_some();
+        let cell = cell.as_ref().map(|cell| CellFiles { cell, script: &folder, looks });
+        if let Some(files) = cell {
+            let place = files.place(files.cell)?;
+            bundle.add_once(place.clone(), || read(files.cell))?;
             bundle.words.extend(["--cell".into(), place]);
         }
         bundle.words.extend(["--max-time".into(), settings.max_time.unwrap_or(MAX_TIME).to_string()]);
@@ -105,10 +105,10 @@ impl Bundle {
             Some(Err(problem)) if words.all(|words| words.is_err()) => return Err(Failure::Usage(problem)),
             _ => drop(words),
         }
-        if let (Some(cell), Some(_)) = (&options.cell, bundle.clearance) {
+        if let Some(files) = cell {
             let words = rows.filter_map(|row| bundle.words(row).ok());
-            let sceneries: BTreeSet<Vec<String>> = words.map(|words| looking::naming(&words)).collect();
-            bundle.add_shapes(&full(cell)?, &folder, &sceneries)?;
+            let words: BTreeSet<Vec<String>> = words.map(|words| looking::naming(&words)).collect();
+            bundle.add_cell_files(files, &words)?;
         }
         Ok(bundle)
     }
@@ -120,11 +120,6 @@ impl Bundle {
     pub fn words(&self, row: &Parameters) -> Result<Vec<String>, String> {
         if row.option("start-time").is_some_and(|time| time == "now") {
             return Err("start-time: a run of a sweep is the same every time, so `now` is no time for it".into());
-        }
-        if let Some((place, _)) = row.0.iter().find(|(place, value)| names_robot(place, value)) {
-            return Err(format!(
-                "{place}: the robots of other channels are built in, or the same in all runs of a sweep: the cell file names them"
-            ));
         }
         let mut words = self.words.clone();
         words.extend(self.file_words(row));
@@ -176,32 +171,16 @@ impl Bundle {
         Ok(())
     }
 
-    /// Adds a cell with the robot files that it names. Gives its place.
-    fn add_cell(&mut self, path: &Path, script: &Path) -> Result<String, Failure> {
-        let place = |file: &Path| beside_cell(file, path, script);
-        let cell = Cell::load(path).map_err(|error| Failure::Usage(error.to_string()))?;
-        for robot in cell.programs.channels.iter().filter_map(|channel| channel.robot.as_deref()) {
-            if Robot::text(robot).is_none() {
-                let robot = full(Path::new(robot))?;
-                self.add_once(&robot, place(&robot)?)?;
-            }
-        }
-        let place = place(path)?;
-        self.add_once(path, place.clone())?;
-        Ok(place)
-    }
-
-    /// Adds the shapes of robots and bodies that runs look at, by the words that decide which these are; and sees to it that they are found where
-    /// the runs are made.
-    fn add_shapes(&mut self, cell: &Path, script: &Path, sceneries: &BTreeSet<Vec<String>>) -> Result<(), Failure> {
+    /// Adds the files that a cell names, by the words that decide which these are; and sees to it that they are found where the runs are made.
+    fn add_cell_files(&mut self, files: CellFiles<'_>, all_words: &BTreeSet<Vec<String>>) -> Result<(), Failure> {
         let (mut counts, mut problem) = (Vec::new(), None);
-        for words in sceneries {
-            match shapes(cell, words) {
-                Ok(shapes) => {
-                    for (file, content) in &shapes {
-                        self.add_content(beside_cell(file, cell, script)?, content.clone());
+        for words in all_words {
+            match files.read(words) {
+                Ok(found) => {
+                    counts.push((words, found.len()));
+                    for (file, content) in found {
+                        self.add_once(files.place(&file)?, || Ok(content))?;
                     }
-                    counts.push((words, shapes.len()));
                 }
                 // Where some runs can be made, the others say what is wrong.
                 Err(failure) => problem = problem.or(Some(failure)),
@@ -210,39 +189,25 @@ impl Bundle {
         if let Some(problem) = problem.filter(|_| counts.is_empty()) {
             return Err(problem);
         }
+        if !files.looks && counts.iter().all(|(_, count)| *count == 0) {
+            return Ok(());
+        }
         let spread = Spread::new(self).map_err(not_written)?;
         let folder = Folder::new(&spread).map_err(not_written)?;
         let mut looking = Looking::new(0.0, folder.path());
-        let told = RefCell::new(BTreeSet::new());
-        let tell = |text: &str| {
-            if told.borrow_mut().insert(text.to_owned()) {
-                show::warning(text);
-            }
-        };
         for (words, count) in counts {
-            let found = looking.files(words)?;
-            if found.len() != count || found.iter().any(|file| !clean(file).starts_with(folder.path())) {
-                let text = "a shape is named by a path from the root or by a package: where the runs are made it is found only by a path from the \
-                            file that names it";
-                return Err(Failure::Usage(format!("{}: {text}", cell.display())));
-            }
-            match looking.scene(words, &tell) {
-                Err(problem) if sceneries.len() == 1 => return Err(Failure::Usage(problem)),
+            files.check(&looking.cell(words)?, folder.path(), count)?;
+            match files.looks.then(|| looking.scene(words)) {
+                Some(Err(problem)) if all_words.len() == 1 => return Err(Failure::Usage(problem)),
                 _ => {}
             }
         }
         Ok(())
     }
 
-    fn add_content(&mut self, place: String, content: Vec<u8>) {
+    fn add_once(&mut self, place: String, content: impl FnOnce() -> Result<Vec<u8>, Failure>) -> Result<(), Failure> {
         if !self.files.iter().any(|(known, _)| *known == place) {
-            self.files.push((place, content));
-        }
-    }
-
-    fn add_once(&mut self, path: &Path, place: String) -> Result<(), Failure> {
-        if !self.files.iter().any(|(known, _)| *known == place) {
-            self.files.push((place, read(path)?));
+            self.files.push((place, content()?));
         }
         Ok(())
     }
@@ -266,42 +231,9 @@ impl Bundle {
     }
 }
 
-/// The shapes of robots and bodies of a cell with the changes of these words: whole paths, and what the files have.
-///
-/// # Errors
-/// A change is none, or a file cannot be read.
-fn shapes(cell: &Path, words: &[String]) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
-    let changes = words.chunks_exact(2).filter(|pair| pair.iter().any(|word| word == "--set"));
-    let changes: Vec<&str> = changes.filter_map(|pair| pair.get(1).map(String::as_str)).collect();
-    let changes = Changes::of(&changes).map_err(Failure::Usage)?;
-    let cell = Cell::load_with(cell, &changes).map_err(|error| Failure::Usage(error.to_string()))?;
-    let files = scenery::files(&cell)?.into_iter();
-    files.map(|file| full(&file).and_then(|file| Ok((file.clone(), read(&file)?)))).collect()
-}
-
-/// The place of what a cell file names, as far from the cell's as it is on the disk.
-///
-/// # Errors
-/// It lies outside of the cell's folder and the program's.
-fn beside_cell(file: &Path, cell: &Path, script: &Path) -> Result<String, Failure> {
-    let folder = cell.parent().unwrap_or(Path::new("/"));
-    let outside = || {
-        let (file, folder) = (file.display(), folder.display());
-        Failure::Usage(format!("{file} lies outside of {folder}, the folder of its cell"))
-    };
-    if cell.starts_with(script) {
-        return below(file, script).ok_or_else(outside);
-    }
-    file.strip_prefix(folder).map(|below| format!("cell/{}", with_slashes(below))).map_err(|_| outside())
-}
-
+/// The bundle cannot be written to the disk.
 pub(super) fn not_written(error: std::io::Error) -> Failure {
     Failure::Other(format!("the program of the sweep cannot be written: {error}"))
-}
-
-/// The place of a file that lies in the folder of the program.
-fn below(path: &Path, script: &Path) -> Option<String> {
-    path.strip_prefix(script).ok().map(|below| format!("{SCRIPT}/{}", with_slashes(below)))
 }
 
 impl Parameters {
@@ -313,12 +245,6 @@ impl Parameters {
         let is_robot_file = move |file: &str| Robot::text(file).is_none() && is_file(file);
         named.filter(move |(name, file)| *name == "io" || is_robot_file(file)).map(|(_, file)| file)
     }
-}
-
-/// Whether a parameter names the robot file of a channel, which is then in no bundle.
-fn names_robot(place: &str, value: &Value) -> bool {
-    let is_channel = place.starts_with("cell.channel");
-    is_channel && place.ends_with(".robot") && value.as_str().is_none_or(|name| Robot::text(name).is_none())
 }
 
 fn gather(folder: &Path, all: &mut Vec<PathBuf>) -> Result<(), Failure> {
@@ -353,16 +279,16 @@ fn too_much(folder: &Path) -> Failure {
     ))
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     regular_file::read(path).map_err(|error| Failure::io("read", path, &error))
 }
 
 /// A path from the root, without `..`.
-fn full(path: &Path) -> Result<PathBuf, Failure> {
+pub(super) fn full(path: &Path) -> Result<PathBuf, Failure> {
     Ok(clean(&several::absolute(path)?))
 }
 
-fn with_slashes(path: &Path) -> String {
+pub(super) fn with_slashes(path: &Path) -> String {
     let parts: Vec<_> = path.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect();
     parts.join("/")
 }

@@ -95,6 +95,10 @@ mod tests {
         let mut kept = Kept::open(&path).unwrap();
         kept.keep(&words("a"), &result(1.25)).unwrap();
         drop(kept);
+        let long_ago = SystemTime::UNIX_EPOCH;
+        File::options().write(true).open(&path).unwrap().set_modified(long_ago).unwrap();
+        Kept::open(&path).unwrap();
+        assert_ne!(path.metadata().unwrap().modified().unwrap(), long_ago, "what is looked up is in use");
         let mut text = std::fs::read(&path).unwrap();
         text.extend_from_slice(b"{\"words\":[\"b\"],\"resu");
         std::fs::write(&path, text).unwrap();

@@ -4,23 +4,35 @@ use crate::check::clean;
 use crate::cli::args::RunOptions;
 use crate::cli::collide::Scene;
 use crate::cli::failure::Failure;
-use crate::cli::listen::hear;
+use crate::cli::listen::{Heard, Port, hear};
 use crate::cli::said::Contact;
 use crate::cli::scenery::{self, Scenery};
-use crate::cli::{robot, run};
-use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use crate::cli::{robot, run, show};
+use arl_robot::cell::Cell;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
+use std::sync::{Mutex, PoisonError};
 
 /// The words before those that decide what stands in a cell.
 const DECIDING: [&str; 3] = ["--robot", "--cell", "--set"];
 /// Where the places of `--set` begin that do.
 const PLACES: [&str; 2] = ["robot.", "cell."];
-/// The keys of a cell file that name the shape of something.
-const NAMING: [&str; 2] = ["mesh", "urdf"];
-/// How often it is looked whether a run has connected.
-const LOOK_INTERVAL: Duration = Duration::from_millis(1);
+/// The keys of a cell file that name files.
+const NAMING: [&str; 3] = ["mesh", "urdf", "robot"];
+
+/// What touched in a run, or came too near, as far as that is known.
+#[derive(PartialEq, Debug)]
+pub(super) enum Contacts {
+    /// Nobody looked.
+    Unasked,
+    /// All of them.
+    All(Vec<Contact>),
+    /// The run was in real time, and could not say all.
+    Unknown,
+    /// The run was not heard from its begin to its end.
+    Broken,
+}
 
 /// Who looks for collisions.
 #[derive(Debug)]
@@ -38,8 +50,7 @@ impl Looking {
         Self { clearance, folder: folder.to_owned(), last: None }
     }
 
-    /// Has `make` make the run of these words and of those that it is given besides; gives what touched, or came too near, with what it gives:
-    /// `None` where not all of the run was heard.
+    /// Has `make` make the run of these words and of those that it is given besides; gives what touched with what it gives.
     ///
     /// # Errors
     /// What stands in the cell cannot be read, or this computer has no connection to itself; then nothing ran.
@@ -47,28 +58,27 @@ impl Looking {
         &mut self,
         words: &[String],
         make: impl FnOnce(Vec<String>) -> T,
-    ) -> Result<(T, Option<Vec<Contact>>), String> {
-        let scene = self.scene(words, &|_| {})?;
-        // The next run must not find the connection of one that was lost.
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).and_then(|listener| {
-            listener.set_nonblocking(true)?;
-            Ok((listener.local_addr()?, listener))
-        });
-        let (address, listener) =
-            listener.map_err(|error| format!("this computer has no connection to itself: {error}"))?;
-        let asked = ["--listener".into(), address.to_string(), "--each-cycle".into()];
+    ) -> Result<(T, Contacts), String> {
+        let scene = self.scene(words)?;
+        // The next run must not find the connection of one that was lost: each has a port of its own.
+        let port = Port::open().map_err(|failure| failure.to_string())?;
+        let asked = port.words().into_iter().chain(["--each-cycle".to_owned()]);
+        let words: Vec<String> = words.iter().cloned().chain(asked).collect();
         let (is_over, clearance) = (AtomicBool::new(false), self.clearance);
         Ok(std::thread::scope(|scope| {
             let is_over = &is_over;
             let heard = scope.spawn(move || {
                 let (watchers, found) = scene.watch(clearance, false);
-                // Where the listener is gone, the run does not wait for it.
-                let stream = accept(listener, is_over)?;
-                hear(stream, watchers).then(|| std::mem::take(&mut found.borrow_mut().contacts))
+                let over = || Ok(is_over.load(Ordering::Acquire).then_some(()));
+                match port.accept(over).map(|connected| connected.map(|stream| hear(stream, watchers))) {
+                    Ok(Ok(Heard::All)) => Contacts::All(std::mem::take(&mut found.borrow_mut().contacts)),
+                    Ok(Ok(Heard::WithGaps)) => Contacts::Unknown,
+                    _ => Contacts::Broken,
+                }
             });
-            let made = make(words.iter().cloned().chain(asked).collect());
+            let made = make(words);
             is_over.store(true, Ordering::Release);
-            (made, heard.join().ok().flatten())
+            (made, heard.join().unwrap_or(Contacts::Broken))
         }))
     }
 
@@ -76,20 +86,22 @@ impl Looking {
     ///
     /// # Errors
     /// Something cannot be read, in words that do not name the folder of the worker.
-    pub(super) fn scene(&mut self, words: &[String], tell: &dyn Fn(&str)) -> Result<Scene, String> {
+    pub(super) fn scene(&mut self, words: &[String]) -> Result<Scene, String> {
         let deciding = deciding(words);
         if let Some((_, scene)) = self.last.as_ref().filter(|(last, _)| *last == deciding) {
             return Ok(scene.clone());
         }
         let options = self.options(&deciding);
         let without_folder = |text: &str| text.replace(&format!("{}/", self.folder.display()), "");
-        let tell = |text: &str| tell(&without_folder(text));
+        let tell = |text: &str| tell_once(&without_folder(text));
         let scene = || {
             // What lies elsewhere is not what goes along with the runs.
             let cell = run::cell(&options)?;
             let outside = scenery::named(&cell).find(|file| !clean(file).starts_with(&self.folder) || !file.is_file());
             if let Some(file) = outside {
-                return Err(Failure::Usage(format!("{} is not among the files of the sweep", file.display())));
+                let text =
+                    "is not among the files of the sweep: a cell names shapes by paths from its folder, in it or below";
+                return Err(Failure::Usage(format!("{} {text}", file.display())));
             }
             let robot = robot::load_with(options.robot.as_deref(), &options.changed()?)?;
             Scene::of(&Scenery::with(&cell, robot, &tell)?, &tell)
@@ -98,12 +110,12 @@ impl Looking {
         Ok(self.last.insert((deciding, scene)).1.clone())
     }
 
-    /// The files that say how robots and bodies of the cell of the run of these words look.
+    /// The cell of the run of these words.
     ///
     /// # Errors
-    /// That of a body cannot be read.
-    pub(super) fn files(&self, words: &[String]) -> Result<Vec<PathBuf>, Failure> {
-        scenery::files(&run::cell(&self.options(&deciding(words)))?)
+    /// It cannot be read, or changed like that.
+    pub(super) fn cell(&self, words: &[String]) -> Result<Cell, Failure> {
+        run::cell(&self.options(&deciding(words)))
     }
 
     /// What comes later goes before.
@@ -137,7 +149,15 @@ fn deciding(words: &[String]) -> Vec<String> {
     all
 }
 
-/// The words of a run that decide which files say how robots and bodies look.
+/// Tells what was not told before in this process: the runs of a sweep have much in common, and so have sweeps.
+fn tell_once(text: &str) {
+    static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    if TOLD.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_owned()) {
+        show::warning(text);
+    }
+}
+
+/// The words of a run that decide which files its cell names.
 pub(super) fn naming(words: &[String]) -> Vec<String> {
     let all = deciding(words);
     let names = |pair: &[String]| {
@@ -148,25 +168,11 @@ pub(super) fn naming(words: &[String]) -> Vec<String> {
     all.chunks_exact(2).filter(|pair| names(pair)).flatten().cloned().collect()
 }
 
-/// The connection of a run, unless it is over without one.
-fn accept(listener: TcpListener, is_over: &AtomicBool) -> Option<TcpStream> {
-    loop {
-        // Asked first: a connection that was made before the end is there to be accepted then.
-        let was_over = is_over.load(Ordering::Acquire);
-        match listener.accept() {
-            Ok((stream, _)) => return stream.set_nonblocking(false).ok().map(|()| stream),
-            Err(error) if error.kind() == std::io::ErrorKind::WouldBlock && !was_over => {
-                std::thread::sleep(LOOK_INTERVAL);
-            }
-            Err(_) => return None,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::io::Write;
+    use std::net::TcpStream;
 
     #[test]
     fn what_decides_about_a_cell_is_what_names_and_changes_it() {
@@ -194,7 +200,7 @@ mod tests {
     }
 
     /// What is found in a run that says these lines, by who looks in a folder without a cell.
-    fn found(lines: &str) -> Option<Vec<Contact>> {
+    fn found(lines: &str) -> Contacts {
         let mut looking = Looking::new(0.0, Path::new("/nowhere"));
         let run = |words: Vec<String>| {
             assert_eq!((&*words[0], &*words[2]), ("--listener", "--each-cycle"));
@@ -207,13 +213,15 @@ mod tests {
     #[test]
     fn only_who_heard_all_of_a_run_knows_that_nothing_touched() {
         let hello = "{\"hello\":{\"channels\":[],\"names\":{}}}\n";
-        assert_eq!(found(&format!("{hello}{{\"ended\":null}}\n")), Some(Vec::new()));
-        assert_eq!(found(hello), None, "its process was lost");
-        assert_eq!(found("{\"ended\":null}\n"), None);
-        assert_eq!(found(&format!("{hello}what?\n{{\"ended\":null}}\n")), None);
+        let all = format!("{hello}{{\"ended\":0}}\n");
+        assert_eq!(found(&all), Contacts::All(Vec::new()));
+        assert_eq!(found(&format!("{hello}{{\"ended\":3}}\n")), Contacts::Unknown);
+        assert_eq!(found(hello), Contacts::Broken, "its process was lost");
+        assert_eq!(found("{\"ended\":0}\n"), Contacts::Broken);
+        assert_eq!(found(&format!("{hello}what?\n{{\"ended\":0}}\n")), Contacts::Broken);
         let mut looking = Looking::new(0.0, Path::new("/nowhere"));
-        assert_eq!(looking.look(&[], |_| ()), Ok(((), None)), "it did not connect");
+        assert_eq!(looking.look(&[], |_| ()), Ok(((), Contacts::Broken)), "it did not connect");
         // The next run is heard by itself.
-        assert_eq!(found(&format!("{hello}{{\"ended\":null}}\n")), Some(Vec::new()));
+        assert_eq!(found(&all), Contacts::All(Vec::new()));
     }
 }

@@ -4,6 +4,7 @@
 //! them, and a process that is lost is asked again.
 
 mod bundle;
+mod cell_files;
 mod folder;
 mod kept;
 mod looking;

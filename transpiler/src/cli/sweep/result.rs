@@ -1,5 +1,6 @@
 //! What came of a run: a row of the results.
 
+use super::looking::Contacts;
 use super::parameter::Parameters;
 use crate::cli::said::Contact;
 use serde::{Deserialize, Serialize};
@@ -82,10 +83,6 @@ impl From<Contact> for Collision {
     }
 }
 
-/// Not all of a run was heard, so that nobody knows what touched.
-#[derive(Debug)]
-pub(super) struct Unheard;
-
 /// What a compiled program answers.
 #[derive(Deserialize)]
 struct Answer {
@@ -106,9 +103,6 @@ struct Summary {
     way: Option<f64>,
     alarms: Vec<Alarm>,
     real_time: bool,
-    /// How often something was left out that who listens should have heard.
-    #[serde(default)]
-    left_out: u64,
 }
 
 #[derive(Deserialize)]
@@ -128,20 +122,19 @@ impl RunResult {
     ///
     /// # Errors
     /// This is no answer, or the run was not heard to its end.
-    pub(super) fn of_answer(
-        line: &str,
-        contacts: Option<Result<Vec<Contact>, Unheard>>,
-    ) -> Result<(Self, bool), String> {
+    pub(super) fn of_answer(line: &str, contacts: Contacts) -> Result<(Self, bool), String> {
         let answer: Answer = serde_json::from_str(line).map_err(|error| error.to_string())?;
-        let Some(summary) = answer.summary else {
+        let Some(Summary { outcome, code, cycle_time, moving, standing, motions, way, alarms, real_time }) =
+            answer.summary
+        else {
             // It may be for something outside, as an io island that is switched off.
             return Ok((Self::lost("refused", answer.refused.unwrap_or_default()), false));
         };
-        let Summary { outcome, code, cycle_time, moving, standing, motions, way, alarms, real_time, left_out } =
-            summary;
-        let contacts = contacts.transpose().map_err(|Unheard| "nobody heard its run to the end".to_owned())?;
-        // In real time the run does not wait for who listens: what was missed may have touched.
-        let contacts = contacts.filter(|_| left_out == 0);
+        let collisions = match contacts {
+            Contacts::All(contacts) => Some(contacts.into_iter().map(Collision::from).collect()),
+            Contacts::Unasked | Contacts::Unknown => None,
+            Contacts::Broken => return Err("nobody heard its run to the end".into()),
+        };
         let messages = answer.said.into_iter().filter_map(|said| said.message);
         let shown = messages.filter(|message| message.hmi || message.console);
         let lines = |message: Message| -> Vec<String> {
@@ -150,7 +143,6 @@ impl RunResult {
         };
         let output = shown.flat_map(lines).collect();
         let cycle_time = Some(cycle_time);
-        let collisions = contacts.map(|contacts| contacts.into_iter().map(Collision::from).collect());
         let result = Self {
             outcome,
             code,

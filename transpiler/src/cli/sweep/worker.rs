@@ -1,9 +1,8 @@
 //! A process of the program that makes run after run, in a folder of its own.
 
 use super::folder::{Folder, Spread};
-use super::looking::Looking;
-use super::result::{RunResult, Unheard};
-use crate::cli::said::Contact;
+use super::looking::{Contacts, Looking};
+use super::result::RunResult;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -34,8 +33,6 @@ struct Process {
     questions: ChildStdin,
     answers: Receiver<std::io::Result<String>>,
 }
-
-type Answered = (Result<String, Lost>, Option<Result<Vec<Contact>, Unheard>>);
 
 /// Why there is no answer.
 enum Lost {
@@ -93,11 +90,17 @@ impl Worker {
     }
 
     /// What the program answers, and what touched in its run, where somebody looks; or why it cannot be looked for.
-    fn answer(&mut self, words: &[String], is_enough: &dyn Fn() -> bool) -> Result<Answered, String> {
-        let Some(mut looking) = self.looking.take() else { return Ok((self.ask(words, is_enough), None)) };
+    fn answer(
+        &mut self,
+        words: &[String],
+        is_enough: &dyn Fn() -> bool,
+    ) -> Result<(Result<String, Lost>, Contacts), String> {
+        let Some(mut looking) = self.looking.take() else {
+            return Ok((self.ask(words, is_enough), Contacts::Unasked));
+        };
         let looked = looking.look(words, |words| self.ask(&words, is_enough));
         self.looking = Some(looking);
-        looked.map(|(answer, contacts)| (answer, Some(contacts.ok_or(Unheard))))
+        looked
     }
 
     fn ask(&mut self, words: &[String], is_enough: &dyn Fn() -> bool) -> Result<String, Lost> {
