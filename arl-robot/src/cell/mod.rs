@@ -10,7 +10,6 @@ mod fit;
 mod late;
 mod names;
 mod network;
-mod rate;
 
 pub use bodies::{Body, Form, Grip, Holder, Solid};
 pub use buses::{BusSettings, ModbusTcpSettings};
@@ -22,8 +21,8 @@ pub use fit::fit;
 pub use late::{Late, LateCycles};
 pub use names::{Names, Signal, SignalKind};
 pub use network::{Listen, NetworkSettings};
-pub use rate::Rate;
 
+pub use crate::rate::Rate;
 pub use crate::settings::SettingsError;
 
 use std::path::{Path, PathBuf};

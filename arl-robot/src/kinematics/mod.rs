@@ -12,7 +12,7 @@ mod passing;
 pub mod random;
 mod rates;
 mod scara;
-#[cfg(test)]
+#[cfg(all(test, feature = "files"))]
 mod tests;
 mod wrist;
 

@@ -219,7 +219,7 @@ fn quintic(start: [f64; 3], end: [f64; 3], length: f64) -> [f64; 6] {
     ]
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "files"))]
 mod tests {
     use super::*;
     use crate::kinematics::frame;

@@ -1,14 +1,17 @@
 //! What can be wrong with a robot file.
 
 use std::fmt;
+#[cfg(feature = "files")]
 use std::ops::Range;
 
+#[cfg(feature = "files")]
 use crate::settings::SettingsError;
 
-/// What is wrong with a robot file, and where.
+/// What is wrong with a robot file, and where; or with the description of a robot.
 #[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub struct RobotError {
-    /// The file, or the name that was asked for.
+    /// The file, or the name that was asked for or described.
     pub file: String,
     /// Line from 1; 0 where the whole file is meant.
     pub line: u32,
@@ -23,6 +26,7 @@ impl RobotError {
         Self { file: file.to_owned(), line: 0, column: 0, message }
     }
 
+    #[cfg(feature = "files")]
     pub(super) fn at(file: &str, text: &str, span: Range<usize>, message: String) -> Self {
         let before = text.get(..span.start).unwrap_or(text);
         let line = before.bytes().filter(|byte| *byte == b'\n').count() + 1;
@@ -43,6 +47,7 @@ impl fmt::Display for RobotError {
 
 impl std::error::Error for RobotError {}
 
+#[cfg(feature = "files")]
 impl From<SettingsError> for RobotError {
     fn from(error: SettingsError) -> Self {
         let SettingsError { file, line, column, message } = error;

@@ -1,22 +1,30 @@
-//! The robot: its axes, limits and geometry, read from a robot file or built in.
+//! The robot: its axes, limits and geometry, as it was described, built in, or read from a robot file.
 
+#[cfg(feature = "files")]
 mod builtin;
+mod description;
 mod error;
+#[cfg(not(feature = "files"))]
+mod family;
 mod limbs;
+#[cfg(feature = "files")]
+mod load;
+#[cfg(feature = "files")]
 mod read;
+#[cfg(feature = "files")]
 mod section;
-#[cfg(test)]
+#[cfg(all(test, feature = "files"))]
 mod tests;
 
+#[cfg(feature = "files")]
 pub use arl_lang::catalog::Family;
+pub use description::Description;
 pub use error::RobotError;
+#[cfg(not(feature = "files"))]
+pub use family::Family;
 pub use limbs::Limb;
 
-use crate::changes::{Changes, Part};
-use crate::kinematics::Kinematics;
-use crate::regular_file;
-use std::borrow::Cow;
-use std::path::Path;
+use std::ops::Deref;
 
 /// How many axes a joint vector holds at most: six of the robot.
 pub const ROBOT_AXES: usize = 6;
@@ -29,6 +37,12 @@ pub const fn own_axes(family: Family) -> usize {
         Family::SixAxis => 6,
         Family::Scara => 4,
     }
+}
+
+/// The name of an axis, counted from 0: `j1`.. of the robot, then `ej1`...
+fn axis_name(family: Family, at: usize) -> String {
+    let own = own_axes(family);
+    if at < own { format!("j{}", at + 1) } else { format!("ej{}", at + 1 - own) }
 }
 
 /// How the speed of a motion rises and falls.
@@ -121,87 +135,20 @@ pub struct Link {
     pub torque_constant: f64,
 }
 
-/// A robot as its file describes it.
+/// A robot, checked: whatever its [`Description`] holds can be computed with, and every axis can move. It reads as its
+/// description does (`robot.axes`), and cannot be changed.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Robot {
-    /// The robot's name.
-    pub name: String,
-    /// Its build.
-    pub family: Family,
-    /// The velocity profile that motion has by default.
-    pub profile: VelocityProfile,
-    /// Its geometry, ready to compute with.
-    pub kinematics: Kinematics,
-    /// The limits of the tool centre point.
-    pub tcp: TcpLimits,
-    /// The robot's own axes (six, or four), then the external ones (up to six).
-    pub axes: Vec<Axis>,
-    /// What its drives are held against.
-    pub drives: DriveLimits,
-    /// The links, where the file has them: as many as the robot has own axes, or none.
-    pub links: Vec<Link>,
-    /// Where the simulated robot starts: one position for each of `axes`, in deg (mm).
-    pub home: Vec<f64>,
+pub struct Robot(Description);
+
+impl Deref for Robot {
+    type Target = Description;
+
+    fn deref(&self) -> &Description {
+        &self.0
+    }
 }
 
 impl Robot {
-    /// The names of the robots that are built in; the first is the default.
-    pub fn builtin_names() -> impl Iterator<Item = &'static str> {
-        builtin::ROBOTS.iter().map(|(name, _)| *name)
-    }
-
-    /// The built-in robot of this name, whatever its case.
-    ///
-    /// # Errors
-    /// There is no robot of this name built in.
-    pub fn builtin(name: &str) -> Result<Robot, RobotError> {
-        let text = Robot::text(name).ok_or_else(|| builtin::unknown(name))?;
-        Robot::parse(name, text)
-    }
-
-    /// The robot file of a built-in robot, whatever the case of its name.
-    pub fn text(name: &str) -> Option<&'static str> {
-        builtin::ROBOTS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
-    }
-
-    /// The built-in robot of this name, or else the robot file at this path.
-    ///
-    /// # Errors
-    /// Nothing of this name is built in and no such file can be read, or the file is wrong: then with line and column.
-    pub fn load(name_or_path: &str) -> Result<Robot, RobotError> {
-        Robot::load_with(name_or_path, &Changes::default())
-    }
-
-    /// The same with other values at some places.
-    ///
-    /// # Errors
-    /// As for [`load`](Self::load), or the file has no such place.
-    pub fn load_with(name_or_path: &str, changes: &Changes) -> Result<Robot, RobotError> {
-        let text = changes.apply(Part::Robot, name_or_path, Robot::source(name_or_path)?.into_owned())?;
-        Robot::parse(name_or_path, &text)
-    }
-
-    /// The robot file of a robot that is built in, or that at this path.
-    fn source(name_or_path: &str) -> Result<Cow<'static, str>, RobotError> {
-        if let Some(text) = Robot::text(name_or_path) {
-            return Ok(Cow::Borrowed(text));
-        }
-        let looks_like_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
-        match regular_file::read_text(Path::new(name_or_path)) {
-            Ok(text) => Ok(Cow::Owned(text)),
-            Err(_) if !looks_like_path => Err(builtin::unknown(name_or_path)),
-            Err(error) => Err(RobotError::of_file(name_or_path, format!("cannot read the robot file: {error}"))),
-        }
-    }
-
-    /// The robot that `text` describes; `file` names the text in errors.
-    ///
-    /// # Errors
-    /// The text is no TOML, or no robot: with line, column and what was expected.
-    pub fn parse(file: &str, text: &str) -> Result<Robot, RobotError> {
-        read::robot(file, text)
-    }
-
     /// The robot's own axes: six, or four.
     pub fn own_axes(&self) -> &[Axis] {
         self.axes.get(..own_axes(self.family)).unwrap_or(&self.axes)

@@ -3,8 +3,11 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::description::{Description, lifts};
 use super::section::{Section, Source};
-use super::{Axis, DriveLimits, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, own_axes};
+use super::{
+    Axis, DriveLimits, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, axis_name, own_axes,
+};
 use crate::kinematics::{Kinematics, Opw, OpwParameters, Scara};
 use crate::settings::kind;
 
@@ -46,7 +49,8 @@ pub(super) fn robot(file: &str, text: &str) -> Result<Robot, RobotError> {
     let drives = drives(&top, &axes)?;
     let links = links(&top, family)?;
     let home = home(&top, family, &axes)?;
-    Ok(Robot { name, family, profile, kinematics, tcp, axes, drives, links, home })
+    // What is wrong was told with its place; nothing else becomes a robot all the same.
+    Robot::new(Description { name, family, profile, kinematics, tcp, axes, drives, links, home })
 }
 
 /// One of a few words.
@@ -146,13 +150,13 @@ fn axes(top: &Section<'_>, family: Family) -> Result<Vec<Axis>, RobotError> {
 
 fn axis(table: &Section<'_>, at: usize, family: Family) -> Result<Axis, RobotError> {
     let own = own_axes(family);
-    let expected = if at < own { format!("j{}", at + 1) } else { format!("ej{}", at + 1 - own) };
+    let expected = axis_name(family, at);
     let name = table.text("name", &format!("\"{expected}\""))?;
     if !name.eq_ignore_ascii_case(&expected) {
         let message = format!("axis {} is named \"{name}\": expected \"{expected}\"; the axes stand in order", at + 1);
         return Err(table.source.error(table.span_of("name"), message));
     }
-    let lifts = family == Family::Scara && at == 2;
+    let lifts = lifts(family, at);
     let linear = table.flag("linear")?;
     if at < own && linear.is_some_and(|linear| linear != lifts) {
         let message =

@@ -1,6 +1,7 @@
 //! Robot files: what is read, and what is refused.
 
 use super::*;
+use crate::kinematics::{Kinematics, Opw, OpwParameters};
 
 fn error(text: &str) -> RobotError {
     Robot::parse("arm.toml", text).unwrap_err()
@@ -100,4 +101,65 @@ fn any_text_is_refused_without_a_panic() {
     for text in ["", "[", "axis = 3", "[[axis]]", "geometry = 1\nname=\"a\"\nfamily=\"scara\"", "\u{feff}", "a\u{0}b"] {
         error(text);
     }
+}
+
+/// Something of a description is given a value.
+type Put = fn(&mut Description, f64);
+
+#[test]
+fn what_is_changed_is_checked_as_a_file_is() {
+    let limits: [Put; 14] = [
+        |robot, value| robot.axes[0].vel = value,
+        |robot, value| robot.axes[5].acc = value,
+        |robot, value| robot.axes[2].jerk = value,
+        |robot, value| robot.tcp.vel = value,
+        |robot, value| robot.tcp.acc = value,
+        |robot, value| robot.tcp.jerk = value,
+        |robot, value| robot.tcp.ori_vel = value,
+        |robot, value| robot.tcp.ori_acc = value,
+        |robot, value| robot.tcp.ori_jerk = value,
+        |robot, value| robot.drives.following[3] = value,
+        |robot, value| robot.drives.feedback = value,
+        |robot, value| robot.drives.settled = value,
+        |robot, value| robot.links[1].mass = value,
+        |robot, value| robot.kinematics = lengths(robot, |p| p.c2 = value),
+    ];
+    for (place, put) in limits.iter().enumerate() {
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let mut described = Robot::builtin("kr10-r1420").unwrap().into_description();
+            put(&mut described, value);
+            let error = Robot::new(described).unwrap_err();
+            assert!(error.message.contains(&format!("{value}")), "{place}: {value}: {error}");
+            assert_eq!((error.file.as_str(), error.line), ("kr10-r1420", 0));
+        }
+    }
+    let others: [(Put, &str); 9] = [
+        (|robot, _| robot.axes[0].min = 171.0, "`min` of j1 is 171"),
+        (|robot, none| robot.axes[0].max = none, "`max` of j1 is NaN"),
+        (|robot, _| robot.axes[1].name = "j3".into(), "expected \"j2\""),
+        (|robot, _| robot.axes[1].linear = true, "`linear` of j2 is true"),
+        (|robot, _| robot.axes.truncate(5), "there are 5 axes"),
+        (|robot, none| robot.home[4] = none, "`home` of j5 is NaN"),
+        (|robot, _| robot.home.push(0.0), "`home` has 7 positions"),
+        (|robot, _| robot.family = Family::Scara, "another family"),
+        (|robot, none| robot.kinematics = lengths(robot, |p| p.a1 = none), "`a1` of the geometry is NaN"),
+    ];
+    for (put, words) in others {
+        let mut described = Robot::builtin("kr10-r1420").unwrap().into_description();
+        put(&mut described, f64::NAN);
+        let error = Robot::new(described).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    }
+    for name in Robot::builtin_names() {
+        let robot = Robot::builtin(name).unwrap();
+        assert_eq!(Robot::new(robot.clone().into_description()).unwrap(), robot);
+    }
+}
+
+/// The geometry of a robot with six axes, changed.
+fn lengths(robot: &Description, change: impl FnOnce(&mut OpwParameters)) -> Kinematics {
+    let Kinematics::SixAxis(opw) = &robot.kinematics else { panic!("{} has other axes", robot.name) };
+    let mut parameters = *opw.parameters();
+    change(&mut parameters);
+    Kinematics::SixAxis(Opw::new(parameters))
 }

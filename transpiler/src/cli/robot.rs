@@ -53,7 +53,7 @@ impl Robot {
             column,
         };
         let axes = robot.axes.iter().zip(columns).map(axis).collect();
-        Self { name: robot.name, axes, tcp: robot.tcp.vel }
+        Self { axes, tcp: robot.tcp.vel, name: robot.into_description().name }
     }
 }
 

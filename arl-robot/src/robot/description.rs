@@ -1,0 +1,209 @@
+//! What a robot is made of, and whether that is a robot.
+
+use super::{
+    Axis, DriveLimits, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, axis_name, own_axes,
+};
+use crate::kinematics::{Kinematics, Opw, Scara};
+
+/// What a robot is made of: plain data, which [`Robot::new`] checks. Whoever wants a robot of other values takes the description of
+/// one, changes that, and makes another robot of it:
+///
+/// ```
+/// use arl_robot::Robot;
+///
+/// let mut slower = Robot::builtin("kr10-r1420")?.into_description();
+/// for axis in &mut slower.axes {
+///     axis.vel *= 0.5;
+/// }
+/// let slower = Robot::new(slower)?;
+/// assert_eq!(slower.axes[0].vel, 110.0);
+///
+/// let mut lame = slower.into_description();
+/// lame.axes[0].vel = 0.0;
+/// assert_eq!(Robot::new(lame).unwrap_err().to_string(), "kr10-r1420: `vel` of j1 is 0: expected a speed above 0");
+/// # Ok::<(), arl_robot::robot::RobotError>(())
+/// ```
+#[derive(Clone, PartialEq, Debug)]
+pub struct Description {
+    /// The robot's name.
+    pub name: String,
+    /// Its build.
+    pub family: Family,
+    /// The velocity profile that motion has by default.
+    pub profile: VelocityProfile,
+    /// Its geometry, ready to compute with.
+    pub kinematics: Kinematics,
+    /// The limits of the tool centre point.
+    pub tcp: TcpLimits,
+    /// The robot's own axes (six, or four), then the external ones (up to six).
+    pub axes: Vec<Axis>,
+    /// What its drives are held against.
+    pub drives: DriveLimits,
+    /// The links, where the file has them: as many as the robot has own axes, or none.
+    pub links: Vec<Link>,
+    /// Where the simulated robot starts: one position for each of `axes`, in deg (mm).
+    pub home: Vec<f64>,
+}
+
+impl Description {
+    /// Whether it is a robot; what is wrong else, in a sentence.
+    pub(super) fn check(&self) -> Result<(), RobotError> {
+        let checks: [fn(&Self) -> Result<(), String>; 5] =
+            [Self::check_geometry, Self::check_tcp, Self::check_axes, Self::check_drives, Self::check_links];
+        checks.iter().try_for_each(|check| check(self)).map_err(|message| RobotError::of_file(&self.name, message))
+    }
+
+    fn check_geometry(&self) -> Result<(), String> {
+        match (&self.kinematics, self.family) {
+            (Kinematics::SixAxis(opw), Family::SixAxis) => six_axes(opw),
+            (Kinematics::Scara(scara), Family::Scara) => four_axes(scara),
+            _ => Err("`kinematics` is that of another family of robots than `family`".to_owned()),
+        }
+    }
+
+    fn check_tcp(&self) -> Result<(), String> {
+        let TcpLimits { vel, acc, jerk, ori_vel, ori_acc, ori_jerk } = self.tcp;
+        all_positive(
+            "the TCP",
+            &[
+                ("vel", vel, "a speed"),
+                ("acc", acc, "an acceleration"),
+                ("jerk", jerk, "a jerk"),
+                ("ori_vel", ori_vel, "a speed"),
+                ("ori_acc", ori_acc, "an acceleration"),
+                ("ori_jerk", ori_jerk, "a jerk"),
+            ],
+        )
+    }
+
+    fn check_axes(&self) -> Result<(), String> {
+        let (own, found) = (own_axes(self.family), self.axes.len());
+        let most = own + EXTERNAL_AXES;
+        if !(own..=most).contains(&found) {
+            return Err(format!("there are {found} axes: expected {own} to {most}"));
+        }
+        for (at, axis) in self.axes.iter().enumerate() {
+            self.check_axis(at, axis)?;
+        }
+        if self.home.len() != found {
+            return Err(format!("`home` has {} positions: expected {found}, one for each axis", self.home.len()));
+        }
+        let outside = |(home, axis): &(&f64, &Axis)| !(axis.min..=axis.max).contains(*home);
+        match self.home.iter().zip(&self.axes).find(outside) {
+            Some((home, axis)) => {
+                Err(format!("`home` of {} is {home}: expected {} to {}", axis.name, axis.min, axis.max))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn check_axis(&self, at: usize, axis: &Axis) -> Result<(), String> {
+        let Axis { name, linear, min, max, vel, acc, jerk } = axis;
+        let expected = axis_name(self.family, at);
+        if *name != expected {
+            return Err(format!(
+                "axis {} is named \"{name}\": expected \"{expected}\"; the axes stand in order",
+                at + 1
+            ));
+        }
+        if at < own_axes(self.family) && *linear != lifts(self.family, at) {
+            return Err(format!("`linear` of {name} is {linear}: this family of robots has it otherwise"));
+        }
+        all_finite(name, &[("min", *min), ("max", *max)])?;
+        if min >= max {
+            return Err(format!("`min` of {name} is {min}: expected less than its `max`, {max}"));
+        }
+        all_positive(name, &[("vel", *vel, "a speed"), ("acc", *acc, "an acceleration"), ("jerk", *jerk, "a jerk")])
+    }
+
+    fn check_drives(&self) -> Result<(), String> {
+        let DriveLimits { following, feedback, settling, settled } = &self.drives;
+        if following.len() != self.axes.len() {
+            let (found, expected) = (following.len(), self.axes.len());
+            return Err(format!("`following` has {found} distances: expected {expected}, one for each axis"));
+        }
+        for (axis, following) in self.axes.iter().zip(following) {
+            all_positive(&axis.name, &[("following", *following, "a distance")])?;
+        }
+        all_positive(
+            "the drives",
+            &[
+                ("feedback", *feedback, "a time"),
+                ("settling", *settling, "a time"),
+                ("settled", *settled, "a distance"),
+            ],
+        )
+    }
+
+    fn check_links(&self) -> Result<(), String> {
+        let (own, found) = (own_axes(self.family), self.links.len());
+        if found != 0 && found != own {
+            return Err(format!("there are {found} links: expected {own}, one an axis of the robot, or none"));
+        }
+        for (number, link) in (1..).zip(&self.links) {
+            let Link { mass, com, inertia, gear, torque_constant } = link;
+            let name = format!("link {number}");
+            all_positive(
+                &name,
+                &[
+                    ("mass", *mass, "a mass"),
+                    ("gear", *gear, "turns of the motor"),
+                    ("torque_constant", *torque_constant, "a torque for one ampere"),
+                ],
+            )?;
+            let placed = com.iter().map(|value| ("com", *value));
+            all_finite(&name, &placed.chain(inertia.iter().map(|value| ("inertia", *value))).collect::<Vec<_>>())?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether an axis, from 0, is the one that lifts.
+pub(super) fn lifts(family: Family, at: usize) -> bool {
+    family == Family::Scara && at == 2
+}
+
+fn six_axes(opw: &Opw) -> Result<(), String> {
+    let p = opw.parameters();
+    all_finite("the geometry", &[("a1", p.a1), ("a2", p.a2), ("b", p.b), ("c1", p.c1), ("c4", p.c4)])?;
+    all_finite("the geometry", &p.offsets.map(|offset| ("offsets", offset)))?;
+    if let Some(sign) = p.signs.iter().find(|sign| sign.abs() != 1.0) {
+        return Err(format!("`signs` of the geometry has {sign}: expected six signs, 1 or -1"));
+    }
+    all_positive("the geometry", &[("c2", p.c2, "a length"), ("c3", p.c3, "a length")])
+}
+
+fn four_axes(scara: &Scara) -> Result<(), String> {
+    all_finite("the geometry", &[("z0", scara.z0)])?;
+    all_positive("the geometry", &[("l1", scara.l1, "a length"), ("l2", scara.l2, "a length")])
+}
+
+fn all_finite(of: &str, values: &[(&str, f64)]) -> Result<(), String> {
+    match values.iter().find(|(_, value)| !value.is_finite()) {
+        Some((key, value)) => Err(format!("`{key}` of {of} is {value}: expected a finite number")),
+        None => Ok(()),
+    }
+}
+
+fn all_positive(of: &str, values: &[(&str, f64, &str)]) -> Result<(), String> {
+    match values.iter().find(|(_, value, _)| !(value.is_finite() && *value > 0.0)) {
+        Some((key, value, what)) => Err(format!("`{key}` of {of} is {value}: expected {what} above 0")),
+        None => Ok(()),
+    }
+}
+
+impl Robot {
+    /// The robot that a description is of.
+    ///
+    /// # Errors
+    /// It is no robot: a number is not finite, a limit not above 0, a range empty, or there are too few or too many of something.
+    pub fn new(description: Description) -> Result<Robot, RobotError> {
+        description.check()?;
+        Ok(Robot(description))
+    }
+
+    /// What it is made of, to be changed.
+    pub fn into_description(self) -> Description {
+        self.0
+    }
+}
