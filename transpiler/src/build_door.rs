@@ -163,7 +163,8 @@ impl Build {
             Some(rust) => rust.clone(),
             None if self.errors_in_code => {
                 let errors = compiled.errors().map(|error| plain_block(error, &files));
-                let errors: String = errors.map(|error| format!("::core::compile_error!({error:?});\n")).collect();
+                let errors: String =
+                    errors.map(|error| format!("::core::compile_error!({});\n", raw(&error))).collect();
                 errors + &read_last(&last_good)
             }
             None => {
@@ -183,6 +184,16 @@ impl Build {
         }
         lines
     }
+}
+
+/// A text as a raw string: rustc shows the line of a mistake, in which escapes could not be read.
+fn raw(text: &str) -> String {
+    let text = text.replace('\r', "");
+    let mut hashes = "#".to_owned();
+    while text.contains(&format!("\"{hashes}")) {
+        hashes.push('#');
+    }
+    format!("r{hashes}\"{text}\"{hashes}")
 }
 
 /// What a crate without a good version of the program can still be checked with.
