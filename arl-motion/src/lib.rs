@@ -5,21 +5,44 @@
 //! path ([`Queue::stop_on_path`]), goes on, follows an override that changes at any time, and leaves its motion for others and
 //! comes back ([`Queue::request_suspension`]). A [`Recorder`] tells what each motion really did.
 //!
-//! Lengths are in mm, angles in deg, times in s; rotation vectors, where there are any, are in rad. A [`Queue`] that is stepped with
-//! the same commands at the same cycles gives the same set-points to the last bit, on every machine.
+//! Lengths are in mm, angles in deg, times in s; rotation vectors, where there are any, are in rad.
+//!
+//! # Real time, or the same every time
+//!
+//! [`Queue::new`] is for a control loop: a step never waits, and what threads find beside it (blends, time laws) is taken over when it
+//! is there. [`Queue::repeatable`] is for simulation and planning: there a step waits for the threads, and a queue that is stepped with
+//! the same commands at the same cycles gives the same set-points to the last bit, on every machine. `arl-rt` uses the one with its real
+//! clock, the other with its virtual one.
+//!
+//! A build without optimisation is about 50 times slower, too slow for real time. Optimise what computes in debug builds, too, in the
+//! `Cargo.toml` of the workspace:
+//!
+//! ```toml
+//! [profile.dev.package]
+//! arl-motion = { opt-level = 2 }
+//! arl-robot = { opt-level = 2 }
+//! nalgebra = { opt-level = 2 }
+//! ```
+//!
+//! # Features
+//!
+//! `files` (a default one) has the robots that are built in, and those from files. Without it a robot is what [`robot::Robot::new`]
+//! makes of its description, and neither the language nor a reader of TOML is compiled.
+//!
+//! # Example
 //!
 //! ```
-//! use arl_motion::{Command, Joints, Queue, Settings, Speed, Stop, Target, Zone, robot::Robot};
+//! use arl_motion::{Command, Cycle, Joints, Override, Queue, Settings, Speed, Stop, Target, Zone, robot::Robot};
 //! use std::sync::Arc;
 //!
 //! let robot = Arc::new(Robot::builtin("kr10-r1420").expect("a built-in robot"));
-//! let mut queue = Queue::new(Arc::clone(&robot), Joints::home(&robot));
+//! let mut queue = Queue::repeatable(Arc::clone(&robot), Joints::home(&robot));
 //! let settings = Settings::default();
 //!
 //! // Over to a start position, then two lines, the corner between them blended within 20 mm.
 //! queue.add(&Command::new(Target::axes([0.0, -90.0, 90.0, 0.0, 30.0, 0.0])), &settings)?;
 //! for _ in 0..2000 {
-//!     queue.step(0.001, 100.0);
+//!     queue.step(Cycle::MS, Override::FULL);
 //! }
 //! let [x, y, z, a, b, c] = arl_motion::kinematics::frame_components(&queue.tcp());
 //! let slow = Speed { tcp: 250.0, ..Speed::FULL };
@@ -31,7 +54,7 @@
 //! // A set-point each ms; half a second later the robot is told to stop, and goes on once it rests.
 //! let mut cycles = 0;
 //! while !queue.idle() {
-//!     let set_point = queue.step(0.001, 100.0);
+//!     let set_point = queue.step(Cycle::MS, Override::FULL);
 //!     cycles += 1;
 //!     match cycles {
 //!         500 => queue.stop_on_path(Stop::General),
@@ -64,7 +87,7 @@ mod limits;
 mod overlay;
 mod plan;
 mod queue;
-#[cfg(test)]
+#[cfg(all(test, feature = "files"))]
 mod tests;
 pub mod time_optimal;
 
@@ -72,18 +95,18 @@ pub use arl_robot::{frames, kinematics, nalgebra, robot};
 pub use blend::no_blend::NoBlend;
 pub use blend::zone::Rounding;
 pub use command::{
-    Command, Compensation, Gate, GatePart, Joints, Lift, MotionKind, PlanError, Reference, Settings, Speed, Target,
-    UNSET, Weave, WeaveShape, Zone, is_unset,
+    Command, Compensation, Cycle, CycleError, Gate, GatePart, Joints, Lift, MotionKind, Override, OverrideError,
+    PlanError, Reference, Settings, Speed, Target, UNSET, Weave, WeaveShape, Zone, is_unset,
 };
 pub use plan::circle_steps::circle_steps;
 pub use plan::motion::Motion;
 pub use plan::planner::plan;
 pub use queue::{
-    Closest, Figure, LOOK_AHEAD, Limited, MotionRecord, Progress, Queue, Rate, Recorder, Start, Step, Stop,
+    Closest, Figure, LOOK_AHEAD, Limited, MotionRecord, Preview, Progress, Queue, Rate, Recorder, Start, Step, Stop,
     UnblendedTarget,
 };
 
 /// The examples of the README run.
-#[cfg(doctest)]
+#[cfg(all(doctest, feature = "files"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

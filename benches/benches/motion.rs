@@ -10,7 +10,7 @@ use arl_benches::chains::{CHAINS, Chain};
 use arl_benches::statistics::processor_time;
 use arl_rt::kinematics::{Frame, frame_components};
 use arl_rt::motion::frames::Rig;
-use arl_rt::motion::{Command, Joints, Queue, Settings, Speed, Target, UNSET, Zone};
+use arl_rt::motion::{Command, Cycle, Joints, Override, Queue, Settings, Speed, Target, UNSET, Zone};
 use arl_rt::robot::Robot;
 
 const CYCLE: f64 = 0.001;
@@ -52,7 +52,7 @@ fn command(origin: &[f64; 6], [x, y, z]: [f64; 3], axes: bool, zone: Zone, tcp: 
 
 fn start(robot: &Arc<Robot>) -> (Queue, [f64; 6]) {
     let start = Joints { axes: START, external: [UNSET; 6] };
-    (Queue::new(robot.clone(), start), frame_components(&robot.kinematics.forward(&START)))
+    (Queue::repeatable(robot.clone(), start), frame_components(&robot.kinematics.forward(&START)))
 }
 
 /// What a chain took once.
@@ -95,7 +95,7 @@ fn once(robot: &Arc<Robot>, chain: &Chain, count: usize) -> Result<Run, Box<dyn 
             queue.add(&command, &Settings::default())?;
         }
         let middle = processor_time();
-        let step = queue.step(CYCLE, 100.0);
+        let step = queue.step(Cycle::MS, Override::FULL);
         cycles.push((processor_time() - middle).as_secs_f64() * 1e6);
         planning += (middle - begin).as_secs_f64() * 1e6;
         let at = step.tcp.translation.vector;

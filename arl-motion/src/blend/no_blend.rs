@@ -6,6 +6,7 @@ use crate::command::error::PlanError;
 
 /// Why the robot stops at a target that should be rounded off.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
 pub enum NoBlend {
     /// The next motion came too late.
     Late,

@@ -28,6 +28,7 @@ enum Measure {
 
 /// The zone at the end of a motion: what was asked for, and what the blend took of it.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Rounding {
     /// The size that was asked for.
     pub asked: f64,

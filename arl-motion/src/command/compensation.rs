@@ -48,6 +48,11 @@ impl Compensation {
         self.totals.get(reference as usize).copied().unwrap_or_default()
     }
 
+    /// All that is compensated, whatever the frame.
+    pub(crate) fn all(&self) -> impl Iterator<Item = f64> {
+        self.totals.iter().flatten().copied()
+    }
+
     /// Whether it needs the direction of the path.
     pub(crate) fn follows_path(&self) -> bool {
         [Reference::ToolPath, Reference::ModifyPath].iter().any(|reference| self.total(*reference) != [0.0; 6])

@@ -6,6 +6,7 @@ use arl_robot::kinematics::CONFIGURATIONS;
 
 /// Why a motion cannot be planned.
 #[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
 pub enum PlanError {
     /// An axis would leave its range.
     AxisLimit {
@@ -107,8 +108,15 @@ pub enum PlanError {
         /// Its value.
         value: f64,
     },
-    /// A component of the target is not a number.
+    /// A component of the target, of a frame, or of where the robot stands is not a number.
     NotANumber,
+    /// A number of the command or of the settings is none, or is out of the range that it has.
+    OutOfRange {
+        /// What is meant, with its unit.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// The tool points along the path, so that nothing is beside it.
     ToolAlongPath,
     /// The robot holds the workpiece, so that the world turns against it.
@@ -184,6 +192,7 @@ impl fmt::Display for PlanError {
                 write!(f, "{what} is {value:e}, which is too much")
             }
             PlanError::NoSpeed { what, value } => write!(f, "{what} is {value}: it must be a number above 0"),
+            PlanError::OutOfRange { what, value } => write!(f, "{what} cannot be {value}"),
             PlanError::NotANumber => write!(f, "the target holds a value that is not a number"),
             PlanError::ToolAlongPath => write!(
                 f,

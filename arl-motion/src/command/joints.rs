@@ -37,6 +37,9 @@ pub struct Joints {
 }
 
 impl Joints {
+    /// All at 0.
+    pub(crate) const ZERO: Joints = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
+
     /// Where the robot's file says it starts.
     pub fn home(robot: &Robot) -> Self {
         let mut joints = Self { axes: [0.0; ROBOT_AXES], external: [UNSET; EXTERNAL_AXES] };
@@ -48,6 +51,11 @@ impl Joints {
             *value = *home;
         }
         joints
+    }
+
+    /// Whether all of them are numbers.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.axes.iter().chain(&self.external).all(|value| value.is_finite())
     }
 
     /// Whether every axis is within so many deg (mm) of another place.

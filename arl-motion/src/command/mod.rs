@@ -1,15 +1,20 @@
 //! What is asked of the robot: motions with their settings, and why one may be refused.
 
+pub(crate) mod check;
 mod compensation;
+mod cycle;
 pub(crate) mod error;
 mod gate;
 pub(crate) mod joints;
+mod speed_override;
 mod weave;
 
 pub use compensation::{Compensation, Reference};
+pub use cycle::{Cycle, CycleError};
 pub use error::PlanError;
 pub use gate::{Gate, GatePart, Lift};
 pub use joints::{Joints, UNSET, is_unset};
+pub use speed_override::{Override, OverrideError};
 pub use weave::{Weave, WeaveShape};
 
 use arl_robot::frames::Rig;
@@ -122,6 +127,7 @@ pub enum Target {
 
 /// The kinds of targets, without their data.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[non_exhaustive]
 pub enum MotionKind {
     /// [`Target::Joints`]
     Joints,

@@ -369,19 +369,25 @@ impl Segment {
         Some(rates)
     }
 
+    /// The place after `at` s of nominal time with the rates there; `None` at a singular point.
+    fn place_with_rates(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<(Place, Rates)> {
+        let width = (self.to - self.from) / self.time;
+        let share = self.from + at * width;
+        let even = Place { at: share, first: 1.0, second: 0.0, third: 0.0 };
+        let place = self
+            .parametrization
+            .as_ref()
+            .map_or(even, |parametrization| Place::at(parametrization, share))
+            .scaled(width);
+        Some((place, place.rates(self.curve.rates(kinematics, place.at, joints)?)))
+    }
+
     /// The place after `at` s of nominal time with the rates there; of a singular point that beside it, towards the middle, as the axes
     /// go on evenly. `None` where all that is beside it is singular, too.
     fn regular(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<(f64, Place, Joints, Rates)> {
-        let width = (self.to - self.from) / self.time;
         let look = |at: f64, joints: Joints| {
-            let share = self.from + at * width;
-            let even = Place { at: share, first: 1.0, second: 0.0, third: 0.0 };
-            let place = self
-                .parametrization
-                .as_ref()
-                .map_or(even, |parametrization| Place::at(parametrization, share))
-                .scaled(width);
-            Some((at, place, joints, place.rates(self.curve.rates(kinematics, place.at, &joints)?)))
+            let (place, rates) = self.place_with_rates(kinematics, at, &joints)?;
+            Some((at, place, joints, rates))
         };
         let beside = |share: &f64| {
             let away = share * self.time;
@@ -389,6 +395,12 @@ impl Segment {
             look(at, self.joints_on(kinematics, at, joints))
         };
         look(at, *joints).or_else(|| SHARES_BESIDE_SINGULAR.iter().find_map(beside))
+    }
+
+    /// How all axes change after `at` s of nominal time, where they are at `joints`: two derivatives by it. `None` at a singular point.
+    pub(crate) fn rates(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<[[f64; ALL]; 2]> {
+        let (.., [first, second, _]) = self.place_with_rates(kinematics, at, joints)?;
+        Some([first, second])
     }
 
     /// The share of the motion that is done at its end.

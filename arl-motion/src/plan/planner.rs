@@ -2,6 +2,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::command::check::check;
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
 use crate::command::{Command, Settings, Target};
@@ -32,8 +33,12 @@ const LARGEST_CIRCLE_DEG: f64 = 7200.0;
 ///
 /// # Errors
 /// The target or the way to it is out of reach or of an axis's range, the way passes a singular point, the duration is
-/// too short, a speed is not above zero. Nothing has moved then.
+/// too short, a speed is not above zero, a number is none. Nothing has moved then.
 pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Settings) -> Result<Motion, PlanError> {
+    if !start.is_finite() {
+        return Err(PlanError::NotANumber);
+    }
+    check(command, settings)?;
     plan_behind(robot, start, &Led::default(), command, settings)
 }
 
@@ -386,7 +391,7 @@ impl Planner<'_> {
     /// A programmed speed under the override.
     fn programmed(&self, what: &'static str, value: f64) -> Result<f64, PlanError> {
         let percent = self.settings.speed_percent;
-        if percent.is_nan() || percent <= 0.0 {
+        if !percent.is_finite() || percent <= 0.0 {
             return Err(PlanError::NoOverride { percent });
         }
         if value.is_finite() && value > 0.0 {

@@ -5,15 +5,18 @@ mod look_ahead;
 mod motion_progress;
 mod path_buffer;
 mod path_speed;
+mod preview;
 mod record;
+mod step;
 mod suspend;
 
 use std::sync::Arc;
 
 use crate::blend::no_blend::NoBlend;
+use crate::command::check::check;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
-use crate::command::{Command, Settings, Target};
+use crate::command::{Command, Cycle, Override, Settings, Target};
 use crate::follow::governor::Pacing;
 use crate::follow::segment::Segment;
 use crate::junction::blend_thread::BlendThread;
@@ -32,7 +35,9 @@ pub use motion_progress::Progress;
 use motion_progress::progress_at;
 use path_buffer::Answer;
 pub use path_buffer::UnblendedTarget;
+pub use preview::Preview;
 pub use record::{Closest, Figure, Limited, MotionRecord, Rate, Recorder};
+pub use step::Step;
 pub use suspend::Start;
 use suspend::Suspension;
 
@@ -57,23 +62,6 @@ const LONGEST_WAIT_FOR_NEXT_S: f64 = 0.1;
 /// How much harder a fast stop is.
 const FAST_STOP_FACTOR: f64 = 5.0;
 
-/// What one cycle did.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Step {
-    /// The commanded positions.
-    pub joints: Joints,
-    /// The TCP in the world, with the tool and the base of the motion that is or was last executed, translation in mm.
-    pub tcp: Frame,
-    /// The running number, from 1, of the motion executed in this cycle; 0 where there is none.
-    pub motion: u64,
-    /// Its program line; 0 where there is none.
-    pub line: u32,
-    /// The running number of the last motion that has ended; motions end in order.
-    pub finished: u64,
-    /// Whether the robot stands still at the end of the cycle.
-    pub rests: bool,
-}
-
 /// The motions of one robot, planned ahead and executed cycle by cycle.
 #[derive(Clone, Debug)]
 pub struct Queue {
@@ -86,8 +74,9 @@ pub struct Queue {
     /// Whether a fast stop is on its path to rest.
     braking_hard: bool,
     dropping: bool,
-    /// The commanded positions.
+    /// The commanded positions, and how fast they change.
     joints: Joints,
+    velocity: Joints,
     /// The running number of the motion that was added last.
     added: u64,
     /// The s that the motion being executed still takes, and for how many cycles that has been counted down.
@@ -130,8 +119,19 @@ pub(crate) struct Laid {
 }
 
 impl Queue {
-    /// An empty queue of a robot that rests at `start`.
+    /// An empty queue of a robot that rests at `start`, for cycles in real time. No cycle waits for what threads find beside it (blends and
+    /// time laws): the robot goes on with what it has, and comes to rest on its path where nothing more comes. So the set-points depend
+    /// on the computer, too; [`Queue::found_late`] counts what came too late.
     pub fn new(robot: Arc<Robot>, start: Joints) -> Self {
+        let mut queue = Self::repeatable(robot, start);
+        queue.follow_real_time(true);
+        queue
+    }
+
+    /// The same, for cycles that take as long as they take, as in simulation and planning: a cycle that needs a blend or a time law waits
+    /// for it (30 ms and more at times), so that the same commands at the same cycles give the same set-points, to the last bit, on every
+    /// machine.
+    pub fn repeatable(robot: Arc<Robot>, start: Joints) -> Self {
         Self {
             robot,
             layer: Layer::resting_at(start),
@@ -140,6 +140,7 @@ impl Queue {
             braking_hard: false,
             dropping: false,
             joints: start,
+            velocity: Joints::ZERO,
             added: 0,
             forecast: None,
             left: Vec::with_capacity(LOOK_AHEAD),
@@ -159,9 +160,7 @@ impl Queue {
         }
     }
 
-    /// Says whether cycles take the time that they stand for. Then none of them waits for what threads find beside it: the robot goes on
-    /// with what it has, and comes to rest on its path where nothing more comes. Else a cycle that needs a time law waits for it, so
-    /// that each run is the same.
+    /// Says whether cycles take the time that they stand for from now on, as with [`Queue::new`], or wait as with [`Queue::repeatable`].
     pub fn follow_real_time(&mut self, in_real_time: bool) {
         self.in_real_time = in_real_time;
         self.layer.path.follow_real_time(in_real_time);
@@ -198,6 +197,10 @@ impl Queue {
         if !self.has_room() {
             return Err(PlanError::Full);
         }
+        if !self.end().is_finite() {
+            return Err(PlanError::NotANumber);
+        }
+        check(command, settings)?;
         self.add_as(command, settings, self.added + 1)?;
         self.added += 1;
         Ok(self.added)
@@ -425,11 +428,12 @@ impl Queue {
     }
 
     /// Puts the commanded positions elsewhere, as when a robot is switched on; returns whether it could: not while there
-    /// are motions.
+    /// are motions, and not to what is no number.
     pub fn place(&mut self, joints: Joints) -> bool {
-        let idle = self.is_layer_idle() && self.rests();
+        let idle = self.is_layer_idle() && self.rests() && joints.is_finite();
         if idle {
             (self.joints, self.layer.end) = (joints, joints);
+            self.velocity = Joints::ZERO;
             self.layer.led = Led::default();
         }
         idle
@@ -450,14 +454,16 @@ impl Queue {
         &self.layer.execution.rig
     }
 
-    /// Moves on by one cycle of `dt` s at an override of `override_percent`, 0 to 100. A motion that is not blended with the
-    /// next one ends exactly at its target, and the next one starts with the cycle after.
-    pub fn step(&mut self, dt: f64, override_percent: f64) -> Step {
+    /// Moves on by one cycle at an override. A motion that is not blended with the next one ends exactly at its target, and the
+    /// next one starts with the cycle after.
+    pub fn step(&mut self, cycle: Cycle, speed_override: Override) -> Step {
+        let dt = cycle.period();
         self.cycle = dt;
         let gathers = self.gathers(dt);
         self.count_cycle();
         self.left.clear();
-        let speed = if override_percent > 0.0 { override_percent.min(100.0) / 100.0 } else { 0.0 };
+        let before = self.joints;
+        let speed = speed_override.percent() / 100.0;
         let pacing = self.choose_pacing(speed);
         let (motion, line) = if gathers { self.stand() } else { self.advance(dt, speed, pacing) };
         self.take_answer();
@@ -469,9 +475,14 @@ impl Queue {
             self.release_after_wait(dt);
         }
         // What is resumed brings its own tool along: from the next cycle on.
-        let tcp = self.tcp();
+        let step = self.made_step((motion, line), &before, dt);
         self.advance_suspension();
-        Step { joints: self.joints, tcp, motion, line, finished: self.layer.finished, rests: self.rests() }
+        step
+    }
+
+    /// The length of the last cycle, in s.
+    pub(super) fn cycle(&self) -> f64 {
+        self.cycle
     }
 
     /// How much higher than those of the robot file the limits of acceleration and jerk were in the last cycle.

@@ -8,6 +8,7 @@ const CYCLES_BETWEEN_FORECASTS: u32 = 16;
 /// How far the motion being executed has come. Times are those at an override of 100 %. A blend belongs to the motion that
 /// is joined, whose path counts from the target that is rounded off (manual 7.3).
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Progress {
     /// The running number of the motion.
     pub motion: u64,

@@ -38,6 +38,7 @@ enum Measure {
 
 /// A figure with its unit.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Figure {
     /// How much.
     pub value: f64,
@@ -58,6 +59,7 @@ pub enum Rate {
 
 /// Whose limit it is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub enum Limited {
     /// The axis with this index in [`Robot::axes`].
     Axis(usize),
@@ -69,6 +71,7 @@ pub enum Limited {
 
 /// The limit of the robot file that a motion came nearest to.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct Closest {
     /// Whose limit.
     pub of: Limited,
@@ -113,6 +116,7 @@ impl Nearest {
 
 /// One executed motion. Until it has ended, the figures are those so far.
 #[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
 pub struct MotionRecord {
     /// Its running number, from 1; the rest of a gate that was looked at from above has the next one.
     pub number: u64,
@@ -303,8 +307,9 @@ impl Recorder {
         }
     }
 
-    /// Notes what one cycle of `period` s did.
-    pub fn step(&mut self, queue: &mut Queue, step: &Step, period: f64) {
+    /// Notes what a cycle did, which the queue has just made.
+    pub fn step(&mut self, queue: &mut Queue, step: &Step) {
+        let period = queue.cycle();
         self.laid(queue);
         let began = self.time;
         self.time += period;

@@ -12,7 +12,7 @@ use crate::time_optimal::solver::Edge;
 /// Corner points around a reachable place, and their lines with a zone.
 fn corner_run(robot: &Arc<Robot>, points: &[[f64; 3]], zone: Zone, tcp: f64) -> (Vec<Step>, Frame) {
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let home = robot.kinematics.forward(&start.axes);
     let origin = frame_components(&home);
     for [x, y, z] in points {
@@ -93,9 +93,9 @@ fn dense_points_keep_their_speed() {
     let robot = robot("kr10-r1420");
     let points: Vec<[f64; 3]> = (1..=4000).map(|index| [0.0, 0.1 * f64::from(index), 0.0]).collect();
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let origin = frame_components(&robot.kinematics.forward(&start.axes));
-    let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let mut rows = vec![resting(&queue)];
     let mut next = 0;
     while next < points.len() || !queue.idle() {
         while next < points.len() && queue.has_room() {
@@ -104,7 +104,7 @@ fn dense_points_keep_their_speed() {
             queue.add(&Command { zone: tcp_zone(0.05), speed, ..lin(pose) }, &Settings::default()).unwrap();
             next += 1;
         }
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         assert!(rows.len() < 20_000);
     }
     assert_within_limits(&robot, &rows, "dense");
@@ -143,7 +143,7 @@ pub(crate) fn run_chains(settings: &Settings, seed: u64, rounds: u32) {
 fn a_blend_belongs_to_the_motion_that_it_leads_into() {
     let robot = robot("kr10-r1420");
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let home = robot.kinematics.forward(&start.axes);
     let [x, y, z, a, b, c] = frame_components(&home);
     for pose in [[x, y + 200.0, z, a, b, c], [x, y + 200.0, z - 150.0, a, b, c]] {
@@ -153,7 +153,7 @@ fn a_blend_belongs_to_the_motion_that_it_leads_into() {
     let corner = home.translation.vector + nalgebra::Vector3::new(0.0, 200.0, 0.0);
     let mut rows: Vec<(Progress, Frame)> = Vec::new();
     while !queue.idle() {
-        let step = queue.step(CYCLE, 100.0);
+        let step = queue.step(Cycle::MS, Override::FULL);
         rows.push((queue.progress().unwrap(), step.tcp));
     }
     for (progress, tcp) in &rows {
@@ -177,7 +177,7 @@ fn a_blend_belongs_to_the_motion_that_it_leads_into() {
     }
     let last = rows.last().unwrap().0;
     assert_eq!((last.share, last.left_distance, last.left_time), (1.0, 0.0, 0.0));
-    queue.step(CYCLE, 100.0);
+    queue.step(Cycle::MS, Override::FULL);
     assert_eq!(queue.progress(), None);
 }
 
@@ -191,7 +191,7 @@ fn the_time_that_is_left_is_what_it_takes() {
             let mut queue = random_chain(&robot, &mut random, &Settings::default());
             let mut rows: Vec<Progress> = Vec::new();
             while !queue.idle() {
-                queue.step(CYCLE, 100.0);
+                queue.step(Cycle::MS, Override::FULL);
                 rows.extend(queue.progress());
             }
             for motion in 1..=10 {
@@ -226,7 +226,7 @@ fn a_zone_close_to_the_wrist_singularity_keeps_every_limit() {
     let tool =
         [13.964874795113246, 0.6327020636027498, 68.06807744852545, -62.867796390442265, -20.213236509564048, 0.0];
     let settings = Settings { wrist: true, ..Settings::default() };
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let lines = [
         ([696.2411148, -324.4311161, 1622.6268627, 46.3329882, -74.0838386, 111.1715727], 9.38, 298.4),
         ([649.4234673, -327.7101403, 1578.2192958, 57.1326654, -75.5742638, 111.1715727], 17.86, 1e4),
@@ -246,7 +246,7 @@ fn a_zone_close_to_the_wrist_singularity_keeps_every_limit() {
 #[test]
 fn a_blend_that_is_smaller_than_its_zone_does_not_bend_into_the_next_one() {
     let robot = robot("tx2-60");
-    let mut queue = Queue::new(robot.clone(), axes([0.0, 20.0, 90.0, 0.0, 45.0, 0.0]));
+    let mut queue = Queue::repeatable(robot.clone(), axes([0.0, 20.0, 90.0, 0.0, 45.0, 0.0]));
     let speed = Speed { tcp: 300.0, ..fast() };
     for pose in [
         [429.074, 9.134, 537.051, 192.0, 25.0, 180.0],

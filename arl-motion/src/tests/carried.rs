@@ -35,7 +35,7 @@ fn the_tcp_goes_straight_along_the_held_workpiece_at_its_speed() {
                 ([number(150.0), number(150.0), number(150.0)], [number(30.0), number(20.0), number(20.0)]);
             let speed = Speed { tcp: 120.0 + number(50.0), ori: 200.0, ..fast() };
             let command = Command { speed, ..held_line(&robot, &start, &part, travel, turn) };
-            let mut queue = Queue::new(robot.clone(), start);
+            let mut queue = Queue::repeatable(robot.clone(), start);
             if queue.add(&command, &Settings::default()).is_err() {
                 continue;
             }
@@ -80,7 +80,7 @@ fn the_programmed_speed_is_that_against_the_workpiece() {
     let part = frame([0.0, 0.0, 300.0, 0.0, 0.0, 0.0]);
     let speed = Speed { tcp: 50.0, ..fast() };
     let command = Command { speed, ..held_line(&robot, &start, &part, [0.0, 100.0, 0.0], [0.0, 0.0, 0.0]) };
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     queue.add(&command, &Settings::default()).unwrap();
     let rows = run(&mut queue, 100.0);
     let highest = rows.windows(2).map(|pair| {
@@ -106,7 +106,7 @@ fn a_corner_on_the_held_workpiece_is_rounded_within_its_zone() {
         zone: Zone::NONE,
         ..first.clone()
     };
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     queue.add(&first, &Settings::default()).unwrap();
     queue.add(&second, &Settings::default()).unwrap();
     let rows = run(&mut queue, 100.0);
@@ -127,7 +127,7 @@ fn manual_operation_slows_the_flange_down_too() {
     let line = held_line(&robot, &start, &part, [0.0, 1.0, 0.0], [0.0, 0.0, 40.0]);
     let axes = Command { target: Target::Joints(axes([60.0, -80.0, 80.0, 0.0, 45.0, 0.0])), ..line.clone() };
     for command in [line, axes] {
-        let mut queue = Queue::new(robot.clone(), start);
+        let mut queue = Queue::repeatable(robot.clone(), start);
         queue.add(&command, &settings).unwrap();
         let rows = run(&mut queue, 100.0);
         let speeds = rows.windows(2).map(|pair| {

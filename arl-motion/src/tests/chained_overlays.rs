@@ -32,7 +32,7 @@ fn along(
     target: impl Fn([f64; 6]) -> Target,
     settings: &Settings,
 ) -> Vec<Step> {
-    let mut queue = Queue::new(robot.clone(), at_work());
+    let mut queue = Queue::repeatable(robot.clone(), at_work());
     let here = frame_components(&robot.kinematics.forward(&at_work().axes));
     for (index, [x, y, z]) in points.iter().enumerate() {
         let mut pose = here;
@@ -132,7 +132,7 @@ fn a_compensation_shifts_splines_and_circles_as_a_whole() {
 #[test]
 fn a_weave_that_ends_within_a_spline_ends_on_the_path_without_a_stop() {
     let robot = robot("kr10-r1420");
-    let mut queue = Queue::new(robot.clone(), at_work());
+    let mut queue = Queue::repeatable(robot.clone(), at_work());
     let here = frame_components(&robot.kinematics.forward(&at_work().axes));
     let woven = Settings { weave: Some(zigzag()), ..Settings::default() };
     for (index, [x, y, z]) in curve().iter().enumerate() {
@@ -165,7 +165,7 @@ fn random_splines_and_circles_under_weaves_and_compensations_keep_every_limit() 
         while round < 6 {
             started += 1;
             assert!(started < 60, "{name}: {round} chains");
-            let mut queue = Queue::new(robot.clone(), random_joints(&robot, &mut random, 0.4));
+            let mut queue = Queue::repeatable(robot.clone(), random_joints(&robot, &mut random, 0.4));
             let mut settings = compensated(Reference::Tool, [0.0; 6]);
             let (mut added, mut tried) = (0_u32, 0);
             let mut pose = frame_components(&robot.kinematics.forward(&queue.end().axes));

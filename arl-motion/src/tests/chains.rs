@@ -7,9 +7,9 @@ type Place = nalgebra::Vector3<f64>;
 /// Moves along points, seen from the start in mm, with zones that take everything.
 fn run_along(robot: &Arc<Robot>, points: &[[f64; 3]], tcp: f64) -> Vec<Step> {
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let origin = frame_components(&robot.kinematics.forward(&start.axes));
-    let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let mut rows = vec![resting(&queue)];
     let mut rest = points.iter();
     loop {
         while queue.has_room()
@@ -24,7 +24,7 @@ fn run_along(robot: &Arc<Robot>, points: &[[f64; 3]], tcp: f64) -> Vec<Step> {
         if queue.idle() {
             return rows;
         }
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         assert!(rows.len() < 100_000, "it does not end");
     }
 }
@@ -81,7 +81,7 @@ fn dense_motions_of_the_axes_flow() {
     // In T the shortest motion along the curve takes 2038.
     let chains = [(VelocityProfile::O, 600, 2450), (VelocityProfile::S, 200, 875), (VelocityProfile::T, 600, 2080)];
     for (profile, count, longest) in chains {
-        let mut queue = Queue::new(robot.clone(), axes(point(0)));
+        let mut queue = Queue::repeatable(robot.clone(), axes(point(0)));
         for index in 1..=count {
             let (zone, speed) = (Zone { percent: 100.0, ..Zone::NONE }, Speed { percent: 30.0, ..fast() });
             let settings = Settings { profile, ..Settings::default() };

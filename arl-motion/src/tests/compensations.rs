@@ -16,7 +16,7 @@ fn compensated(by: &[(Reference, [f64; 6])]) -> Settings {
 fn queue(robot: &Arc<Robot>) -> (Queue, [f64; 6]) {
     let start = axes([0.0, -90.0, 90.0, 0.0, 90.0, 0.0]);
     let pose = frame_components(&robot.kinematics.forward(&start.axes));
-    (Queue::new(robot.clone(), start), pose)
+    (Queue::repeatable(robot.clone(), start), pose)
 }
 
 fn moved(pose: &[f64; 6], by: [f64; 3]) -> [f64; 6] {
@@ -181,7 +181,7 @@ fn random_chains_under_compensation_and_weaves_keep_every_limit() {
     for name in ["kr10-r1420", "tx2-60", "irb2400-10"] {
         let robot = robot(name);
         for round in 0..4 {
-            let mut queue = Queue::new(robot.clone(), random_joints(&robot, &mut random, 0.5));
+            let mut queue = Queue::repeatable(robot.clone(), random_joints(&robot, &mut random, 0.5));
             let mut settings = compensated(&[]);
             let mut pose = frame_components(&robot.kinematics.forward(&queue.end().axes));
             let (mut added, mut tried) = (0_u32, 0);

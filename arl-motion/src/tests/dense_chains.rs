@@ -28,11 +28,11 @@ fn wind(robot: &Arc<Robot>, zone: f64, profile: VelocityProfile) -> Vec<Step> {
 /// Runs lines to targets, at a speed in mm/s and with a zone in mm.
 fn go_through(robot: &Arc<Robot>, targets: &[[f64; 2]], speed: f64, zone: f64, profile: VelocityProfile) -> Vec<Step> {
     let start = axes(START);
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let settings = Settings { profile, ..Settings::default() };
     let origin = frame_components(&robot.kinematics.forward(&START));
     let mut targets = targets.iter().peekable();
-    let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let mut rows = vec![resting(&queue)];
     while targets.peek().is_some() || !queue.idle() {
         while queue.has_room()
             && let Some([across, along]) = targets.next()
@@ -41,7 +41,7 @@ fn go_through(robot: &Arc<Robot>, targets: &[[f64; 2]], speed: f64, zone: f64, p
             let zone = Zone { tcp: zone, ..Zone::NONE };
             queue.add(&Command { zone, speed: Speed { tcp: speed, ..fast() }, ..lin(pose) }, &settings).unwrap();
         }
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         assert!(rows.len() < 100_000);
     }
     rows
@@ -168,7 +168,7 @@ fn lines_that_turn_sharply_or_change_their_speed_keep_their_zones() {
         let (sine, cosine) = f64::to_radians(angle).sin_cos();
         let corner = [x, y + first, z, a, b, c];
         let end = [x, y + first + second * cosine, z + second * sine, a, b, c + turned];
-        let mut queue = Queue::new(robot.clone(), start);
+        let mut queue = Queue::repeatable(robot.clone(), start);
         for ((pose, led), speed) in [(corner, 0.0), (end, led)].into_iter().zip(speeds) {
             let external = [0.0, led, UNSET, UNSET, UNSET, UNSET];
             let command = Command {
@@ -180,7 +180,7 @@ fn lines_that_turn_sharply_or_change_their_speed_keep_their_zones() {
         }
         let mut left = 1.0;
         while !queue.idle() {
-            queue.step(CYCLE, 100.0);
+            queue.step(Cycle::MS, Override::FULL);
             if let Some(progress) = queue.progress().filter(|progress| progress.motion == 1) {
                 left = progress.share;
             }

@@ -28,7 +28,7 @@ fn jump(robot: &Robot, to: &Joints, gate: Gate) -> Command {
 
 /// Runs one gate, and returns the highest j3.
 fn run_gate(robot: &Arc<Robot>, from: &Joints, to: &Joints, gate: Gate, settings: &Settings) -> (Vec<Step>, f64) {
-    let mut queue = Queue::new(robot.clone(), *from);
+    let mut queue = Queue::repeatable(robot.clone(), *from);
     assert_eq!(queue.add(&jump(robot, to, gate), settings), Ok(1));
     let rows = run(&mut queue, 100.0);
     let highest = rows.iter().map(|row| row.joints.axes[2]).fold(f64::NEG_INFINITY, f64::max);
@@ -75,11 +75,11 @@ fn a_gate_goes_straight_up_over_and_straight_down() {
 #[test]
 fn the_share_of_a_gate_that_is_done_only_rises() {
     let robot = robot("hsr065");
-    let mut queue = Queue::new(robot.clone(), at([-40.0, 60.0, 0.0, 10.0]));
+    let mut queue = Queue::repeatable(robot.clone(), at([-40.0, 60.0, 0.0, 10.0]));
     queue.add(&jump(&robot, &at([50.0, 70.0, 20.0, -90.0]), plain(25.0, 25.0)), &Settings::default()).unwrap();
     let mut done = 0.0;
     while !queue.idle() {
-        queue.step(CYCLE, 100.0);
+        queue.step(Cycle::MS, Override::FULL);
         let share = queue.progress().unwrap().share;
         assert!(share >= done && share <= 1.0, "{done} {share}");
         done = share;
@@ -93,7 +93,7 @@ fn a_gate_without_a_straight_end_stops_at_its_target() {
     let (from, to) = (at([0.0, 60.0, -60.0, 0.0]), at([-1.0, 66.0, -84.0, 0.5]));
     for profile in [VelocityProfile::T, VelocityProfile::S, VelocityProfile::O] {
         let settings = Settings { profile, ..Settings::default() };
-        let mut queue = Queue::new(robot.clone(), from);
+        let mut queue = Queue::repeatable(robot.clone(), from);
         queue.add(&jump(&robot, &to, plain(18.0, 0.0)), &settings).unwrap();
         queue.add(&movej(from.axes), &settings).unwrap();
         let rows = run(&mut queue, 100.0);
@@ -134,7 +134,7 @@ fn gates_without_a_way_over_or_without_height() {
     let (rows, highest) =
         run_gate(&robot, &from, &at([20.0, 60.0, -40.0, 10.0]), plain(25.0, 25.0), &Settings::default());
     assert!(highest == 0.0 && (rows.last().unwrap().joints.axes[2] + 40.0).abs() < 1e-6);
-    let mut queue = Queue::new(robot.clone(), from);
+    let mut queue = Queue::repeatable(robot.clone(), from);
     queue.add(&jump(&robot, &from, plain(25.0, 25.0)), &Settings::default()).unwrap();
     assert!(run(&mut queue, 100.0).len() < 10);
     let (_, highest) = run_gate(&robot, &from, &at([50.0, 60.0, 0.0, 10.0]), plain(0.0, 0.0), &Settings::default());
@@ -143,13 +143,13 @@ fn gates_without_a_way_over_or_without_height() {
     for (start, end) in [(30.0, 0.0), (0.0, 30.0)] {
         let (from, to) = (at([20.0, 60.0, start, 10.0]), at([50.0, 60.0, end, 10.0]));
         let low = robot.kinematics.forward(&from.axes).translation.vector.z - start + 20.0;
-        let mut queue = Queue::new(robot.clone(), from);
+        let mut queue = Queue::repeatable(robot.clone(), from);
         let refused =
             queue.add(&jump(&robot, &to, Gate { highest: Some(low), ..plain(25.0, 25.0) }), &Settings::default());
         assert!(matches!(refused, Err(PlanError::AboveLimit { .. })), "{refused:?}");
     }
     let mut queue =
-        Queue::new(crate::tests::robot("kr10-r1420"), crate::tests::axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]));
+        Queue::repeatable(crate::tests::robot("kr10-r1420"), crate::tests::axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]));
     assert_eq!(queue.add(&jump(&robot, &from, plain(1.0, 1.0)), &Settings::default()), Err(PlanError::NotForThisRobot));
 }
 
@@ -157,7 +157,7 @@ fn gates_without_a_way_over_or_without_height() {
 fn a_gate_can_stop_above_its_target_and_sink_later() {
     let robot = robot("hsr065");
     let (from, to) = (at([-40.0, 60.0, 0.0, 10.0]), at([50.0, 70.0, 20.0, -90.0]));
-    let mut queue = Queue::new(robot.clone(), from);
+    let mut queue = Queue::repeatable(robot.clone(), from);
     queue.add(&jump(&robot, &to, Gate { part: GatePart::Above, ..plain(25.0, 25.0) }), &Settings::default()).unwrap();
     let rows = run(&mut queue, 100.0);
     let above = rows.last().unwrap().joints;
@@ -172,7 +172,7 @@ fn a_gate_can_stop_above_its_target_and_sink_later() {
 fn gates_go_on_smoothly_into_each_other() {
     let robot = robot("hsr065");
     let places = [[-40.0, 60.0, 0.0, 10.0], [50.0, 70.0, 20.0, -90.0], [0.0, 90.0, -30.0, 45.0]].map(at);
-    let mut queue = Queue::new(robot.clone(), places[2]);
+    let mut queue = Queue::repeatable(robot.clone(), places[2]);
     for place in &places {
         let gate = Gate { smooth: true, ..plain(25.0, 30.0) };
         queue.add(&jump(&robot, place, gate), &Settings::default()).unwrap();
@@ -213,7 +213,7 @@ fn gates_take_little_longer_than_rising_going_over_and_sinking() {
                 vel <= 1.01 && acc <= 1.01 && (jerk <= 1.01 || profile == VelocityProfile::T),
                 "{profile:?} {rise}"
             );
-            let mut queue = Queue::new(robot.clone(), from);
+            let mut queue = Queue::repeatable(robot.clone(), from);
             let mut over = rows.last().unwrap().joints;
             over.axes[2] = from.axes[2];
             queue.add(&movej(over.axes), &settings).unwrap();

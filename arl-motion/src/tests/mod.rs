@@ -10,9 +10,12 @@ mod gates;
 mod optimal;
 mod plans;
 mod prepared;
+mod previews;
 mod real_time;
 mod records;
+mod refusals;
 mod short_stops;
+mod steps;
 mod stops;
 mod suspensions;
 mod traces;
@@ -30,6 +33,11 @@ use arl_robot::kinematics::{Frame, Wanted, frame, frame_components};
 use arl_robot::robot::{Robot, VelocityProfile};
 
 const CYCLE: f64 = 0.001;
+
+/// An override in percent.
+fn at(percent: f64) -> Override {
+    Override::from_percent(percent).unwrap()
+}
 
 fn robot(name: &str) -> Arc<Robot> {
     Arc::new(Robot::builtin(name).unwrap())
@@ -81,12 +89,16 @@ fn values(robot: &Robot, joints: &Joints) -> Vec<f64> {
     joints.axes.iter().take(own).chain(joints.external.iter().take(robot.external_axes().len())).copied().collect()
 }
 
+/// The row of a robot that rests before its first motion.
+fn resting(queue: &Queue) -> Step {
+    Step::resting(*queue.joints(), queue.tcp())
+}
+
 /// Runs until the queue is idle; the first row is where it starts.
 fn run(queue: &mut Queue, percent: f64) -> Vec<Step> {
-    let mut rows =
-        vec![Step { joints: *queue.joints(), tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let mut rows = vec![resting(queue)];
     while !queue.idle() {
-        rows.push(queue.step(CYCLE, percent));
+        rows.push(queue.step(Cycle::MS, at(percent)));
         assert!(rows.len() < 2_000_000, "it does not end");
     }
     rows
@@ -161,7 +173,7 @@ fn random_joints(robot: &Robot, random: &mut Random, part: f64) -> Joints {
 
 /// A queue of ten motions of all kinds with all kinds of zones.
 fn random_chain(robot: &Arc<Robot>, random: &mut Random, settings: &Settings) -> Queue {
-    let mut queue = Queue::new(robot.clone(), random_joints(robot, random, 0.5));
+    let mut queue = Queue::repeatable(robot.clone(), random_joints(robot, random, 0.5));
     let (mut added, mut tried) = (0_u32, 0);
     while added < 10 && tried < 400 {
         tried += 1;

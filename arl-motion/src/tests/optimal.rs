@@ -20,7 +20,7 @@ fn start() -> Joints {
 /// Two lines of 300 mm at 1 m/s and a corner of 90 deg between them, with a zone in mm.
 fn corner(zone: f64, settings: &Settings) -> Vec<Step> {
     let robot = robot("kr10-r1420");
-    let mut queue = Queue::new(robot.clone(), start());
+    let mut queue = Queue::repeatable(robot.clone(), start());
     let origin = frame_components(&robot.kinematics.forward(&start().axes));
     for (y, z) in [(300.0, 0.0), (300.0, -300.0)] {
         let mut pose = origin;
@@ -56,7 +56,7 @@ fn without_jerk_limits_a_corner_takes_as_long_as_the_shortest_motion_along_its_p
 /// take.
 fn to_and_fro(side: f64, zone: f64) -> f64 {
     let robot = robot("kr10-r1420");
-    let mut queue = Queue::new(robot.clone(), start());
+    let mut queue = Queue::repeatable(robot.clone(), start());
     let origin = frame_components(&robot.kinematics.forward(&start().axes));
     let (mut pose, mut heading) = (origin, 0.0_f64);
     for index in 0..6 {
@@ -84,7 +84,7 @@ fn a_tool_that_turns_back_and_forth_hardly_slows_a_blend_down() {
 #[test]
 fn a_chain_that_never_stops_goes_on_from_law_to_law() {
     let robot = robot("kr10-r1420");
-    let mut queue = Queue::new(robot.clone(), start());
+    let mut queue = Queue::repeatable(robot.clone(), start());
     let targets = [
         [880.0, 0.0, 966.0, 180.0, 45.0, 180.0],
         [880.0, 150.0, 866.0, 180.0, 45.0, 180.0],
@@ -105,7 +105,7 @@ fn a_chain_that_never_stops_goes_on_from_law_to_law() {
         if queue.idle() {
             break;
         }
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         assert!(rows.len() < 100_000, "it does not end");
     }
     assert_within_limits(&robot, &rows, "rounds");
@@ -201,7 +201,7 @@ fn chains_that_laws_made_slower_than_stops_are_no_longer() {
     for (name, from, tcp, zone, targets) in chains {
         let robot = robot(name);
         let took = |zone: Zone| {
-            let mut queue = Queue::new(robot.clone(), axes(from));
+            let mut queue = Queue::repeatable(robot.clone(), axes(from));
             for pose in targets {
                 queue.add(&Command { zone, speed: Speed { tcp, ..fast() }, ..lin(pose) }, &optimal()).unwrap();
             }
@@ -218,7 +218,7 @@ fn chains_that_laws_made_slower_than_stops_are_no_longer() {
 fn an_even_motion_alone_has_its_closed_form() {
     let robot = robot("kr10-r1420");
     let took = |settings: &Settings| {
-        let mut queue = Queue::new(robot.clone(), start());
+        let mut queue = Queue::repeatable(robot.clone(), start());
         queue.add(&movej([30.0, -80.0, 70.0, 10.0, 40.0, 20.0]), settings).unwrap();
         run(&mut queue, 100.0)
     };
@@ -229,7 +229,7 @@ fn an_even_motion_alone_has_its_closed_form() {
 fn a_zone_that_no_motion_comes_behind_costs_nothing() {
     let robot = robot("kr10-r1420");
     let took = |zone: Zone| {
-        let mut queue = Queue::new(robot.clone(), start());
+        let mut queue = Queue::repeatable(robot.clone(), start());
         let motion = Command { zone, ..movej([30.0, -80.0, 70.0, 10.0, 40.0, 20.0]) };
         queue.add(&motion, &optimal()).unwrap();
         queue.conclude().unwrap();
@@ -260,7 +260,7 @@ fn splines_flow_within_every_limit() {
     let mut random = Random::new(95);
     let robot = robot("kr10-r1420");
     for settings in [optimal(), Settings::default(), without_jerk_limits()] {
-        let mut queue = Queue::new(robot.clone(), start());
+        let mut queue = Queue::repeatable(robot.clone(), start());
         let origin = frame_components(&robot.kinematics.forward(&start().axes));
         for index in 0..12 {
             let mut pose = origin;
@@ -288,8 +288,8 @@ enum Event {
 /// A line, another one that is added while the robot is on it, and an event so many cycles later.
 fn late(delay: usize, event: Event) -> (Vec<Step>, bool) {
     let robot = robot("kr10-r1420");
-    let mut queue = Queue::new(robot.clone(), start());
-    let mut rows = vec![Step { joints: start(), tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let mut queue = Queue::repeatable(robot.clone(), start());
+    let mut rows = vec![resting(&queue)];
     let origin = frame_components(&robot.kinematics.forward(&start().axes));
     let to = |queue: &mut Queue, y: f64, z: f64| {
         let mut pose = origin;
@@ -312,7 +312,7 @@ fn late(delay: usize, event: Event) -> (Vec<Step>, bool) {
             900 => percent = 100.0,
             _ => {}
         }
-        rows.push(queue.step(CYCLE, percent));
+        rows.push(queue.step(Cycle::MS, at(percent)));
         assert!(rows.len() < 20_000, "it does not end");
     }
     (rows, was_late(&mut queue))
@@ -365,7 +365,7 @@ fn a_robot_at_rest_sets_off_at_once() {
         for degrees in [0.001, 0.01, 0.1, 0.5, 2.0, 10.0, 60.0] {
             // Where all limits are constant, no profile is quicker than S.
             let [constant, optimal] = [Settings::default(), optimal()].map(|settings| {
-                let mut queue = Queue::new(robot.clone(), start());
+                let mut queue = Queue::repeatable(robot.clone(), start());
                 queue.add(&movej([degrees, -90.0, 90.0, 0.0, 45.0, 0.0]), &settings).unwrap();
                 let rows = run(&mut queue, percent);
                 assert_within_limits(&robot, &rows, "set off");
@@ -382,14 +382,13 @@ fn a_stop_works_while_the_robot_sets_off() {
     let motion = movej([60.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
     for cycles in [1, 5, 12, 19, 20, 21] {
         for stop in [Stop::General, Stop::Fast] {
-            let mut queue = Queue::new(robot.clone(), start());
+            let mut queue = Queue::repeatable(robot.clone(), start());
             queue.add(&motion, &optimal()).unwrap();
-            let mut rows =
-                vec![Step { joints: start(), tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
-            rows.extend((0..cycles).map(|_| queue.step(CYCLE, 100.0)));
+            let mut rows = vec![resting(&queue)];
+            rows.extend((0..cycles).map(|_| queue.step(Cycle::MS, Override::FULL)));
             queue.stop_on_path(stop);
             while !queue.rests() {
-                rows.push(queue.step(CYCLE, 100.0));
+                rows.push(queue.step(Cycle::MS, Override::FULL));
                 assert!(rows.len() < 120, "{cycles} {stop:?}: it does not stop");
             }
             queue.resume();

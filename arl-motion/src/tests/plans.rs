@@ -76,7 +76,7 @@ fn a_target_that_tilts_the_flange_of_a_scara_says_so() {
     let [x, y, z, a, ..] = frame_components(&robot.kinematics.forward(&from.axes));
     let tilted = [x, y, z, a, 20.0, 0.0];
     let spline = |pose: [f64; 6]| command(Target::Spline { pose, wobj: Frame::identity(), external: [UNSET; 6] });
-    let refused = |command: &Command| match Queue::new(robot.clone(), from).add(command, &Settings::default()) {
+    let refused = |command: &Command| match Queue::repeatable(robot.clone(), from).add(command, &Settings::default()) {
         Err(PlanError::Tilted { by, along }) => (by, along),
         other => panic!("{other:?}"),
     };
@@ -142,13 +142,14 @@ fn an_axis_range_is_watched_along_the_whole_line() {
     let [x, y, z, ..] = frame_components(&robot.kinematics.forward(&from.axes));
     let command = lin([x, -y, z, UNSET, UNSET, UNSET]);
     let motion = plan(&robot, &from, &command, &Settings::default()).unwrap();
-    let mut queue = Queue::new(robot.clone(), from);
+    let mut queue = Queue::repeatable(robot.clone(), from);
     queue.add(&command, &Settings::default()).unwrap();
     let farthest = run(&mut queue, 100.0).iter().map(|row| row.joints.axes[2]).fold(f64::MIN, f64::max);
     let ends = from.axes[2].max(motion.end().axes[2]);
     assert!(farthest > ends + 5.0, "axis 3 goes to {farthest} between {ends}");
-    let mut narrow = Robot::clone(&robot);
+    let mut narrow = Robot::clone(&robot).into_description();
     narrow.axes[2].max = ends + 4.0;
+    let narrow = Robot::new(narrow).unwrap();
     match plan(&narrow, &from, &command, &Settings::default()) {
         Err(PlanError::AxisLimit { axis, value, along, .. }) => {
             assert_eq!(axis, "j3");
@@ -183,7 +184,7 @@ fn a_line_leaves_and_ends_at_a_singular_point_where_the_axes_go_on_evenly() {
         // Upper arm and forearm bent, wrist straight.
         let singular = if name == "kr10-r1420" { axes([0.0, -90.0, 90.0, 0.0, 0.0, 0.0]) } else { axes([0.0; 6]) };
         for down in [-120.0, 120.0] {
-            let mut queue = Queue::new(robot.clone(), singular);
+            let mut queue = Queue::repeatable(robot.clone(), singular);
             let [x, _, z, ..] = frame_components(&robot.kinematics.forward(&singular.axes));
             queue.add(&lin([UNSET, UNSET, z + down, UNSET, UNSET, UNSET]), &Settings::default()).unwrap();
             queue.add(&lin([x, UNSET, z, UNSET, UNSET, UNSET]), &Settings::default()).unwrap();
@@ -205,7 +206,7 @@ fn durations_are_kept_or_refused() {
     let motion = plan_one(&command, &Settings { speed_percent: 10.0, ..Settings::default() }).unwrap();
     assert!((motion.duration() - 3.0).abs() < 1e-9);
     for profile in [VelocityProfile::T, VelocityProfile::S, VelocityProfile::O] {
-        let mut queue = Queue::new(robot("kr10-r1420"), start());
+        let mut queue = Queue::repeatable(robot("kr10-r1420"), start());
         queue.add(&command, &Settings { profile, ..Settings::default() }).unwrap();
         // Whole cycles cost a little, accelerations that rise in some of them do not.
         let cycles = run(&mut queue, 100.0).len() - 1;
@@ -281,12 +282,12 @@ fn external_axes_move_along_at_their_own_speed() {
 
 #[test]
 fn motions_that_go_nowhere_end_at_once() {
-    let mut queue = Queue::new(robot("kr10-r1420"), start());
+    let mut queue = Queue::repeatable(robot("kr10-r1420"), start());
     for _ in 0..5 {
         queue.add(&movej(start().axes), &Settings::default()).unwrap();
         queue.add(&lin([UNSET; 6]), &Settings::default()).unwrap();
     }
-    let step = queue.step(CYCLE, 100.0);
+    let step = queue.step(Cycle::MS, Override::FULL);
     assert_eq!((step.finished, step.motion), (10, 0));
     assert!(queue.idle() && step.joints == start());
 }
@@ -295,7 +296,7 @@ fn motions_that_go_nowhere_end_at_once() {
 fn scara_moves_its_axes_and_along_lines() {
     let robot = robot("hsr065");
     let home = Joints::home(&robot);
-    let mut queue = Queue::new(robot.clone(), home);
+    let mut queue = Queue::repeatable(robot.clone(), home);
     queue.add(&movej([30.0, 40.0, 50.0, 60.0, UNSET, UNSET]), &Settings::default()).unwrap();
     assert_eq!(queue.end().axes, [30.0, 40.0, 50.0, 60.0, 0.0, 0.0]);
     let from = robot.kinematics.forward(&queue.end().axes);

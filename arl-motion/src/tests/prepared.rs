@@ -47,12 +47,12 @@ fn ran(
     settings: &Settings,
     thread: Thread,
 ) -> (Vec<Step>, [u32; 2]) {
-    let mut queue = Queue::new(Arc::clone(robot), *start);
+    let mut queue = Queue::repeatable(Arc::clone(robot), *start);
     if thread == Thread::Stuck {
         queue.prepare_nothing();
     }
     let found = || FOUND_HERE.with(std::cell::Cell::get);
-    let at_rest = Step { joints: *start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true };
+    let at_rest = resting(&queue);
     let (mut rows, mut found_in) = (vec![at_rest], [0; 2]);
     let mut commands = commands.iter().peekable();
     while commands.peek().is_some() || !queue.idle() {
@@ -69,7 +69,7 @@ fn ran(
             queue.await_prepared();
         }
         let middle = found();
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         found_in[0] += found() - middle;
         found_in[1] += middle - before;
         assert!(rows.len() < 500_000, "it does not end");
@@ -124,9 +124,9 @@ fn motions_that_come_one_by_one_join_the_path() {
         // So many motions every so many cycles: while the robot rests, and while laws lead it.
         for (every, together) in [(1, 1), (1, 2), (2, 1), (30, 1), (60, 1), (90, 1), (120, 1)] {
             let (start, commands) = chain(&robot, random, 40.0, 40);
-            let mut queue = Queue::new(Arc::clone(&robot), start);
+            let mut queue = Queue::repeatable(Arc::clone(&robot), start);
             let mut commands = commands.iter();
-            let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+            let mut rows = vec![resting(&queue)];
             while commands.len() > 0 || !queue.idle() {
                 let count = match rows.len() {
                     1 if every > 2 => 6,
@@ -137,7 +137,7 @@ fn motions_that_come_one_by_one_join_the_path() {
                     // What is out of reach is left out.
                     let _ = queue.add(command, &Settings::default());
                 }
-                rows.push(queue.step(CYCLE, 100.0));
+                rows.push(queue.step(Cycle::MS, Override::FULL));
                 late += u32::from(was_late(&mut queue));
                 assert!(rows.len() < 100_000);
             }

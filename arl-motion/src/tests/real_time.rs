@@ -36,12 +36,12 @@ fn lines(robot: &Robot) -> (Joints, Vec<Command>) {
 /// Goes along lines, in real time or not, for `most` cycles; returns what each of them did, and how many laws were late.
 fn ran(robot: &Arc<Robot>, threads: Option<Threads>, most: usize) -> (Vec<Step>, u64) {
     let (start, commands) = lines(robot);
-    let mut queue = Queue::new(Arc::clone(robot), start);
-    queue.follow_real_time(threads.is_some());
+    let robot = Arc::clone(robot);
+    let mut queue = if threads.is_some() { Queue::new(robot, start) } else { Queue::repeatable(robot, start) };
     if matches!(threads, Some(Threads::Stuck)) {
         queue.find_nothing();
     }
-    let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let mut rows = vec![resting(&queue)];
     let mut commands = commands.iter().peekable();
     while (commands.peek().is_some() || !queue.idle()) && rows.len() < most {
         while let Some(command) = commands.next_if(|_| queue.has_room()) {
@@ -51,7 +51,7 @@ fn ran(robot: &Arc<Robot>, threads: Option<Threads>, most: usize) -> (Vec<Step>,
             queue.await_prepared();
             queue.await_law();
         }
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
     }
     (rows, queue.found_late())
 }
@@ -86,7 +86,7 @@ fn no_cycle_finds_a_blend() {
     let robot = robot("kr10-r1420");
     let (start, commands) = lines(&robot);
     let found_in_cycles = |in_real_time: bool| {
-        let mut queue = Queue::new(Arc::clone(&robot), start);
+        let mut queue = Queue::repeatable(Arc::clone(&robot), start);
         queue.follow_real_time(in_real_time);
         queue.prepare_nothing();
         let mut commands = commands.iter().peekable();
@@ -100,7 +100,7 @@ fn no_cycle_finds_a_blend() {
             }
             queue.await_law();
             let before = FOUND_HERE.with(std::cell::Cell::get);
-            queue.step(CYCLE, 100.0);
+            queue.step(Cycle::MS, Override::FULL);
             found += FOUND_HERE.with(std::cell::Cell::get) - before;
         }
         (found, queue.found_late())
@@ -116,7 +116,7 @@ fn no_cycle_finds_out_whether_a_blend_saves_time() {
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
     let from = frame_components(&robot.kinematics.forward(&start.axes));
     let asked = |in_real_time: bool| {
-        let mut queue = Queue::new(Arc::clone(&robot), start);
+        let mut queue = Queue::repeatable(Arc::clone(&robot), start);
         queue.follow_real_time(in_real_time);
         queue.prepare_nothing();
         let mut pose = from;
@@ -129,10 +129,10 @@ fn no_cycle_finds_out_whether_a_blend_saves_time() {
             queue.add(&Command { zone, line, ..lin(pose) }, &Settings::default()).unwrap();
         }
         let before = ASKED_HERE.with(std::cell::Cell::get);
-        let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+        let mut rows = vec![resting(&queue)];
         while !queue.idle() {
             queue.await_law();
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
             assert!(rows.len() < 20_000, "it does not end");
         }
         assert_within_limits(&robot, &rows, "in doubt");

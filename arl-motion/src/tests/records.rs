@@ -7,7 +7,7 @@ use crate::tests::*;
 fn record(ways: &[([f64; 6], VelocityProfile)], zone: f64, stop: Option<(usize, Stop)>) -> Vec<MotionRecord> {
     let robot = with_external_axes("kr10-r1420");
     let start = Joints { axes: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET] };
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let mut recorder = Recorder::new(robot.clone(), &mut queue);
     let mut pose = frame_components(&robot.kinematics.forward(&start.axes));
     for (way, profile) in ways {
@@ -24,8 +24,8 @@ fn record(ways: &[([f64; 6], VelocityProfile)], zone: f64, stop: Option<(usize, 
             Some((at, _)) if cycle == at + 1000 => queue.resume(),
             _ => {}
         }
-        let step = queue.step(CYCLE, 100.0);
-        recorder.step(&mut queue, &step, CYCLE);
+        let step = queue.step(Cycle::MS, Override::FULL);
+        recorder.step(&mut queue, &step);
         cycle += 1;
         assert!(cycle < 100_000, "it does not end");
     }
@@ -73,7 +73,7 @@ fn external_axes_that_move_alone_have_their_own_speed() {
     for (turning, linear, unit, programmed) in
         [(90.0, 0.0, "deg/s", 60.0), (0.0, 400.0, "mm/s", 250.0), (90.0, 300.0, "deg/s", 60.0)]
     {
-        let mut queue = Queue::new(robot.clone(), start);
+        let mut queue = Queue::repeatable(robot.clone(), start);
         let mut recorder = Recorder::new(robot.clone(), &mut queue);
         let external = [turning, linear, UNSET, UNSET, UNSET, UNSET];
         let target = Target::Line { pose, wobj: Frame::identity(), external };
@@ -81,8 +81,8 @@ fn external_axes_that_move_alone_have_their_own_speed() {
         let number = queue.add(&command, &Settings::default()).unwrap();
         recorder.planned(&mut queue, number, &command, &Settings::default());
         while !queue.idle() {
-            let step = queue.step(CYCLE, 100.0);
-            recorder.step(&mut queue, &step, CYCLE);
+            let step = queue.step(Cycle::MS, Override::FULL);
+            recorder.step(&mut queue, &step);
         }
         let [record] = recorder.records() else { panic!("one motion") };
         assert_eq!((record.programmed.value, record.programmed.unit), (programmed, unit));
@@ -102,7 +102,7 @@ fn a_gate_that_was_looked_at_from_above_has_one_record() {
         let gate = Gate { rise: 25.0, sink: 25.0, highest: None, rising, falling, smooth: false, part };
         command(Target::Gate { pose, wobj: Frame::identity(), wanted, external: to.external, gate })
     };
-    let mut queue = Queue::new(robot.clone(), from);
+    let mut queue = Queue::repeatable(robot.clone(), from);
     let mut recorder = Recorder::new(robot.clone(), &mut queue);
     let mut steps = 0;
     let back = Command { line: 8, ..command(Target::Joints(from)) };
@@ -110,8 +110,8 @@ fn a_gate_that_was_looked_at_from_above_has_one_record() {
         let number = queue.add(&command, &Settings::default()).unwrap();
         recorder.planned(&mut queue, number, &command, &Settings::default());
         while !queue.idle() {
-            let step = queue.step(CYCLE, 100.0);
-            recorder.step(&mut queue, &step, CYCLE);
+            let step = queue.step(Cycle::MS, Override::FULL);
+            recorder.step(&mut queue, &step);
             steps += u32::from(step.motion != 0);
         }
     }

@@ -23,7 +23,7 @@ fn a_stop_takes_little_longer_than_its_axes_need() {
             let from = rows.len();
             queue.stop_on_path(Stop::General);
             while !queue.rests() {
-                rows.push(queue.step(CYCLE, 100.0));
+                rows.push(queue.step(Cycle::MS, Override::FULL));
                 assert!(rows.len() < 200_000, "it does not stop");
             }
             let took = (rows.len() - from) as f64 * CYCLE;
@@ -44,10 +44,12 @@ fn a_robot_that_goes_on_amid_a_stop_keeps_to_its_way_and_limits() {
             let stops = if shot % 2 == 0 { [Stop::General; 2] } else { [Stop::General, Stop::Fast] };
             for stop in stops {
                 queue.stop_on_path(stop);
-                rows.extend((0..random.between(1.0, 120.0) as usize).map(|_| queue.step(CYCLE, 100.0)));
+                rows.extend((0..random.between(1.0, 120.0) as usize).map(|_| queue.step(Cycle::MS, Override::FULL)));
                 if shot % 4 == 0 {
                     queue.resume();
-                    rows.extend((0..random.between(1.0, 200.0) as usize).map(|_| queue.step(CYCLE, 100.0)));
+                    rows.extend(
+                        (0..random.between(1.0, 200.0) as usize).map(|_| queue.step(Cycle::MS, Override::FULL)),
+                    );
                 }
             }
             ends_well(&robot, &mut queue, rows, profile, if shot % 2 == 0 { 1.0 } else { 5.0 });
@@ -72,7 +74,7 @@ fn stops_beside_the_slowest_axis_alone() {
                 queue.stop_on_path(Stop::General);
                 let mut cycles = 0;
                 while !queue.rests() {
-                    queue.step(CYCLE, 100.0);
+                    queue.step(Cycle::MS, Override::FULL);
                     cycles += 1;
                 }
                 ratios.push(f64::from(cycles) * CYCLE / least_stop(&robot, &rows[rows.len() - 2..]).max(0.05));
@@ -108,9 +110,9 @@ fn chains() -> impl Iterator<Item = Chain> {
 /// Sets off, and goes on for so many cycles.
 fn go_on(queue: &mut Queue, cycles: f64) -> Vec<Step> {
     queue.stop_on_path(Stop::General);
-    let mut rows = vec![queue.step(CYCLE, 100.0)];
+    let mut rows = vec![queue.step(Cycle::MS, Override::FULL)];
     queue.resume();
-    rows.extend((0..cycles as usize).map(|_| queue.step(CYCLE, 100.0)));
+    rows.extend((0..cycles as usize).map(|_| queue.step(Cycle::MS, Override::FULL)));
     rows
 }
 
@@ -119,7 +121,7 @@ fn ends_well(robot: &Robot, queue: &mut Queue, mut rows: Vec<Step>, profile: Vel
     queue.resume();
     let count = rows.len();
     while !queue.idle() {
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         assert!(rows.len() < count + 200_000, "it does not end");
     }
     let used = usage(robot, &rows);

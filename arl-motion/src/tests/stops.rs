@@ -8,7 +8,7 @@ fn start() -> Joints {
 
 /// A queue with a line and an axis motion.
 fn two_motions(robot: &Arc<Robot>, settings: &Settings) -> Queue {
-    let mut queue = Queue::new(robot.clone(), start());
+    let mut queue = Queue::repeatable(robot.clone(), start());
     let [x, y, ..] = frame_components(&robot.kinematics.forward(&start().axes));
     queue.add(&lin([x, -y, UNSET, UNSET, UNSET, UNSET]), settings).unwrap();
     queue.add(&movej([-60.0, -100.0, 110.0, 30.0, 60.0, 90.0]), settings).unwrap();
@@ -74,7 +74,7 @@ pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, hold:
                 left = random.between(1.0, f64::from(hold(round)) + 0.5) as u32;
             }
             left -= 1;
-            rows.push(queue.step(CYCLE, percent));
+            rows.push(queue.step(Cycle::MS, at(percent)));
             due += CYCLE * percent / 100.0;
             assert!(rows.len() < 500_000);
         }
@@ -105,7 +105,7 @@ fn an_override_that_jumps_each_cycle_breaks_no_limit() {
                 0.0..0.2 => 0.0,
                 _ => random.between(1.0, 100.0),
             };
-            rows.push(queue.step(CYCLE, percent));
+            rows.push(queue.step(Cycle::MS, at(percent)));
             assert!(rows.len() < 100_000);
         }
         assert_within_limits(&robot, &rows, "a jumping override");
@@ -121,11 +121,11 @@ fn a_lower_override_is_reached_soon() {
     let mut full = queue.clone();
     let mut at_full: Vec<Step> = Vec::new();
     while !full.rests() || at_full.len() < 400 {
-        at_full.push(full.step(CYCLE, 100.0));
+        at_full.push(full.step(Cycle::MS, Override::FULL));
     }
     let mut rows: Vec<Step> = Vec::new();
     for cycle in 0..1100 {
-        rows.push(queue.step(CYCLE, if cycle < 400 { 100.0 } else { 10.0 }));
+        rows.push(queue.step(Cycle::MS, at(if cycle < 400 { 100.0 } else { 10.0 })));
     }
     let [before, now] = [&rows[398], &rows[399]];
     assert!(speed(before, now) > 500.0);
@@ -154,26 +154,26 @@ pub(crate) fn stop_and_resume(settings: &Settings, seed: u64, rounds: u32) {
         let mut rows = vec![reference[0]];
         for _ in 0..3 {
             for _ in 0..random.between(1.0, 0.4 * reference.len() as f64) as usize {
-                rows.push(queue.step(CYCLE, 100.0));
+                rows.push(queue.step(Cycle::MS, Override::FULL));
             }
             queue.stop_on_path(Stop::General);
             let mut cycles = 0;
             while !queue.rests() {
-                rows.push(queue.step(CYCLE, 100.0));
+                rows.push(queue.step(Cycle::MS, Override::FULL));
                 cycles += 1;
                 // The axes need 0.3 s from their full speeds.
                 assert!(cycles < 600);
             }
             let at = *queue.joints();
             for _ in 0..20 {
-                rows.push(queue.step(CYCLE, 100.0));
+                rows.push(queue.step(Cycle::MS, Override::FULL));
                 assert_eq!(*queue.joints(), at, "it stands still");
             }
             assert!(queue.stopped());
             queue.resume();
         }
         while !queue.idle() {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
         }
         assert_within_limits_of(&robot, &rows, settings.profile, "stop");
         assert_same_path(&robot, &rows, &reference);
@@ -186,14 +186,14 @@ fn a_fast_stop_is_shorter_and_at_most_five_times_as_hard() {
     let robot = robot("kr10-r1420");
     let stop_from = |stop: Stop, cycles: usize| {
         let mut queue = two_motions(&robot, &Settings::default());
-        let mut rows = vec![*run(&mut Queue::new(robot.clone(), start()), 100.0).first().unwrap()];
+        let mut rows = vec![*run(&mut Queue::repeatable(robot.clone(), start()), 100.0).first().unwrap()];
         for _ in 0..cycles {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
         }
         queue.stop_on_path(stop);
         let mut count = 0;
         while !queue.rests() {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
             count += 1;
             // Resuming while it brakes hard must not soften it.
             if count == 3 {
@@ -220,11 +220,11 @@ fn stopping_between_motions_holds_the_next_one_back() {
     let mut queue = two_motions(&robot, &Settings::default());
     queue.stop_on_path(Stop::General);
     for _ in 0..10 {
-        let step = queue.step(CYCLE, 100.0);
+        let step = queue.step(Cycle::MS, Override::FULL);
         assert!(step.motion == 0 && step.rests && step.joints == start());
     }
     queue.resume();
-    assert_eq!(queue.step(CYCLE, 100.0).motion, 1);
+    assert_eq!(queue.step(Cycle::MS, Override::FULL).motion, 1);
 }
 
 #[test]
@@ -234,11 +234,11 @@ fn a_stop_just_before_the_end_ends_at_the_target_and_there_it_stays() {
     let end_of_first = reference.iter().position(|row| row.finished == 1).unwrap();
     let mut queue = two_motions(&robot, &Settings::default());
     for _ in 0..end_of_first - 20 {
-        queue.step(CYCLE, 100.0);
+        queue.step(Cycle::MS, Override::FULL);
     }
     queue.stop_on_path(Stop::General);
     for _ in 0..100 {
-        queue.step(CYCLE, 100.0);
+        queue.step(Cycle::MS, Override::FULL);
     }
     assert_eq!(*queue.joints(), reference[end_of_first].joints);
     assert!(queue.rests() && !queue.idle());
@@ -249,14 +249,14 @@ fn clearing_drops_motions_when_the_robot_rests() {
     let robot = robot("kr10-r1420");
     let mut queue = two_motions(&robot, &Settings::default());
     for _ in 0..300 {
-        queue.step(CYCLE, 100.0);
+        queue.step(Cycle::MS, Override::FULL);
     }
     queue.stop_on_path(Stop::General);
     queue.clear();
     assert!(!queue.idle());
     assert_eq!(queue.add(&movej(start().axes), &Settings::default()), Err(PlanError::Stopping));
     while !queue.idle() {
-        let step = queue.step(CYCLE, 100.0);
+        let step = queue.step(Cycle::MS, Override::FULL);
         assert_eq!(step.motion, 1);
         assert_eq!(step.finished, if queue.idle() { 2 } else { 0 });
     }
@@ -276,7 +276,7 @@ fn progress_counts_time_at_full_override_and_mm_of_lines() {
     assert!(queue.progress().is_none());
     let mut at_full = Vec::new();
     for _ in 0..400 {
-        queue.step(CYCLE, 100.0);
+        queue.step(Cycle::MS, Override::FULL);
         at_full.push(queue.progress().unwrap());
     }
     let now = at_full.last().unwrap();
@@ -285,7 +285,7 @@ fn progress_counts_time_at_full_override_and_mm_of_lines() {
     assert!((now.elapsed_distance + now.left_distance - 2.0 * y.abs()).abs() < 1e-6);
     let mut slow = two_motions(&robot, &Settings::default());
     for _ in 0..800 {
-        slow.step(CYCLE, 50.0);
+        slow.step(Cycle::MS, at(50.0));
     }
     let slow = slow.progress().unwrap();
     assert!((slow.elapsed_time - 0.4).abs() < 1e-6, "{slow:?}");

@@ -13,7 +13,7 @@ fn settings(round: u32) -> Settings {
 fn come_to_rest(queue: &mut Queue, rows: &mut Vec<Step>) {
     let from = rows.len();
     while !queue.takes(1) {
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         assert!(rows.len() < from + 4000, "it does not come to rest");
     }
 }
@@ -42,15 +42,15 @@ fn a_stop_brakes_at_once_also_before_a_blend() {
     let mut random = Random::new(501);
     for round in 0..30 {
         let mut queue = random_chain(&robot, &mut random, &settings(round));
-        let mut rows = vec![queue.step(CYCLE, 100.0)];
+        let mut rows = vec![queue.step(Cycle::MS, Override::FULL)];
         let until = random.between(50.0, 3000.0) as usize;
         while !queue.idle() && rows.len() < until {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
         }
         queue.stop_on_path(Stop::General);
         let mut left = 1500;
         while !queue.rests() {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
             left -= 1;
             assert!(left > 0, "round {round}: it does not stop");
         }
@@ -68,7 +68,7 @@ fn what_is_set_aside_goes_on_where_it_was_stopped() {
         let planned = 10;
         let mut rows = vec![reference[0]];
         for _ in 0..(random.between(0.1, 0.9) * reference.len() as f64) as usize {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
         }
         let fast = round % 4 == 3;
         queue.request_suspension(if fast { Stop::Fast } else { Stop::General }, 1);
@@ -82,7 +82,7 @@ fn what_is_set_aside_goes_on_where_it_was_stopped() {
         assert!(queue.start_again(PLAIN));
         assert!(!queue.start_again(PLAIN), "there is one start for each stop");
         while !queue.idle() {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
             assert!(rows.len() < 500_000);
             if queue.take_broken_start().is_some() {
                 break;
@@ -104,16 +104,16 @@ fn the_way_back_has_its_own_tool_to_its_last_row() {
     let robot = robot("kr10-r1420");
     let [first, second] = [[0.0, 0.0, 100.0, 0.0, 0.0, 0.0], [50.0, 0.0, 150.0, 0.0, 30.0, 0.0]]
         .map(|tool| Rig { carried: Carried::Tool(frame(tool)), ..Rig::bare() });
-    let mut queue = Queue::new(robot.clone(), axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]));
+    let mut queue = Queue::repeatable(robot.clone(), axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]));
     let turn =
         Command { rig: first, zone: Zone { tcp: 150.0, ..Zone::NONE }, ..movej([30.0, -90.0, 90.0, 0.0, 45.0, 0.0]) };
     let lean = Command { rig: second, ..movej([30.0, -60.0, 90.0, 0.0, 45.0, 0.0]) };
     queue.add(&turn, &Settings::default()).unwrap();
     queue.add(&lean, &Settings::default()).unwrap();
-    let mut rows = vec![queue.step(CYCLE, 10.0)];
+    let mut rows = vec![queue.step(Cycle::MS, at(10.0))];
     // A blend belongs to the motion that it leads into; in its first half the rows still name the one before.
     while queue.progress().is_none_or(|progress| progress.motion == 1) {
-        rows.push(queue.step(CYCLE, 10.0));
+        rows.push(queue.step(Cycle::MS, at(10.0)));
         assert!(rows.len() < 50_000, "there is no blend");
     }
     queue.request_suspension(Stop::General, 1);
@@ -140,9 +140,9 @@ fn skipped_motions_are_not_gone_and_those_behind_them_are() {
     for round in 0..24 {
         let mut queue = random_chain(&robot, &mut random, &settings(round));
         let end = *queue.end();
-        let mut rows = vec![queue.step(CYCLE, 0.0)];
+        let mut rows = vec![queue.step(Cycle::MS, Override::ZERO)];
         for _ in 0..random.between(10.0, 900.0) as usize {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
         }
         queue.request_suspension(Stop::General, 1);
         come_to_rest(&mut queue, &mut rows);
@@ -150,7 +150,7 @@ fn skipped_motions_are_not_gone_and_those_behind_them_are() {
         assert!(queue.start_again(Start { skip, ..PLAIN }));
         let from = rows.len();
         while !queue.idle() && queue.take_broken_start().is_none() && queue.take_broken().is_none() {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
             assert!(rows.len() < 500_000);
         }
         assert_within_limits(&robot, &rows, &format!("round {round}"));
@@ -171,29 +171,29 @@ fn stops_nest() {
     let mut random = Random::new(504);
     let mut queue = random_chain(&robot, &mut random, &Settings::default());
     let end = *queue.end();
-    let mut rows = vec![queue.step(CYCLE, 0.0)];
-    rows.extend((0..400).map(|_| queue.step(CYCLE, 100.0)));
+    let mut rows = vec![queue.step(Cycle::MS, Override::ZERO)];
+    rows.extend((0..400).map(|_| queue.step(Cycle::MS, Override::FULL)));
     queue.request_suspension(Stop::General, 1);
     come_to_rest(&mut queue, &mut rows);
     let first = *queue.joints();
     let mut near = first;
     near.axes[0] += 3.0;
     let own = queue.add(&command(Target::Joints(near)), &Settings::default()).unwrap();
-    rows.extend((0..20).map(|_| queue.step(CYCLE, 100.0)));
+    rows.extend((0..20).map(|_| queue.step(Cycle::MS, Override::FULL)));
     queue.request_suspension(Stop::General, 2);
     while !queue.takes(2) {
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
     }
     assert!(!queue.takes(1) && !queue.has_ended(own) && !queue.has_ended(own - 1));
     let inner = queue.add(&command(Target::Joints(first)), &Settings::default()).unwrap();
     assert!(queue.start_again(PLAIN) && queue.start_again(PLAIN) && !queue.start_again(PLAIN));
     while !queue.has_ended(own) {
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         assert!(rows.len() < 100_000);
     }
     assert!(queue.has_ended(inner) && !queue.has_ended(10));
     while !queue.idle() {
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         assert!(rows.len() < 500_000);
         assert_eq!(queue.take_broken_start(), None);
     }
@@ -207,14 +207,14 @@ fn dropping_leaves_the_robot_where_it_stopped() {
     let mut random = Random::new(505);
     let mut queue = random_chain(&robot, &mut random, &Settings::default());
     for _ in 0..400 {
-        queue.step(CYCLE, 100.0);
+        queue.step(Cycle::MS, Override::FULL);
     }
     assert!(!queue.drop_suspended());
     queue.request_suspension(Stop::General, 1);
     assert!(queue.drop_suspended());
     let mut rows = Vec::new();
     while !queue.idle() {
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
         assert!(rows.len() < 4000);
     }
     let here = *queue.joints();

@@ -8,7 +8,7 @@ fn axis_motions_use_the_limits_and_never_break_them() {
     for name in ["kr10-r1420", "tx2-60", "hsr065", "cobra600"] {
         let robot = with_external_axes(name);
         for _ in 0..12 {
-            let mut queue = Queue::new(robot.clone(), random_joints(&robot, &mut random, 1.0));
+            let mut queue = Queue::repeatable(robot.clone(), random_joints(&robot, &mut random, 1.0));
             let mut targets = Vec::new();
             for _ in 0..3 {
                 let target = random_joints(&robot, &mut random, 1.0);
@@ -31,7 +31,7 @@ fn axis_motions_use_the_limits_and_never_break_them() {
 #[test]
 fn a_full_speed_axis_motion_reaches_its_limits() {
     let robot = robot("kr10-r1420");
-    let mut queue = Queue::new(robot.clone(), axes([-100.0, -90.0, 90.0, 0.0, 30.0, 0.0]));
+    let mut queue = Queue::repeatable(robot.clone(), axes([-100.0, -90.0, 90.0, 0.0, 30.0, 0.0]));
     queue.add(&movej([100.0, -90.0, 90.0, 0.0, 30.0, 0.0]), &Settings::default()).unwrap();
     let rows = run(&mut queue, 100.0);
     let used = usage(&robot, &rows);
@@ -72,7 +72,7 @@ fn lines_are_straight_and_within_all_limits() {
         while planned < 15 {
             tried += 1;
             let (start, goal, mut command, target) = random_line(&robot, &mut random);
-            let mut queue = Queue::new(robot.clone(), start);
+            let mut queue = Queue::repeatable(robot.clone(), start);
             command.speed = Speed { tcp: random.between(50.0, 2500.0), ori: random.between(50.0, 500.0), ..fast() };
             if queue.add(&command, &Settings::default()).is_err() {
                 continue;
@@ -117,7 +117,7 @@ fn a_line_takes_its_programmed_speed() {
     let robot = robot("kr10-r1420");
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
     let at = frame_components(&robot.kinematics.forward(&start.axes));
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let speed = Speed { tcp: 400.0, ..fast() };
     let mut pose = at;
     pose[1] += 300.0;
@@ -135,7 +135,7 @@ fn a_line_takes_its_programmed_speed() {
 fn many_motions_join_without_a_jolt() {
     let mut random = Random::new(33);
     let robot = robot("kr10-r1420");
-    let mut queue = Queue::new(robot.clone(), axes([0.0, -90.0, 90.0, 10.0, 60.0, 0.0]));
+    let mut queue = Queue::repeatable(robot.clone(), axes([0.0, -90.0, 90.0, 10.0, 60.0, 0.0]));
     let mut added = 0;
     while queue.has_room() {
         let end = *queue.end();
@@ -167,7 +167,7 @@ fn manual_mode_limits_the_tcp_on_every_motion() {
     for name in ["kr10-r1420", "hsr065"] {
         let robot = robot(name);
         for _ in 0..20 {
-            let mut queue = Queue::new(robot.clone(), random_joints(&robot, &mut random, 0.8));
+            let mut queue = Queue::repeatable(robot.clone(), random_joints(&robot, &mut random, 0.8));
             let tool = frame([50.0, 0.0, 250.0, 0.0, 30.0, 0.0]);
             let target = random_joints(&robot, &mut random, 0.8);
             queue.add(&Command { rig: Rig::with_tool(tool), ..command(Target::Joints(target)) }, &settings).unwrap();
@@ -181,7 +181,7 @@ fn manual_mode_limits_the_tcp_on_every_motion() {
         }
     }
     let robot = robot("kr10-r1420");
-    let mut queue = Queue::new(robot, axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]));
+    let mut queue = Queue::repeatable(robot, axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]));
     let pose = [UNSET, 400.0, UNSET, UNSET, UNSET, UNSET];
     queue.add(&lin(pose), &settings).unwrap();
     let rows = run(&mut queue, 100.0);

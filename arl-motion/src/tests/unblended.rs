@@ -6,7 +6,7 @@ use crate::tests::*;
 fn said(ways: &[([f64; 6], [f64; 2])], zone: f64) -> Vec<(u32, NoBlend)> {
     let robot = with_external_axes("kr10-r1420");
     let start = Joints { axes: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET] };
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let mut pose = frame_components(&robot.kinematics.forward(&start.axes));
     let mut external = start.external;
     for (line, (way, moved)) in (1..).zip(ways) {
@@ -56,7 +56,7 @@ fn a_zone_that_is_nothing_beside_the_next_motion_is_told_as_such() {
 fn the_same_lines_are_told_once() {
     let robot = robot("kr10-r1420");
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let [here, mut there] = [frame_components(&robot.kinematics.forward(&start.axes)); 2];
     there[2] -= 50.0;
     for _ in 0..5 {
@@ -75,7 +75,7 @@ fn the_same_lines_are_told_once() {
 fn to_and_fro(profile: VelocityProfile, turn: f64, zone: f64) -> (usize, Vec<NoBlend>) {
     let robot = robot("kr6-r700");
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     let mut pose = frame_components(&robot.kinematics.forward(&start.axes));
     for index in 0..8 {
         let sign = if index % 2 == 0 { 1.0 } else { -1.0 };
@@ -123,7 +123,7 @@ fn a_tool_that_turns_along_short_lines_and_splines_gains_time_by_zones() {
         (false, [911.652, 5.385, 1393.832, 180.487, 42.228, 172.181]),
     ];
     let took = |percent: f64| {
-        let mut queue = Queue::new(robot.clone(), start);
+        let mut queue = Queue::repeatable(robot.clone(), start);
         for (spline, pose) in targets {
             let (wobj, external) = (Frame::identity(), [UNSET; 6]);
             let target =

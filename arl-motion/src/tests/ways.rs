@@ -52,7 +52,7 @@ fn ccir_goes_along_the_circles_of_its_neighbours() {
     };
     let poses = [on(90.0), on(180.0), on(300.0)];
     for zone in [-1.0, 10.0] {
-        let mut queue = Queue::new(robot.clone(), at_work());
+        let mut queue = Queue::repeatable(robot.clone(), at_work());
         for (line, pose) in poses.iter().enumerate() {
             let speed = Speed { tcp: 300.0, ..fast() };
             let zone = Zone { tcp: zone, ..Zone::NONE };
@@ -81,7 +81,7 @@ fn each_ccir_but_the_last_looks_at_the_next() {
     let robot = robot("kr10-r1420");
     let points = [[0.0, 50.0, 50.0], [0.0, 100.0, 0.0], [0.0, 200.0, 30.0], [0.0, 250.0, -50.0]];
     let poses = points.map(|offset| beside(&robot, offset));
-    let mut queue = Queue::new(robot.clone(), at_work());
+    let mut queue = Queue::repeatable(robot.clone(), at_work());
     for (line, pose) in poses.iter().enumerate() {
         queue.add(&Command { line: line as u32 + 1, ..ccir(*pose) }, &Settings::default()).unwrap();
     }
@@ -111,16 +111,16 @@ fn each_ccir_but_the_last_looks_at_the_next() {
 fn a_ccir_needs_a_second_one_and_three_points_off_a_line() {
     let robot = robot("kr10-r1420");
     let earlier = |line: u32, error: PlanError| Err(PlanError::Earlier { line, error: Box::new(error) });
-    let mut queue = Queue::new(robot.clone(), at_work());
+    let mut queue = Queue::repeatable(robot.clone(), at_work());
     queue.add(&ccir(beside(&robot, [0.0, 50.0, 0.0])), &Settings::default()).unwrap();
     assert!(!queue.idle());
     for _ in 0..500 {
-        assert!(queue.step(CYCLE, 100.0).rests, "it waits for the second one");
+        assert!(queue.step(Cycle::MS, Override::FULL).rests, "it waits for the second one");
     }
     assert_eq!(queue.conclude(), earlier(7, PlanError::LoneCircle));
     // On a line, and one point twice.
     for second in [[0.0, 100.0, 0.0], [0.0, 50.0, 0.0]] {
-        let mut queue = Queue::new(robot.clone(), at_work());
+        let mut queue = Queue::repeatable(robot.clone(), at_work());
         queue.add(&ccir(beside(&robot, [0.0, 50.0, 0.0])), &Settings::default()).unwrap();
         let found = queue.add(&ccir(beside(&robot, second)), &Settings::default());
         assert_eq!(found.map(|_| ()), earlier(7, PlanError::NoCircle));
@@ -146,7 +146,7 @@ fn a_spline_passes_all_its_points_without_a_stop() {
         let start = Joints { external: [10.0, -20.0, UNSET, UNSET, UNSET, UNSET], ..at_work() };
         let start =
             if name == "kr10-r1420" { start } else { Joints { axes: [-30.0, 10.0, 30.0, 0.0, 45.0, 0.0], ..start } };
-        let mut queue = Queue::new(robot.clone(), start);
+        let mut queue = Queue::repeatable(robot.clone(), start);
         let origin = point(&beside(&robot, [0.0; 3]));
         let here = robot.kinematics.forward(&start.axes).translation.vector;
         let mut poses = bends(&robot, 6);
@@ -195,7 +195,7 @@ fn a_spline_passes_all_its_points_without_a_stop() {
 #[test]
 fn a_spline_through_points_on_a_line_is_a_line() {
     let robot = robot("kr10-r1420");
-    let mut queue = Queue::new(robot.clone(), at_work());
+    let mut queue = Queue::repeatable(robot.clone(), at_work());
     for y in [20.0, 90.0, 95.0, 250.0] {
         queue
             .add(
@@ -221,7 +221,7 @@ fn the_way_of_a_spline_does_not_depend_on_when_its_motions_come() {
     let poses = bends(&robot, 6);
     let slow = |pose: &[f64; 6]| Command { speed: Speed { tcp: 250.0, ..fast() }, ..spl(*pose) };
     let reference = {
-        let mut queue = Queue::new(robot.clone(), at_work());
+        let mut queue = Queue::repeatable(robot.clone(), at_work());
         for pose in &poses {
             queue.add(&slow(pose), &Settings::default()).unwrap();
         }
@@ -230,17 +230,17 @@ fn the_way_of_a_spline_does_not_depend_on_when_its_motions_come() {
     };
     // Late, but before the robot has stood still for long.
     for pause in [40, 180, 260, 330] {
-        let mut queue = Queue::new(robot.clone(), at_work());
+        let mut queue = Queue::repeatable(robot.clone(), at_work());
         let mut rows = vec![reference[0]];
         for (index, pose) in poses.iter().enumerate() {
             queue.add(&slow(pose), &Settings::default()).unwrap();
             for _ in 0..if index > 0 { pause } else { 0 } {
-                rows.push(queue.step(CYCLE, 100.0));
+                rows.push(queue.step(Cycle::MS, Override::FULL));
             }
         }
         queue.conclude().unwrap();
         while !queue.idle() {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
         }
         assert_within_limits(&robot, &rows, "late");
         for row in rows.iter().step_by(7) {
@@ -255,12 +255,12 @@ fn the_way_of_a_spline_does_not_depend_on_when_its_motions_come() {
 fn a_motion_of_a_spline_that_comes_much_too_late_begins_a_new_one() {
     let robot = robot("kr10-r1420");
     let poses = bends(&robot, 4);
-    let mut queue = Queue::new(robot.clone(), at_work());
-    let mut rows = vec![queue.step(CYCLE, 100.0)];
+    let mut queue = Queue::repeatable(robot.clone(), at_work());
+    let mut rows = vec![queue.step(Cycle::MS, Override::FULL)];
     for pose in &poses {
         queue.add(&spl(*pose), &Settings::default()).unwrap();
         for _ in 0..2000 {
-            rows.push(queue.step(CYCLE, 100.0));
+            rows.push(queue.step(Cycle::MS, Override::FULL));
         }
         assert!(queue.idle() && queue.take_broken().is_none());
         assert!((place(rows.last().unwrap()) - point(pose)).norm() < 1e-6);
@@ -280,7 +280,7 @@ fn splines_and_circles_round_off_into_their_neighbours() {
         let settings = Settings { profile, ..Settings::default() };
         for round in 0..8 {
             let start = Joints { external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET], ..at_work() };
-            let mut queue = Queue::new(robot.clone(), start);
+            let mut queue = Queue::repeatable(robot.clone(), start);
             let (mut added, mut tried) = (0_u32, 0);
             let mut kind = 0;
             while added < 14 && tried < 300 {
@@ -333,7 +333,7 @@ fn splines_turn_back_at_any_angle() {
     for (far, near) in [(60.0, 60.0), (90.0, 30.0), (30.0, 90.0)] {
         for angle in [120.0, 135.0, 145.0, 149.9, 150.1, 165.0, 175.0, 178.0, 180.0_f64] {
             let (sine, cosine) = angle.to_radians().sin_cos();
-            let mut queue = Queue::new(robot.clone(), at_work());
+            let mut queue = Queue::repeatable(robot.clone(), at_work());
             for place in [[0.0, far, 0.0], [0.0, far + near * cosine, near * sine], [50.0, 0.0, 40.0]] {
                 let command = spl(beside(&robot, place));
                 queue.add(&command, &Settings::default()).unwrap_or_else(|error| panic!("{angle} {far}: {error}"));

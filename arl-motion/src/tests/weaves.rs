@@ -30,7 +30,7 @@ fn above() -> Joints {
 /// A queue, and the pose in which its robot stands.
 fn queue(robot: &Arc<Robot>) -> (Queue, [f64; 6]) {
     let pose = frame_components(&robot.kinematics.forward(&above().axes));
-    (Queue::new(robot.clone(), above()), pose)
+    (Queue::repeatable(robot.clone(), above()), pose)
 }
 
 /// A line from `pose` by x, y, z mm.
@@ -151,13 +151,13 @@ fn the_override_and_stops_change_no_point_of_a_weave() {
         assert_within_limits(&robot, &rows, "weave");
         offsets(&rows, &from, &to)
     };
-    let whole = path(&mut |queue, _| queue.step(CYCLE, 100.0));
+    let whole = path(&mut |queue, _| queue.step(Cycle::MS, Override::FULL));
     let y_at = |x: f64| {
         let after = whole.partition_point(|at| at.x < x).clamp(1, whole.len() - 1);
         let (a, b) = (whole[after - 1], whole[after]);
         if b.x > a.x { a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x) } else { a.y }
     };
-    let half = path(&mut |queue, cycle| queue.step(CYCLE, [100.0, 30.0, 70.0][cycle / 400 % 3]));
+    let half = path(&mut |queue, cycle| queue.step(Cycle::MS, at([100.0, 30.0, 70.0][cycle / 400 % 3])));
     let stopped = path(&mut |queue, cycle| {
         match cycle {
             300 => queue.stop_on_path(Stop::Fast),
@@ -165,7 +165,7 @@ fn the_override_and_stops_change_no_point_of_a_weave() {
             1400 => queue.stop_on_path(Stop::General),
             _ => {}
         }
-        queue.step(CYCLE, 100.0)
+        queue.step(Cycle::MS, Override::FULL)
     });
     for rows in [half, stopped] {
         let worst = rows.iter().map(|at| (at.y - y_at(at.x)).abs()).fold(0.0, f64::max);
@@ -229,7 +229,7 @@ fn random_chains_with_weaves_keep_every_limit_and_reach_every_target() {
     for name in ["kr10-r1420", "tx2-60", "irb2400-10"] {
         let robot = with_external_axes(name);
         for round in 0..4 {
-            let mut queue = Queue::new(robot.clone(), random_joints(&robot, &mut random, 0.5));
+            let mut queue = Queue::repeatable(robot.clone(), random_joints(&robot, &mut random, 0.5));
             let (mut added, mut tried) = (0_u32, 0);
             while added < 6 && tried < 300 {
                 tried += 1;

@@ -21,7 +21,7 @@ fn through(robot: &Robot, middle: &[f64; 6], tool: &Frame, travel: Vector3<f64>)
 
 /// Moves, and tests that the TCP stays on its line, that the orientation gives way little, and that all limits hold.
 fn assert_passes(robot: &Arc<Robot>, start: Joints, commands: &[Command], what: &str) -> Result<Vec<Step>, PlanError> {
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     for command in commands {
         queue.add(command, &passing())?;
     }
@@ -131,7 +131,7 @@ fn a_stop_within_a_passage_stays_on_the_line_and_goes_on() {
     let tool = frame([0.0, 0.0, 100.0, 0.0, 0.0, 0.0]);
     let middle = [10.0, -70.0, 80.0, 25.0, 0.02, 15.0];
     let (start, command) = through(&robot, &middle, &tool, Vector3::new(0.0, 400.0, 100.0)).unwrap();
-    let mut queue = Queue::new(robot.clone(), start);
+    let mut queue = Queue::repeatable(robot.clone(), start);
     queue.add(&command, &passing()).unwrap();
     let whole = run(&mut queue.clone(), 100.0);
     let mut rows = vec![whole[0]];
@@ -145,7 +145,7 @@ fn a_stop_within_a_passage_stays_on_the_line_and_goes_on() {
             assert!(queue.rests());
             queue.resume();
         }
-        rows.push(queue.step(CYCLE, 100.0));
+        rows.push(queue.step(Cycle::MS, Override::FULL));
     }
     assert_within_limits(&robot, &rows, "stopped");
     for row in rows.iter().skip(1) {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use arl_benches::random::Random;
 use arl_benches::statistics::taking_turns;
 use arl_rt::kinematics::Axes;
-use arl_rt::motion::{Command, Joints, Queue, Settings, Zone, plan};
+use arl_rt::motion::{Command, Cycle, Joints, Override, Queue, Settings, Zone, plan};
 use arl_rt::robot::{Robot, VelocityProfile};
 use rsruckig::prelude::*;
 
@@ -51,7 +51,7 @@ pub(crate) fn rows() -> Rows {
         {
             for [from, to] in moves.iter().take(EXECUTED) {
                 let shortest = match profile {
-                    VelocityProfile::T => ruckig(&without_jerk(&robot), from, to)?,
+                    VelocityProfile::T => calculate(&without_jerk(input(&robot, from, to)))?,
                     _ => ruckig(&robot, from, to)?,
                 };
                 let late = executed(&robot, from, to, profile)? - shortest;
@@ -113,11 +113,11 @@ fn planned(robot: &Robot, from: &Axes, to: &Axes) -> Result<f64, Box<dyn Error>>
 }
 
 fn executed(robot: &Arc<Robot>, from: &Axes, to: &Axes, profile: VelocityProfile) -> Result<f64, Box<dyn Error>> {
-    let mut queue = Queue::new(robot.clone(), joints(from));
+    let mut queue = Queue::repeatable(robot.clone(), joints(from));
     queue.add(&movej(to, Zone::NONE, 100.0), &Settings { profile, ..Settings::default() })?;
     let mut cycles = 0.0;
     while !queue.idle() {
-        queue.step(CYCLE, 100.0);
+        queue.step(Cycle::MS, Override::FULL);
         cycles += 1.0;
     }
     Ok(cycles * CYCLE)
@@ -173,18 +173,15 @@ fn random_move(robot: &Robot, random: &mut Random) -> [Axes; 2] {
 
 /// The robot with acceleration from 2 to 10 times the speed, and jerk from 20 to 200 times.
 fn uneven(robot: &Robot, random: &mut Random) -> Robot {
-    let mut robot = robot.clone();
-    for axis in &mut robot.axes {
+    let mut uneven = robot.clone().into_description();
+    for axis in &mut uneven.axes {
         axis.acc = axis.vel * random.between(2.0, 10.0);
         axis.jerk = axis.vel * random.between(20.0, 200.0);
     }
-    robot
+    Robot::new(uneven).expect("its limits are above 0")
 }
 
-fn without_jerk(robot: &Robot) -> Robot {
-    let mut robot = robot.clone();
-    for axis in &mut robot.axes {
-        axis.jerk = f64::INFINITY;
-    }
-    robot
+fn without_jerk(mut input: InputParameter<6>) -> InputParameter<6> {
+    input.max_jerk.iter_mut().for_each(|jerk| *jerk = f64::INFINITY);
+    input
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use arl_benches::chains::{CHAINS, Chain};
 use arl_benches::statistics::{processor_time, time};
 use arl_rt::kinematics::Axes;
-use arl_rt::motion::{Command, Settings, Zone};
+use arl_rt::motion::{Command, Cycle, Override, Settings, Zone};
 use arl_rt::robot::{Robot, VelocityProfile};
 use nalgebra::Vector3;
 
@@ -142,7 +142,7 @@ fn share_of_speed(robot: &Arc<Robot>, profile: VelocityProfile) -> Result<f64, B
     let ways = |commands: Vec<Command>| -> Result<Vec<f64>, Box<dyn Error>> {
         let mut ways = Vec::new();
         let mut first = None;
-        execute(robot, commands, &settings, 100.0, |_, tcp| {
+        execute(robot, commands, &settings, Override::FULL, |_, tcp| {
             let start = *first.get_or_insert(*tcp);
             ways.push((tcp - start).norm());
         })?;
@@ -192,7 +192,7 @@ impl Load {
             planning += (processor_time() - begin).as_secs_f64() * 1e6;
             cycles.push(
                 time(|| {
-                    black_box(queue.step(CYCLE, 100.0));
+                    black_box(queue.step(Cycle::MS, Override::FULL));
                 }) * 1e6,
             );
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use arl_rt::kinematics::{Axes, Frame, frame_components};
 use arl_rt::motion::frames::Rig;
-use arl_rt::motion::{Command, Joints, Queue, Settings, Speed, Target, UNSET, Zone};
+use arl_rt::motion::{Command, Cycle, Joints, Override, Queue, Settings, Speed, Target, UNSET, Zone};
 use arl_rt::robot::{Axis, Robot};
 use nalgebra::Vector3;
 
@@ -50,7 +50,7 @@ pub(crate) fn joints(axes: &Axes) -> Joints {
 
 /// A queue whose robot is at the start.
 pub(crate) fn queue(robot: &Arc<Robot>) -> Queue {
-    Queue::new(robot.clone(), joints(&START))
+    Queue::repeatable(robot.clone(), joints(&START))
 }
 
 /// Executes the commands, and tells the axes and the TCP at the start and after each cycle.
@@ -58,7 +58,7 @@ pub(crate) fn execute(
     robot: &Arc<Robot>,
     commands: impl IntoIterator<Item = Command>,
     settings: &Settings,
-    override_percent: f64,
+    speed_override: Override,
     mut tell: impl FnMut(&Axes, &Vector3<f64>),
 ) -> Result<(), Box<dyn Error>> {
     let mut queue = queue(robot);
@@ -70,7 +70,7 @@ pub(crate) fn execute(
         {
             queue.add(&command, settings)?;
         }
-        let step = queue.step(CYCLE, override_percent);
+        let step = queue.step(Cycle::MS, speed_override);
         tell(&step.joints.axes, &step.tcp.translation.vector);
     }
     Ok(())
@@ -83,7 +83,7 @@ pub(crate) fn duration(
     settings: &Settings,
 ) -> Result<f64, Box<dyn Error>> {
     let mut cycles = -1.0;
-    execute(robot, commands, settings, 100.0, |_, _| cycles += 1.0)?;
+    execute(robot, commands, settings, Override::FULL, |_, _| cycles += 1.0)?;
     Ok(cycles * CYCLE)
 }
 
@@ -110,8 +110,8 @@ impl Track {
         (closest, speed): (f64, f64),
     ) -> Result<Self, Box<dyn Error>> {
         let mut track = Self::new(closest);
-        let override_percent = 100.0 * closest / (speed * CYCLE);
-        execute(robot, commands, settings, override_percent, |axes, tcp| track.push(axes, tcp))?;
+        let speed_override = Override::from_percent((100.0 * closest / (speed * CYCLE)).min(100.0))?;
+        execute(robot, commands, settings, speed_override, |axes, tcp| track.push(axes, tcp))?;
         Ok(track)
     }
 

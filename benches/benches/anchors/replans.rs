@@ -8,7 +8,7 @@ use std::sync::Arc;
 use arl_benches::random::Random;
 use arl_benches::statistics::taking_turns;
 use arl_rt::kinematics::Axes;
-use arl_rt::motion::{Command, Queue, Settings, Stop, Zone};
+use arl_rt::motion::{Command, Cycle, Override, Queue, Settings, Stop, Zone};
 use arl_rt::robot::{Robot, VelocityProfile};
 use rsruckig::prelude::*;
 
@@ -35,7 +35,7 @@ pub(crate) fn rows() -> Rows {
     let inputs: Vec<InputParameter<6>> = (0..TIMED).map(|_| any_state(&robot, &mut random)).collect();
     let singles: Vec<InputParameter<1>> = inputs.iter().map(single).collect();
     let mut walk = Walk::new(&robot, VelocityProfile::S);
-    let queues: Vec<(Queue, f64)> = (0..TIMED)
+    let queues: Vec<(Queue, Override)> = (0..TIMED)
         .map(|_| {
             walk.event()?;
             Ok((walk.queue.clone(), [0.0, 30.0, 70.0, 100.0][(walk.random.unit() * 4.0) as usize]))
@@ -76,15 +76,15 @@ pub(crate) fn rows() -> Rows {
     ])
 }
 
-fn measure<const N: usize>(queues: &[(Queue, f64)], inputs: &[InputParameter<N>]) -> (f64, f64) {
+fn measure<const N: usize>(queues: &[(Queue, Override)], inputs: &[InputParameter<N>]) -> (f64, f64) {
     let mut solver = Ruckig::<N, ThrowErrorHandler>::new(None, CYCLE);
     let mut trajectory = Trajectory::new(None);
     let mut least = (f64::INFINITY, f64::INFINITY);
     for _ in 0..ROUNDS {
         let mut copies = queues.to_vec();
         let ours = || {
-            for (queue, override_percent) in &mut copies {
-                black_box(queue.step(CYCLE, *override_percent));
+            for (queue, speed_override) in &mut copies {
+                black_box(queue.step(Cycle::MS, *speed_override));
             }
         };
         let theirs = || {
@@ -104,7 +104,7 @@ struct Walk {
     queue: Queue,
     random: Random,
     settings: Settings,
-    override_percent: f64,
+    speed_override: Override,
     /// The axes in the last cycles, the latest last.
     axes: [Axes; 4],
     added: u64,
@@ -122,10 +122,10 @@ impl Walk {
         let axes = random_axes(robot, &mut random);
         Self {
             robot: robot.clone(),
-            queue: Queue::new(robot.clone(), joints(&axes)),
+            queue: Queue::repeatable(robot.clone(), joints(&axes)),
             random,
             settings: Settings { profile, ..Settings::default() },
-            override_percent: 100.0,
+            speed_override: Override::FULL,
             axes: [axes; 4],
             added: 0,
             finished: 0,
@@ -142,9 +142,9 @@ impl Walk {
         match (self.random.unit() * 10.0) as u32 {
             0..2 => self.queue.stop_on_path(Stop::General),
             2..7 => self.queue.resume(),
-            7 => self.override_percent = 0.0,
-            8 => self.override_percent = 100.0,
-            _ => self.override_percent = self.random.between(1.0, 100.0),
+            7 => self.speed_override = Override::ZERO,
+            8 => self.speed_override = Override::FULL,
+            _ => self.speed_override = Override::from_percent(self.random.between(1.0, 100.0)).unwrap_or_default(),
         }
         let cycles = 1 + (self.random.unit() * self.random.unit() * 20.0) as usize;
         for _ in 0..cycles {
@@ -158,7 +158,7 @@ impl Walk {
             let command = self.command();
             self.added = self.queue.add(&command, &self.settings)?;
         }
-        let step = self.queue.step(CYCLE, self.override_percent);
+        let step = self.queue.step(Cycle::MS, self.speed_override);
         self.finished = step.finished;
         self.cycles += 1;
         self.axes.rotate_left(1);

@@ -9,7 +9,7 @@ mod chain;
 
 use std::error::Error;
 
-use arl_rt::motion::{Queue, Recorder, Settings};
+use arl_rt::motion::{Cycle, Override, Queue, Recorder, Settings};
 use arl_rt::robot::VelocityProfile;
 use chain::{Chain, robots};
 
@@ -83,7 +83,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// How long the chain takes in s, [`LONGEST_S`] at most, and the kept share of each zone that was asked for. `None` where the robot cannot
 /// go it, whatever the profile.
 fn run(chain: &Chain, zones: bool, settings: &Settings) -> Option<(f64, Vec<f64>)> {
-    let mut queue = Queue::new(chain.robot.clone(), chain.start);
+    let mut queue = Queue::repeatable(chain.robot.clone(), chain.start);
     let mut recorder = Recorder::new(chain.robot.clone(), &mut queue);
     for command in chain.commands(zones) {
         let number = queue.add(&command, settings).ok()?;
@@ -92,8 +92,8 @@ fn run(chain: &Chain, zones: bool, settings: &Settings) -> Option<(f64, Vec<f64>
     queue.conclude().ok()?;
     let mut cycles = 0_u32;
     while !queue.idle() && f64::from(cycles) * CYCLE < LONGEST_S {
-        let step = queue.step(CYCLE, 100.0);
-        recorder.step(&mut queue, &step, CYCLE);
+        let step = queue.step(Cycle::MS, Override::FULL);
+        recorder.step(&mut queue, &step);
         cycles += 1;
     }
     let records = recorder.records();

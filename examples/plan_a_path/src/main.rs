@@ -8,12 +8,13 @@
 use arl_motion::kinematics::frame_components;
 use arl_motion::robot::Robot;
 use arl_motion::{
-    Command, Joints, MotionRecord, PlanError, Queue, Recorder, Settings, Speed, Step, Stop, Target, Zone,
+    Command, Cycle, Joints, MotionRecord, Override, PlanError, Queue, Recorder, Settings, Speed, Step, Stop, Target,
+    Zone,
 };
 use std::sync::Arc;
 
-/// The length of a cycle, in s.
-const CYCLE: f64 = 0.001;
+/// How long a cycle is.
+const CYCLE: Cycle = Cycle::MS;
 /// The side of the square, in mm.
 const SIDE: f64 = 200.0;
 /// The cycle of the square in which the robot is told to stop.
@@ -25,7 +26,7 @@ fn main() -> Result<(), String> {
     for (cycle, row) in rows.iter().enumerate() {
         let [j1, j2, j3, j4, j5, j6] = row.joints.axes;
         let [x, y, z, ..] = frame_components(&row.tcp);
-        let t = CYCLE * cycle as f64;
+        let t = CYCLE.period() * cycle as f64;
         println!("{t:.3},{j1:.4},{j2:.4},{j3:.4},{j4:.4},{j5:.4},{j6:.4},{x:.3},{y:.3},{z:.3}");
     }
     for record in &records {
@@ -39,7 +40,7 @@ fn main() -> Result<(), String> {
 
 /// The set-points of the whole path, and what each motion did.
 fn square(robot: &Arc<Robot>) -> Result<(Vec<Step>, Vec<MotionRecord>), PlanError> {
-    let mut queue = Queue::new(Arc::clone(robot), Joints::home(robot));
+    let mut queue = Queue::repeatable(Arc::clone(robot), Joints::home(robot));
     let mut recorder = Recorder::new(Arc::clone(robot), &mut queue);
     let mut rows = Vec::new();
     let settings = Settings::default();
@@ -78,8 +79,8 @@ fn square(robot: &Arc<Robot>) -> Result<(Vec<Step>, Vec<MotionRecord>), PlanErro
 
 /// Moves on by a cycle at an override of 100 %.
 fn step(queue: &mut Queue, recorder: &mut Recorder) -> Step {
-    let step = queue.step(CYCLE, 100.0);
-    recorder.step(queue, &step, CYCLE);
+    let step = queue.step(CYCLE, Override::FULL);
+    recorder.step(queue, &step);
     step
 }
 
@@ -109,7 +110,7 @@ mod tests {
         assert_eq!(stops, 2);
         for (index, axis) in robot.own_axes().iter().enumerate() {
             for pair in rows.windows(2) {
-                let speed = (pair[1].joints.axes[index] - pair[0].joints.axes[index]).abs() / CYCLE;
+                let speed = (pair[1].joints.axes[index] - pair[0].joints.axes[index]).abs() / CYCLE.period();
                 assert!(speed <= 1.001 * axis.vel, "{}: {speed}", axis.name);
             }
         }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use crate::blend::no_blend::NoBlend;
 use crate::blend::zone::asks;
 use crate::command::LARGEST_ZONE;
-use crate::command::joints::Joints;
+use crate::command::joints::{ALL, Joints};
 use crate::follow::governor::{Governor, Pacing};
 use crate::follow::segment::Segment;
 use crate::follow::shared_deque::SharedDeque;
@@ -22,6 +22,7 @@ use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 use crate::plan::motion::Motion;
 use crate::time_optimal::law_follower::LawFollower;
 use crate::time_optimal::law_solver_thread::LawSolver;
+use arl_robot::kinematics::Kinematics;
 use arl_robot::robot::Robot;
 pub(crate) use law_hand_over::Answer;
 use law_hand_over::{LOOKED_AHEAD_S, Next, PendingLaw, faster};
@@ -81,6 +82,7 @@ pub(crate) struct PathBuffer {
 
 /// A target that should be rounded off, at which the robot stops.
 #[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub struct UnblendedTarget {
     /// The running number of the motion behind it.
     pub number: u64,
@@ -177,6 +179,21 @@ impl PathBuffer {
     /// Where the robot is on the first segment, in s of nominal time.
     pub(crate) fn at(&self) -> f64 {
         self.at
+    }
+
+    /// How fast all axes move, and how that changes, where the robot is and they are at `joints`; `None` at a singular point.
+    pub(crate) fn rates(&self, kinematics: &Kinematics, joints: &Joints) -> Option<[Joints; 2]> {
+        let Some(first) = self.segments.front().filter(|_| !self.rests()) else { return Some([Joints::ZERO; 2]) };
+        let [first, second] = first.rates(kinematics, self.at, joints)?;
+        let State { vel, acc, .. } = self.state;
+        let mut rates = [[0.0; ALL]; 2];
+        let [velocity, acceleration] = &mut rates;
+        let all = velocity.iter_mut().zip(acceleration).zip(first.iter().zip(&second));
+        for ((velocity, acceleration), (first, second)) in all {
+            *velocity = first * vel;
+            *acceleration = second * vel * vel + first * acc;
+        }
+        Some(rates.map(|rates| Joints::of(&rates)))
     }
 
     /// The nominal time in s that is left to go.
