@@ -201,3 +201,27 @@ fn functions_without_main_have_their_variables() {
     });
     assert_eq!(run(program).0, Outcome::Ended);
 }
+
+mod waiting {
+    arl_rt::arl! {
+        func int ticks(double seconds)
+            int count = 0
+            while(count * 0.1 < seconds)
+                waittime 0.1
+                count++
+            endwhile
+            return count
+        endfunc
+    }
+}
+
+#[test]
+fn values_come_out_of_functions_that_wait() {
+    let program = InRust(|cx| {
+        Box::pin(async move {
+            assert_eq!(waiting::program::ticks(cx, 0.45).await?, 5);
+            Ok(())
+        })
+    });
+    assert_eq!(run(program).0, Outcome::Ended);
+}

@@ -9,6 +9,49 @@
 //! - [`Handle`] is a controller as other threads have it, [`Running`] one on a thread of its own
 //! - [`Cx`] is what a running program sees of its controller
 //!
+//! ```
+//! use arl_rt::emit::*; // what programs are made of
+//! use arl_rt::{Captured, Controller, Outcome};
+//!
+//! /// `movej j:{j1 30, ..}`, then `print "there"`: by hand what the compiler emits.
+//! struct Turn;
+//!
+//! impl arl_rt::Program for Turn {
+//!     fn file(&self) -> File {
+//!         File::new("turn.arl")
+//!     }
+//!     fn family(&self) -> Family {
+//!         Family::SixAxis
+//!     }
+//!     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+//!         Box::pin(async move {
+//!             let target = Joint::of_axes([30.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+//!             motion::movej(target).run(cx).await.at(self.file(), 2)?;
+//!             flow::waittime(0.0).run(cx).await.at(self.file(), 3)?; // until the robot is there
+//!             text::print().argtoprint(&"there").run(cx).at(self.file(), 4)
+//!         })
+//!     }
+//! }
+//!
+//! let messages = Captured::new();
+//! let mut controller = Controller::builder().output(messages.clone()).build(Turn)?;
+//! assert_eq!(controller.run(), Outcome::Ended);
+//! assert_eq!(messages.text(), "there\n");
+//! assert_eq!(controller.joints().axes[0], 30.0);
+//! # Ok::<(), arl_rt::SetupError>(())
+//! ```
+//!
+//! A build without optimisation is slow, too slow for cycles of 1 ms in real time. The `Cargo.toml` of your workspace can have what computes
+//! optimised in debug builds, too:
+//!
+//! ```toml
+//! [profile.dev.package]
+//! arl-motion = { opt-level = 2 }
+//! arl-robot = { opt-level = 2 }
+//! arl-rt = { opt-level = 1 }
+//! nalgebra = { opt-level = 2 }
+//! ```
+//!
 //! The modules are for those who drive a real arm ([`robot_driver`], [`io`], [`clock`], [`devicenet`], [`network`]), who keep
 //! what outlives a run ([`storage`]), who write programs in Rust ([`program`], [`fault`], [`values`]), or who want to know more
 //! of a run ([`status`], [`output`], [`system`]). What is below is there, too: [`motion`], [`robot`], [`kinematics`], [`cell`],
@@ -75,8 +118,11 @@ pub mod program {
 
 /// How a controller, its channels and its robots stand.
 pub mod status {
+    pub use crate::context::named::GlobalError;
     pub use crate::context::standstill::{Standstill, WaitsFor};
-    pub use crate::controller::{ChannelStatus, HandleError, Outcome, RobotStatus, State, Status, StillRunning};
+    pub use crate::controller::{
+        ChannelStatus, HandleError, OrderError, Outcome, RobotStatus, State, Status, StillRunning,
+    };
     pub use crate::cycle::channel_id::ChannelId;
     pub use crate::unit::Motors;
 }

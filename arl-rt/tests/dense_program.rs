@@ -11,7 +11,7 @@ use arl_rt::emit::*;
 use arl_rt::kinematics::Kinematics;
 use arl_rt::motion::Joints;
 use arl_rt::robot::Robot;
-use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, SimulatedRobot, Start};
+use arl_rt::robot_driver::{DriverError, Drives, Feedback, Power, RobotDriver, Setpoint, SimulatedRobot, Start};
 use common::*;
 use nalgebra::Vector3;
 
@@ -44,7 +44,7 @@ struct Watched {
 }
 
 impl RobotDriver for Watched {
-    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError> {
         self.robot.moved_by_hand(&Joints { axes: START, ..*start.home });
         self.robot.start(start)
     }

@@ -3,6 +3,7 @@
 mod common;
 
 use arl_rt::emit::*;
+use arl_rt::io::Override;
 use arl_rt::{Controller, Outcome};
 use common::*;
 
@@ -153,7 +154,7 @@ fn speeds_come_from_labels_velset_override_and_mode() {
     let full = duration(Controller::builder(), go(100));
     let half = duration(Controller::builder(), go(50));
     assert!((half / full - 2.0).abs() < 0.2, "velset 50: {half} against {full}");
-    let slow = duration(Controller::builder().speed_override(50.0), go(100));
+    let slow = duration(Controller::builder().speed_override(Override::from_percent(50.0).unwrap()), go(100));
     assert!((slow / full - 2.0).abs() < 0.05, "override 50: {slow} against {full}");
     let manual = |mode| {
         duration(Controller::builder().mode(mode), |cx| {

@@ -11,7 +11,7 @@ use arl_rt::cell::{Cell, LateCycles};
 use arl_rt::clock::{Clock, Lateness, RealClock};
 use arl_rt::emit::*;
 use arl_rt::motion::Joints;
-use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, SimulatedRobot, Start};
+use arl_rt::robot_driver::{DriverError, Drives, Feedback, Power, RobotDriver, Setpoint, SimulatedRobot, Start};
 use arl_rt::{Builder, Controller, Outcome, Robot, State};
 use common::*;
 
@@ -37,7 +37,7 @@ struct Scripted {
 }
 
 impl RobotDriver for Scripted {
-    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError> {
         assert_eq!((start.period, start.robot.axes.len()), (0.001, 6));
         self.robot.start(start)
     }
@@ -485,7 +485,7 @@ fn motors_come_on_only_where_it_is_known_where_the_robot_is() {
 struct Nowhere(Result<f64, &'static str>);
 
 impl RobotDriver for Nowhere {
-    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError> {
         let at = self.0?;
         Ok(Joints { axes: [at; 6], ..*start.home })
     }
@@ -610,7 +610,7 @@ fn few_cycles_that_are_lost_are_no_trouble_and_a_cell_says_how_many() {
 #[test]
 fn a_robot_file_says_how_far_behind_is_too_far() {
     let text = Robot::text("kr10-r1420").unwrap();
-    let limits = |text: &str| Robot::parse("a.toml", text).unwrap().drives;
+    let limits = |text: &str| Robot::parse("a.toml", text).unwrap().drives.clone();
     let default = limits(text);
     assert_eq!((default.feedback, default.settling, default.following.len()), (0.02, 2.0, 6));
     let given = text.replacen("[[axis]]", "[drives]\nfeedback = 50\nsettling = 500\n\n[[axis]]\nfollowing = 3.5", 1);

@@ -1,7 +1,7 @@
 //! The drivers that cell files ask for.
 
 use arl_rt::cell::{DriverSettings, DriverTime, Protocol};
-use arl_rt::robot_driver::{Driven, DrivenTime};
+use arl_rt::robot_driver::{Driven, DrivenTime, DriverError};
 
 use crate::rsi::RsiArm;
 use crate::udp::UdpArm;
@@ -10,7 +10,7 @@ use crate::udp::UdpArm;
 ///
 /// # Errors
 /// The protocol is one that this crate does not know.
-pub fn connect(settings: &DriverSettings) -> Result<Driven, String> {
+pub fn connect(settings: &DriverSettings) -> Result<Driven, DriverError> {
     let waits = settings.time == DriverTime::Robot;
     match &settings.protocol {
         Protocol::Udp { address } => {
@@ -24,6 +24,6 @@ pub fn connect(settings: &DriverSettings) -> Result<Driven, String> {
             let beat = arm.beat();
             Ok(Driven { driver: Box::new(arm), time: DrivenTime::Beat(Box::new(beat)) })
         }
-        other => Err(format!("this program has no driver for {other:?}")),
+        other => Err(format!("this program has no driver for {other:?}").into()),
     }
 }

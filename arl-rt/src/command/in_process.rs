@@ -188,7 +188,7 @@ impl Run {
         if self.ended.is_some() {
             return Err("the run is over".into());
         }
-        self.controller.order(text)
+        self.controller.order(text).map_err(|error| error.to_string())
     }
 
     /// What was said since the last call: messages, warnings and alarms, a JSON object a line, as `--live` says them.
@@ -242,7 +242,7 @@ impl Run {
     /// # Errors
     /// There is none of this name.
     pub fn global(&self, name: &str) -> Result<String, String> {
-        self.controller.global(name)
+        self.controller.global(name).map_err(|error| error.to_string())
     }
 
     /// Gives a global variable a value, between two cycles.
@@ -250,7 +250,7 @@ impl Run {
     /// # Errors
     /// There is none of this name, or the value does not fit.
     pub fn set_global(&mut self, name: &str, literal: &str) -> Result<(), String> {
-        self.controller.set_global(name, literal)
+        self.controller.set_global(name, literal).map_err(|error| error.to_string())
     }
 
     /// Controller time in s: the start of the next cycle.

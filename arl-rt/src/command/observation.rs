@@ -81,6 +81,6 @@ fn of_global(name: &str, program: &dyn Program) -> Result<f64, String> {
         "false" => Ok(0.0),
         text => text.parse().map_err(|_| "this is no number".to_owned()),
     };
-    let value = with_variable(program, name, |variable| variable.slot.written())?;
-    value.map_or_else(|| Err(named::unknown(name, &[program])), number)
+    let value = with_variable(program, name, |variable| variable.slot.written()).map_err(|error| error.to_string())?;
+    value.map_or_else(|| Err(named::unknown(name, &[program]).to_string()), number)
 }

@@ -468,7 +468,7 @@ impl From<SetupError> for SetupFailure {
 
 fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
     let mut builder =
-        Controller::builder().mode(options.mode).speed_override(options.override_percent).stack(PROGRAM_STACK_BYTES);
+        Controller::builder().mode(options.mode).speed_override(options.speed_override).stack(PROGRAM_STACK_BYTES);
     if let Some(robot) = &options.robot {
         builder = builder.robot(Robot::load_with(robot, &options.changes).map_err(SetupFailure::usage)?);
     }

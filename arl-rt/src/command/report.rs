@@ -179,6 +179,7 @@ fn instruction(kind: MotionKind) -> &'static str {
         MotionKind::Arc => "cir",
         MotionKind::Circle => "ccir",
         MotionKind::Spline => "spl",
+        _ => "motion",
     }
 }
 

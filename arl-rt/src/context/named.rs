@@ -1,5 +1,7 @@
 //! Global variables by their names, for programs that were compiled with them.
 
+use std::fmt;
+
 use crate::context::program::Program;
 use crate::storage::data::DataVar;
 use crate::values::{Onto, teach_text};
@@ -20,13 +22,14 @@ impl Named {
     ///
     /// # Errors
     /// No program has a variable of this name, several files of one have, or the value does not fit.
-    pub(crate) fn put(&self, programs: &[&dyn Program]) -> Result<(), String> {
+    pub(crate) fn put(&self, programs: &[&dyn Program]) -> Result<(), GlobalError> {
         let Self { name, literal } = self;
         let put = |variable: &DataVar<'_>| teach_text(variable.slot, Onto::Value, variable.sizes, literal);
         let mut found = false;
         for program in programs {
             let done = with_variable(*program, name, put)?.transpose();
-            found |= done.map_err(|problem| format!("global variable `{name}` = {literal}: {problem}"))?.is_some();
+            let wrong = |problem| GlobalError::Value { name: name.clone(), literal: literal.clone(), problem };
+            found |= done.map_err(wrong)?.is_some();
         }
         if found { Ok(()) } else { Err(unknown(name, programs)) }
     }
@@ -40,7 +43,7 @@ pub(crate) fn with_variable<T>(
     program: &dyn Program,
     name: &str,
     act: impl FnOnce(&DataVar<'_>) -> T,
-) -> Result<Option<T>, String> {
+) -> Result<Option<T>, GlobalError> {
     let (file, own) = name.rsplit_once("::").map_or((None, name), |(file, own)| (Some(file), own));
     let files = program.variables();
     let files = files.iter().filter(|it| file.is_none_or(|file| stem(it.file).eq_ignore_ascii_case(file)));
@@ -49,10 +52,11 @@ pub(crate) fn with_variable<T>(
     match (found.next(), found.next()) {
         (None, _) => Ok(None),
         (Some((_, variable)), None) => Ok(Some(act(variable))),
-        (Some((one, _)), Some((other, _))) => Err(format!(
-            "global variable `{name}`: there is one in {one} and one in {other}; `{}::{own}` is that of the first",
-            stem(one)
-        )),
+        (Some((one, _)), Some((other, _))) => Err(GlobalError::Ambiguous {
+            name: name.to_owned(),
+            files: [one.to_owned(), other.to_owned()],
+            meant: format!("{}::{own}", stem(one)),
+        }),
     }
 }
 
@@ -63,17 +67,77 @@ fn stem(file: &str) -> &str {
 }
 
 /// What is said of a name that no program has.
-pub(crate) fn unknown(name: &str, programs: &[&dyn Program]) -> String {
+pub(crate) fn unknown(name: &str, programs: &[&dyn Program]) -> GlobalError {
     let files: Vec<_> = programs.iter().flat_map(|program| program.variables()).collect();
     let known: Vec<&str> = files.iter().flat_map(|file| file.vars.iter().map(|variable| variable.name)).collect();
-    match known.is_empty() {
-        true => format!(
-            "global variable `{name}`: the program has none, or was compiled without their names: `arl2rs run --set`, \
-             `arl2rs sweep` and `arl2rs build --library` make programs with them"
-        ),
-        false => format!("there is no global variable `{name}`; {}", near(name, &known)),
+    let name = name.to_owned();
+    if known.is_empty() {
+        return GlobalError::NoNames { name };
+    }
+    GlobalError::Unknown { there: near(&name, &known), name }
+}
+
+/// Why a global variable cannot be had, or cannot take a value.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum GlobalError {
+    /// The program has no global variables, or was compiled without their names.
+    #[non_exhaustive]
+    NoNames {
+        /// The name that was asked for.
+        name: String,
+    },
+    /// There is no variable of this name.
+    #[non_exhaustive]
+    Unknown {
+        /// The name that was asked for.
+        name: String,
+        /// What there is, in words.
+        there: String,
+    },
+    /// Several files have one.
+    #[non_exhaustive]
+    Ambiguous {
+        /// The name that was asked for.
+        name: String,
+        /// Two of the files.
+        files: [String; 2],
+        /// The name of the one in the first.
+        meant: String,
+    },
+    /// The value does not fit.
+    #[non_exhaustive]
+    Value {
+        /// The variable.
+        name: String,
+        /// The value, as a literal of ARL.
+        literal: String,
+        /// Why not.
+        problem: String,
+    },
+}
+
+impl fmt::Display for GlobalError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            GlobalError::NoNames { name } => write!(
+                f,
+                "global variable `{name}`: the program has none, or was compiled without their names: `arl2rs run --set`, \
+                 `arl2rs sweep` and `arl2rs build --library` make programs with them"
+            ),
+            GlobalError::Unknown { name, there } => write!(f, "there is no global variable `{name}`; {there}"),
+            GlobalError::Ambiguous { name, files: [one, other], meant } => write!(
+                f,
+                "global variable `{name}`: there is one in {one} and one in {other}; `{meant}` is that of the first"
+            ),
+            GlobalError::Value { name, literal, problem } => {
+                write!(f, "global variable `{name}` = {literal}: {problem}")
+            }
+        }
     }
 }
+
+impl std::error::Error for GlobalError {}
 
 /// So many names are listed where none is like it.
 const LISTED: usize = 8;

@@ -78,7 +78,8 @@ pub trait Program: AsAny {
     }
 }
 
-impl Program for Box<dyn Program> {
+/// So that what is a program in a box can stand where a program is wanted.
+impl<P: Program + ?Sized> Program for Box<P> {
     fn file(&self) -> File {
         (**self).file()
     }

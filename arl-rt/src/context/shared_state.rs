@@ -10,6 +10,7 @@ use crate::context::hearers::{Event, Hearers};
 use crate::context::output::{Message, Output};
 use crate::context::random::Random;
 use crate::context::watcher::Watcher;
+use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::Alarm;
 use crate::fieldbus::Buses;
@@ -40,6 +41,8 @@ pub(crate) struct SharedState {
     warnings: RefCell<Vec<String>>,
     /// Who wants to hear of alarms and warnings at once.
     listeners: RefCell<Listeners>,
+    /// Which of those who hear something have panicked.
+    panicked: RefCell<Vec<&'static str>>,
     /// Threads that hear of everything.
     pub(crate) hearers: Hearers,
     pub(crate) state: RefCell<State>,
@@ -107,6 +110,7 @@ impl SharedState {
             spoken: Cell::new(false),
             alarms: RefCell::default(),
             listeners: RefCell::new(parts.listeners),
+            panicked: RefCell::default(),
             warnings: RefCell::default(),
             hearers: Hearers::new(parts.hearers),
             state: RefCell::new(parts.state),
@@ -117,15 +121,26 @@ impl SharedState {
     /// Passes a message of a channel on.
     pub(crate) fn message(&self, channel: ChannelId, hmi: bool, console: bool, text: &[u8]) {
         let time = self.rate.time(self.now.get());
-        self.output.borrow_mut().message(&Message { time, channel, hmi, console, text });
+        let message = Message { time, channel, hmi, console, text };
+        self.let_hear("the output", || self.output.borrow_mut().message(&message));
         self.spoken.set(true);
         self.hearers.tell(|| Event::Message { time, channel, text: String::from_utf8_lossy(text).into_owned() });
+    }
+
+    /// Lets somebody outside hear of something. Where that panics, it is what they did not hear that is lost, and the cycle goes on; the
+    /// first time is a warning.
+    fn let_hear(&self, who: &'static str, tell: impl FnOnce()) {
+        let lost = catch_panic(tell).is_none();
+        if lost && !self.panicked.borrow().contains(&who) {
+            self.panicked.borrow_mut().push(who);
+            self.warn(format!("{who} has panicked: what it was told is lost"));
+        }
     }
 
     /// Ends a cycle's messages.
     pub(crate) fn flush(&self) {
         if self.spoken.replace(false) {
-            self.output.borrow_mut().flush();
+            self.let_hear("the output", || self.output.borrow_mut().flush());
         }
     }
 
@@ -142,9 +157,11 @@ impl SharedState {
 
     /// Notes an alarm; the one that ends a program stands before others of it.
     pub(crate) fn alarm(&self, alarm: Alarm, ends: bool) {
-        if let Some(listener) = &mut self.listeners.borrow_mut().alarm {
-            listener(&alarm);
-        }
+        self.let_hear("what `on_alarm` was given", || {
+            if let Some(listener) = &mut self.listeners.borrow_mut().alarm {
+                listener(&alarm);
+            }
+        });
         self.hearers.tell(|| Event::Alarm(alarm.clone()));
         let mut alarms = self.alarms.borrow_mut();
         let place = if ends { 0 } else { alarms.len() };
@@ -168,9 +185,11 @@ impl SharedState {
 
     /// Notes what is no alarm but worth a word.
     pub(crate) fn warn(&self, text: String) {
-        if let Some(listener) = &mut self.listeners.borrow_mut().warning {
-            listener(&text);
-        }
+        self.let_hear("what `on_warning` was given", || {
+            if let Some(listener) = &mut self.listeners.borrow_mut().warning {
+                listener(&text);
+            }
+        });
         self.hearers.tell(|| Event::Warning(text.clone()));
         self.warnings.borrow_mut().push(text);
     }

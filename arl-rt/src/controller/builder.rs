@@ -21,7 +21,7 @@ use crate::builtins::time;
 use crate::communication::NetworkDriver;
 use crate::context::channel_state::{ChannelState, Station};
 use crate::context::hearers::Event;
-use crate::context::named::Named;
+use crate::context::named::{GlobalError, Named};
 use crate::context::output::{Output, Stream};
 use crate::context::program::{Beside, Program};
 use crate::context::programs::{Initialised, Loadable, Programs};
@@ -36,13 +36,14 @@ use crate::fault::Alarm;
 use crate::fieldbus::Buses;
 use crate::fieldbus::devicenet::{DeviceNet, SimulatedDeviceNet};
 use crate::fieldbus::islands::Islands;
-use crate::io::{Image, IoDriver, Playing, Scenario, SimulatedIo};
+use crate::io::{DriverError, Image, IoDriver, Playing, Scenario, SimulatedIo};
 use crate::storage::pointers::{self, Table};
 use crate::storage::script_dir::ScriptDir;
 use crate::storage::state::{Memory, State, StateError, Storage};
 use crate::unit::Unit;
 use crate::unit::robot_driver::{Connect, RobotDriver};
 use crate::values::{self, Controlmode};
+use arl_motion::Override;
 use arl_robot::atomic_file;
 use arl_robot::cell::{Cell, SettingsError, fit};
 use arl_robot::kinematics::frame;
@@ -76,7 +77,7 @@ pub struct Builder {
     script_dir: PathBuf,
     record: bool,
     mode: Controlmode,
-    speed_override: f64,
+    speed_override: Override,
     seed: u64,
     start_date: i64,
     stack: usize,
@@ -107,7 +108,7 @@ impl Default for Builder {
             script_dir: PathBuf::from("."),
             record: false,
             mode: Controlmode::Auto,
-            speed_override: 100.0,
+            speed_override: Override::FULL,
             seed: random::SEED,
             start_date: time::YEAR_2000,
             stack: PROGRAM_STACK_BYTES,
@@ -125,8 +126,8 @@ impl Builder {
     }
 
     /// Adds the next background channel: a program without a robot.
-    pub fn background(mut self, program: Box<dyn Program>) -> Self {
-        self.background.push(program);
+    pub fn background(mut self, program: impl Program) -> Self {
+        self.background.push(Box::new(program));
         self
     }
 
@@ -309,9 +310,9 @@ impl Builder {
         self
     }
 
-    /// The speed override in %, 0 to 100.
-    pub fn speed_override(mut self, percent: f64) -> Self {
-        self.speed_override = percent;
+    /// The speed override at the start; without it 100 %.
+    pub fn speed_override(mut self, speed: Override) -> Self {
+        self.speed_override = speed;
         self
     }
 
@@ -348,7 +349,11 @@ impl Builder {
     ///
     /// # Errors
     /// The parts do not fit each other, or what was kept is damaged.
-    pub fn build(mut self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
+    pub fn build(self, program: impl Program) -> Result<Controller, SetupError> {
+        self.build_boxed(Box::new(program))
+    }
+
+    fn build_boxed(mut self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
         self.body.settings = self.cell.driver.take();
         let bodies = std::iter::once(&mut self.body).chain(self.foreground.iter_mut().map(|it| &mut it.body));
         let needs_the_world = self.connect.map_or(Ok(false), |connect| drive(bodies, connect, &mut self.clock))?;
@@ -359,7 +364,7 @@ impl Builder {
         let all: Vec<&dyn Program> = all.map(|program| &**program).collect();
         all.iter().for_each(|program| atomic_file::remove_leftovers(&self.script_dir.join(program.folder())));
         // What does not fit is told now; what is put in comes once more when the variables have their first values.
-        self.named.iter().try_for_each(|named| named.put(&all)).map_err(SetupError::Globals)?;
+        self.named.iter().try_for_each(|named| named.put(&all)).map_err(SetupError::Global)?;
         let named = self.named;
         self.initialised.push(Box::new(move |program| {
             named.iter().for_each(|named| drop(named.put(&[program])));
@@ -513,7 +518,7 @@ struct Site {
     shared: Rc<SharedState>,
     common: Rc<Common>,
     home_tolerance: f64,
-    speed_override: f64,
+    speed_override: Override,
     record: bool,
     stack: usize,
     pointers: Table,
@@ -588,7 +593,7 @@ fn robot_of(body: &Body, program: &dyn Program) -> Result<Robot, SetupError> {
         None => default_robot(family)?,
     };
     if robot.family != family {
-        return Err(SetupError::Family { program: family, robot: robot.name, family: robot.family });
+        return Err(SetupError::Family { program: family, robot: robot.name.clone(), family: robot.family });
     }
     fit(&body.homes, &body.collisions, &robot).map_err(SetupError::Cell)?;
     Ok(robot)
@@ -647,12 +652,12 @@ pub enum SetupError {
         /// The number of the channel, from 1.
         channel: u8,
         /// What its driver says.
-        problem: String,
+        problem: DriverError,
     },
     /// The inputs and outputs of an io driver cannot be had; what it says.
-    Io(String),
+    Io(DriverError),
     /// A global variable is not there, or does not take its value.
-    Globals(String),
+    Global(GlobalError),
     /// Whoever sets it up says why not.
     Other(String),
 }
@@ -668,12 +673,12 @@ impl fmt::Display for SetupError {
                 word(*family)
             ),
             SetupError::Channels(text)
-            | SetupError::Globals(text)
             | SetupError::Cell(text)
             | SetupError::Outside(text)
             | SetupError::Other(text) => {
                 write!(f, "{text}")
             }
+            SetupError::Global(error) => write!(f, "{error}"),
             SetupError::State(error) => write!(f, "{error}"),
             SetupError::Trace(text) => write!(f, "the trace cannot be written: {text}"),
             SetupError::Driver { channel, problem } => {
@@ -684,7 +689,17 @@ impl fmt::Display for SetupError {
     }
 }
 
-impl std::error::Error for SetupError {}
+impl std::error::Error for SetupError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            SetupError::Robot(error) => Some(error),
+            SetupError::State(error) => Some(error),
+            SetupError::Driver { problem, .. } | SetupError::Io(problem) => Some(problem),
+            SetupError::Global(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl From<RobotError> for SetupError {
     fn from(error: RobotError) -> Self {

@@ -1,5 +1,6 @@
 //! A channel: a program, how far it has come, and its robot.
 
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
@@ -226,12 +227,12 @@ impl Channel {
             self.channel_state.begun.set(true);
             self.cx.start_cycle(self.stack);
             let seen = std::mem::replace(&mut self.seen, Ok(()));
-            let mut done = seen.map_err(Reason::Alarm).and_then(|()| self.run());
+            let mut done = seen.map_err(Reason::Alarm).and_then(|()| self.run_or_end());
             while let Err(reason) = done {
                 self.leave(reason);
                 // After `exit` the motion that is left may have triggers.
                 let concludes = matches!(self.phase, Phase::Concluding);
-                done = if concludes { self.run() } else { Ok(()) };
+                done = if concludes { self.run_or_end() } else { Ok(()) };
             }
         }
         if let Phase::RunningOut(next) = &self.phase {
@@ -344,6 +345,15 @@ impl Channel {
         {
             self.channel_state.shared.warn(format!("the trace cannot be written: {error}"));
         }
+    }
+
+    /// The same as [`run`](Self::run); what panics, in a program in Rust, ends the program before the panic goes on to whoever steps
+    /// the controller: it would panic in every cycle.
+    fn run_or_end(&mut self) -> Result<(), Reason> {
+        catch_unwind(AssertUnwindSafe(|| self.run())).unwrap_or_else(|panic| {
+            self.end(Outcome::Stopped);
+            resume_unwind(panic)
+        })
     }
 
     /// Runs what is on top until it waits; what has ended makes room for what it interrupted.

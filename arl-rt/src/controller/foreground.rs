@@ -55,8 +55,8 @@ impl Body {
 
 impl Foreground {
     /// A channel that runs this program.
-    pub fn new(program: Box<dyn Program>) -> Self {
-        Self { program, body: Body::default() }
+    pub fn new(program: impl Program) -> Self {
+        Self { program: Box::new(program), body: Body::default() }
     }
 
     /// The robot; without it the default robot of the program's family.

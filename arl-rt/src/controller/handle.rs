@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
 
-use super::{Controller, Status};
+use super::{Controller, OrderError, Status};
 use crate::context::hearers::Event;
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::try_lock::try_lock;
@@ -213,8 +213,8 @@ pub enum HandleError {
     Panicked,
     /// Nobody stepped the controller in time. Nothing was done, and nothing of it will be.
     NotStepped,
-    /// It is no order; why.
-    Order(String),
+    /// It is no order, or cannot be carried out.
+    Order(OrderError),
     /// There is no such input or output, or it cannot carry the value.
     Fault(Fault),
 }
@@ -232,7 +232,15 @@ impl fmt::Display for HandleError {
     }
 }
 
-impl std::error::Error for HandleError {}
+impl std::error::Error for HandleError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            HandleError::Order(error) => Some(error),
+            HandleError::Fault(fault) => Some(fault),
+            _ => None,
+        }
+    }
+}
 
 impl From<Fault> for HandleError {
     fn from(fault: Fault) -> Self {

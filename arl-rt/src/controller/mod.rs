@@ -31,12 +31,13 @@ pub use crate::context::run_state::State;
 pub use builder::{Builder, SetupError};
 pub use foreground::Foreground;
 pub use handle::{Handle, HandleError};
+pub use order::OrderError;
 pub use outcome::Outcome;
 pub use running::Running;
 pub use status::{ChannelStatus, RobotStatus, Status};
 
 use crate::context::hearers::Event;
-use crate::context::named::{self, Named};
+use crate::context::named::{self, GlobalError, Named};
 use crate::context::program::Program;
 use crate::context::shared_state::SharedState;
 use crate::context::system::{self, System};
@@ -45,7 +46,7 @@ use crate::cycle::clock_source::{Clock, Lateness};
 use crate::fault::{Alarm, Fault, File};
 use crate::fieldbus::islands::Islands;
 use crate::io::{AxisName, Digital, Effect, IoDriver, Pendant, Playing, Pwm, RobotEffect};
-use crate::motion::{Joints, MotionRecord};
+use crate::motion::{Joints, MotionRecord, Override};
 use crate::storage::state::StateError;
 use crate::unit::{Beat, Unit};
 use arl_robot::cell::Names;
@@ -177,7 +178,7 @@ impl Controller {
         self.channels.each(Channel::poll);
         self.channels.each(Channel::handle_pending_alarm);
         let (real, due) = (self.clock.is_real(), self.clock.due(cycle, rate.period()));
-        self.channels.each(|channel| channel.step_robot(rate.time(cycle), Beat { period: rate.period(), real, due }));
+        self.channels.each(|channel| channel.step_robot(rate.time(cycle), Beat { cycle: rate.into(), real, due }));
         self.write_external_outputs();
         self.islands.write(self.shared.io.borrow().outputs_all(cycle));
         self.io.write(self.shared.io.borrow().outputs_all(cycle));
@@ -474,7 +475,7 @@ impl Controller {
     ///
     /// # Errors
     /// There is no such variable, or the program was compiled without the names.
-    pub fn global(&self, name: &str) -> Result<String, String> {
+    pub fn global(&self, name: &str) -> Result<String, GlobalError> {
         let program = self.first_program();
         let value = named::with_variable(program, name, |variable| variable.slot.written())?;
         value.ok_or_else(|| named::unknown(name, &[program]))
@@ -484,7 +485,7 @@ impl Controller {
     ///
     /// # Errors
     /// As [`Controller::global`], or the value does not fit.
-    pub fn set_global(&mut self, name: &str, literal: &str) -> Result<(), String> {
+    pub fn set_global(&mut self, name: &str, literal: &str) -> Result<(), GlobalError> {
         Named::new(name.to_owned(), literal.to_owned()).put(&[self.first_program()])
     }
 
@@ -670,13 +671,12 @@ fn act(channels: &mut Channels, effect: Effect) {
     }
 }
 
-/// Sets the speed override of all robots, in %.
-fn set_override(channels: &Channels, percent: f64) {
-    let percent = percent.clamp(0.0, 100.0);
+/// Sets the speed override of all robots.
+fn set_override(channels: &Channels, speed: Override) {
     channels
         .iter()
         .filter_map(|channel| channel.channel_state().robot_mut())
-        .for_each(|mut unit| unit.set_override(percent));
+        .for_each(|mut unit| unit.set_override(speed));
 }
 
 /// A program cannot be reset while it runs.

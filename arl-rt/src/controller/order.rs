@@ -1,5 +1,7 @@
 //! Orders from outside, in the words of a scenario.
 
+use std::fmt;
+
 use super::{Controller, act};
 use crate::io::Order;
 use arl_robot::cell::Names;
@@ -16,14 +18,35 @@ impl Controller {
     ///
     /// # Errors
     /// The text is no order, or it names what is not there; then nothing of it was done.
-    pub fn order(&mut self, text: &str) -> Result<(), String> {
-        let order = Order::parse(text, &self.names).map_err(|error| error.message)?;
+    pub fn order(&mut self, text: &str) -> Result<(), OrderError> {
+        let order = Order::parse(text, &self.names).map_err(|error| OrderError::Text(error.message))?;
         let robots: Vec<_> = self.channels.units().map(|unit| unit.borrow().shared_robot()).collect();
         let robots: Vec<_> = robots.iter().map(|robot| &**robot).collect();
         // An effect may look at the image itself.
         let mut effects = Vec::new();
-        order.carry_out(&mut self.shared.io.borrow_mut(), &robots, |effect| effects.push(effect))?;
+        let done = order.carry_out(&mut self.shared.io.borrow_mut(), &robots, |effect| effects.push(effect));
+        done.map_err(OrderError::NotThere)?;
         effects.into_iter().for_each(|effect| act(&mut self.channels, effect));
         Ok(())
     }
 }
+
+/// Why nothing was done of an order.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum OrderError {
+    /// The text is no order: what is wrong with it.
+    Text(String),
+    /// It is for a signal, an axis or a robot that is not there, or that cannot do it: which.
+    NotThere(String),
+}
+
+impl fmt::Display for OrderError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            OrderError::Text(why) | OrderError::NotThere(why) => write!(f, "{why}"),
+        }
+    }
+}
+
+impl std::error::Error for OrderError {}

@@ -139,7 +139,7 @@ pub(super) fn press(channels: &mut Channels, button: Pendant) {
         return;
     }
     match button {
-        Pendant::Override(percent) => super::set_override(channels, percent),
+        Pendant::Override(speed) => super::set_override(channels, speed),
         Pendant::Start => channels.each(start),
         Pendant::Pause => channels.each(|channel| pause(channel)),
         Pendant::Step => channels.each(step),

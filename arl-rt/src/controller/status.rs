@@ -83,7 +83,7 @@ impl Controller {
         Status {
             time: self.time(),
             mode: self.system().ctl_mode.get(),
-            speed_override: unit.speed_override(),
+            speed_override: unit.speed_override().percent(),
             channels: self.channel_status(),
             di: io.inputs().levels().to_vec(),
             dout: io.outputs().levels().to_vec(),

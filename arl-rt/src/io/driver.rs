@@ -1,4 +1,6 @@
-//! The trait of what exchanges inputs and outputs with the outside.
+//! The trait of what exchanges inputs and outputs with the outside, and why a driver cannot be had.
+
+use std::{error, fmt, io};
 
 use super::channel::Output;
 use super::image::{Inputs, Outputs};
@@ -63,7 +65,7 @@ pub trait IoDriver {
     ///
     /// # Errors
     /// Why there are no inputs and outputs: the controller is not built.
-    fn start(&mut self) -> Result<(), String> {
+    fn start(&mut self) -> Result<(), DriverError> {
         Ok(())
     }
 
@@ -104,4 +106,42 @@ impl IoDriver for SimulatedIo {
 
     #[inline]
     fn write(&mut self, _outputs: Outputs<'_>) {}
+}
+
+/// Why a driver cannot be had: of a robot, or of inputs and outputs. A text becomes one, and so does an error of the system (`?`).
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum DriverError {
+    /// The driver says why.
+    Said(String),
+    /// Something of the system failed; what it says.
+    System(io::ErrorKind, String),
+}
+
+impl fmt::Display for DriverError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            DriverError::Said(why) | DriverError::System(_, why) => write!(f, "{why}"),
+        }
+    }
+}
+
+impl error::Error for DriverError {}
+
+impl From<String> for DriverError {
+    fn from(why: String) -> Self {
+        DriverError::Said(why)
+    }
+}
+
+impl From<&str> for DriverError {
+    fn from(why: &str) -> Self {
+        DriverError::Said(why.to_owned())
+    }
+}
+
+impl From<io::Error> for DriverError {
+    fn from(error: io::Error) -> Self {
+        DriverError::System(error.kind(), error.to_string())
+    }
 }

@@ -9,9 +9,10 @@ mod driver;
 mod image;
 mod scenario;
 
+pub use arl_motion::Override;
 pub use arl_robot::channels::{AnalogType, Channels};
 pub use channel::Output;
-pub use driver::{IoDriver, SimulatedIo};
+pub use driver::{DriverError, IoDriver, SimulatedIo};
 pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};
 

@@ -16,11 +16,11 @@ use std::time::Instant;
 
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::{
-    Command, Compensation, Joints, MotionRecord, NoBlend, Progress, Queue, Recorder, Settings, Start, Stop,
-    UnblendedTarget, circle_steps,
+    Command, Compensation, Cycle, Joints, MotionRecord, NoBlend, Override, Progress, Queue, Recorder, Settings, Start,
+    Stop, UnblendedTarget, circle_steps,
 };
 use crate::unit::dynamics::{Dynamics, Load};
-use crate::unit::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, settled};
+use crate::unit::robot_driver::{DriverError, Drives, Feedback, Power, RobotDriver, Setpoint, settled};
 use crate::values::Joint;
 use arl_robot::cell::Sensitivity;
 use arl_robot::frames::Rig;
@@ -44,8 +44,8 @@ const REST: Joints = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_
 /// A cycle, as a robot sees it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beat {
-    /// Its length in s.
-    pub(crate) period: f64,
+    /// Its length.
+    pub(crate) cycle: Cycle,
     /// Whether it takes the time that it stands for.
     pub(crate) real: bool,
     /// When it ends, where time is that of the world.
@@ -58,7 +58,7 @@ pub(crate) struct Unit {
     queue: Queue,
     /// What `velset` and the mode say.
     pub(crate) settings: Settings,
-    override_percent: f64,
+    speed_override: Override,
     commanded: Moving,
     reported: Moving,
     effort: Effort,
@@ -109,23 +109,24 @@ impl Unit {
     ///
     /// # Errors
     /// Its driver cannot start it; why.
-    pub(crate) fn new(robot: Robot, mut driver: Box<dyn RobotDriver>, period: f64) -> Result<Self, String> {
+    pub(crate) fn new(robot: Robot, mut driver: Box<dyn RobotDriver>, period: f64) -> Result<Self, DriverError> {
         let home = Joints::home(&robot);
         let start = driver.start(&robot_driver::Start { home: &home, robot: &robot, period })?;
         if !is_finite(&start, &robot) {
             driver.close();
-            return Err("it says that the robot is at what is no number".to_owned());
+            return Err("it says that the robot is at what is no number".into());
         }
         let start = own_axes_of(&robot, start, &home);
         let robot = Arc::new(robot);
-        let queue = Queue::new(Arc::clone(&robot), start);
+        // Each cycle says anew whether it is one in real time.
+        let queue = Queue::repeatable(Arc::clone(&robot), start);
         let tcp = queue.tcp();
         let effort = Effort::new(&robot);
         Ok(Self {
             robot,
             queue,
             settings: Settings::default(),
-            override_percent: 100.0,
+            speed_override: Override::FULL,
             commanded: Moving::resting(start),
             reported: Moving::resting(start),
             effort,
@@ -353,19 +354,19 @@ impl Unit {
         axes.zip(positions).all(|(axis, position)| (axis - position).abs() <= tolerance)
     }
 
-    /// The speed override in %.
-    pub(crate) fn set_override(&mut self, percent: f64) {
-        self.override_percent = percent;
+    /// From now on this speed override holds.
+    pub(crate) fn set_override(&mut self, speed: Override) {
+        self.speed_override = speed;
     }
 
-    /// The speed override in %.
-    pub(crate) fn speed_override(&self) -> f64 {
-        self.override_percent
+    /// The speed override.
+    pub(crate) fn speed_override(&self) -> Override {
+        self.speed_override
     }
 
     /// Whether its override is 0: then it does not move on.
     pub(crate) fn is_at_zero_override(&self) -> bool {
-        self.override_percent == 0.0
+        self.speed_override == Override::ZERO
     }
 
     /// Whether another motion can be planned by those of a level of the program.
@@ -493,11 +494,11 @@ impl Unit {
 
     /// One interpolation step, and the exchange with the driver.
     pub(crate) fn step(&mut self, beat: Beat) {
-        let period = beat.period;
+        let period = beat.cycle.period();
         self.queue.follow_real_time(beat.real);
-        let step = self.queue.step(period, self.override_percent);
+        let step = self.queue.step(beat.cycle, self.speed_override);
         if let Some(recorder) = &mut self.recorder {
-            recorder.step(&mut self.queue, &step, period);
+            recorder.step(&mut self.queue, &step);
         }
         self.tcp = step.tcp;
         self.executing = (step.line, step.motion);
@@ -528,7 +529,7 @@ impl Unit {
         self.silent = self.silent.saturating_add(1);
         if let Some(position) = position {
             // It may be the first one for some cycles.
-            let since = f64::from(self.silent) * beat.period;
+            let since = f64::from(self.silent) * beat.cycle.period();
             self.reported.go_to(own_axes_of(&self.robot, position, &self.commanded.at), since);
             if let Some(velocity) = feedback.velocity.filter(|velocity| is_finite(velocity, &self.robot)) {
                 self.reported.measured(&own_axes_of(&self.robot, velocity, &REST));
@@ -540,7 +541,7 @@ impl Unit {
     }
 
     fn setpoint_of(&self, beat: Beat) -> Setpoint {
-        let Beat { period, due: deadline, .. } = beat;
+        let (period, deadline) = (beat.cycle.period(), beat.due);
         if matches!(self.motors, Motors::Off | Motors::ComingOn) {
             // They are asked for nothing but to stay.
             return Setpoint { deadline, ..Setpoint::resting(self.reported.at, period) };

@@ -4,6 +4,7 @@
 
 use std::time::Instant;
 
+pub use crate::io::DriverError;
 use crate::motion::Joints;
 use arl_robot::cell::DriverSettings;
 use arl_robot::robot::{ROBOT_AXES, Robot};
@@ -131,14 +132,14 @@ pub enum Power {
 /// Moves a robot. All calls but [`start`](RobotDriver::start) and [`close`](RobotDriver::close) must return at once.
 ///
 /// ```
-/// use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, Start};
+/// use arl_rt::robot_driver::{DriverError, Drives, Feedback, Power, RobotDriver, Setpoint, Start};
 /// use arl_rt::motion::Joints;
 ///
 /// /// A robot that is where it shall be.
 /// struct Perfect;
 ///
 /// impl RobotDriver for Perfect {
-///     fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+///     fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError> {
 ///         Ok(*start.home)
 ///     }
 ///
@@ -160,7 +161,7 @@ pub trait RobotDriver {
     ///
     /// # Errors
     /// Why there is no robot: the controller is not built.
-    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String>;
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError>;
 
     /// Takes the set-point of a cycle; gives what the robot has said last.
     fn exchange(&mut self, setpoint: &Setpoint) -> Feedback;
@@ -204,7 +205,7 @@ pub enum DrivenTime {
 }
 
 /// Makes the driver that the settings of a cell file describe; it is not started yet. The error says why there is none.
-pub type Connect = fn(&DriverSettings) -> Result<Driven, String>;
+pub type Connect = fn(&DriverSettings) -> Result<Driven, DriverError>;
 
 /// A robot that follows its set-point with a lag: it is where the mean of its last set-points is, those of 8 ms and at
 /// least two. So it moves no more jerkily than it is told to, half of that time late, and stands exactly on its set-point
@@ -228,7 +229,7 @@ impl SimulatedRobot {
 }
 
 impl RobotDriver for SimulatedRobot {
-    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError> {
         let [position, ..] = *self.last.get_or_insert([*start.home; KEPT]);
         self.position = Some(position);
         Ok(position)

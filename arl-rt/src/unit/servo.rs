@@ -11,6 +11,8 @@ use crate::motion::{Command, Joints, Settings, Speed, Start, Stop, Target, Zone}
 pub(super) const JOGGING: f64 = 10.0;
 /// A robot whose axes are slower than that, in deg/s (mm/s), stands: what it measures of itself is never quite still.
 const STILL: f64 = 5.0;
+/// The farthest that an axis is moved at once, in deg (mm): more is a mistake.
+const FARTHEST: f64 = 1e6;
 /// The level of those who move the robot beside the program: above all of it.
 pub(super) const BESIDE: u32 = u32::MAX;
 
@@ -26,6 +28,15 @@ pub enum Motors {
     GoingOff,
     /// They do not. Set-points are where the robot is.
     Off,
+}
+
+/// Whether an axis can be moved so far.
+fn is_distance(by: f64) -> Result<(), String> {
+    if by.abs() <= FARTHEST {
+        Ok(())
+    } else {
+        Err(format!("an axis cannot move by {by}: expected a number of deg (mm)"))
+    }
 }
 
 impl Unit {
@@ -215,6 +226,7 @@ impl Unit {
 
     /// Moves an axis, from 1, at manual speed. While it was paused, the robot goes back to its path before it goes on.
     pub(crate) fn jog(&mut self, axis: usize, by: f64) -> Result<(), String> {
+        is_distance(by)?;
         self.may_be_jogged()?;
         let mut target = *self.target();
         if self.halted && !self.jogged {
@@ -242,6 +254,7 @@ impl Unit {
 
     /// Moves an axis, from 1, while the servo is off.
     pub(crate) fn move_by_hand(&mut self, axis: usize, by: f64) -> Result<(), String> {
+        is_distance(by)?;
         if self.motors != Motors::Off {
             return Err("its servo is on, the motors hold it".into());
         }

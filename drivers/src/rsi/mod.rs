@@ -10,7 +10,7 @@ use std::rc::Rc;
 use std::time::Duration;
 
 use arl_rt::motion::Joints;
-use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, Start};
+use arl_rt::robot_driver::{DriverError, Drives, Feedback, Power, RobotDriver, Setpoint, Start};
 
 pub use beat::RsiBeat;
 use link::Link;
@@ -91,14 +91,14 @@ impl RsiArm {
 }
 
 impl RobotDriver for RsiArm {
-    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError> {
         self.external = start.robot.external_axes().len();
         let mut link = self.link.borrow_mut();
         link.open()?;
         let first = link.wait(BEGIN)?;
         if first.delay > 0 {
             return Err(
-                "RSI runs already, and may hold a correction of a run before: start it again, after arl2rs".to_owned()
+                "RSI runs already, and may hold a correction of a run before: start it again, after arl2rs".into()
             );
         }
         let (mut last, mut steps) = (first, [0; FIRST]);
@@ -108,7 +108,7 @@ impl RobotDriver for RsiArm {
             link.answer(&self.correction, self.external, false);
             let next = link.wait(BEGIN)?;
             if link.take_interruption() {
-                return Err("RSI was interrupted while the run began: start both again".to_owned());
+                return Err("RSI was interrupted while the run began: start both again".into());
             }
             *step = next.ipoc.saturating_sub(last.ipoc);
             last = next;
@@ -116,14 +116,14 @@ impl RobotDriver for RsiArm {
         fits(&steps, start.period)?;
         if last.external < self.external {
             let (has, needs) = (last.external, self.external);
-            return Err(format!("its messages have {has} external axes in `EIPos`, the robot file {needs}"));
+            return Err(format!("its messages have {has} external axes in `EIPos`, the robot file {needs}").into());
         }
         if last.ready == Some(false) {
-            return Err("its drives are off: switch them on, and start RSI again".to_owned());
+            return Err("its drives are off: switch them on, and start RSI again".into());
         }
         let moved = difference(&begin_at(last.position)?, &self.origin);
         if moved.axes.iter().chain(&moved.external).any(|by| by.abs() > STANDS) {
-            return Err("the robot moves, though nobody has asked it to".to_owned());
+            return Err("the robot moves, though nobody has asked it to".into());
         }
         // The first cycle answers.
         link.give_back(last);

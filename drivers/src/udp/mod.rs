@@ -7,7 +7,7 @@ use std::net::{ToSocketAddrs, UdpSocket};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use arl_rt::motion::Joints;
-use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, Start};
+use arl_rt::robot_driver::{DriverError, Drives, Feedback, Power, RobotDriver, Setpoint, Start};
 
 use crate::patience::Patience;
 use crate::position::begin_at;
@@ -59,7 +59,7 @@ impl UdpArm {
 }
 
 impl RobotDriver for UdpArm {
-    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError> {
         let mut link = Link::open(&self.address, start)?;
         let state = link.meet(&self.address)?;
         let position = link.switch_on(state.position)?;

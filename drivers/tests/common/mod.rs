@@ -40,5 +40,5 @@ pub(crate) fn joints(axis: f64) -> Positions {
 /// Starts a driver as a controller does.
 pub(crate) fn start(driver: &mut impl RobotDriver) -> Result<Positions, String> {
     let robot = Robot::builtin("kr10-r1420").unwrap();
-    driver.start(&Start::new(&joints(0.0), &robot, 0.004))
+    driver.start(&Start::new(&joints(0.0), &robot, 0.004)).map_err(|error| error.to_string())
 }

@@ -1,6 +1,6 @@
 //! Runs conformance cases inside the process, as Rust programs that embed ARL do.
 
-use arl_rt::io::Scenario;
+use arl_rt::io::{Override, Scenario};
 use arl_rt::program::{Make, Other};
 use arl_rt::values::Controlmode;
 use arl_rt::{Captured, Controller, Outcome, Robot};
@@ -58,7 +58,7 @@ fn run((make, source, lines_above, others): &Entry) -> Result<(), String> {
         _ => builder,
     };
     if let Some(percent) = number("override") {
-        builder = builder.speed_override(percent);
+        builder = builder.speed_override(Override::from_percent(percent).map_err(|error| text(&error))?);
     }
     let mut controller = builder.build(make()).map_err(|error| text(&error))?;
     controller.set_loop(options.get("loop").and_then(toml::Value::as_bool).unwrap_or_default());

@@ -150,7 +150,7 @@ fn obey(
                 let done = match (Look::asked(&order), Holding::asked(&order)) {
                     (Some(value), _) => look.set(controller, value).map(|()| look.say(controller, voice)),
                     (None, Some(button)) => holding.hold(controller, button),
-                    (None, None) => controller.order(&order),
+                    (None, None) => controller.order(&order).map_err(|error| error.to_string()),
                 };
                 if let Err(why) = done {
                     voice.refused(&order, &why);

@@ -7,6 +7,7 @@ use crate::builtins::time;
 use crate::command::live::{STATE_INTERVAL_S, Wishes};
 use crate::cycle::realtime::Realtime;
 use crate::values::Controlmode;
+use arl_motion::Override;
 use arl_robot::changes::{Changes, Part};
 
 pub(super) const HELP: &str = "\
@@ -78,7 +79,7 @@ pub(super) struct Options {
     pub(super) cycle_time: Option<PathBuf>,
     pub(super) max_time: Option<f64>,
     pub(super) mode: Controlmode,
-    pub(super) override_percent: f64,
+    pub(super) speed_override: Override,
     pub(super) seed: Option<u64>,
     pub(super) start_time: Option<i64>,
     pub(super) changes: Changes,
@@ -163,7 +164,7 @@ pub(super) fn parse(
         cycle_time: None,
         max_time: None,
         mode: Controlmode::Auto,
-        override_percent: 100.0,
+        speed_override: Override::FULL,
         seed: None,
         start_time: None,
         changes: Changes::default(),
@@ -207,7 +208,10 @@ pub(super) fn parse(
                     [("auto", Controlmode::Auto), ("manual", Controlmode::Manual), ("manufast", Controlmode::Manufast)];
                 options.mode = word(&mut parser, "--mode", &modes)?;
             }
-            Long("override") => options.override_percent = number(&mut parser, "--override", "percent", 100.0)?,
+            Long("override") => {
+                let percent = number(&mut parser, "--override", "percent", 100.0)?;
+                options.speed_override = Override::from_percent(percent).map_err(|error| error.to_string())?;
+            }
             Long("seed") => options.seed = Some(parser.value()?.parse()?),
             Long("start-time") => {
                 let text = parser.value()?.string()?;

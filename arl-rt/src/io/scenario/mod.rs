@@ -37,6 +37,7 @@ use std::path::Path;
 
 use super::image::PWM_CHANNELS;
 use super::{Channels, Digital, Image};
+use arl_motion::Override;
 use arl_robot::cell::Names;
 use arl_robot::changes::{Changes, Part};
 use arl_robot::regular_file;
@@ -64,8 +65,8 @@ pub enum Pendant {
     ServoOff,
     /// Switches the motors off at once, whatever the robot does.
     EmergencyStop,
-    /// The speed override in %.
-    Override(f64),
+    /// The speed override.
+    Override(Override),
 }
 
 /// What an event does besides setting inputs.

@@ -6,6 +6,7 @@ use toml::de::{DeTable, DeValue};
 use super::{Action, AxisName, Cause, Effect, Event, Pendant, RobotEffect};
 use crate::cycle::channel_id::MOST_FOREGROUND;
 use crate::io::Digital;
+use arl_motion::Override;
 use arl_robot::cell::{Names, Signal, SignalKind};
 use arl_robot::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
 
@@ -290,7 +291,8 @@ fn actions(source: Source<'_>, event: &Section<'_>, words: &Words<'_>) -> Result
             "pendant" => actions.push(Action::Effect(Effect::Pendant(pendant(event, source, value)?))),
             "override" => {
                 let percent = event.number(key, "percent", 0.0, 100.0)?.unwrap_or(100.0);
-                actions.push(Action::Effect(Effect::Pendant(Pendant::Override(percent))));
+                let speed = Override::from_percent(percent).map_err(|error| source.error(0..0, error.to_string()))?;
+                actions.push(Action::Effect(Effect::Pendant(Pendant::Override(speed))));
             }
             "force" => actions.push(Action::Effect(Effect::Robot(channel, force(event, value)?))),
             "torque" => {

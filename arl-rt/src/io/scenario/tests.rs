@@ -2,6 +2,7 @@
 
 use super::*;
 use arl_robot::cell::Rate;
+use arl_robot::robot::Description;
 
 fn play(text: &str, cycles: u64, mut each: impl FnMut(u64, &mut Image)) -> Vec<Effect> {
     let scenario = Scenario::parse("io.toml", text).unwrap();
@@ -44,7 +45,10 @@ fn edges_set_off_events_every_time() {
 #[test]
 fn the_pendant_speaks() {
     let text = "[[event]]\nat = 0\npendant = \"start\"\noverride = 50\n";
-    assert_eq!(play(text, 1, |_, _| {}), [Pendant::Start, Pendant::Override(50.0)].map(Effect::Pendant));
+    assert_eq!(
+        play(text, 1, |_, _| {}),
+        [Pendant::Start, Pendant::Override(Override::from_percent(50.0).unwrap())].map(Effect::Pendant)
+    );
 }
 
 #[test]
@@ -124,7 +128,8 @@ fn axes_and_masses_must_exist() {
     let scara = Robot::builtin("hsr065").unwrap();
     let error = scenario.check(&Channels::default(), &[&scara]).unwrap_err();
     assert!(error.contains("turns j5, but robot hsr065 has j1 to j4"), "{error}");
-    let robot = Robot { links: Vec::new(), ..Robot::builtin("kr10-r1420").unwrap() };
+    let described = Robot::builtin("kr10-r1420").unwrap().into_description();
+    let robot = Robot::new(Description { links: Vec::new(), ..described }).unwrap();
     let error = scenario.check(&Channels::default(), &[&robot]).unwrap_err();
     assert!(error.contains("has no [[link]]"), "{error}");
 }

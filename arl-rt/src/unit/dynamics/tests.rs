@@ -5,6 +5,7 @@ use nalgebra::{Translation3, UnitQuaternion};
 use super::*;
 use crate::values::{CentroidPos, InertiaTensor, ToolInertiaPara};
 use arl_robot::kinematics::random::Random;
+use arl_robot::robot::Description;
 
 /// Torques that Pinocchio has computed: see `scripts/newton-euler.py`.
 const CASES: &str = include_str!("../../../tests/data/newton-euler.txt");
@@ -118,6 +119,7 @@ fn currents_follow_gear_and_motor() {
 
 #[test]
 fn a_robot_without_masses_has_no_dynamics() {
-    let robot = Robot { links: Vec::new(), ..Robot::builtin("kr10-r1420").unwrap() };
+    let described = Robot::builtin("kr10-r1420").unwrap().into_description();
+    let robot = Robot::new(Description { links: Vec::new(), ..described }).unwrap();
     assert_eq!(Dynamics::new(&robot), None);
 }

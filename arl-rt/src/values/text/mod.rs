@@ -1,7 +1,7 @@
 //! Text: how values are printed, and how they are read back.
 
 pub mod format;
-pub mod number;
+pub(crate) mod number;
 pub mod scan;
 
 pub use format::{Nested, Print, Style, Typed, nested};

@@ -9,7 +9,7 @@ const MOST_DIGITS: u32 = 800;
 /// Appends a double with this many significant digits, without trailing zeros: fixed where the decimal exponent is
 /// from -4 to `precision - 1`, else with an exponent of at least two digits. Ties of the exact binary value go to the
 /// even digit; minus zero is `0`.
-pub fn push_double(out: &mut Str, value: f64, precision: u32) {
+pub(crate) fn push_double(out: &mut Str, value: f64, precision: u32) {
     let precision = precision.clamp(1, MOST_DIGITS);
     if value.abs() < 10f64.powi(precision.min(15) as i32) {
         let whole = value as i64;
@@ -83,7 +83,7 @@ fn read_exponent(digits: &[u8]) -> i32 {
 }
 
 /// Appends an integer in decimal.
-pub fn push_int(out: &mut Str, value: i64) {
+pub(crate) fn push_int(out: &mut Str, value: i64) {
     let mut digits = [0; 20];
     let mut rest = value.unsigned_abs();
     let mut used = 0;
@@ -102,7 +102,7 @@ pub fn push_int(out: &mut Str, value: i64) {
 }
 
 /// Appends an integer in lower-case hexadecimal without suffix, with at least this many digits.
-pub fn push_hex(out: &mut Str, value: u32, least: u32) {
+pub(crate) fn push_hex(out: &mut Str, value: u32, least: u32) {
     let needed = (32 - value.leading_zeros()).div_ceil(4).max(least).max(1);
     for at in (0..needed).rev() {
         let digit = (value.checked_shr(4 * at).unwrap_or(0) & 15) as u8;

@@ -116,14 +116,14 @@ fn integer(field: &[u8]) -> Option<(i64, bool)> {
 }
 
 /// A decimal int with blanks around it.
-pub fn decimal(text: &[u8]) -> Option<i32> {
+pub(crate) fn decimal(text: &[u8]) -> Option<i32> {
     let (negative, digits) = signed(text.trim_ascii());
     let size = magnitude(digits, 10)?;
     i32::try_from(if negative { -size } else { size }).ok()
 }
 
 /// A hexadecimal int with blanks around it, with or without a final `h`; without a sign it is a bit pattern.
-pub fn hexadecimal(text: &[u8]) -> Option<i32> {
+pub(crate) fn hexadecimal(text: &[u8]) -> Option<i32> {
     let (negative, digits) = signed(text.trim_ascii());
     let digits = digits.strip_suffix(b"h").or_else(|| digits.strip_suffix(b"H")).unwrap_or(digits);
     let size = magnitude(digits, 16)?;
