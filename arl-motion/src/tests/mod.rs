@@ -13,6 +13,7 @@ mod prepared;
 mod real_time;
 mod records;
 mod short_stops;
+mod singular;
 mod stops;
 mod suspensions;
 mod traces;
@@ -27,7 +28,7 @@ use crate::*;
 use arl_robot::frames::{Carried, Rig};
 use arl_robot::kinematics::random::Random;
 use arl_robot::kinematics::{Frame, Wanted, frame, frame_components};
-use arl_robot::robot::{Robot, VelocityProfile};
+use arl_robot::robot::{ROBOT_AXES, Robot, VelocityProfile};
 
 const CYCLE: f64 = 0.001;
 
