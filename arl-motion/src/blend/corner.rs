@@ -289,6 +289,7 @@ impl Corner<'_> {
                 .into(),
             cfg: to.cfg,
             passages: Vec::new(),
+            close_places: Vec::new(),
             over: None,
         }
     }

@@ -41,6 +41,7 @@ impl NoBlend {
             PlanError::AxisLimit { axis, .. } => NoBlend::AxisLimit { axis },
             PlanError::Singular { axis, .. } | PlanError::Wrist { axis, .. } => NoBlend::Singular { axis: Some(axis) },
             PlanError::TooDense { .. } => NoBlend::Singular { axis: None },
+            PlanError::TooSharp { .. } => NoBlend::NothingLeft,
             _ => NoBlend::Unreachable,
         }
     }

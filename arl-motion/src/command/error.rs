@@ -54,6 +54,11 @@ pub enum PlanError {
         /// Where on the path, 0 to 1.
         along: f64,
     },
+    /// The path turns back over too short a way for the robot to follow it without a stop.
+    TooSharp {
+        /// Where, as part of the path.
+        along: f64,
+    },
     /// Start, point on the way and target do not make a circle: two of them are the same, or all lie on a line.
     NoCircle,
     /// The angle of a circle is beyond what is sensible.
@@ -163,6 +168,10 @@ impl fmt::Display for PlanError {
                 write!(f, "the weave or the compensation changes too much over so short a way; ")?;
                 place(f, *along)?;
                 write!(f, ": take a lower frequency, less amplitude or shift, or a longer motion")
+            }
+            PlanError::TooSharp { along } => {
+                write!(f, "the path turns too sharply there to be followed without a stop; ")?;
+                place(f, *along)
             }
             PlanError::NoCircle => write!(
                 f,

@@ -312,6 +312,15 @@ impl Segment {
         inside.map(|share| (share - self.from) / (self.to - self.from) * self.time).chain([self.time])
     }
 
+    /// Places beside singular points that a look along it must not miss, in s of nominal time from its start. What is laid down
+    /// by a parametrization of its own has none.
+    pub(crate) fn close_places(&self) -> impl Iterator<Item = f64> {
+        let curve = if let Curve::Tool(curve) = &self.curve { Some(curve) } else { None };
+        let places = curve.filter(|_| self.parametrization.is_none()).into_iter().flat_map(|curve| &curve.close_places);
+        let inside = places.filter(|share| **share > self.from && **share < self.to);
+        inside.map(|share| (share - self.from) / (self.to - self.from) * self.time)
+    }
+
     /// Whether derivatives of its curve jump within `near` s of nominal time beside a place.
     pub(crate) fn jumps_beside(&self, at: f64, near: f64) -> bool {
         let width = (self.to - self.from) / self.time;

@@ -38,6 +38,8 @@ pub(crate) struct ToolCurve {
     pub(crate) cfg: u8,
     /// Where axis 4 is led through the wrist singularity.
     pub(crate) passages: Vec<Passage>,
+    /// Places beside singular points, where the axes' motion changes quickly.
+    pub(crate) close_places: Vec<f64>,
     /// What is laid over the path.
     pub(crate) over: Option<Box<Overlay>>,
 }
@@ -283,6 +285,7 @@ mod tests {
             external: Quintic::even([0.0; 6], [0.0; 6]).into(),
             cfg: 0,
             passages: Vec::new(),
+            close_places: Vec::new(),
             over: None,
         };
         let (at, h) = (0.4, 1e-3);

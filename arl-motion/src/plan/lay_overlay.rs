@@ -165,7 +165,12 @@ impl Laid {
     fn finished(self, robot: &Robot) -> Result<Motion, PlanError> {
         let Curve::Tool(plain) = &self.plain.curve else { return Ok(self.plain) };
         let overlay = self.overlay();
-        let curve = ToolCurve { over: Some(Box::new(overlay)), passages: Vec::new(), ..plain.clone() };
+        let curve = ToolCurve {
+            over: Some(Box::new(overlay)),
+            passages: Vec::new(),
+            close_places: Vec::new(),
+            ..plain.clone()
+        };
         let found = check_path(robot, &curve, &self.start)?;
         let mut end = Joints { axes: found.end, ..self.plain.end };
         for (value, axis) in end.axes.iter_mut().zip(robot.own_axes()) {

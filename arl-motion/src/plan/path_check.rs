@@ -6,8 +6,9 @@ use crate::command::joints::{Joints, is_unset};
 use crate::geometry::parametrization::Parametrization;
 use crate::plan::curve::SINGULAR_CLEARANCE;
 use crate::plan::curve::ToolCurve;
-use arl_robot::kinematics::{Axes, RANGE_SLACK, Rates, Refusal, SINGULAR_SCALE};
-use arl_robot::robot::Robot;
+use arl_robot::kinematics::{Axes, RANGE_SLACK, Rates, Refusal, SHORTEST_STEP_S, Twist, lowest_pace, outruns};
+use arl_robot::robot::{ROBOT_AXES, Robot};
+use nalgebra::Vector3;
 
 /// What the walk found.
 pub(crate) struct Survey {
@@ -23,10 +24,18 @@ const LONGEST_STEP_SHARE: f64 = 1.0 / 16.0;
 const LONGEST_SHORT_STEP_SHARE: f64 = 0.5;
 const SHORT_PATH_DEG_OR_MM: f64 = 3.0;
 /// A step as part of the length over which the axes' motion changes. A singular point is never stepped over: the steps
-/// get shorter in proportion to its distance.
+/// get shorter in proportion to its distance, and a step over which an axis jumps is halved.
 const STEP_SHARE_OF_SCALE: f64 = 0.04;
-/// An axis that is so far (deg) from where it was bound to be has jumped to another solution.
+/// A step, as part of the path, where the derivatives of the axes are not known.
+const BLIND_STEP_SHARE: f64 = 1e-3;
+/// A path that changes over less than this part of it turns too sharply, or what is laid over it is too dense.
+const DENSEST_SHARE: f64 = 1e-3;
+/// An axis that is so far (deg) from where it was bound to be has jumped to another solution, or the step was too long.
 const JUMP_DEG: f64 = 10.0;
+/// Farther from singular points than this (see [`arl_robot::kinematics::Kinematics::clearance`]) no place is one.
+const CLEAR: f64 = 0.15;
+/// So far ahead (s at the lowest speed that makes sense) of a singular place the end of the arm's reach is looked for.
+const ENDS_AHEAD_S: [f64; 5] = [0.01, 0.1, 1.0, 3.0, 10.0];
 /// Steps through a passage of the wrist singularity.
 const PASSAGE_STEPS: f64 = 48.0;
 /// The place of axis 4.
@@ -36,6 +45,26 @@ const BESIDE_SHARE: f64 = 1e-9;
 /// A glimpse behind the start and before the end, where the axes must not differ from the ends by over `BEHIND_END_JUMP_DEG` deg.
 const BEHIND_END_SHARE: f64 = 1e-6;
 const BEHIND_END_JUMP_DEG: f64 = 0.05;
+
+/// Places of a path are close together where the axes' motion changes over less than this part of it: beside singular points.
+const CLOSE_SHARE: f64 = 0.02;
+/// These are so far apart, as part of the length over which the axes' motion changes.
+const CLOSE_STEP_SHARE: f64 = 0.06;
+
+impl Survey {
+    /// The places beside singular points where the axes' motion changes so quickly that others may miss it.
+    pub(crate) fn close_places(&self, robot: &Robot) -> Vec<f64> {
+        let mut places: Vec<f64> = Vec::new();
+        for (at, rates) in &self.rates {
+            let scale = rates.scale(&robot.axes);
+            let far = places.last().is_none_or(|last| at - last >= CLOSE_STEP_SHARE * scale);
+            if scale < CLOSE_SHARE && far {
+                places.push(*at);
+            }
+        }
+        places
+    }
+}
 
 struct Walk<'a> {
     robot: &'a Robot,
@@ -56,17 +85,15 @@ pub(crate) fn check_path(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Re
     let mut rates = Vec::with_capacity(32);
     let mut limits = Ranges::new(robot);
     let (mut at, mut here) = (0.0, start.axes);
-    let glimpse = walk.axes(BEHIND_END_SHARE, &here)?;
-    walk.no_jump(&here, &glimpse, BEHIND_END_JUMP_DEG, 0.0)?;
     let mut known = walk.rates(0.0, &here);
+    let glimpse = walk.axes(BEHIND_END_SHARE, &here)?;
+    walk.no_jump(&here, &glimpse, turned_beside_end(known.as_ref()), 0.0)?;
     let longest = curve.over.as_ref().map_or(longest, |over| over.longest_step().min(longest));
     let mut strip = 0.0;
     while at < 1.0 - BEHIND_END_SHARE {
         let next =
             walk.next(at, &here, known.as_ref(), longest)?.min(jump_ahead(curve, at)).min(1.0 - BEHIND_END_SHARE);
-        let expected = known.as_ref().map_or(here, |known| ahead(&here, known, next - at));
-        let found = walk.axes(next, &expected)?;
-        walk.no_jump(&expected, &found, JUMP_DEG, next)?;
+        let (next, found) = walk.step(at, &here, known.as_ref(), next)?;
         if let Some(known) = known {
             limits.between(at, &here, &known, next - at);
             rates.push((at, known));
@@ -84,11 +111,20 @@ pub(crate) fn check_path(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Re
             strip = at;
         }
     }
-    rates.extend(known.map(|known| (at, known)));
+    if let Some(known) = known {
+        walk.not_singular(at, &here)?;
+        rates.push((at, known));
+    }
     let end = walk.axes(1.0, &here)?;
-    walk.no_jump(&here, &end, BEHIND_END_JUMP_DEG, 1.0)?;
+    walk.no_jump(&here, &end, turned_beside_end(known.as_ref()), 1.0)?;
     limits.at(1.0, &end);
     limits.broken.map_or(Ok(Survey { end, rates }), Err)
+}
+
+/// How far an axis may turn, in deg, between an end of the path and a glimpse beside it, where `rates` are those there.
+fn turned_beside_end(rates: Option<&Rates>) -> f64 {
+    let fastest = rates.map_or(0.0, |rates| rates.first.iter().fold(0.0, |most: f64, rate| most.max(rate.abs())));
+    BEHIND_END_JUMP_DEG + 2.0 * BEHIND_END_SHARE * fastest
 }
 
 /// The next side of a place where the derivatives of a way jump that goes at an even pace in parts.
@@ -109,6 +145,18 @@ fn jump_ahead(curve: &ToolCurve, at: f64) -> f64 {
 /// An axis may be beside where the place before made it bound to be by this part of what the axes moved since.
 const EXPECTED_SHARE: f64 = 0.02;
 
+/// What an axis does in less time than this, s at its highest speed, comes from rounding.
+const SEEN_S: f64 = 1e-9;
+/// An axis that is farther from where the place before made it bound to be than by this part of what the axes moved since was led by
+/// something between.
+const BENT_SHARE: f64 = 1e-3;
+
+/// How long the robot's own axis that takes longest would take from `a` to `b`, in s at its highest speed.
+fn farthest(robot: &Robot, a: &Axes, b: &Axes) -> f64 {
+    let ways = a.iter().zip(b).zip(robot.own_axes());
+    ways.map(|((a, b), axis)| (a - b).abs() / axis.vel).fold(0.0, f64::max)
+}
+
 /// Looks at a short path at a few places, the first and the last of which are its ends; `None` where that is not enough to
 /// know how the axes move, or where they must not go: [`check_path`] tells then.
 pub(crate) fn check_gentle_path<const N: usize>(
@@ -127,11 +175,8 @@ pub(crate) fn check_gentle_path<const N: usize>(
         };
         let axes = curve.axes(&robot.kinematics, *at, &expected)?;
         if let Some((before, rates)) = found.rates.last() {
-            let speeds = || robot.own_axes().iter().map(|axis| axis.vel);
-            let far = |a: &Axes, b: &Axes| {
-                a.iter().zip(b).zip(speeds()).map(|((a, b), vel)| (a - b).abs() / vel).fold(0.0, f64::max)
-            };
-            if far(&axes, &expected) > EXPECTED_SHARE * far(&axes, &found.end) + 1e-9 {
+            let far = |other: &Axes| farthest(robot, &axes, other);
+            if far(&expected) > EXPECTED_SHARE * far(&found.end) + SEEN_S {
                 return None;
             }
             limits.between(*before, &found.end, rates, at - before);
@@ -162,17 +207,89 @@ impl Walk<'_> {
     fn next(&self, at: f64, axes: &Axes, known: Option<&Rates>, longest: f64) -> Result<f64, PlanError> {
         let step = match (self.curve.passage(at), known) {
             (Some(passage), _) if at < passage.to => (passage.to - passage.from) / PASSAGE_STEPS,
-            (_, None) => SINGULAR_SCALE,
+            (_, None) => BLIND_STEP_SHARE,
             (_, Some(known)) => {
+                self.not_singular(at, axes)?;
                 let scale = self.scale_of_way(known, at, axes);
-                if scale < SINGULAR_SCALE {
-                    let dense = self.is_plain_clear(at, axes);
-                    return Err(if dense { PlanError::TooDense { along: at } } else { self.singular(known, at) });
+                if scale < DENSEST_SHARE {
+                    self.not_too_sharp(at, axes)?;
                 }
                 (STEP_SHARE_OF_SCALE * scale).min(longest)
             }
         };
         Ok(self.curve.borders().filter(|border| *border > at).fold(at + step, f64::min))
+    }
+
+    /// Goes on to `next`, or less far where an axis jumps on the way there: then a singular point is between, which the axes
+    /// pass at a low speed, or cannot pass.
+    fn step(&self, at: f64, here: &Axes, known: Option<&Rates>, mut next: f64) -> Result<(f64, Axes), PlanError> {
+        loop {
+            let expected = known.map_or(*here, |known| ahead(here, known, next - at));
+            let found = self.axes(next, &expected)?;
+            let jumping = worst_jump(&expected, &found).filter(|(_, jump)| *jump > JUMP_DEG);
+            let passed = self.curve.passage(at).is_some();
+            let bends = known.is_some() && self.plain.is_none() && !passed && self.bends(here, &expected, &found);
+            if jumping.is_none() && !bends {
+                return Ok((next, found));
+            }
+            let time = self.lowest_pace(f64::midpoint(at, next)) * (next - at);
+            let is_short = time < SHORTEST_STEP_S;
+            match jumping {
+                Some((axis, _)) if passed || is_short || outruns(self.robot.own_axes(), here, &found, time) => {
+                    return Err(self.jumps(axis, next, &found));
+                }
+                None if is_short => return Ok((next, found)),
+                _ => next = f64::midpoint(at, next),
+            }
+        }
+    }
+
+    /// Whether the axes are so far from where they were bound to be that their motion changed on the way: an arm that is all but
+    /// stretched turns back within a hair's breadth.
+    fn bends(&self, here: &Axes, expected: &Axes, found: &Axes) -> bool {
+        farthest(self.robot, found, expected) > BENT_SHARE * farthest(self.robot, found, here) + SEEN_S
+    }
+
+    /// The way, without what is laid over it.
+    fn way(&self) -> &ToolCurve {
+        self.plain.as_ref().unwrap_or(self.curve)
+    }
+
+    /// s per unit of the parameter at the lowest speed that makes sense.
+    fn lowest_pace(&self, at: f64) -> f64 {
+        let ([_, travel, ..], [turning, ..]) = (self.way().moving(at), self.way().rotation_rates(at));
+        lowest_pace(&travel, &turning)
+    }
+
+    /// A place from which the axes cannot go straight on at the lowest speed that makes sense is singular. In a passage axis 4 is
+    /// led.
+    fn not_singular(&self, at: f64, axes: &Axes) -> Result<(), PlanError> {
+        if self.curve.passage(at).is_some() || self.robot.kinematics.clearance(axes) > CLEAR {
+            return Ok(());
+        }
+        let Some(rates) = self.robot.kinematics.rates(axes, &self.straight_on(at)) else { return Ok(()) };
+        match rates.speed_margin(&self.robot.axes, self.lowest_pace(at)) {
+            (margin, axis) if margin < 1.0 => Err(self.singular(axis, at)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Where the axes' motion changes over so little of the path though they could go straight on, the path itself turns too sharply,
+    /// or what is laid over it does.
+    fn not_too_sharp(&self, at: f64, axes: &Axes) -> Result<(), PlanError> {
+        if self.is_plain_clear(at, axes) {
+            return Err(PlanError::TooDense { along: at });
+        }
+        let straight = self.robot.kinematics.rates(axes, &self.straight_on(at));
+        let is_clear = straight.is_some_and(|straight| self.scale(&straight) >= DENSEST_SHARE);
+        if is_clear { Err(PlanError::TooSharp { along: at }) } else { Ok(()) }
+    }
+
+    /// How the flange moves where the way goes straight on, the tool turning evenly.
+    fn straight_on(&self, at: f64) -> Twist {
+        let way = self.way();
+        let ([_, travel, ..], [turning, ..], rest) = (way.moving(at), way.rotation_rates(at), Vector3::zeros());
+        way.carried.twist(&way.tcp(at), &[travel, rest, rest], &[turning, rest, rest])
     }
 
     /// Out of reach from here on: how far at worst?
@@ -217,7 +334,7 @@ impl Walk<'_> {
 
     /// Whether only what is laid over the path makes the axes' motion change so quickly.
     fn is_plain_clear(&self, at: f64, axes: &Axes) -> bool {
-        self.plain.is_some() && self.plain_rates(at, axes).is_some_and(|plain| self.scale(&plain) >= SINGULAR_SCALE)
+        self.plain.is_some() && self.plain_rates(at, axes).is_some_and(|plain| self.scale(&plain) >= DENSEST_SHARE)
     }
 
     fn plain_rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
@@ -238,34 +355,43 @@ impl Walk<'_> {
     }
 
     fn no_jump(&self, expected: &Axes, found: &Axes, most: f64, at: f64) -> Result<(), PlanError> {
-        let jump = |index: usize| match (expected.get(index), found.get(index)) {
-            (Some(expected), Some(found)) => (found - expected).abs(),
-            _ => 0.0,
-        };
-        let worst = (0..found.len()).max_by(|a, b| jump(*a).total_cmp(&jump(*b))).unwrap_or(0);
-        if jump(worst) <= most {
-            Ok(())
-        } else if self.is_plain_clear(at, found) {
-            Err(PlanError::TooDense { along: at })
-        } else {
-            Err(PlanError::Singular { axis: self.name(worst), along: at })
+        match worst_jump(expected, found) {
+            Some((axis, jump)) if jump > most => Err(self.jumps(axis, at, found)),
+            _ => Ok(()),
         }
     }
 
-    fn singular(&self, rates: &Rates, at: f64) -> PlanError {
+    /// An axis jumps.
+    fn jumps(&self, axis: usize, at: f64, found: &Axes) -> PlanError {
+        if self.is_plain_clear(at, found) {
+            PlanError::TooDense { along: at }
+        } else {
+            PlanError::Singular { axis: self.name(axis), along: at }
+        }
+    }
+
+    fn singular(&self, axis: usize, at: f64) -> PlanError {
         // A stretched arm is singular, too; but what is wrong there is that the line goes on where the arm ends.
-        let ends = |ahead: f64| self.curve.axes(&self.robot.kinematics, (at + ahead).min(1.0), &rates.first).is_none();
-        if [1.0, 2.0, 4.0, 8.0].iter().any(|times| ends(times * SINGULAR_SCALE)) {
+        let pace = self.lowest_pace(at);
+        let ends = |time: &f64| {
+            let ahead = (at + time / pace).min(1.0);
+            self.curve.axes(&self.robot.kinematics, ahead, &[0.0; ROBOT_AXES]).is_none()
+        };
+        if ENDS_AHEAD_S.iter().any(ends) {
             return self.unreachable(at);
         }
-        let rate = |index: usize| rates.first.get(index).map_or(0.0, |rate| rate.abs());
-        let fastest = (0..self.robot.own_axes().len()).max_by(|a, b| rate(*a).total_cmp(&rate(*b))).unwrap_or(0);
-        PlanError::Singular { axis: self.name(fastest), along: at }
+        PlanError::Singular { axis: self.name(axis), along: at }
     }
 
     fn name(&self, index: usize) -> String {
         self.robot.axes.get(index).map_or(String::new(), |axis| axis.name.clone())
     }
+}
+
+/// The axis that is farthest from where it was expected, and how far.
+fn worst_jump(expected: &Axes, found: &Axes) -> Option<(usize, f64)> {
+    let jumps = expected.iter().zip(found).map(|(expected, found)| (found - expected).abs());
+    jumps.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b))
 }
 
 /// Where the axes are bound to be a step further.

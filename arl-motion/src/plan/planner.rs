@@ -23,8 +23,10 @@ use crate::plan::path_check::check_path;
 use arl_robot::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, Wanted, frame, frame_components};
 use arl_robot::robot::{Axis, Robot, VelocityProfile};
 
-/// Distances up to this are no motion: mm or deg of an axis; mm and deg of the TCP.
+/// Distances up to this (mm or deg) of an axis are no motion.
 const NO_DISTANCE: f64 = 1e-10;
+/// Ways of the TCP up to this (mm and deg) are none: targets that differ by so little are the same.
+const NO_WAY: f64 = 1e-5;
 
 /// The largest angle of a circle, in deg.
 const LARGEST_CIRCLE_DEG: f64 = 7200.0;
@@ -242,6 +244,7 @@ impl Planner<'_> {
             external: Curve::even_axes(self.start, end).external(),
             cfg: 0,
             passages: Vec::new(),
+            close_places: Vec::new(),
             over: None,
         }
     }
@@ -257,6 +260,7 @@ impl Planner<'_> {
         curve.cfg = self.configuration(&curve);
         self.find_passages(&mut curve);
         let found = check_path(self.robot, &curve, self.start).map_err(|error| self.at_the_wrist(error, &curve))?;
+        curve.close_places = found.close_places(self.robot);
         let end = Joints { axes: found.end, external: *external }.completed(self.start, self.robot);
         let end = self.within_ranges(end)?;
         let mut pace = self.pace(true)?;
@@ -321,9 +325,10 @@ impl Planner<'_> {
         } else {
             angle.angle().to_degrees()
         };
-        let goes = length > NO_DISTANCE || angle > NO_DISTANCE;
+        let goes = length > NO_WAY || angle > NO_WAY;
         let found = if goes { Some(check_path(self.robot, &curve, self.start)) } else { None };
         let found = found.transpose().map_err(|error| self.at_the_wrist(error, &curve))?;
+        curve.close_places = found.as_ref().map_or(Vec::new(), |found| found.close_places(self.robot));
         let axes = found.as_ref().map_or(self.start.axes, |found| found.end);
         let end = self.within_ranges(Joints { axes, ..end })?;
         let moves = goes || self.moves(&end);

@@ -15,6 +15,7 @@ mod real_time;
 mod records;
 mod refusals;
 mod short_stops;
+mod singular;
 mod steps;
 mod stops;
 mod suspensions;
@@ -30,7 +31,7 @@ use crate::*;
 use arl_robot::frames::{Carried, Rig};
 use arl_robot::kinematics::random::Random;
 use arl_robot::kinematics::{Frame, Wanted, frame, frame_components};
-use arl_robot::robot::{Robot, VelocityProfile};
+use arl_robot::robot::{ROBOT_AXES, Robot, VelocityProfile};
 
 const CYCLE: f64 = 0.001;
 

@@ -138,3 +138,21 @@ fn a_tool_that_turns_along_short_lines_and_splines_gains_time_by_zones() {
     let (zones, stops) = (took(100.0), took(-1.0));
     assert!(zones < 0.8 * stops, "{zones} cycles, {stops} with stops");
 }
+
+#[test]
+fn targets_that_all_but_coincide_are_told_apart_from_singular_points() {
+    let robot = robot("kr10-r1420");
+    let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let [x, y, z, ..] = frame_components(&robot.kinematics.forward(&start.axes));
+    for apart in [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
+        let mut queue = Queue::new(robot.clone(), start);
+        for to in [[x, y + 100.0, z], [x, y + 100.0 + apart, z], [x - 100.0, y + 100.0 + apart, z]] {
+            let zone = Zone { tcp: 20.0, ..Zone::NONE };
+            let target = lin([to[0], to[1], to[2], UNSET, UNSET, UNSET]);
+            queue.add(&Command { zone, ..target }, &Settings::default()).unwrap();
+        }
+        run(&mut queue, 100.0);
+        let told: Vec<NoBlend> = queue.take_unblended().into_iter().map(|target| target.why).collect();
+        assert!(told.iter().all(|why| matches!(why, NoBlend::NothingLeft | NoBlend::Slower)), "{apart}: {told:?}");
+    }
+}

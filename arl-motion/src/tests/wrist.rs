@@ -34,7 +34,7 @@ fn assert_passes(robot: &Arc<Robot>, start: Joints, commands: &[Command], what: 
 fn a_line_through_the_singularity_needs_wrist() {
     let robot = robot("kr10-r1420");
     let tool = frame([0.0, 0.0, 100.0, 0.0, 0.0, 0.0]);
-    let middle = [10.0, -70.0, 80.0, 25.0, 0.02, 15.0];
+    let middle = [10.0, -70.0, 80.0, 25.0, 0.002, 15.0];
     let (start, command) = through(&robot, &middle, &tool, Vector3::new(0.0, 400.0, 100.0)).unwrap();
     let refused = plan(&robot, &start, &command, &Settings::default());
     assert!(matches!(refused, Err(PlanError::Wrist { .. })), "{refused:?}");

@@ -214,7 +214,7 @@ impl ConstraintSampler {
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
             places(self.at, to, count, start, end).into_iter().map(|at| (at, true)).collect();
-        let (joints, many) = self.joints(to, CLOSEST_ENDS_SHARE * spacing);
+        let (joints, many) = self.joints(to, CLOSEST_ENDS_SHARE * spacing, density >= 1.0);
         stations.extend(joints.into_iter().map(|at| (at, !many)));
         stations.sort_by(|a, b| a.0.total_cmp(&b.0));
         stations.dedup_by(|next, kept| {
@@ -289,9 +289,10 @@ impl ConstraintSampler {
         grades
     }
 
-    /// Where derivatives jump before `to`: between segments and within them; and whether these are too many to be places, of which
-    /// those are left out then that are nearer to each other than `closest`.
-    fn joints(&self, to: f64, closest: f64) -> (Vec<f64>, bool) {
+    /// Where derivatives jump before `to`, between segments and within them, and for a fine look the places beside singular
+    /// points; and whether these are too many to be places, of which those are left out then that are nearer to each other
+    /// than `closest`.
+    fn joints(&self, to: f64, closest: f64, is_fine: bool) -> (Vec<f64>, bool) {
         let mut joints = Vec::new();
         let (mut start, mut count) = (self.passed, 0);
         for segment in self.segments.iter() {
@@ -299,12 +300,14 @@ impl ConstraintSampler {
                 break;
             }
             count += 1;
-            let inner = segment.jumps().map(|at| start + at);
+            let close = is_fine.then(|| segment.close_places()).into_iter().flatten();
+            let inner = segment.jumps().chain(close).map(|at| start + at);
             joints.extend(inner.filter(|at| *at > self.at && *at < to));
             start += segment.time;
         }
         let many = count > MOST_SEGMENTS_WITH_ENDS;
         if many {
+            joints.sort_by(f64::total_cmp);
             let mut last = self.at;
             joints.retain(|at| {
                 let is_far = *at - last >= closest;

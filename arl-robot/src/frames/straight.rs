@@ -3,7 +3,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::Carried;
-use crate::kinematics::{Axes, Frame, SINGULAR_SCALE};
+use crate::kinematics::{Axes, Frame, Rates, SHORTEST_STEP_S, lowest_pace, outruns, wrap_degrees};
 use crate::robot::Robot;
 
 /// Farther from singular points than this (see [`crate::kinematics::Kinematics::clearance`]) a way is not looked at closely.
@@ -15,12 +15,13 @@ const STEP_OF_SCALE: f64 = 0.04;
 const LONGEST_STEP: f64 = 1.0 / 16.0;
 /// Nearer to a singular point than this rounding spoils the derivatives.
 const SPOILT: f64 = 1e-5;
-/// This part of the least scale at which motions are planned leaves no doubt.
-const SURE: f64 = 0.5;
+/// A step where the derivatives of the axes are not known.
+const BLIND_STEP: f64 = 1e-3;
+/// A place with less than this margin of speed (see [`Rates::speed_margin`]) is singular without doubt: the planner's walk looks
+/// at other places, which differ by less.
+const SURE: f64 = 0.99;
 /// An axis that is so far (deg) from where it was a step before has not turned but jumped.
 const JUMP: f64 = 90.0;
-/// Halvings of a step, to find where in it an axis jumps.
-const HALVINGS: u32 = 30;
 
 /// A straight way of the TCP, along which the tool turns evenly about one line.
 #[derive(Clone, Copy, Debug)]
@@ -51,34 +52,52 @@ impl StraightWay {
         if (0..=GLANCES).all(|glance| clear(f64::from(glance) / f64::from(GLANCES)) == Some(true)) {
             return None;
         }
-        let (mut at, mut near, mut before) = (0.0, *start, 0.0);
-        while at < 1.0 {
-            let here = robot.kinematics.inverse(&self.flange(at), cfg, &near)?;
-            if jumps(&near, &here) {
-                return Some((self.jump(robot, cfg, &near, before, at), near));
-            }
-            (near, before) = (here, at);
-            let step = match self.scale(robot, &near, at) {
-                Some(scale) if scale < SURE * SINGULAR_SCALE => return Some((at, near)),
-                Some(scale) => (STEP_OF_SCALE * scale).min(LONGEST_STEP),
-                None => SINGULAR_SCALE,
+        let (mut at, mut near) = (0.0, *start);
+        loop {
+            let step = match self.rates(robot, &near, at) {
+                Some(rates) if rates.speed_margin(&robot.axes, self.pace()).0 < SURE => return Some((at, near)),
+                Some(rates) => (STEP_OF_SCALE * rates.scale(&robot.axes)).min(LONGEST_STEP),
+                None => BLIND_STEP,
             };
-            at += step;
+            if at >= 1.0 {
+                return None;
+            }
+            (at, near) = match self.step(robot, cfg, (at, &near), (at + step).min(1.0))? {
+                Ok(place) => place,
+                Err(jump) => return Some((jump, near)),
+            };
         }
-        None
     }
 
-    /// Where between two places of the way an axis jumps from where it is at the first: in the very singular point, which the way
-    /// meets as straight as that the axes stand still in it, and then must turn at once to stay in their configuration.
-    fn jump(&self, robot: &Robot, cfg: u8, axes: &Axes, mut before: f64, mut behind: f64) -> f64 {
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(before, behind);
-            match robot.kinematics.inverse(&self.flange(middle), cfg, axes) {
-                Some(found) if !jumps(axes, &found) => before = middle,
-                _ => behind = middle,
+    /// Goes on to `next`, or less far where an axis jumps on the way there; or says where the axis has to turn at once: in the very
+    /// singular point, which the way meets as straight as that the axes stand still in it.
+    fn step(
+        &self,
+        robot: &Robot,
+        cfg: u8,
+        (at, near): (f64, &Axes),
+        mut next: f64,
+    ) -> Option<Result<(f64, Axes), f64>> {
+        loop {
+            let found = self.axes(robot, cfg, next, near)?;
+            if !jumps(near, &found) {
+                return Some(Ok((next, found)));
             }
+            let time = self.pace() * (next - at);
+            if time < SHORTEST_STEP_S || outruns(robot.own_axes(), near, &found, time) {
+                return Some(Err(next));
+            }
+            next = f64::midpoint(at, next);
         }
-        behind
+    }
+
+    /// The axes at a part of the way, no farther than half a turn from `near`.
+    fn axes(&self, robot: &Robot, cfg: u8, at: f64, near: &Axes) -> Option<Axes> {
+        let mut axes = robot.kinematics.inverse(&self.flange(at), cfg, near)?;
+        for (value, near) in axes.iter_mut().zip(near) {
+            *value = near + wrap_degrees(*value - near);
+        }
+        Some(axes)
     }
 
     /// The TCP at a part of the way.
@@ -91,20 +110,23 @@ impl StraightWay {
         self.carried.flange_at(&self.way(at))
     }
 
-    /// Over which part of the way the motion of the axes changes substantially (see [`crate::kinematics::Rates::scale`]).
-    /// `None` at a singular point itself.
-    fn scale(&self, robot: &Robot, axes: &Axes, at: f64) -> Option<f64> {
+    /// The derivatives of the axes; `None` at a singular point itself.
+    fn rates(&self, robot: &Robot, axes: &Axes, at: f64) -> Option<Rates> {
         if robot.kinematics.clearance(axes) < SPOILT {
             return None;
         }
         let rest = Vector3::zeros();
         let twist = self.carried.twist(&self.way(at), &[self.travel, rest, rest], &[self.turning, rest, rest]);
-        Some(robot.kinematics.rates(axes, &twist)?.scale(&robot.axes))
+        robot.kinematics.rates(axes, &twist)
+    }
+
+    /// s for all of it at the lowest speed that makes sense.
+    fn pace(&self) -> f64 {
+        lowest_pace(&self.travel, &self.turning)
     }
 }
 
-/// Whether an axis has jumped, whole turns aside.
+/// Whether an axis has jumped.
 fn jumps(from: &Axes, to: &Axes) -> bool {
-    let turned = |from: &f64, to: &f64| ((to - from + 180.0).rem_euclid(360.0) - 180.0).abs();
-    from.iter().zip(to).any(|(from, to)| turned(from, to) > JUMP)
+    from.iter().zip(to).any(|(from, to)| (to - from).abs() > JUMP)
 }

@@ -69,9 +69,21 @@ pub struct Rates {
     pub third: Axes,
 }
 
-/// Where the axes' motion changes over so little of a path (see [`Rates::scale`]), the point is singular for all practical
-/// speeds.
-pub const SINGULAR_SCALE: f64 = 1e-3;
+/// The lowest speed of the TCP (mm/s) and of the tool's turning (deg/s) that makes sense along a path: a place that the axes
+/// cannot pass even so slowly is singular. A path that moves and turns the tool is as slow as that where neither is faster.
+pub const LOWEST_TRAVEL_MM_S: f64 = 1.0;
+/// See [`LOWEST_TRAVEL_MM_S`].
+pub const LOWEST_TURNING_DEG_S: f64 = 0.1;
+/// Over less time than this (s) at the lowest speed that makes sense no way is looked at: an axis that has jumped by then would
+/// have to turn at once.
+pub const SHORTEST_STEP_S: f64 = 1e-3;
+
+/// How long a path takes at the lowest speed that makes sense (see [`LOWEST_TRAVEL_MM_S`]), in s per unit of its parameter, at a
+/// place where the TCP goes by `travel` (mm) and the tool turns by `turning` (rad) per unit. However a way is cut into paths,
+/// this is the same for the same piece of it.
+pub fn lowest_pace(travel: &Vector3<f64>, turning: &Vector3<f64>) -> f64 {
+    (travel.norm() / LOWEST_TRAVEL_MM_S).max(turning.norm().to_degrees() / LOWEST_TURNING_DEG_S)
+}
 
 impl Rates {
     /// Over which part of the path the motion of `axes`, the robot's, changes substantially: infinity where it does not.
@@ -84,6 +96,24 @@ impl Rates {
         let scale = (first / second).min((first / third).sqrt());
         if scale.is_nan() { f64::INFINITY } else { scale }
     }
+
+    /// How many times faster than at the lowest speed that makes sense `axes`, the robot's, can follow by their speeds and
+    /// accelerations, where these are the rates of a straight path with this [`lowest_pace`]: below 1 the place is singular in that
+    /// direction. With the axis that has the least margin.
+    pub fn speed_margin(&self, axes: &[Axis], pace: f64) -> (f64, usize) {
+        let rates = self.first.iter().zip(&self.second).zip(axes);
+        let margin = |(rates, axis): ((&f64, &f64), &Axis)| {
+            let (vel, acc) = (rates.0.abs() / pace, rates.1.abs() / (pace * pace));
+            (axis.vel / vel).min((axis.acc / acc).sqrt())
+        };
+        let margins = rates.map(margin).enumerate().map(|(index, margin)| (margin, index));
+        margins.fold((f64::INFINITY, 0), |least, next| if next.0 < least.0 { next } else { least })
+    }
+}
+
+/// Whether one of `axes`, the robot's, would have to be faster than it can to go from `from` to `to` (deg or mm) in so many s.
+pub fn outruns(axes: &[Axis], from: &Axes, to: &Axes, seconds: f64) -> bool {
+    axes.iter().zip(from.iter().zip(to)).any(|(axis, (from, to))| (to - from).abs() > axis.vel * seconds)
 }
 
 impl Screw {

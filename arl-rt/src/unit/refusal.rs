@@ -33,6 +33,7 @@ fn is_about_target(error: &PlanError) -> bool {
             | PlanError::Singular { .. }
             | PlanError::Wrist { .. }
             | PlanError::TooDense { .. }
+            | PlanError::TooSharp { .. }
             | PlanError::NoCircle
             | PlanError::NoSuchCfg { .. }
     )

@@ -1,0 +1,140 @@
+//! Lines near singular points: what becomes of a way does not depend on how it is cut into motions.
+
+use crate::tests::*;
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// A straight way of the TCP, on which the tool may turn, and where the axes stand at its start.
+struct Way {
+    start: Joints,
+    rig: Rig,
+    from: Frame,
+    travel: Vector3<f64>,
+    turning: Vector3<f64>,
+}
+
+impl Way {
+    /// The TCP at a share of the way.
+    fn at(&self, share: f64) -> Frame {
+        let turned = UnitQuaternion::from_scaled_axis(self.turning * share) * self.from.rotation;
+        Frame::from_parts((self.from.translation.vector + self.travel * share).into(), turned)
+    }
+
+    /// The way as so many lines.
+    fn cut(&self, pieces: u32) -> Vec<Command> {
+        let line = |piece: u32| {
+            let pose = frame_components(&self.at(f64::from(piece) / f64::from(pieces)));
+            Command { rig: self.rig, ..lin(pose) }
+        };
+        (1..=pieces).map(line).collect()
+    }
+}
+
+/// A way that comes near a singular point of the robot somewhere, or not.
+fn random_way(robot: &Robot, random: &mut Random) -> Option<Way> {
+    let mut number = |size: f64| random.between(-size, size);
+    let tool = frame([number(50.0), number(50.0), 100.0 + number(100.0), number(90.0), 0.0, 0.0]);
+    let size = 10.0_f64.powf(2.0 + number(1.0));
+    let upright = robot.own_axes().len() < ROBOT_AXES;
+    let travel = Vector3::new(number(size), number(size), number(size));
+    let turns = if random.between(0.0, 1.0) < 0.5 { 0.0 } else { 0.5 };
+    let turning = [0; 3].map(|_| random.between(-turns, turns));
+    let turning = if upright { Vector3::new(0.0, 0.0, turning[2]) } else { Vector3::from(turning) };
+    let mut middle = random_joints(robot, random, 0.6).axes;
+    let near = 10.0_f64.powf(random.between(-4.0, 1.0)) * if random.between(0.0, 1.0) < 0.5 { 1.0 } else { -1.0 };
+    match (upright, random.between(0.0, 3.0) as u32) {
+        (true, _) => middle[1] = near,
+        (false, 0) => middle[2] += near,
+        (false, _) => middle[4] = near,
+    }
+    let (kinematics, rig) = (&robot.kinematics, Rig::with_tool(tool));
+    let pose = kinematics.forward(&middle) * tool;
+    let back = random.between(0.1, 0.9);
+    let from = Frame::from_parts(
+        (pose.translation.vector - travel * back).into(),
+        UnitQuaternion::from_scaled_axis(-turning * back) * pose.rotation,
+    );
+    let start = kinematics.inverse(&rig.carried.flange_at(&from), kinematics.cfg(&middle), &middle)?;
+    let inside = robot.own_axes().iter().zip(&start).all(|(axis, value)| *value > axis.min && *value < axis.max);
+    inside.then_some(Way { start: axes(start), rig, from, travel, turning })
+}
+
+/// What becomes of motions one behind the other, each of which starts where the one before has ended. A target that cannot be
+/// reached is told before what is wrong with the way there, so that the reason of a refusal may depend on where targets are.
+fn outcome(robot: &Robot, start: &Joints, commands: &[Command]) -> &'static str {
+    let mut start = *start;
+    for command in commands {
+        match plan(robot, &start, command, &Settings::default()) {
+            Ok(motion) => start = *motion.end(),
+            Err(PlanError::Singular { .. } | PlanError::Wrist { .. }) => return "singular",
+            Err(PlanError::Unreachable { .. }) => return "unreachable",
+            Err(PlanError::AxisLimit { .. }) => return "range",
+            Err(error) => panic!("{error}"),
+        }
+    }
+    "reached"
+}
+
+#[test]
+fn a_way_has_the_same_outcome_however_it_is_cut() {
+    let mut random = Random::new(49);
+    let (mut seen, mut differ) = (std::collections::BTreeMap::new(), Vec::new());
+    for name in Robot::builtin_names() {
+        let robot = robot(name);
+        for number in 0..400 {
+            let Some(way) = random_way(&robot, &mut random) else { continue };
+            let outcomes = [1, 2, 4, 8].map(|pieces| outcome(&robot, &way.start, &way.cut(pieces)));
+            let reached = outcomes.map(|outcome| outcome == "reached");
+            if reached != [reached[0]; 4] {
+                let (travel, turning) = (way.travel.as_slice(), way.turning.as_slice());
+                differ.push(format!("{name} {number}: {outcomes:?}, {:?} {travel:?} {turning:?}", way.start.axes));
+            }
+            *seen.entry((name, outcomes[0])).or_insert(0) += 1;
+        }
+    }
+    assert!(differ.is_empty(), "{} differ\n{}", differ.len(), differ.join("\n"));
+}
+
+#[test]
+fn the_axes_pass_close_by_at_a_lower_speed_within_all_limits() {
+    let (mut random, mut slowed) = (Random::new(50), 0);
+    for name in Robot::builtin_names() {
+        let robot = robot(name);
+        for number in 0..100 {
+            let Some(way) = random_way(&robot, &mut random) else { continue };
+            let mut queue = Queue::new(robot.clone(), way.start);
+            let commands = way.cut(1 + number % 3);
+            if !commands.iter().all(|command| queue.add(command, &Settings::default()).is_ok()) {
+                continue;
+            }
+            let rows = run(&mut queue, 100.0);
+            let what = format!("{name} {number}: {:?} {:?}", way.start.axes, way.travel.as_slice());
+            assert_within_limits(&robot, &rows, &what);
+            for row in rows.iter().filter(|row| row.motion > 0) {
+                let (off, _) = off_line(&way.at(0.0), &way.at(1.0), &row.tcp);
+                assert!(off < 1e-3, "{what}: {off} mm off the line");
+            }
+            slowed += u32::from(usage(&robot, &rows)[0] > 0.9);
+        }
+    }
+    assert!(slowed > 5, "{slowed} with an axis at its limit of speed");
+}
+
+#[test]
+fn a_line_past_the_wrist_singularity_is_slow_there_in_one_piece_and_in_three() {
+    let robot = robot("kr10-r1420");
+    let pose = |y: f64| [890.0, y, 1080.2, 0.0, 90.0, 0.0];
+    let cfg = robot.kinematics.cfg(&[0.0, -90.0, 90.0, 0.0, 20.0, 0.0]);
+    let rows = |targets: &[f64]| {
+        let mut queue = Queue::new(robot.clone(), axes([0.0, -90.0, 90.0, 0.0, 20.0, 0.0]));
+        queue.add(&ptp(pose(-100.0), cfg), &Settings::default()).unwrap();
+        for y in targets {
+            let speed = Speed { tcp: 100.0, ..fast() };
+            queue.add(&Command { speed, ..lin(pose(*y)) }, &Settings::default()).unwrap();
+        }
+        let rows = run(&mut queue, 100.0);
+        assert_within_limits(&robot, &rows, "past the singularity");
+        rows
+    };
+    let [whole, cut] = [rows(&[100.0]), rows(&[-33.0, 33.0, 100.0])];
+    assert!(whole.len() < cut.len(), "{} cycles, {} in three pieces", whole.len(), cut.len());
+}
