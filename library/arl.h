@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* The version of what is described here. What has another version has another shape. */
-#define ARL_INTERFACE 2
+#define ARL_INTERFACE 3
 
 /* What `go_on` answers beside the exit code of a run that is over: 0 ended, 3 alarm, 4 out of time, 130 stopped. */
 #define ARL_RUNS (-1)         /* It goes on. */
@@ -56,7 +56,9 @@ typedef struct {
     /* How everything stands, a JSON object. */
     void (*state)(ArlRun *run, ArlTake take, void *context);
 
-    /* The rows of the trace since the last call, kept until then: doubles as bytes, `columns` of them a row. */
+    /* The rows of the trace since the last call, kept until then: doubles as bytes, `columns` of them a row. Where "--trace-columns"
+     * and "file" are among the arguments there is one more behind each row: which of `files` its line is of, from 0; no number
+     * where no motion is executed. */
     void (*rows)(ArlRun *run, ArlTake take, void *context);
 
     /* Controller time in s. */
@@ -88,6 +90,9 @@ typedef struct {
     /* Gives a global variable a value; components that the literal leaves out keep theirs. 0: so it is; else `why` was told the
      * reason. */
     int32_t (*set_global)(ArlRun *run, const char *name, const char *literal, ArlTake why, void *context);
+
+    /* The names of the files that rows of the trace have named so far, one a line. */
+    void (*files)(ArlRun *run, ArlTake take, void *context);
 } ArlInterface;
 
 #endif

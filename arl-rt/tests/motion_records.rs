@@ -5,7 +5,7 @@ mod common;
 use arl_rt::Controller;
 use arl_rt::emit::*;
 use arl_rt::motion::MotionKind;
-use arl_rt::motion::{Limited, MotionRecord, NoBlend};
+use arl_rt::motion::{Limited, MotionRecord, NoBlend, SmallerZone};
 use common::*;
 
 fn way(cx: &Cx) -> BoxFuture<'_> {
@@ -140,6 +140,124 @@ fn a_target_without_its_blend_has_the_reason() {
     let why: Vec<_> = controller.motions().into_iter().map(|record| record.unblended).collect();
     assert_eq!(why, [None, Some(NoBlend::Reversal), None]);
     assert!(controller.motions()[1].blend.is_some_and(|blend| blend.used == 0.0));
+}
+
+/// The records of a program, and its trace: rows of numbers, those of absent axes 0.
+fn records_and_rows<F>(program: F) -> (Vec<MotionRecord>, Vec<Vec<f64>>)
+where
+    F: for<'a> Fn(&'a Cx) -> BoxFuture<'a> + 'static,
+{
+    let kept = Kept::default();
+    let (mut controller, _) = controller(Controller::builder().record_motions().trace(kept.clone()), program);
+    assert_eq!(controller.run(), arl_rt::Outcome::Ended);
+    let text = String::from_utf8(kept.0.borrow().clone()).unwrap();
+    let number = |cell: &str| cell.parse().unwrap_or(0.0);
+    let rows = text.lines().skip(1).map(|row| row.split(',').map(number).collect());
+    (controller.motions(), rows.collect())
+}
+
+/// What was written.
+#[derive(Clone, Default)]
+struct Kept(std::rc::Rc<std::cell::RefCell<Vec<u8>>>);
+
+impl std::io::Write for Kept {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Lines at different speeds, with zones that take a part of them, and all of one.
+fn zigzag(cx: &Cx) -> BoxFuture<'_> {
+    Box::pin(async move {
+        motion::movej(bent(0.0)).vp(50.0).run(cx).await.at(FILE, 3)?;
+        motion::lin(aside(cx, 150.0, 0.0)?).vl(300.0).sl(20.0).run(cx).await.at(FILE, 4)?;
+        motion::lin(aside(cx, 150.0, -200.0)?).vl(100.0).sl(20.0).run(cx).await.at(FILE, 5)?;
+        motion::lin(aside(cx, 0.0, -200.0)?).vl(300.0).sl(40.0).run(cx).await.at(FILE, 6)?;
+        motion::lin(aside(cx, 0.0, -170.0)?).vl(100.0).sl(40.0).run(cx).await.at(FILE, 7)?;
+        motion::lin(aside(cx, 150.0, -170.0)?).vl(300.0).sl(30.0).run(cx).await.at(FILE, 8)
+    })
+}
+
+#[test]
+fn the_speed_that_is_reached_is_that_outside_of_zones() {
+    let (records, rows) = records_and_rows(zigzag);
+    // With its zones the slow line is twice as fast as programmed.
+    let speed =
+        |pair: &[Vec<f64>]| (0..3).map(|at| (pair[1][15 + at] - pair[0][15 + at]).powi(2)).sum::<f64>().sqrt() / 1e-3;
+    let fastest = rows.windows(2).filter(|pair| pair[1][2] == 3.0).map(speed).fold(0.0, f64::max);
+    assert!(fastest > 150.0, "{fastest}");
+    for (record, speed) in records[1..].iter().zip([300.0, 100.0, 300.0]) {
+        assert!(record.reached <= speed * 1.0001 && record.reached > speed * 0.99, "{record:?}");
+    }
+    // Where zones take all of it, it is the speed between them.
+    assert!(records[4].reached > 50.0 && records[4].reached < 300.0, "{:?}", records[4]);
+}
+
+#[test]
+fn a_zone_that_is_not_used_as_asked_has_its_reason() {
+    let (records, _) = records_and_rows(zigzag);
+    let why: Vec<_> = records.iter().map(MotionRecord::smaller_zone).collect();
+    assert_eq!(why, [None, None, None, None, Some(SmallerZone::Half), Some(SmallerZone::NothingBehind)]);
+    assert_eq!(records[4].blend.map(|blend| (blend.asked, blend.used)), Some((40.0, 15.0)));
+    let (records, _) = records_and_rows(|cx| {
+        Box::pin(async move {
+            motion::movej(bent(0.0)).vp(50.0).run(cx).await.at(FILE, 3)?;
+            motion::lin(aside(cx, 50.0, 0.0)?).vl(100.0).sl(20.0).run(cx).await.at(FILE, 4)?;
+            flow::waittime(0.5).run(cx).await.at(FILE, 5)?;
+            motion::spl(aside(cx, 60.0, -80.0)?).vl(100.0).sl(20.0).run(cx).await.at(FILE, 6)?;
+            motion::spl(aside(cx, 120.0, -40.0)?).vl(100.0).run(cx).await.at(FILE, 7)
+        })
+    });
+    let why: Vec<_> = records.iter().map(MotionRecord::smaller_zone).collect();
+    assert_eq!(why, [None, Some(SmallerZone::NothingBehind), Some(SmallerZone::Flows), None]);
+}
+
+#[test]
+fn a_motion_that_is_cut_off_says_so_of_its_zone() {
+    let (mut controller, _) = controller(Controller::builder().record_motions(), zigzag);
+    let has_begun = |controller: &Controller| controller.motions().get(5).is_some_and(|record| record.start.is_some());
+    while !has_begun(&controller) {
+        controller.step();
+    }
+    (0..50).for_each(|_| controller.step());
+    controller.stop();
+    (0..1000).for_each(|_| controller.step());
+    let cut = controller.motions().swap_remove(5);
+    assert_eq!(cut.smaller_zone(), Some(SmallerZone::Unfinished), "{cut:?}");
+}
+
+#[test]
+fn a_weave_is_not_part_of_the_speed_that_is_reached() {
+    let (records, _) = records_and_rows(|cx| {
+        Box::pin(async move {
+            motion::movej(bent(0.0)).vp(50.0).run(cx).await.at(FILE, 3)?;
+            let weave = Weavedata { frequency: 2.0, amplitude: 3.0, ..Weavedata::default() };
+            motion::startweave(weave).run(cx).at(FILE, 4)?;
+            motion::lin(aside(cx, 20.0, 0.0)?).vl(8.0).run(cx).await.at(FILE, 5)?;
+            motion::endweave().run(cx).at(FILE, 6)
+        })
+    });
+    let woven = &records[1];
+    assert!(woven.reached <= 8.0001 && woven.reached > 7.9, "{woven:?}");
+    // The way is that of the TCP, with the weave.
+    assert!(woven.way > 40.0, "{woven:?}");
+}
+
+#[test]
+fn the_way_is_that_of_the_trace() {
+    let (records, rows) = records_and_rows(zigzag);
+    for record in records.iter().filter(|record| record.start.is_some()) {
+        let step =
+            |pair: &[Vec<f64>]| (0..3).map(|at| (pair[1][15 + at] - pair[0][15 + at]).powi(2)).sum::<f64>().sqrt();
+        // The first row is that of the first cycle, which has gone a step already.
+        let way: f64 = rows.windows(2).filter(|pair| pair[1][2] == record.number as f64).map(step).sum();
+        assert!((way - record.way).abs() < 0.01, "{way} {record:?}");
+    }
 }
 
 #[test]

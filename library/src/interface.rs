@@ -5,7 +5,7 @@ use std::ffi::{c_char, c_void};
 use crate::Served;
 
 /// The version of the interface.
-pub const INTERFACE: u32 = 2;
+pub const INTERFACE: u32 = 3;
 /// What `go_on` answers where the run goes on.
 pub const RUNS: i32 = -1;
 /// What is answered where the run has panicked.
@@ -39,4 +39,5 @@ pub struct Interface {
     pub observe: unsafe extern "C" fn(*mut Served, *mut f64, usize) -> usize,
     pub global: unsafe extern "C" fn(*mut Served, *const c_char, Take, *mut c_void) -> i32,
     pub set_global: unsafe extern "C" fn(*mut Served, *const c_char, *const c_char, Take, *mut c_void) -> i32,
+    pub files: unsafe extern "C" fn(*mut Served, Take, *mut c_void),
 }

@@ -230,10 +230,16 @@ impl Session {
         text(self.taken(self.interface.state))
     }
 
-    /// The rows of the trace since the last call, one behind the other.
+    /// The rows of the trace since the last call, one behind the other. With `--trace-columns file` among its words each has one number more
+    /// at its end: which of [`files`](Self::files) its line is of, from 0; no number where no motion is executed.
     pub fn take_rows(&mut self) -> Vec<f64> {
         let bytes = self.taken(self.interface.rows);
         bytes.chunks_exact(8).map(|double| f64::from_ne_bytes(double.try_into().unwrap_or_default())).collect()
+    }
+
+    /// The names of the files that rows of the trace have named so far.
+    pub fn files(&mut self) -> Vec<String> {
+        text(self.taken(self.interface.files)).lines().map(str::to_owned).collect()
     }
 
     /// Controller time in s.

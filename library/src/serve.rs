@@ -95,6 +95,7 @@ pub const fn interface(
         observe,
         global,
         set_global,
+        files,
     }
 }
 
@@ -269,6 +270,14 @@ unsafe extern "C" fn rows(run: *mut Served, take: Take, context: *mut c_void) {
     if let Ok(rows) = unsafe { (*run).with_any(|own| own.run.take_rows()) } {
         // SAFETY: doubles are bytes without gaps, and they are there as long as the call lasts.
         unsafe { take(context, rows.as_ptr().cast(), size_of_val(&*rows)) };
+    }
+}
+
+unsafe extern "C" fn files(run: *mut Served, take: Take, context: *mut c_void) {
+    // SAFETY: as in `go_on`. What led to a panic is told, too.
+    if let Ok(text) = unsafe { (*run).with_any(|own| own.run.files().join("\n")) } {
+        // SAFETY: the host gives a function that takes its context.
+        unsafe { give(take, context, text.as_bytes()) };
     }
 }
 

@@ -106,6 +106,26 @@ fn what_came_of_a_run_is_told_with_what_its_motions_did() {
 }
 
 #[test]
+fn rows_of_the_trace_name_the_files_of_their_lines_where_that_is_asked_for() {
+    let columns = library().columns().len();
+    let mut run = begun(&["--trace-columns", "file"]);
+    run.order("di.1 = true").unwrap();
+    run.order("ai.1 = 4.0").unwrap();
+    run.go_on(u64::MAX, true).unwrap();
+    let rows = run.take_rows();
+    assert_eq!(rows.len() % (columns + 1), 0);
+    let moves = |row: &&[f64]| row[2] != 0.0;
+    let (moving, standing): (Vec<&[f64]>, Vec<&[f64]>) = rows.chunks(columns + 1).partition(moves);
+    assert!(moving.len() > 10 && moving.iter().all(|row| row[columns] == 0.0));
+    assert!(standing.iter().all(|row| row[columns].is_nan()));
+    assert_eq!(run.files(), ["fill.arl"]);
+    assert_eq!(
+        library().begin(&["--trace-columns", "tcp"], true).unwrap_err().to_string(),
+        "--trace-columns tcp: `tcp` is no column: expected file"
+    );
+}
+
+#[test]
 fn what_is_watched_comes_behind_the_row_of_the_trace() {
     let mut run = begun(&[]);
     run.watch(&["do.1", "di.1", "ai.1", "global.litres"]).unwrap();

@@ -100,7 +100,7 @@ class Page {
 
   /** The next moment at which a line's motion begins, or the first one. @param {string} file @param {number} line */
   seekLine(file, line) {
-    const own = (this.run.motions?.get(this.channel?.number) ?? []).filter((motion) => motion.line === line);
+    const own = this.run.motionsOf(this.channel?.number, file, line);
     const next = own.find((motion) => motion.start > this.time + 1e-3) ?? own[0];
     if (next) this.seek(next.start);
   }

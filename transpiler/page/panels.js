@@ -28,12 +28,11 @@ function short(number, digits = 1) {
 /** What each line's motions took. @param {import('./run.js').Run} run @param {number} channel @param {(file: string, line: number) => void} chosen */
 export function lines(run, channel, chosen) {
   const { files, lines } = run.track(channel);
-  const motions = run.motions?.get(channel) ?? [];
   const rows = lines
     .filter((/** @type {any} */ one) => one.line > 0)
     .sort((/** @type {any} */ one, /** @type {any} */ other) => other.moving + other.standing - one.moving - one.standing)
     .map((/** @type {any} */ { file, line, moving, standing }) => {
-      const own = motions.filter((motion) => motion.line === line);
+      const own = run.motionsOf(channel, files[file] ?? "", line);
       const kinds = [...new Set(own.map((motion) => motion.kind))].join(", ");
       const limits = own.map(closest).filter(Boolean);
       const limit = limits.sort((one, other) => (other?.percent ?? 0) - (one?.percent ?? 0))[0];

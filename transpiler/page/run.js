@@ -158,6 +158,13 @@ export class Run {
     return this.motions.get(channel)?.[rowAt(this.starts.get(channel) ?? [], time + 1e-9)];
   }
 
+  /** The motions of a line of a file. Old recordings do not tell the files of motions. @param {number} channel @param {string} file @param {number} line */
+  motionsOf(channel, file, line) {
+    const name = (/** @type {string} */ path) => path.split(/[/\\]/).pop()?.toLowerCase() ?? "";
+    const all = this.motions.get(channel) ?? [];
+    return all.filter((motion) => motion.line === line && (!motion.file || name(motion.file) === name(file)));
+  }
+
   /** @param {Lane} lane @param {number} time */
   levelAt(lane, time) {
     const at = rowAt(lane.times, time + 1e-9);

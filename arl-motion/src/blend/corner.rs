@@ -65,6 +65,8 @@ pub(crate) struct Blend {
     pub(crate) may_lose_time: bool,
     /// Whether it takes all that was asked for, or halves of both motions in a dense chain: not less, for want of a way or of time.
     pub(crate) is_whole: bool,
+    /// Why it takes less than was asked for, where it does.
+    pub(crate) less: Option<NoBlend>,
 }
 
 /// The blend that the first motion's zone asks for, or of a smaller zone where there is no way or it `is_slower` than a stop. Else what is
@@ -75,9 +77,9 @@ pub(crate) fn blend(
     to: &Motion,
     is_slower: impl Fn(&Blend) -> bool,
 ) -> Result<Blend, NoBlend> {
-    let (leaving, joining) = asked_parts(robot, from, to).ok_or(NoBlend::NothingLeft)?;
+    let (asked, joining) = asked_parts(robot, from, to).ok_or(NoBlend::NothingLeft)?;
     let smooth = is_smooth(from, to).then_some((LARGEST_ZONE, LARGEST_ZONE));
-    let smaller = (0..=ZONE_HALVINGS).map(|halvings| f64::from(1 << halvings)).map(|by| (leaving / by, joining / by));
+    let smaller = (0..=ZONE_HALVINGS).map(|halvings| f64::from(1 << halvings)).map(|by| (asked / by, joining / by));
     let (mut why, mut slower) = (NoBlend::NothingLeft, 0);
     for (tried, (leaving, joining)) in smooth.into_iter().chain(smaller).enumerate() {
         match (Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2] }.blend()) {
@@ -87,7 +89,9 @@ pub(crate) fn blend(
                     break;
                 }
             }
-            Ok(blend) => return Ok(Blend { is_whole: tried == 0, ..blend }),
+            Ok(blend) => {
+                return Ok(Blend { is_whole: tried == 0, less: (leaving < asked).then_some(why), ..blend });
+            }
             Err(other) => why = other,
         }
     }
@@ -224,7 +228,7 @@ impl Corner<'_> {
         };
         // Where it stands still for a moment it has no speed.
         let (blend_limits, may_lose_time) = self.blend_limits(&constraints, time).ok_or(NoBlend::Reversal)?;
-        Ok(Blend { leave, join, curve, parametrization, time, blend_limits, may_lose_time, is_whole: true })
+        Ok(Blend { leave, join, curve, parametrization, time, blend_limits, may_lose_time, is_whole: true, less: None })
     }
 
     /// How fast it may be crossed, evenly where it hardly bends, and whether it may take longer than a stop.

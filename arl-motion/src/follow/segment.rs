@@ -6,6 +6,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::blend::blend_limits::{self, BlendLimits};
 use crate::blend::corner::{Blend, common_pace};
+use crate::blend::no_blend::NoBlend;
 use crate::command::joints::{ALL, Joints};
 use crate::follow::timing::Cell;
 use crate::geometry::derivatives::{Place, by_differences};
@@ -16,7 +17,7 @@ use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 use arl_robot::frames::{Carried, Rig};
 use arl_robot::kinematics::Kinematics;
-use arl_robot::robot::Robot;
+use arl_robot::robot::{ROBOT_AXES, Robot};
 
 /// Parts of half a blend.
 const PARTS_OF_HALF: usize = blend_limits::PARTS / 2;
@@ -63,6 +64,8 @@ pub(crate) struct Segment {
     pub(crate) shares: [f64; 2],
     /// The share of the motion itself at which a blend leaves it.
     pub(crate) leave: f64,
+    /// Why the blend takes less than was asked for, where it is one that does.
+    pub(crate) less: Option<NoBlend>,
     /// The length of the motion in mm.
     pub(crate) length: f64,
     /// The programmed speeds, where it is known what limits each of its places.
@@ -90,6 +93,16 @@ pub(crate) struct LedTool {
     pub(crate) carried: Carried,
 }
 
+/// How fast what speeds are programmed of goes on a path, without what is laid over the path.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct PlainSpeed {
+    /// The TCP in mm/s and the tool's turning in deg/s; 0 where the axes are led.
+    pub(crate) tcp: f64,
+    pub(crate) turning: f64,
+    /// The external axes, and where the axes are led all, in deg/s (mm/s).
+    pub(crate) axes: [f64; ALL],
+}
+
 impl Segment {
     /// A part of a motion.
     pub(crate) fn part(motion: &Motion, limits: Limits, number: u64, from: f64, to: f64) -> Self {
@@ -113,6 +126,7 @@ impl Segment {
             duration: (from == 0.0 && to == 1.0).then(|| motion.duration_with(&limits)),
             target: motion.end,
             leave: to,
+            less: None,
             shares: [from, to].map(|share| motion.of_instruction(share)),
             length: motion.length,
             pace: is_known(motion).then_some(motion.pace),
@@ -160,6 +174,7 @@ impl Segment {
             target: motion.end,
             // All of the blend counts as the motion that is joined: see `PathBuffer::current`.
             leave: blend.leave,
+            less: blend.less.clone(),
             shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] }
                 .map(|share| motion.of_instruction(share)),
             length: motion.length,
@@ -275,6 +290,28 @@ impl Segment {
     fn place(&self, at: f64) -> f64 {
         let place = self.from + (self.to - self.from) * (at / self.time);
         self.parametrization.as_ref().map_or(place, |parametrization| parametrization.at(place))
+    }
+
+    /// How fast a part of a motion is gone after `at` s of nominal time, so many of which go by per s. `None`: it is half of a blend.
+    pub(crate) fn plain_speed(&self, at: f64, vel: f64) -> Option<PlainSpeed> {
+        if self.parametrization.is_some() {
+            return None;
+        }
+        let (place, rate) = (self.place(at), vel * (self.to - self.from) / self.time);
+        Some(match &self.curve {
+            Curve::Axes(curve) => {
+                PlainSpeed { tcp: 0.0, turning: 0.0, axes: curve.derivative(1, place).map(|axis| (rate * axis).abs()) }
+            }
+            Curve::Tool(curve) => {
+                let [turning, ..] = curve.path.rotation_rates(place);
+                let mut axes = [0.0; ALL];
+                for (axis, moving) in axes.iter_mut().skip(ROBOT_AXES).zip(curve.external.derivative(1, place)) {
+                    *axis = (rate * moving).abs();
+                }
+                let tcp = curve.path.track.derivative(1, place).norm();
+                PlainSpeed { tcp: rate * tcp, turning: rate * turning.norm().to_degrees(), axes }
+            }
+        })
     }
 
     /// Whether this is the half of a blend that leaves its motion.

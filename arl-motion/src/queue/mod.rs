@@ -18,7 +18,7 @@ use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Cycle, Override, Settings, Target};
 use crate::follow::governor::Pacing;
-use crate::follow::segment::Segment;
+use crate::follow::segment::{PlainSpeed, Segment};
 use crate::junction::blend_thread::BlendThread;
 use crate::overlay::Led;
 use crate::plan::chain::Held;
@@ -33,10 +33,10 @@ use layer::Layer;
 use look_ahead::{Done, LateBlends, Ready};
 pub use motion_progress::Progress;
 use motion_progress::progress_at;
-use path_buffer::Answer;
 pub use path_buffer::UnblendedTarget;
+use path_buffer::{Answer, Leaving};
 pub use preview::Preview;
-pub use record::{Closest, Figure, Limited, MotionRecord, Rate, Recorder};
+pub use record::{Closest, Figure, Limited, MotionRecord, Rate, Recorder, SmallerZone};
 pub use step::Step;
 pub use suspend::Start;
 use suspend::Suspension;
@@ -112,8 +112,8 @@ pub struct Queue {
 pub(crate) struct Laid {
     pub(crate) number: u64,
     pub(crate) motion: Arc<Motion>,
-    /// The motion that is blended with it, and the share at which that one is left.
-    pub(crate) left: Option<(u64, f64)>,
+    /// The motion that is blended with it.
+    pub(crate) left: Option<Leaving>,
     /// Why it is not blended with the motion before it though that was asked for.
     pub(crate) unblended: Option<NoBlend>,
 }
@@ -483,6 +483,11 @@ impl Queue {
     /// The length of the last cycle, in s.
     pub(super) fn cycle(&self) -> f64 {
         self.cycle
+    }
+
+    /// The segment that the robot is on, and how fast it goes there where that is no blend.
+    pub(super) fn plain_speed(&self) -> Option<(&Segment, Option<PlainSpeed>)> {
+        self.layer.path.plain_speed()
     }
 
     /// How much higher than those of the robot file the limits of acceleration and jerk were in the last cycle.

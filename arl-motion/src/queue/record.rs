@@ -1,23 +1,30 @@
 //! What motions really did: speeds reached, durations, blends, and the limit that each came nearest to.
 
+mod derivatives;
+mod reached;
+mod smaller_zone;
+
 use std::sync::Arc;
 
 use crate::blend::no_blend::NoBlend;
 use crate::blend::zone::{self, Rounding};
 use crate::command::joints::ALL;
 use crate::command::{Command, GatePart, MotionKind, Settings, Speed, Target};
+use crate::follow::segment::PlainSpeed;
 use crate::plan::constraints::MANUAL_SPEED_MM_S;
 use crate::plan::motion::Motion;
-use crate::queue::path_speed::PathSpeed;
+use crate::queue::path_buffer::Leaving;
 use crate::queue::{FAST_STOP_FACTOR, Laid, Queue, Step};
 use arl_robot::frames::Carried;
-use arl_robot::kinematics::Frame;
 use arl_robot::robot::{ROBOT_AXES, Robot, VelocityProfile};
+use derivatives::{DERIVATIVES, Derivatives};
+use reached::Reached;
+pub use smaller_zone::SmallerZone;
 
 /// TCP paths shorter than this, mm, have no speed: then the tool's turning is what was programmed.
 const NO_DISTANCE_MM: f64 = 1e-6;
-/// Speed, acceleration, jerk.
-const DERIVATIVES: usize = 3;
+/// A zone of which a smaller part than this is left out is used as it was asked for.
+const NO_PART: f64 = 1e-6;
 
 /// What a programmed speed is one of.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -127,7 +134,8 @@ pub struct MotionRecord {
     /// The programmed speed, under the override: % of the axes' limits on axis motions, else mm/s, or deg/s
     /// where only the tool turns, and that of the external axes where they move alone; or the programmed duration in s.
     pub programmed: Figure,
-    /// The highest speed in the same unit; for a duration, how long it took.
+    /// The highest speed in the same unit outside of the zones at both ends, and without what is laid over the path; where the zones take
+    /// all of the motion, that between them. For a duration, how long it took.
     pub reached: f64,
     /// When it began, in s of controller time; `None` when it has not.
     pub start: Option<f64>,
@@ -139,6 +147,12 @@ pub struct MotionRecord {
     pub blend: Option<Rounding>,
     /// Why the robot stops at its target though a zone was asked for.
     pub unblended: Option<NoBlend>,
+    /// Why a smaller zone than was asked for is used.
+    less: Option<NoBlend>,
+    /// Whether it goes on into the next motion without a corner, and whether it came to its end.
+    flows: bool,
+    arrived: bool,
+    speeds: Reached,
     axes: Nearest,
     tool: Nearest,
     carried: Carried,
@@ -164,18 +178,34 @@ impl MotionRecord {
         found
     }
 
-    /// What of a motion along a path has the programmed speed: the TCP; where that stays, the tool's turning; where that stays, too,
-    /// external axes.
+    /// Why the zone at its end was not used as it was asked for: not at all, or only a part of it. `None`: it was, or none was asked for.
+    pub fn smaller_zone(&self) -> Option<SmallerZone> {
+        let blend = self.blend.filter(|blend| blend.used < blend.asked * (1.0 - NO_PART))?;
+        Some(match (&self.unblended, &self.less) {
+            (Some(why), _) => SmallerZone::Stop(why.clone()),
+            _ if self.flows => SmallerZone::Flows,
+            (None, Some(why)) => SmallerZone::Part(why.clone()),
+            (None, None) if blend.used > 0.0 => SmallerZone::Half,
+            (None, None) if self.arrived => SmallerZone::NothingBehind,
+            (None, None) => SmallerZone::Unfinished,
+        })
+    }
+
+    /// What of a motion has the programmed speed: the robot's axes, or the TCP along a path; where that stays, the tool's turning; where
+    /// that stays, too, external axes.
     fn measured_by(&self, robot: &Robot, motion: &Motion) -> (Measure, Figure) {
         let figure = |value: f64, unit: &'static str| Figure { value, unit };
         let moves = |linear: bool| {
             let ways = motion.end.external.iter().zip(&motion.start.external);
             robot.external_axes().iter().zip(ways).any(|(axis, (end, start))| axis.linear == linear && end != start)
         };
-        if motion.length() >= NO_DISTANCE_MM {
+        let (of_path, moves_external) = (self.measure == Measure::Tcp, moves(false) || moves(true));
+        if of_path && motion.length() >= NO_DISTANCE_MM {
             (Measure::Tcp, self.programmed)
-        } else if motion.moves_tool() || !(moves(false) || moves(true)) {
+        } else if of_path && (motion.moves_tool() || !moves_external) {
             (Measure::Turning, figure(self.speed.ori, "deg/s"))
+        } else if !of_path && (motion.end.axes != motion.start.axes || !moves_external) {
+            (Measure::Axes, self.programmed)
         } else if moves(false) {
             (Measure::TurningAxes, figure(self.speed.exj, "deg/s"))
         } else {
@@ -196,18 +226,13 @@ pub struct Recorder {
     time: f64,
     /// The number of the motion executed last.
     executed: u64,
-    joints: [f64; ALL],
-    /// Speeds, accelerations of the axes.
-    rates: [[f64; ALL]; 2],
-    way: Frame,
-    /// The TCP along its path, and the tool's turning in deg.
-    moving: PathSpeed,
-    turning: PathSpeed,
+    /// How everything moves.
+    derivatives: Derivatives,
     /// For how many cycles jerks have been limited, and limits have been those of the robot file.
     smooth: usize,
     plain: usize,
-    /// How many of the TCP's derivatives are known: after a change of what is carried none is.
-    known: usize,
+    /// For how many cycles no motion has been executed.
+    still: usize,
 }
 
 impl Recorder {
@@ -221,14 +246,10 @@ impl Recorder {
             last: None,
             time: 0.0,
             executed: 0,
-            joints: queue.joints().all(),
-            rates: [[0.0; ALL]; 2],
-            way: Frame::identity(),
-            moving: PathSpeed::default(),
-            turning: PathSpeed::default(),
+            derivatives: Derivatives::resting(*queue.joints()),
             smooth: DERIVATIVES,
             plain: DERIVATIVES,
-            known: 0,
+            still: 0,
         }
     }
 
@@ -263,6 +284,10 @@ impl Recorder {
             way: 0.0,
             blend: None,
             unblended: None,
+            less: None,
+            flows: false,
+            arrived: false,
+            speeds: Reached::default(),
             axes: Nearest::NONE,
             tool: Nearest::NONE,
             carried: command.rig.carried,
@@ -282,19 +307,24 @@ impl Recorder {
             let Some(record) = record_of(&mut self.records, &self.places, number) else { continue };
             record.blend = rounding;
             let along_tool = record.along_tool;
-            if record.measure == Measure::Tcp {
+            if matches!(record.measure, Measure::Tcp | Measure::Axes) {
                 (record.measure, record.programmed) = record.measured_by(&self.robot, &motion);
             }
-            if let (Some((before, leave)), Some((_, last))) = (left, &self.last) {
-                let rounding = zone::rounding(&self.robot, last, leave);
+            if let (Some(Leaving { number: before, share, less }), Some((_, last))) = (left, &self.last) {
+                let rounding = zone::rounding(&self.robot, last, share);
                 let mixed = record_of(&mut self.records, &self.places, before).is_some_and(|record| {
-                    (record.blend, record.unblended) = (rounding, None);
+                    (record.blend, record.unblended, record.less) = (rounding, None, less);
                     record.mixed |= record.along_tool != along_tool;
                     record.along_tool != along_tool
                 });
                 if let Some(record) = record_of(&mut self.records, &self.places, number) {
                     record.mixed |= mixed;
                 }
+            }
+            if let Some((before, _)) = self.last.as_ref().filter(|_| motion.flows)
+                && let Some(record) = record_of(&mut self.records, &self.places, *before)
+            {
+                record.flows = true;
             }
             if let (Some(why), Some((before, _))) = (unblended, &self.last)
                 && let Some(record) = record_of(&mut self.records, &self.places, *before)
@@ -313,75 +343,110 @@ impl Recorder {
         self.laid(queue);
         let began = self.time;
         self.time += period;
-        let all = step.joints.all();
-        let mut rates = [[0.0; ALL]; 3];
-        let [vel, acc, jerk] = &mut rates;
-        for (at, ((vel, acc), jerk)) in vel.iter_mut().zip(acc).zip(jerk).enumerate() {
-            let before = |values: &[f64; ALL]| values.get(at).copied().unwrap_or_default();
-            *vel = (before(&all) - before(&self.joints)) / period;
-            *acc = (*vel - before(&self.rates[0])) / period;
-            *jerk = (*acc - before(&self.rates[1])) / period;
-        }
-        self.joints = all;
-        self.rates = [rates[0], rates[1]];
+        self.still = if step.motion == 0 { self.still + 1 } else { 0 };
         let number = if step.motion == 0 { self.executed } else { step.motion };
-        let Some(record) = record_of(&mut self.records, &self.places, number) else { return };
-        if self.executed != number {
-            self.executed = number;
-            self.known = 0;
-        }
+        // Who stands may be moved by others than a motion.
+        let is_still = self.still >= DERIVATIVES;
+        let Some(record) = record_of(&mut self.records, &self.places, number).filter(|_| !is_still) else {
+            self.derivatives.without_tool(&step.joints, period);
+            return;
+        };
+        let led = record.along_tool.then_some(record.carried);
+        let tool = self.derivatives.tool(record.carried, led, &self.robot, &step.joints, period);
+        let axes = self.derivatives.axes(&step.joints, period);
+        self.executed = number;
         if step.motion != 0 {
             record.start.get_or_insert(began);
             record.duration += period;
         }
+        record.way += tool.way;
         // Differences reach back two cycles: what was allowed there counts, too.
         self.smooth = if record.jerks { self.smooth + 1 } else { 0 };
         self.plain = if queue.hardness() > 1.0 { 0 } else { self.plain + 1 };
         let derivatives = if self.smooth >= DERIVATIVES { DERIVATIVES } else { DERIVATIVES - 1 };
         let harder = if self.plain >= DERIVATIVES { 1.0 } else { FAST_STOP_FACTOR };
-        let mut percent = 0.0_f64;
-        let mut external = [0.0_f64; 2];
-        let own = self.robot.own_axes().len();
         for (at, axis) in self.robot.axes.iter().enumerate() {
-            let column = if at < own { at } else { at - own + ROBOT_AXES };
-            let rates = [0, 1, 2]
-                .map(|order: usize| rates.get(order).and_then(|all| all.get(column)).copied().unwrap_or_default());
+            let column = column_of(&self.robot, at);
+            let rates = axes.map(|rates| rates.get(column).copied().unwrap_or_default());
             record.axes.raise(Limited::Axis(at), rates, [axis.vel, axis.acc * harder, axis.jerk * harder], derivatives);
-            if at < own {
-                percent = percent.max(100.0 * rates[0].abs() / axis.vel);
-            } else {
-                let [turning, linear] = &mut external;
-                let kind = if axis.linear { linear } else { turning };
-                *kind = kind.max(rates[0].abs());
-            }
         }
+        if record.along_tool {
+            let (tcp, known) = (&self.robot.tcp, tool.known.min(derivatives));
+            record.tool.raise(Limited::Tcp, tool.moving, [tcp.vel, tcp.acc * harder, tcp.jerk * harder], known);
+            let limits = [tcp.ori_vel, tcp.ori_acc * harder, tcp.ori_jerk * harder];
+            record.tool.raise(Limited::Turning, tool.turning, limits, known);
+        }
+        record.arrived |= arrived(queue, number);
+        let within = Speeds { tcp: tool.moving[0].abs(), turning: tool.turning[0].abs(), axes: axes[0] };
+        record.note_speed(&self.robot, queue, number, &within);
+    }
+}
 
-        let way = record.carried.way_at(&self.robot.kinematics.forward(&step.joints.axes));
-        let moved = way.translation.vector - self.way.translation.vector;
-        let turned = (way.rotation * self.way.rotation.inverse()).scaled_axis().map(f64::to_degrees);
-        self.way = way;
-        let mut speed = [0.0; 2];
-        if self.known > 0 {
-            let moving = self.moving.derivatives(moved, period);
-            let turning = self.turning.derivatives(turned, period);
-            speed = [moving[0].abs(), turning[0].abs()];
-            record.way += moved.norm();
-            if record.along_tool {
-                let (tcp, known) = (&self.robot.tcp, self.known.min(derivatives));
-                record.tool.raise(Limited::Tcp, moving, [tcp.vel, tcp.acc * harder, tcp.jerk * harder], known);
-                let limits = [tcp.ori_vel, tcp.ori_acc * harder, tcp.ori_jerk * harder];
-                record.tool.raise(Limited::Turning, turning, limits, known);
-            }
-        }
-        self.known = (self.known + 1).min(DERIVATIVES);
-        record.reached = match record.measure {
-            Measure::Axes => record.reached.max(percent),
-            Measure::Tcp => record.reached.max(speed[0]),
-            Measure::Turning => record.reached.max(speed[1]),
-            Measure::TurningAxes => record.reached.max(external[0]),
-            Measure::LinearAxes => record.reached.max(external[1]),
-            Measure::Duration => record.duration,
+/// Whether a motion has come to its end in this cycle, or was left for a blend.
+fn arrived(queue: &Queue, number: u64) -> bool {
+    queue.left(number).is_some()
+        || queue.progress().is_some_and(|progress| progress.motion == number && progress.share >= 1.0)
+}
+
+/// Where an axis of [`Robot::axes`] is among all that there may be.
+fn column_of(robot: &Robot, at: usize) -> usize {
+    let own = robot.own_axes().len();
+    if at < own { at } else { at - own + ROBOT_AXES }
+}
+
+/// Speeds of what they are programmed of.
+struct Speeds {
+    /// mm/s
+    tcp: f64,
+    /// deg/s
+    turning: f64,
+    /// deg/s (mm/s)
+    axes: [f64; ALL],
+}
+
+impl Speeds {
+    /// That of what a motion is measured by, in its unit.
+    fn of(&self, measure: Measure, robot: &Robot) -> f64 {
+        let axes = robot.axes.iter().enumerate().map(|(at, axis)| {
+            let speed = self.axes.get(column_of(robot, at)).copied().unwrap_or_default();
+            (at < robot.own_axes().len(), axis, speed.abs())
+        });
+        let external = |linear: bool| {
+            let own_kind = axes.clone().filter(|(own, axis, _)| !own && axis.linear == linear);
+            own_kind.map(|(_, _, speed)| speed).fold(0.0, f64::max)
         };
+        match measure {
+            Measure::Axes => {
+                let shares = axes.clone().filter(|(own, ..)| *own).map(|(_, axis, speed)| 100.0 * speed / axis.vel);
+                shares.fold(0.0, f64::max)
+            }
+            Measure::Tcp => self.tcp,
+            Measure::Turning => self.turning,
+            Measure::TurningAxes => external(false),
+            Measure::LinearAxes => external(true),
+            Measure::Duration => 0.0,
+        }
+    }
+}
+
+impl MotionRecord {
+    /// Notes how fast it goes in this cycle: outside of a zone as is planned without what is laid over the path, `within` one as it moves.
+    fn note_speed(&mut self, robot: &Robot, queue: &Queue, number: u64, within: &Speeds) {
+        if self.measure == Measure::Duration {
+            self.reached = self.duration;
+            return;
+        }
+        // Once the target is reached the path goes on with the next motion.
+        let Some((segment, plain)) = queue.plain_speed().filter(|(segment, _)| segment.number == number) else {
+            return;
+        };
+        match plain {
+            Some(PlainSpeed { tcp, turning, axes }) => {
+                self.speeds.outside(Speeds { tcp, turning, axes }.of(self.measure, robot));
+            }
+            None => self.speeds.within(within.of(self.measure, robot), segment.leaves()),
+        }
+        self.reached = self.speeds.highest();
     }
 }
 

@@ -15,7 +15,7 @@ use crate::command::summary::{Ending, summary};
 use crate::context::output::Message;
 use crate::context::program::Program;
 use crate::controller::{Controller, Outcome, trace};
-use crate::fault::Alarm;
+use crate::fault::{Alarm, File};
 
 /// A run of a program in this process. All of it happens on the thread that makes it.
 pub struct Run {
@@ -36,6 +36,8 @@ pub struct Run {
     is_real: bool,
     /// The trace of the first robot, where it is asked for: rows that nobody has taken yet.
     rows: Option<Vec<f64>>,
+    /// The files that rows name by their places here, where they do.
+    files: Option<Vec<File>>,
     /// Whether somebody wants it to end.
     stops: Arc<AtomicBool>,
     /// Who listens, until it is over.
@@ -72,7 +74,7 @@ impl Run {
         let said = Rc::new(RefCell::new(String::new()));
         let lines = Rc::clone(&said);
         let output = move |message: &Message<'_>| lines.borrow_mut().push_str(&message_line(message));
-        let InProcess { controller, max_time, is_real, recording } =
+        let InProcess { controller, max_time, is_real, trace_columns, recording } =
             program_main::in_process(program, (others, script_dir), arguments, output)?;
         recording.iter().for_each(|recording| recording.begin(&controller));
         let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
@@ -88,6 +90,7 @@ impl Run {
             observation,
             is_real,
             rows,
+            files: trace_columns.file.then(Vec::new),
             stops,
             recording,
         })
@@ -114,9 +117,7 @@ impl Run {
             }
             self.controller.step();
             self.recording.iter().for_each(|recording| recording.cycle_ended(&self.controller));
-            if let Some(rows) = self.rows.as_mut().filter(|_| self.controller.first_ran()) {
-                rows.extend(self.controller.trace_row());
-            }
+            self.keep_row();
             self.take_news();
             if self.cut.is_none()
                 && outside == Outside::Nobody
@@ -128,6 +129,15 @@ impl Run {
         // Who asks for no cycle wants to know, too.
         let _ = self.ended.is_some() || self.conclude();
         self.code()
+    }
+
+    /// Keeps the row of a cycle, where the trace is asked for.
+    fn keep_row(&mut self) {
+        let Some(rows) = self.rows.as_mut().filter(|_| self.controller.first_ran()) else { return };
+        rows.extend(self.controller.trace_row());
+        if let Some(files) = &mut self.files {
+            rows.push(self.controller.executing_file().map_or(f64::NAN, |file| place(files, file) as f64));
+        }
     }
 
     fn code(&self) -> Option<u8> {
@@ -203,9 +213,15 @@ impl Run {
         line
     }
 
-    /// The rows of the trace since the last call, one behind the other; axes that are not there are no numbers.
+    /// The rows of the trace since the last call, one behind the other; axes that are not there are no numbers. With `--trace-columns file`
+    /// each has one number more at its end: which of [`files`](Self::files) its line is of, from 0; no number where no motion is executed.
     pub fn take_rows(&mut self) -> Vec<f64> {
         self.rows.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// The names of the files that rows of the trace have named so far.
+    pub fn files(&self) -> Vec<&'static str> {
+        self.files.iter().flatten().map(|file| file.name()).collect()
     }
 
     /// What came of it, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s, the alarms, and with `--report` what
@@ -216,7 +232,7 @@ impl Run {
 
     /// What each motion did, a JSON object a line, where `--report` asked for it.
     pub fn report(&self) -> String {
-        report::all_json(&self.controller.all_motions(), self.controller.time())
+        report::all_json(&self.controller.recorded(), self.controller.time())
     }
 
     /// Which signals and global variables [`observe`](Self::observe) tells, a name a line: `do.1`, `global.placed`.
@@ -257,6 +273,15 @@ impl Run {
     pub fn time(&self) -> f64 {
         self.controller.time()
     }
+}
+
+/// Where a file is among those that are known; new ones come behind.
+fn place(files: &mut Vec<File>, file: File) -> usize {
+    let known = files.iter().position(|known| *known == file);
+    known.unwrap_or_else(|| {
+        files.push(file);
+        files.len() - 1
+    })
 }
 
 impl fmt::Debug for Run {

@@ -24,8 +24,9 @@ use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
 use crate::context::standard_error::tell;
 use crate::context::standstill::Standstill;
+use crate::controller::trace::More;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
-use crate::cycle::clock_source::{RealClock, VirtualClock};
+use crate::cycle::clock_source::{Lateness, RealClock, VirtualClock};
 use crate::cycle::realtime::Realtime;
 use crate::io::{Pendant, Scenario};
 use crate::storage::state::{Directory, Memory};
@@ -271,8 +272,14 @@ fn run(
 /// What came too late in a run in real time.
 pub(super) fn lateness(controller: &Controller) -> Vec<String> {
     let mut said = Vec::new();
+    if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
+        said.push(format!(
+            "{missing} messages of the robot did not come: it did not send them, or the network lost them; so many control cycles were lost"
+        ));
+    }
     if let Some(lateness) = controller.lateness().filter(|lateness| lateness.late() > 0) {
-        let (late, lost, longest) = (lateness.late(), lateness.lost(), lateness.longest().as_secs_f64() * 1e3);
+        let (late, longest) = (lateness.late(), lateness.longest().as_secs_f64() * 1e3);
+        let lost = lateness.lost() - lateness.missing();
         said.push(format!(
             "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
         ));
@@ -315,6 +322,7 @@ pub(super) fn in_process(
         return Err(format!("{option} is for a program that runs by itself"));
     }
     let (max_time, repeats, wishes) = (options.max_time, options.repeats, options.wishes);
+    let trace_columns = options.trace_columns;
     let is_real = options.clock == Some(Pace::Real);
     let keeps = options.state_dir.is_some();
     let recording = options.listener.as_deref().map(|address| connect_to(address, wishes)).transpose()?;
@@ -328,7 +336,7 @@ pub(super) fn in_process(
     let builder = if wishes.each_motion { builder.record_motions() } else { builder };
     let mut controller = builder.build(program).map_err(|error| error.to_string())?;
     controller.set_loop(repeats);
-    Ok(InProcess { controller, max_time, is_real, recording })
+    Ok(InProcess { controller, max_time, is_real, trace_columns, recording })
 }
 
 /// A run that is part of another process, before its first cycle.
@@ -337,6 +345,8 @@ pub(super) struct InProcess {
     pub(super) max_time: Option<f64>,
     /// Whether it was asked to be in real time.
     pub(super) is_real: bool,
+    /// What rows of the trace have behind the columns that they always have.
+    pub(super) trace_columns: More,
     pub(super) recording: Option<Recording>,
 }
 
@@ -366,14 +376,14 @@ type WriteReport = Box<dyn FnMut(&Controller) -> std::io::Result<()>>;
 fn report_to(report: Report) -> Result<WriteReport, String> {
     Ok(match report {
         Report::Table => Box::new(|controller| {
-            let text = report::tables(&controller.all_motions(), controller.time());
+            let text = report::tables(&controller.recorded(), controller.time());
             let lateness = controller.lateness().map(ToString::to_string).unwrap_or_default();
             std::io::stderr().write_all((text + &lateness).as_bytes())
         }),
         Report::File(path) => {
             let mut file = File::create(&path).map_err(|error| format!("{}: {error}", path.display()))?;
             Box::new(move |controller| {
-                let text = report::all_json(&controller.all_motions(), controller.time());
+                let text = report::all_json(&controller.recorded(), controller.time());
                 let clock = controller.lateness().map(report::clock_json).unwrap_or_default();
                 file.write_all((text + &clock).as_bytes())
             })
@@ -492,6 +502,9 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
     if let Some(trace) = &options.trace {
         let file = File::create(trace);
         builder = builder.trace(file.map_err(|error| SetupFailure::usage(format!("{}: {error}", trace.display())))?);
+    }
+    if options.trace_columns.file {
+        builder = builder.trace_files();
     }
     if options.report.is_some() {
         builder = builder.record_motions();

@@ -1,10 +1,11 @@
 //! What the motions of a run did, as a table for people and as JSON.
 
 use std::fmt::Write;
-use std::sync::Arc;
 
 use crate::command::json::quoted;
+use crate::controller::Recorded;
 use crate::cycle::clock_source::Lateness;
+use crate::fault::File;
 use crate::motion::{Closest, MotionKind, MotionRecord, Rate};
 use arl_robot::robot::Robot;
 
@@ -12,13 +13,17 @@ use arl_robot::robot::Robot;
 const HEAD: [&str; 10] =
     ["line", "motion", "runs", "programmed", "reached", "each", "blend", "closest vel", "acc", "jerk"];
 
+/// Stands below the table.
+const WHAT_COUNTS: &str =
+    "reached: along the path, outside of zones, without a weave; closest: zones included, tcp along its path only\n";
+
 /// The table of each robot; with several, each has a headline. `time` is how long the programs ran, in s.
-pub(crate) fn tables(robots: &[(Arc<Robot>, Vec<MotionRecord>)], time: f64) -> String {
+pub(crate) fn tables(robots: &[Recorded], time: f64) -> String {
     match robots {
-        [(robot, records)] => table(records, robot, time),
+        [robot] => table(robot, time),
         robots => {
-            let headed = |(at, (robot, records)): (usize, &(Arc<Robot>, Vec<MotionRecord>))| {
-                format!("channel {}, robot {}:\n{}", at + 1, robot.name, table(records, robot, time))
+            let headed = |(at, robot): (usize, &Recorded)| {
+                format!("channel {}, robot {}:\n{}", at + 1, robot.robot.name, table(robot, time))
             };
             robots.iter().enumerate().map(headed).collect()
         }
@@ -26,24 +31,22 @@ pub(crate) fn tables(robots: &[(Arc<Robot>, Vec<MotionRecord>)], time: f64) -> S
 }
 
 /// The same as JSON, robot by robot.
-pub(crate) fn all_json(robots: &[(Arc<Robot>, Vec<MotionRecord>)], time: f64) -> String {
-    let of_robot =
-        |(at, (robot, records)): (usize, &(Arc<Robot>, Vec<MotionRecord>))| json(at + 1, records, robot, time);
-    robots.iter().enumerate().map(of_robot).collect()
+pub(crate) fn all_json(robots: &[Recorded], time: f64) -> String {
+    robots.iter().enumerate().map(|(at, robot)| json(at + 1, robot, time)).collect()
 }
 
 /// A table with one row for each line of the program, in the order of their first motions, and the figures of the cycle
 /// time: `time` is how long the program ran, in s.
-fn table(records: &[MotionRecord], robot: &Robot, time: f64) -> String {
+fn table(recorded: &Recorded, time: f64) -> String {
     let mut lines: Vec<Line<'_>> = Vec::new();
-    for record in executed(records) {
-        match lines.iter_mut().find(|line| line.is(record)) {
+    for (file, record) in recorded.executed() {
+        match lines.iter_mut().find(|line| line.is(file, record)) {
             Some(line) => line.add(record),
-            None => lines.push(Line::of(record)),
+            None => lines.push(Line::of(file, record)),
         }
     }
     let mut rows = vec![HEAD.map(str::to_owned)];
-    rows.extend(lines.iter().map(|line| line.cells(robot)));
+    rows.extend(lines.iter().map(|line| line.cells(recorded)));
     let mut text = String::new();
     if rows.len() > 1 {
         let width = |at: usize| rows.iter().filter_map(|row| row.get(at)).map(|cell| cell.chars().count()).max();
@@ -62,17 +65,22 @@ fn table(records: &[MotionRecord], robot: &Robot, time: f64) -> String {
         }
     }
     for line in &lines {
-        if let Some(why) = &line.blend.unblended {
-            let _ = writeln!(text, "line {}: its target is reached with a stop: {why}", line.first.line);
+        if let Some(why) = line.blend.smaller_zone() {
+            let place = line.place(recorded.program);
+            let what = if why.stops() { "its target is reached with a stop" } else { "its zone" };
+            let _ = writeln!(text, "line {place}: {what}: {why}");
         }
     }
-    text + &summary(records, time)
+    if !lines.is_empty() {
+        text.push_str(WHAT_COUNTS);
+    }
+    text + &summary(recorded, time)
 }
 
-fn summary(records: &[MotionRecord], time: f64) -> String {
-    let moving = sum(records, |record| record.duration);
-    let metres = sum(records, |record| record.way) / 1000.0;
-    let count = executed(records).count();
+fn summary(recorded: &Recorded, time: f64) -> String {
+    let moving = recorded.sum(|record| record.duration);
+    let metres = recorded.sum(|record| record.way) / 1000.0;
+    let count = recorded.executed().count();
     let motions = if count == 1 { "1 motion".to_owned() } else { format!("{count} motions") };
     let percent = if time > 0.0 { 100.0 * moving / time } else { 0.0 };
     let standing = (time - moving).max(0.0);
@@ -82,14 +90,15 @@ fn summary(records: &[MotionRecord], time: f64) -> String {
 }
 
 /// One JSON object a line: each motion of a channel that began, then the figures of its cycle time.
-fn json(channel: usize, records: &[MotionRecord], robot: &Robot, time: f64) -> String {
-    let mut text: String = executed(records).map(|record| motion_json(channel, record, robot)).collect();
-    let moving = sum(records, |record| record.duration);
+fn json(channel: usize, recorded: &Recorded, time: f64) -> String {
+    let of_motion = |motion| motion_json(channel, motion, &recorded.robot);
+    let mut text: String = recorded.executed().map(of_motion).collect();
+    let moving = recorded.sum(|record| record.duration);
     let _ = writeln!(
         text,
         "{{\"channel\":{channel},\"cycle_time\":{time:.6},\"moving\":{moving:.6},\"standing\":{:.6},\"motions\":{}}}",
         (time - moving).max(0.0),
-        executed(records).count()
+        recorded.executed().count()
     );
     text
 }
@@ -102,27 +111,28 @@ pub(crate) fn clock_json(lateness: &Lateness) -> String {
         let _ = write!(steps, "{comma}[{:.6},{count}]", within.as_secs_f64());
     }
     let (cycles, late, lost) = (lateness.cycles(), lateness.late(), lateness.lost());
+    let missing = lateness.missing();
     let longest = lateness.longest().as_secs_f64();
     format!(
-        "{{\"clock\":{{\"cycles\":{cycles},\"late\":{late},\"lost\":{lost},\"longest\":{longest:.6},\"histogram\":[{steps}]}}}}\n"
+        "{{\"clock\":{{\"cycles\":{cycles},\"late\":{late},\"lost\":{lost},\"missing\":{missing},\"longest\":{longest:.6},\"histogram\":[{steps}]}}}}\n"
     )
 }
 
-/// A motion as a JSON object, and the end of its line.
-pub(super) fn motion_json(channel: usize, record: &MotionRecord, robot: &Robot) -> String {
+/// A motion of a file as a JSON object, and the end of its line.
+pub(super) fn motion_json(channel: usize, (file, record): (File, &MotionRecord), robot: &Robot) -> String {
     let mut text = String::new();
     let MotionRecord { number, line, kind, programmed, reached, duration, way, .. } = record;
-    let kind = instruction(*kind);
+    let (kind, file) = (instruction(*kind), quoted(file.name()));
     let start = record.start.unwrap_or_default();
     let _ = write!(
         text,
-        "{{\"channel\":{channel},\"motion\":{number},\"line\":{line},\"kind\":\"{kind}\",\"unit\":\"{}\",\"programmed\":{:.6},\
+        "{{\"channel\":{channel},\"motion\":{number},\"file\":{file},\"line\":{line},\"kind\":\"{kind}\",\"unit\":\"{}\",\"programmed\":{:.6},\
          \"reached\":{reached:.6},\"start\":{start:.6},\"duration\":{duration:.6},\"way\":{way:.6}",
         programmed.unit, programmed.value
     );
     if let Some(blend) = record.blend {
         let (unit, asked, used) = (blend.unit, blend.asked, blend.used);
-        let why = record.unblended.as_ref().map(|why| format!(",\"why\":{}", quoted(&why.to_string())));
+        let why = record.smaller_zone().map(|why| format!(",\"why\":{}", quoted(&why.to_string())));
         let why = why.unwrap_or_default();
         let _ = write!(text, ",\"blend\":{{\"unit\":\"{unit}\",\"asked\":{asked:.6},\"used\":{used:.6}{why}}}");
     }
@@ -145,18 +155,32 @@ fn rate(closest: &Closest) -> &'static str {
     }
 }
 
+impl Recorded {
+    /// The motions that began.
+    fn executed(&self) -> impl Iterator<Item = (File, &MotionRecord)> {
+        self.motions.iter().filter(|(_, record)| record.start.is_some()).map(|(file, record)| (*file, record))
+    }
+
+    fn sum(&self, of: impl Fn(&MotionRecord) -> f64) -> f64 {
+        sum(self.motions.iter().map(|(_, record)| record), of)
+    }
+}
+
 /// Over the motions that began; 0 without any, not the -0 that sums of nothing are.
-pub(crate) fn sum(records: &[MotionRecord], of: impl Fn(&MotionRecord) -> f64) -> f64 {
+pub(crate) fn sum<'a>(records: impl IntoIterator<Item = &'a MotionRecord>, of: impl Fn(&MotionRecord) -> f64) -> f64 {
     executed(records).map(of).fold(0.0, |sum, value| sum + value)
 }
 
 /// The motions that began.
-pub(crate) fn executed(records: &[MotionRecord]) -> impl Iterator<Item = &MotionRecord> {
-    records.iter().filter(|record| record.start.is_some())
+pub(crate) fn executed<'a>(
+    records: impl IntoIterator<Item = &'a MotionRecord>,
+) -> impl Iterator<Item = &'a MotionRecord> {
+    records.into_iter().filter(|record| record.start.is_some())
 }
 
-/// The motions of one line of the program, and of one kind: in several files, lines have the same numbers.
+/// The motions of one line of the program, and of one kind.
 struct Line<'a> {
+    file: File,
     first: &'a MotionRecord,
     runs: u32,
     duration: f64,
@@ -184,8 +208,9 @@ fn instruction(kind: MotionKind) -> &'static str {
 }
 
 impl<'a> Line<'a> {
-    fn of(record: &'a MotionRecord) -> Self {
+    fn of(file: File, record: &'a MotionRecord) -> Self {
         Self {
+            file,
             first: record,
             runs: 1,
             duration: record.duration,
@@ -196,9 +221,15 @@ impl<'a> Line<'a> {
         }
     }
 
-    fn is(&self, record: &MotionRecord) -> bool {
-        let first = self.first;
-        (first.line, first.kind, first.programmed.unit) == (record.line, record.kind, record.programmed.unit)
+    fn is(&self, file: File, record: &MotionRecord) -> bool {
+        let key = |file: File, record: &MotionRecord| (file, record.line, record.kind, record.programmed.unit);
+        key(self.file, self.first) == key(file, record)
+    }
+
+    /// `12`, or `grips.arl:12` where it is not in the program's main file.
+    fn place(&self, program: File) -> String {
+        let line = self.first.line;
+        if self.file == program { line.to_string() } else { format!("{}:{line}", self.file.name()) }
     }
 
     fn add(&mut self, record: &'a MotionRecord) {
@@ -219,16 +250,17 @@ impl<'a> Line<'a> {
         }
     }
 
-    fn cells(&self, robot: &Robot) -> [String; 10] {
+    fn cells(&self, recorded: &Recorded) -> [String; 10] {
+        let robot = &recorded.robot;
         let unit = self.first.programmed.unit;
         let blend = self.blend.blend.map_or_else(String::new, |blend| {
             format!("{} of {} {}", short(blend.used), short(blend.asked), blend.unit)
         });
         let [vel, acc, jerk] = self.closest.map(|closest| {
-            closest.map_or_else(String::new, |it| format!("{} {:.0} %", it.name(robot), 100.0 * it.share))
+            closest.map_or_else(String::new, |it| format!("{} {} %", it.name(robot), percent(it.share)))
         });
         [
-            self.first.line.to_string(),
+            self.place(recorded.program),
             instruction(self.first.kind).to_owned(),
             self.runs.to_string(),
             range(self.programmed, unit),
@@ -240,6 +272,12 @@ impl<'a> Line<'a> {
             jerk,
         ]
     }
+}
+
+/// How much of a limit was used. Above all of it, tenths tell how much: up to 101 % is within the limits.
+fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    if percent < 100.05 { format!("{percent:.0}") } else { format!("{percent:.1}") }
 }
 
 /// `200 mm/s`, or `180..200 mm/s`.

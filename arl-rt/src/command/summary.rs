@@ -56,8 +56,8 @@ pub(crate) fn summary(controller: &Controller, ending: Option<Ending>, alarms: &
     let _ = write!(text, "{{\"outcome\":\"{outcome}\",\"code\":{code},\"cycle_time\":{}", number(time));
     let _ = write!(text, ",\"real_time\":{}", controller.is_real());
     let mut of_first = None;
-    controller.each_record(|_, records, _| {
-        of_first.get_or_insert_with(|| figures(records, time));
+    controller.each_unit(|unit| {
+        of_first.get_or_insert_with(|| figures(unit.records(), time));
     });
     text.push_str(&of_first.unwrap_or_default());
     text.push_str(",\"alarms\":");

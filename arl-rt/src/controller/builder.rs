@@ -29,7 +29,7 @@ use crate::context::random::{self, Random};
 use crate::context::shared_state::{Listeners, Parts, SharedState};
 use crate::context::system::{self, Common, System};
 use crate::context::wiring;
-use crate::controller::trace::Trace;
+use crate::controller::trace::{More, Trace};
 use crate::cycle::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::cycle::clock_source::{Clock, VirtualClock};
 use crate::fault::Alarm;
@@ -76,6 +76,7 @@ pub struct Builder {
     storage: Box<dyn Storage>,
     script_dir: PathBuf,
     record: bool,
+    trace_more: More,
     mode: Controlmode,
     speed_override: Override,
     seed: u64,
@@ -107,6 +108,7 @@ impl Default for Builder {
             storage: Box::new(Memory::default()),
             script_dir: PathBuf::from("."),
             record: false,
+            trace_more: More::default(),
             mode: Controlmode::Auto,
             speed_override: Override::FULL,
             seed: random::SEED,
@@ -298,6 +300,13 @@ impl Builder {
         self
     }
 
+    /// The traces of all robots have a column `file` behind the others: the file that the line of the motion is of, empty
+    /// where none is executed.
+    pub fn trace_files(mut self) -> Self {
+        self.trace_more.file = true;
+        self
+    }
+
     /// Keeps a record of every motion, for [`Controller::motions`].
     pub fn record_motions(mut self) -> Self {
         self.record = true;
@@ -428,6 +437,7 @@ impl Builder {
             home_tolerance: cell.homes.tolerance.unwrap_or(HOME_TOLERANCE),
             speed_override: self.speed_override,
             record: self.record,
+            trace_more: self.trace_more,
             stack: self.stack,
             pointers: pointers.clone(),
             programs: Rc::new(Programs::new(self.programs, self.initialised)),
@@ -520,6 +530,7 @@ struct Site {
     home_tolerance: f64,
     speed_override: Override,
     record: bool,
+    trace_more: More,
     stack: usize,
     pointers: Table,
     /// The programs of the controller, as each of them sees the others.
@@ -538,7 +549,7 @@ impl Site {
         let id = ChannelId::Foreground(number);
         let system = System::beside(Rc::clone(&self.common), id);
         system::load(&system.kept_by_channel(), &mut self.shared.state.borrow_mut())?;
-        let trace = body.trace.map(Trace::new).transpose();
+        let trace = body.trace.map(|writer| Trace::new(writer, self.trace_more)).transpose();
         let trace = trace.map_err(|error| SetupError::Trace(error.to_string()))?;
         let driver = |problem| SetupError::Driver { channel: number, problem };
         let mut unit = Unit::new(robot, body.driver, self.shared.rate.period()).map_err(driver)?;

@@ -1,5 +1,9 @@
 //! When a robot is stopped since too many cycles were lost.
 
+use std::fmt;
+
+use crate::cycle::clock_source::Lateness;
+
 /// Losses of a second count together, in so many parts of it.
 const PARTS: u64 = 20;
 
@@ -11,49 +15,98 @@ pub(super) struct LateLimit {
     /// How many cycles a part of a second has.
     part_cycles: u64,
     /// How many were lost in each part of the last second, in a ring.
-    parts: [u64; PARTS as usize],
+    parts: [Lost; PARTS as usize],
     /// The part that is counted now, of all since the start.
     newest: u64,
     /// How many were lost until now.
-    seen: u64,
+    seen: Lost,
+}
+
+/// How many cycles were lost.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(super) struct Lost {
+    /// All of them.
+    all: u64,
+    /// Those of which the beat never came.
+    missing: u64,
+}
+
+impl Lost {
+    fn plus(self, more: Self) -> Self {
+        Self { all: self.all.saturating_add(more.all), missing: self.missing.saturating_add(more.missing) }
+    }
+
+    /// What has been added since; of what begins to count anew, nothing.
+    fn since(self, before: Self) -> Self {
+        Self { all: self.all.saturating_sub(before.all), missing: self.missing.saturating_sub(before.missing) }
+    }
+}
+
+impl From<&Lateness> for Lost {
+    fn from(lateness: &Lateness) -> Self {
+        Self { all: lateness.lost(), missing: lateness.missing() }
+    }
+}
+
+/// Why, and how many within a second.
+impl fmt::Display for Lost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { all, missing } = *self;
+        let lost = format!("{all} control cycles were lost within a second");
+        match missing {
+            0 => write!(f, "the computer was too busy: {lost}"),
+            missing if missing == all => write!(f, "messages of the robot did not come: {lost}"),
+            missing => write!(
+                f,
+                "{lost}: {missing} as messages of the robot did not come, {} as the computer was too busy",
+                all - missing
+            ),
+        }
+    }
 }
 
 impl LateLimit {
     /// So many may be lost within a second, which has so many cycles.
     pub(super) fn new(most: Option<u32>, cycles: u64) -> Self {
-        Self { most, part_cycles: (cycles / PARTS).max(1), parts: [0; PARTS as usize], newest: 0, seen: 0 }
+        Self {
+            most,
+            part_cycles: (cycles / PARTS).max(1),
+            parts: [Lost::default(); PARTS as usize],
+            newest: 0,
+            seen: Lost::default(),
+        }
     }
 
     /// What was lost until now counts for nothing: no program ran.
-    pub(super) fn forget(&mut self, lost: u64) {
+    pub(super) fn forget(&mut self, lost: Lost) {
         self.seen = lost;
-        self.parts.fill(0);
+        self.parts.fill(Lost::default());
     }
 
     /// Takes in how many cycles were lost until this one; how many were within a second, where those are too many. They are told once.
     #[inline]
-    pub(super) fn look(&mut self, lost: u64, cycle: u64) -> Option<u64> {
-        let new = lost.saturating_sub(std::mem::replace(&mut self.seen, lost));
+    pub(super) fn look(&mut self, lost: Lost, cycle: u64) -> Option<Lost> {
+        let new = lost.since(std::mem::replace(&mut self.seen, lost));
         let most = u64::from(self.most?);
-        if new == 0 {
+        if new.all == 0 {
             return None;
         }
         // Lost ones took their time, too.
-        let part = (cycle.saturating_add(lost) / self.part_cycles).max(self.newest);
+        let part = (cycle.saturating_add(lost.all) / self.part_cycles).max(self.newest);
         for passed in 0..(part - self.newest).min(PARTS) {
-            *self.count(part - passed) = 0;
+            *self.count(part - passed) = Lost::default();
         }
         self.newest = part;
         let count = self.count(part);
-        *count = count.saturating_add(new);
-        let all = self.parts.iter().fold(0, |all: u64, count| all.saturating_add(*count));
-        (all > most).then(|| {
-            self.parts.fill(0);
-            all
+        *count = count.plus(new);
+        let together = self.parts.iter().fold(Lost::default(), |together, count| together.plus(*count));
+        (together.all > most).then(|| {
+            self.parts.fill(Lost::default());
+            together
         })
     }
 
-    fn count(&mut self, part: u64) -> &mut u64 {
+    fn count(&mut self, part: u64) -> &mut Lost {
         // The remainder is below the number of parts.
         &mut self.parts[(part % PARTS) as usize]
     }
@@ -63,37 +116,59 @@ impl LateLimit {
 mod tests {
     use super::*;
 
+    /// Lost by a computer that is too busy.
+    fn busy(all: u64) -> Lost {
+        Lost { all, missing: 0 }
+    }
+
+    #[test]
+    fn who_is_to_blame_is_told() {
+        let mut lateness = Lateness::default();
+        lateness.note_missing(30);
+        let mut limit = LateLimit::new(Some(20), 1000);
+        let told = |lost: Option<Lost>| lost.map(|lost| lost.to_string()).unwrap_or_default();
+        let lost = limit.look(Lost::from(&lateness), 5);
+        assert_eq!(told(lost), "messages of the robot did not come: 30 control cycles were lost within a second");
+        lateness.note_missing(20);
+        lateness.note_lost(2);
+        let lost = limit.look(Lost::from(&lateness), 10);
+        assert_eq!(
+            told(lost),
+            "22 control cycles were lost within a second: 20 as messages of the robot did not come, 2 as the computer was too busy"
+        );
+    }
+
     #[test]
     fn losses_of_a_second_count_together() {
         let mut limit = LateLimit::new(Some(20), 1000);
-        assert_eq!(limit.look(0, 0), None);
-        assert_eq!(limit.look(15, 100), None);
-        assert_eq!(limit.look(15, 101), None);
+        assert_eq!(limit.look(busy(0), 0), None);
+        assert_eq!(limit.look(busy(15), 100), None);
+        assert_eq!(limit.look(busy(15), 101), None);
         // The first ones are more than a second ago.
-        assert_eq!(limit.look(30, 1200), None);
-        assert_eq!(limit.look(36, 1300), Some(21));
+        assert_eq!(limit.look(busy(30), 1200), None);
+        assert_eq!(limit.look(busy(36), 1300), Some(busy(21)));
         // It is told, and counts no more.
-        assert_eq!(limit.look(40, 1301), None);
-        assert_eq!(LateLimit::new(None, 1000).look(1000, 5), None);
+        assert_eq!(limit.look(busy(40), 1301), None);
+        assert_eq!(LateLimit::new(None, 1000).look(busy(1000), 5), None);
     }
 
     #[test]
     fn many_small_losses_do_not_add_up_for_ever() {
         // Each tenth cycle is lost: 91 a second of the world's time.
         let mut limit = LateLimit::new(Some(100), 1000);
-        let found: Vec<u64> = (1..=2000).filter_map(|at| limit.look(at, 10 * at)).collect();
+        let found: Vec<Lost> = (1..=2000).filter_map(|at| limit.look(busy(at), 10 * at)).collect();
         assert_eq!(found, []);
         let mut limit = LateLimit::new(Some(80), 1000);
-        assert_eq!((1..=100).find_map(|at| limit.look(at, 10 * at)), Some(81));
+        assert_eq!((1..=100).find_map(|at| limit.look(busy(at), 10 * at)), Some(busy(81)));
     }
 
     #[test]
     fn what_is_lost_while_no_program_runs_does_not_count() {
         let mut limit = LateLimit::new(Some(20), 1000);
-        limit.forget(5000);
-        assert_eq!(limit.look(5010, 1), None);
+        limit.forget(busy(5000));
+        assert_eq!(limit.look(busy(5010), 1), None);
         // A clock that begins to count anew has lost nothing.
-        assert_eq!(limit.look(0, 2), None);
-        assert_eq!(limit.look(u64::MAX, u64::MAX), Some(u64::MAX));
+        assert_eq!(limit.look(busy(0), 2), None);
+        assert_eq!(limit.look(busy(u64::MAX), u64::MAX), Some(busy(u64::MAX)));
     }
 }

@@ -16,6 +16,7 @@ mod order;
 mod outcome;
 mod pendant;
 mod pointer_store;
+mod recorded;
 mod running;
 mod standstill;
 mod status;
@@ -33,6 +34,7 @@ pub use foreground::Foreground;
 pub use handle::{Handle, HandleError};
 pub use order::OrderError;
 pub use outcome::Outcome;
+pub(crate) use recorded::Recorded;
 pub use running::Running;
 pub use status::{ChannelStatus, RobotStatus, Status};
 
@@ -46,7 +48,7 @@ use crate::cycle::clock_source::{Clock, Lateness};
 use crate::fault::{Alarm, Fault, File};
 use crate::fieldbus::islands::Islands;
 use crate::io::{AxisName, Digital, Effect, IoDriver, Pendant, Playing, Pwm, RobotEffect};
-use crate::motion::{Joints, MotionRecord, Override};
+use crate::motion::{Joints, Override};
 use crate::storage::state::StateError;
 use crate::unit::{Beat, Unit};
 use arl_robot::cell::Names;
@@ -55,7 +57,7 @@ use channel::Channel;
 use channels::Channels;
 use external::External;
 use handle::Calls;
-use late_limit::LateLimit;
+use late_limit::{LateLimit, Lost};
 use pointer_store::PointerStore;
 
 /// How often changes of system variables are stored of which every one is kept, in s: what a kill may cost.
@@ -313,12 +315,12 @@ impl Controller {
 
     /// Stops robots where too many cycles were lost: between two set-points they had to do without.
     fn look_for_lost_cycles(&mut self, cycle: u64) {
-        let lost = self.clock.lateness().map_or(0, Lateness::lost);
+        let lost = self.clock.lateness().map(Lost::from).unwrap_or_default();
         if self.had_ended {
             return self.late_limit.forget(lost);
         }
         if let Some(lost) = self.late_limit.look(lost, cycle) {
-            let why = format!("the computer was too busy: {lost} control cycles were lost within a second");
+            let why = lost.to_string();
             self.channels.each(|channel| channel.fail_for_lost_cycles(&why));
         }
     }
@@ -431,6 +433,11 @@ impl Controller {
         trace::columns(self.shared.rate.time(cycle), &self.unit.borrow())
     }
 
+    /// The file of the motion that the first channel's robot executed in the last cycle.
+    pub(crate) fn executing_file(&self) -> Option<File> {
+        self.unit.borrow().executing_file()
+    }
+
     /// How many cycles so many seconds take.
     pub(crate) fn cycles(&self, seconds: f64) -> u64 {
         self.shared.rate.cycles(seconds)
@@ -502,27 +509,6 @@ impl Controller {
     /// The axes as the robot reports them, in deg (mm).
     pub fn joints(&self) -> Joints {
         *self.unit.borrow().feedback()
-    }
-
-    /// What the motions of the first channel planned so far did, in order; none unless the controller was built with
-    /// [`Builder::record_motions`].
-    pub fn motions(&self) -> Vec<MotionRecord> {
-        self.unit.borrow().records().to_vec()
-    }
-
-    /// The robots of the foreground channels by their numbers, each with what its motions did, like
-    /// [`motions`](Controller::motions).
-    pub fn all_motions(&self) -> Vec<(Arc<Robot>, Vec<MotionRecord>)> {
-        let of_unit = |unit: &Unit| (unit.shared_robot(), unit.records().to_vec());
-        self.channels.units().map(|unit| of_unit(&unit.borrow())).collect()
-    }
-
-    /// Of the foreground channels by their numbers: the robot, what its motions did, and whether it executes one.
-    pub(crate) fn each_record(&self, mut each: impl FnMut(&Robot, &[MotionRecord], bool)) {
-        for unit in self.channels.units() {
-            let unit = unit.borrow();
-            each(unit.robot(), unit.records(), unit.executing().1 != 0);
-        }
     }
 
     /// Where the Modbus TCP server listens, if there is one.

@@ -1,7 +1,9 @@
 //! The trace: one row of CSV a cycle, from which tests and plots see what the robot did.
 
+use std::fmt;
 use std::io::{self, BufWriter, Write};
 
+use crate::fault::File;
 use crate::unit::Unit;
 
 /// How many columns a trace has.
@@ -10,18 +12,49 @@ pub(crate) const COLUMNS: usize = 21;
 /// Their names: the start of the cycle in s, the line and the number of the motion, the axes in deg (mm), the TCP in mm and deg.
 pub(crate) const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
 
+/// The column behind them with the file that the line is of, where it is asked for.
+pub(crate) const FILE_COLUMN: &str = "file";
+
+/// Which columns a trace has behind those that every one has.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(crate) struct More {
+    /// [`FILE_COLUMN`].
+    pub(crate) file: bool,
+}
+
+impl More {
+    /// Reads the names of columns, with commas between.
+    ///
+    /// # Errors
+    /// There is no such column, in words.
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        let mut more = Self::default();
+        for name in text.split(',').map(str::trim) {
+            match name {
+                FILE_COLUMN => more.file = true,
+                _ => return Err(format!("`{name}` is no column: expected {FILE_COLUMN}")),
+            }
+        }
+        Ok(more)
+    }
+}
+
 /// Writes one row a cycle.
 pub(crate) struct Trace {
+    more: More,
     out: BufWriter<Box<dyn Write>>,
     /// The first thing that went wrong; nothing is written after it.
     error: Option<io::Error>,
 }
 
 impl Trace {
-    pub(crate) fn new(writer: Box<dyn Write>) -> io::Result<Self> {
+    pub(crate) fn new(writer: Box<dyn Write>, more: More) -> io::Result<Self> {
         let mut out = BufWriter::with_capacity(1 << 16, writer);
-        writeln!(out, "{HEADER}")?;
-        Ok(Self { out, error: None })
+        match more.file {
+            true => writeln!(out, "{HEADER},{FILE_COLUMN}")?,
+            false => writeln!(out, "{HEADER}")?,
+        }
+        Ok(Self { more, out, error: None })
     }
 
     /// The row of a cycle that began at `time` seconds.
@@ -41,6 +74,9 @@ impl Trace {
                 write!(self.out, ",{place:.9}")?;
             }
         }
+        if self.more.file {
+            write!(self.out, ",{}", Field(unit.executing_file().map_or("", File::name)))?;
+        }
         writeln!(self.out)
     }
 
@@ -50,6 +86,25 @@ impl Trace {
             Some(error) => Err(error),
             None => self.out.flush(),
         }
+    }
+}
+
+/// A text as a field of CSV: in quotes where it needs them.
+struct Field<'a>(&'a str);
+
+impl fmt::Display for Field<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.0.contains([',', '"', '\n', '\r']) {
+            return f.write_str(self.0);
+        }
+        f.write_str("\"")?;
+        for part in self.0.split_inclusive('"') {
+            f.write_str(part)?;
+            if part.ends_with('"') {
+                f.write_str("\"")?;
+            }
+        }
+        f.write_str("\"")
     }
 }
 
@@ -66,4 +121,15 @@ pub(crate) fn columns(time: f64, unit: &Unit) -> [f64; COLUMNS] {
     let [x, y, z, a, b, c] = unit.commanded_tcp();
     let (line, motion) = (f64::from(line), motion as f64);
     [time, line, motion, j1, j2, j3, j4, j5, j6, ej1, ej2, ej3, ej4, ej5, ej6, x, y, z, a, b, c]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_files_are_fields() {
+        let field = |name| Field(name).to_string();
+        assert_eq!(["a.arl", "a,b.arl", "a\"b.arl"].map(field), ["a.arl", "\"a,b.arl\"", "\"a\"\"b.arl\""]);
+    }
 }

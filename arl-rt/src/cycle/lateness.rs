@@ -27,6 +27,7 @@ pub struct Lateness {
     counts: [u64; STEPS_US.len() + 1],
     late: u64,
     lost: u64,
+    missing: u64,
     longest: Duration,
 }
 
@@ -47,6 +48,12 @@ impl Lateness {
         self.lost = self.lost.saturating_add(cycles);
     }
 
+    /// So many beats never came from whom cycles follow (a robot that sends, a bus): their cycles are lost, and the computer is not to blame.
+    pub fn note_missing(&mut self, beats: u64) {
+        self.missing = self.missing.saturating_add(beats);
+        self.lost = self.lost.saturating_add(beats);
+    }
+
     /// How many cycles began.
     pub fn cycles(&self) -> u64 {
         self.counts.iter().sum()
@@ -57,9 +64,14 @@ impl Lateness {
         self.late
     }
 
-    /// How many cycles were lost by that.
+    /// How many cycles were lost: by that, or as their beats never came.
     pub fn lost(&self) -> u64 {
         self.lost
+    }
+
+    /// How many of the lost ones had no beat.
+    pub fn missing(&self) -> u64 {
+        self.missing
     }
 
     /// How late the latest cycle began.
@@ -78,7 +90,11 @@ impl Lateness {
 impl fmt::Display for Lateness {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (longest, late, lost) = (self.longest.as_secs_f64() * 1e3, self.late, self.lost);
-        writeln!(f, "cycles: {}, the latest began {longest:.3} ms late; {late} too late, {lost} lost", self.cycles())?;
+        write!(f, "cycles: {}, the latest began {longest:.3} ms late; {late} too late, {lost} lost", self.cycles())?;
+        match self.missing {
+            0 => writeln!(f)?,
+            missing => writeln!(f, ", {missing} of them without a message of the robot")?,
+        }
         for (within, count) in self.histogram() {
             writeln!(f, "{:>10} us late at most: {count}", within.as_micros())?;
         }

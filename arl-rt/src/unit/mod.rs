@@ -81,6 +81,8 @@ pub(crate) struct Unit {
     /// The TCP in the world.
     tcp: Frame,
     recorder: Option<Box<Recorder>>,
+    /// The files of the recorded motions, each from a running number on.
+    recorded_files: Vec<(u64, File)>,
     /// The targets that were told not to be rounded off: file and line behind, line before, why.
     unblended: HashSet<(File, u32, Option<u32>, NoBlend)>,
     /// The file of the motion planned last.
@@ -149,6 +151,7 @@ impl Unit {
             settled: 0,
             tcp,
             recorder: None,
+            recorded_files: Vec::new(),
             unblended: HashSet::new(),
             file: File::new(""),
             base: Frame::identity(),
@@ -172,6 +175,13 @@ impl Unit {
     /// The records of all motions; none unless they are kept.
     pub(crate) fn records(&self) -> &[MotionRecord] {
         self.recorder.as_ref().map_or(&[], |recorder| recorder.records())
+    }
+
+    /// The file of a motion whose record is kept.
+    pub(crate) fn recorded_file(&self, number: u64) -> Option<File> {
+        let behind = self.recorded_files.partition_point(|(from, _)| *from <= number);
+        let (_, file) = self.recorded_files.get(behind.checked_sub(1)?)?;
+        Some(*file)
     }
 
     /// The targets that should be rounded off but are not, each with the file of the motion behind it; between the same lines for the same
@@ -307,6 +317,12 @@ impl Unit {
         self.executing
     }
 
+    /// The file of the motion executed in this cycle, where there was one.
+    pub(crate) fn executing_file(&self) -> Option<File> {
+        let (_, number) = self.executing;
+        (number != 0).then(|| self.file_of(number))
+    }
+
     /// How far the motion being executed has come.
     pub(crate) fn progress(&self) -> Option<Progress> {
         self.queue.progress()
@@ -413,6 +429,9 @@ impl Unit {
     fn note_planned(&mut self, number: u64, command: &Command, settings: &Settings, file: File) {
         if let Some(recorder) = &mut self.recorder {
             recorder.planned(&mut self.queue, number, command, settings);
+            if self.recorded_files.last().is_none_or(|(_, last)| *last != file) {
+                self.recorded_files.push((number, file));
+            }
         }
         if self.files.back().is_none_or(|(_, last)| *last != file) {
             self.files.push_back((number, file));

@@ -63,9 +63,15 @@ impl Clock for RsiBeat {
             return;
         }
         self.lateness.note(if received.was_there { came.saturating_duration_since(due) } else { Duration::ZERO });
-        let lost = (received.step as f64 / (period * 1e3)).round() - 1.0;
-        if lost >= 1.0 {
-            self.lateness.note_lost(lost as u64);
+        let beats = (received.step as f64 / (period * 1e3)).round() as u64;
+        // Those that waited together were sent in time, and not taken; of the others none has come.
+        let waited = received.count.clamp(1, beats.max(1)) - 1;
+        let missing = beats.saturating_sub(1 + waited);
+        if waited > 0 {
+            self.lateness.note_lost(waited);
+        }
+        if missing > 0 {
+            self.lateness.note_missing(missing);
         }
     }
 

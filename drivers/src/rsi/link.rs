@@ -51,6 +51,8 @@ pub(super) struct Received {
     pub(super) any: bool,
     /// By how many ms the robot's time has gone on since the message before.
     pub(super) step: u64,
+    /// How many messages have come.
+    pub(super) count: u64,
     /// Whether it had come before somebody waited.
     pub(super) was_there: bool,
 }
@@ -94,12 +96,13 @@ impl Link {
 
     /// Waits for the message of the next cycle. Of several that have come the newest counts.
     pub(super) fn receive(&mut self, until: Instant) -> Received {
-        let mut received = Received { any: self.message.is_some(), was_there: true, step: 0 };
+        let mut received = Received { any: self.message.is_some(), was_there: true, step: 0, count: 0 };
         for packet in 0.. {
             match self.take_packet() {
                 Some(step) => {
                     received.any |= step > 0;
                     received.step = received.step.saturating_add(step);
+                    received.count += u64::from(step > 0);
                     // Whoever sends what does not count gets no more time than the robot.
                     if packet >= MOST && (received.any || Instant::now() >= until) {
                         break;

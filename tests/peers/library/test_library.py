@@ -38,6 +38,7 @@ class Interface(ctypes.Structure):
         ("time", ctypes.CFUNCTYPE(ctypes.c_double, RUN)),
         ("end", ctypes.CFUNCTYPE(None, RUN)),
         ("header", ctypes.CFUNCTYPE(None, TAKE, ctypes.c_void_p)),
+        # More functions follow that are not called here.
     ]
 
 
@@ -57,7 +58,7 @@ def interface(path):
     library = ctypes.CDLL(str(path))
     library.arl_interface.restype = ctypes.POINTER(Interface)
     arl = library.arl_interface().contents
-    assert arl.version == 2
+    assert arl.version == 3
     return arl
 
 

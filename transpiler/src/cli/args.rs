@@ -354,6 +354,9 @@ pub(super) struct RunOptions {
     /// Write the motion, one row a cycle.
     #[arg(long, value_name = "FILE.csv")]
     pub(super) trace: Option<PathBuf>,
+    /// Columns of the trace behind those that it always has, with commas between: `file`, the file that the line is of.
+    #[arg(long, value_name = "COLUMN", requires = "trace")]
+    pub(super) trace_columns: Option<String>,
     /// Record the run for viewers of robot data (Foxglove, Lichtblick, Rerun): frames, joints, io, program and motion pointer, messages,
     /// alarms, what each motion did. A description of the robots is written beside it: cell.urdf.
     #[arg(long, value_name = "FILE.mcap")]
@@ -445,7 +448,7 @@ impl RunOptions {
         let word = |value: Option<clap::builder::PossibleValue>| value.map(|value| value.get_name().into());
         let path = |path: &Option<PathBuf>| path.clone().map(PathBuf::into_os_string);
         let number = |number: Option<String>| number.map(Into::into);
-        let all: [(&str, Option<std::ffi::OsString>); 12] = [
+        let all: [(&str, Option<std::ffi::OsString>); 13] = [
             ("--robot", self.robot.clone().map(Into::into)),
             ("--cell", path(&self.cell)),
             ("--clock", word(self.clock.and_then(|clock| clock.to_possible_value()))),
@@ -453,6 +456,7 @@ impl RunOptions {
             ("--state-dir", path(&self.state_dir)),
             ("--io", path(&self.io)),
             ("--trace", path(&self.trace)),
+            ("--trace-columns", self.trace_columns.clone().map(Into::into)),
             ("--max-time", number(self.max_time.map(|time| time.to_string()))),
             ("--mode", word(self.mode.and_then(|mode| mode.to_possible_value()))),
             ("--override", number(self.override_percent.map(|percent| percent.to_string()))),

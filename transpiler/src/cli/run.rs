@@ -15,6 +15,7 @@ use super::robot;
 use super::scenery::Scenery;
 use super::show;
 use super::signals::Signals;
+use super::texts;
 use crate::cli::exit::Exit;
 use arl_robot::Robot;
 use arl_robot::cell::Cell;
@@ -113,7 +114,7 @@ fn run_and_plot(
     let kept = options.trace.clone().map(Trace::Kept);
     let trace = kept.unwrap_or_else(|| {
         let path = std::env::temp_dir().join(format!("arl2rs-{}.csv", std::process::id()));
-        command.arg("--trace").arg(&path);
+        command.arg("--trace").arg(&path).args(["--trace-columns", "file"]);
         Trace::Passing(path)
     });
     // What lies there from another run is not to be drawn.
@@ -156,14 +157,10 @@ impl Drop for Trace {
     }
 }
 
-/// What the plot says of the program. Lines have no files in a trace: with several files they are just numbers.
+/// What the plot says of the program.
 fn ran(file: &Path, sources: &[PathBuf]) -> Ran {
     let title = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let stem = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
-    let programs = sources.iter().filter(|path| !stem(path).ends_with("_data")).count();
-    let bytes = (programs == 1).then(|| std::fs::read(file).ok()).flatten();
-    let source = bytes.and_then(|bytes| Some(arl_lang::text::decode(&bytes).ok()?.into_owned()));
-    Ran { title, source, ..Ran::default() }
+    Ran { main: Some(title.clone()), title, sources: texts::read(sources), lanes: Vec::new() }
 }
 
 /// The program takes the place of this process: signals, streams and exit code are its own.

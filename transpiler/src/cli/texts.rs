@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 /// A file of a program.
+#[derive(Clone, PartialEq, Debug)]
 pub(super) struct Text {
     /// Its name without folders: so alarms and states call it.
     pub(super) name: String,

@@ -162,6 +162,51 @@ fn a_plot_shows_the_way_the_speeds_and_the_lines() {
     folder.arl2rs(&["plot", "way.arl", "x.svg"]).is(2, "").says("is not a trace of a run");
 }
 
+/// A program of two files, each with a motion in its line 3.
+fn two_files(name: &str) -> Folder {
+    Folder::new(name)
+        .with("way.arl", "import \"parts.arl\"\nfunc void main()\n    movej j:{10,-90,90,0,90,0}\n    parts::aside()\nendfunc\n")
+        .with("parts.arl", "func void aside()\n    pose p = cpose($FLANGE,$WORLD)\n    lin p:offset(p,0,0,-50,0,0,0),vl:200\nendfunc\n")
+}
+
+#[test]
+fn motions_stand_under_the_files_of_their_lines() {
+    let folder = two_files("files");
+    let run = |more: &[&str]| folder.arl2rs(&[&["run", "way.arl"], more].concat());
+    run(&["--trace", "way.csv", "--trace-columns", "file", "--report=way.jsonl", "--record", "way.mcap"]).is(0, "");
+    let trace = folder.read("way.csv");
+    assert!(trace.starts_with("t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c,file\n"), "{trace}");
+    let mut places: Vec<String> = Vec::new();
+    for row in trace.lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        places.push([cells[1], cells[21]].join(" "));
+    }
+    places.dedup();
+    places.retain(|place| place != "0 ");
+    assert_eq!(places, ["3 way.arl", "3 parts.arl"]);
+    let report = folder.read("way.jsonl");
+    for part in ["\"motion\":1,\"file\":\"way.arl\",\"line\":3,", "\"motion\":2,\"file\":\"parts.arl\",\"line\":3,"] {
+        assert!(report.contains(part), "{part} in {report}");
+    }
+    run(&["--report"]).is(0, "").says("\n            3  movej  ").says("\nparts.arl:3  lin  ");
+    run(&["--report=way.json", "--format", "json"]).is(0, "");
+    let same = folder.arl2rs(&["compare", "way.json", "way.mcap"]);
+    assert!(same.code == Some(0) && same.out.starts_with("nothing differs: "), "{}", same.out);
+    let whole: serde_json::Value = serde_json::from_str(&folder.read("way.json")).unwrap();
+    let lines = whole["channels"][0]["lines"].as_array().unwrap().iter();
+    let lines: Vec<_> = lines.filter(|line| line["motions"] == 1).map(|line| (&line["file"], &line["line"])).collect();
+    assert_eq!(lines, [(&"parts.arl".into(), &3.into()), (&"way.arl".into(), &3.into())]);
+    // The same line of another file is another line, with its own text.
+    run(&["--plot", "way.svg"]).is(0, "");
+    let picture = folder.read("way.svg");
+    for text in ["   3  movej j:", "parts.arl:3  lin p:offset", ">parts.arl:3</text>"] {
+        assert!(picture.contains(text), "{text}");
+    }
+    folder.arl2rs(&["plot", "way.csv", "again.svg"]).is(0, "");
+    assert!(folder.read("again.svg").contains(">parts.arl:3</text>"));
+    run(&["--trace", "way.csv", "--trace-columns", "line"]).is(2, "").says("`line` is no column: expected file");
+}
+
 #[test]
 fn a_plot_shows_external_axes() {
     let robot = crate_robot("kr10-r1420").replacen(
@@ -195,6 +240,7 @@ fn a_report_says_what_each_line_did() {
     // The last one is not blended.
     assert_eq!(words[..7], ["8", "lin", "3", "100", "mm/s", "100", "mm/s"], "{row}");
     assert!(row.contains("0 of 10 mm") && row.contains("tcp 5 %"), "{row}");
+    answer.says("line 8: its target is reached with a stop: no motion followed in time");
 
     folder.arl2rs(&["run", "way.arl", "--report=way.jsonl"]).is(0, "");
     let text = folder.read("way.jsonl");

@@ -13,7 +13,7 @@ use crate::blend::zone::asks;
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::{ALL, Joints};
 use crate::follow::governor::{Governor, Pacing};
-use crate::follow::segment::Segment;
+use crate::follow::segment::{PlainSpeed, Segment};
 use crate::follow::shared_deque::SharedDeque;
 use crate::follow::timing::Timing;
 use crate::junction::blend_thread::Prepared;
@@ -101,6 +101,17 @@ impl UnblendedTarget {
     }
 }
 
+/// A motion that is left by a blend.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Leaving {
+    /// Its running number.
+    pub(crate) number: u64,
+    /// The share at which it is left.
+    pub(crate) share: f64,
+    /// Why that is a smaller zone than was asked for, where it is.
+    pub(crate) less: Option<NoBlend>,
+}
+
 /// The end of the path.
 #[derive(Clone, Debug)]
 struct Tail {
@@ -140,12 +151,18 @@ impl PathBuffer {
         self.segments.front().map(|segment| &**segment)
     }
 
-    /// The motion from which a blend leads to the motion `number`, and the share at which it is left.
-    pub(crate) fn left_before(&self, number: u64) -> Option<(u64, f64)> {
+    /// The segment that the robot is on, and how fast it goes there where that is no blend.
+    pub(crate) fn plain_speed(&self) -> Option<(&Segment, Option<PlainSpeed>)> {
+        let first = self.segments.front()?;
+        Some((first, first.plain_speed(self.at, self.state.vel)))
+    }
+
+    /// How a blend leaves a motion for the motion `number`, where one does.
+    pub(crate) fn left_before(&self, number: u64) -> Option<Leaving> {
         let is_own = |segment: &&Arc<Segment>| segment.number == number;
         let before = self.segments.iter().rev().skip_while(|it| !is_own(it)).find(|it| !is_own(it))?;
         let rounded = before.ends && !before.stops && before.parametrization.is_some();
-        rounded.then(|| (before.number, before.leave))
+        rounded.then(|| Leaving { number: before.number, share: before.leave, less: before.less.clone() })
     }
 
     /// The motion that counts as being executed, and the share of its path that is done. A blend belongs to the motion that

@@ -27,14 +27,16 @@ impl EndedMotions {
     /// Says those that have ended since.
     pub(super) fn say(&mut self, controller: &Controller, voice: &LineWriter) {
         let mut channel = 0;
-        controller.each_record(|robot, records, moves| {
+        controller.each_unit(|unit| {
+            let (records, moves) = (unit.records(), unit.executing().1 != 0);
             channel += 1;
             self.0.resize_with(self.0.len().max(channel), OfRobot::default);
             let Some(of_robot) = self.0.get_mut(channel - 1) else { return };
             let begin = |at: usize| records.get(at).map_or((None, 0.0), |record| (record.start, record.duration));
             for at in of_robot.ended(records.len(), begin, moves) {
-                if let Some(record) = records.get(at) {
-                    voice.report(report::motion_json(channel, record, robot).trim_end());
+                if let Some((record, file)) = records.get(at).and_then(|it| Some((it, unit.recorded_file(it.number)?)))
+                {
+                    voice.report(report::motion_json(channel, (file, record), unit.robot()).trim_end());
                 }
             }
         });

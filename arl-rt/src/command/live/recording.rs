@@ -113,7 +113,7 @@ impl Recording {
         self.flush();
         self.voice.state(controller);
         if self.wishes.each_motion {
-            let report = report::all_json(&controller.all_motions(), controller.time());
+            let report = report::all_json(&controller.recorded(), controller.time());
             report.lines().for_each(|object| self.voice.report(object));
         }
         self.voice.ended();

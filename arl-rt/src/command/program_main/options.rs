@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::builtins::time;
 use crate::command::live::{STATE_INTERVAL_S, Wishes};
+use crate::controller::trace::More;
 use crate::cycle::realtime::Realtime;
 use crate::values::Controlmode;
 use arl_motion::Override;
@@ -27,6 +28,8 @@ Options:
                         the programs stood, between runs
   --io FILE             a scenario: what the outside does to the inputs
   --trace FILE.csv      write the motion, one row a cycle
+  --trace-columns file  columns of the trace behind those that it always has: file, the
+                        file that the line is of
   --report[=FILE]       say at the end what each motion did, on the standard error,
                         or one JSON object a line into a file
   --live                be driven by lines on the standard input (di.5 = true), and
@@ -73,6 +76,7 @@ pub(super) struct Options {
     pub(super) state_dir: Option<PathBuf>,
     pub(super) io: Option<PathBuf>,
     pub(super) trace: Option<PathBuf>,
+    pub(super) trace_columns: More,
     pub(super) listener: Option<String>,
     pub(super) wishes: Wishes,
     pub(super) report: Option<Report>,
@@ -158,6 +162,7 @@ pub(super) fn parse(
         state_dir: None,
         io: None,
         trace: None,
+        trace_columns: More::default(),
         listener: None,
         wishes: Wishes::default(),
         report: None,
@@ -192,6 +197,10 @@ pub(super) fn parse(
             Long("state-dir") => options.state_dir = Some(parser.value()?.into()),
             Long("io") => options.io = Some(parser.value()?.into()),
             Long("trace") => options.trace = Some(parser.value()?.into()),
+            Long("trace-columns") => {
+                let text = parser.value()?.string()?;
+                options.trace_columns = More::parse(&text).map_err(|why| format!("--trace-columns {text}: {why}"))?;
+            }
             Long("each-cycle") => options.wishes.each_cycle = true,
             Long("each-motion") => options.wishes.each_motion = true,
             Long("state-interval") => {
@@ -280,6 +289,7 @@ mod tests {
         assert_eq!(options.robot.as_deref(), Some("six-10"));
         assert_eq!((options.clock, options.max_time, options.mode), (Some(Pace::Real), Some(2.5), Controlmode::Manual));
         assert_eq!(options.script_dir, Path::new("scripts"));
+        assert!(parsed(&["--trace-columns=file"]).unwrap().unwrap().trace_columns.file);
         let realtime = parsed(&["--realtime=1"]).unwrap().unwrap();
         assert_eq!((realtime.clock, realtime.realtime), (Some(Pace::Real), Some(Realtime::new().core(1))));
         assert_eq!(parsed(&["--help"]), Ok(None));
@@ -298,6 +308,7 @@ mod tests {
             (&["--start-time", "then"], "2000-01-01T00:00:00"),
             (&["--realtime=first"], "invalid digit"),
             (&["--realtime", "--clock", "virtual"], "--realtime is for --clock real"),
+            (&["--trace-columns", "do.1"], "`do.1` is no column: expected file"),
             (&["--speed"], "--speed"),
             (&["--seed"], "--seed"),
             (&["file"], "file"),

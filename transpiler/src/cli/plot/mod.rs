@@ -13,6 +13,7 @@ mod views;
 
 use super::failure::Failure;
 use super::robot::Robot;
+use super::texts::Text;
 pub(super) use lanes::Lane;
 use outline::Outline;
 
@@ -35,16 +36,36 @@ const COLUMNS: usize = 3;
 #[derive(Clone, Default, Debug)]
 pub(super) struct Ran {
     pub(super) title: String,
-    /// The text of the program, where all lines of the trace are lines of it.
-    pub(super) source: Option<String>,
+    /// The file that has `main`, where that is known.
+    pub(super) main: Option<String>,
+    /// The texts of the files.
+    pub(super) sources: Vec<Text>,
     /// The signals that changed.
     pub(super) lanes: Vec<Lane>,
+}
+
+impl Ran {
+    /// The text of a line of a file. Where the trace does not name the file, there is none but where the whole program is one file; data
+    /// files do not count.
+    fn text(&self, file: Option<&str>, line: u32) -> Option<&str> {
+        let is_data =
+            |one: &&Text| one.name.rsplit_once('.').is_some_and(|(stem, _)| stem.to_lowercase().ends_with("_data"));
+        let mut programs = self.sources.iter().filter(|one| !is_data(one));
+        let source = match file {
+            Some(file) => self.sources.iter().find(|one| one.name == file),
+            None => programs.next().filter(|_| programs.next().is_none()),
+        };
+        let number = usize::try_from(line).ok()?.checked_sub(1)?;
+        source?.text.lines().nth(number).map(str::trim)
+    }
 }
 
 /// Draws the trace at `trace` to the file `plot`; says whether there was a motion to draw.
 pub(super) fn plot(trace: &Path, plot: &Path, robot: arl_robot::Robot, ran: &Ran) -> Result<bool, Failure> {
     let robot = Robot::of(robot);
-    let Some(outline) = Outline::of(Rows::open(trace)?)? else { return Ok(false) };
+    let mut rows = Rows::open(trace)?;
+    let Some(outline) = Outline::of(rows.by_ref())? else { return Ok(false) };
+    let outline = outline.with_files(rows.files(), ran.main.as_deref());
     let text = draw(&outline, &robot, ran, Rows::open(trace)?)?;
     std::fs::write(plot, text).map_err(|error| Failure::io("write", plot, &error))?;
     Ok(true)
@@ -97,8 +118,9 @@ fn lines(outline: &Outline, ran: &Ran, top: f64, picture: &mut Picture) -> f64 {
         picture.rect(&Area { x, y: y - 9.0, width: 12.0, height: 10.0 }, "", Some(outline.colour(*line)));
         let times = outline.runs(*line);
         let times = if times > 1 { format!("  ({times}\u{d7})") } else { String::new() };
-        let text = ran.source.as_deref().and_then(|source| source.lines().nth(*line as usize - 1)).map(str::trim);
-        let text = shortened(&format!("{line:>4}  {}", text.unwrap_or_default()), 51 - times.chars().count()) + &times;
+        let text = ran.text(outline.file(*line), line.line).unwrap_or_default();
+        let text = format!("{:>4}  {text}", outline.label(*line));
+        let text = shortened(&text, 51 - times.chars().count()) + &times;
         picture.text([x + 18.0, y], Anchor::Start, "code", &text);
     }
     let mut bottom = top + 22.0 + rows as f64 * APART;

@@ -2,14 +2,14 @@
 
 use super::super::failure::Failure;
 use super::super::robot::AXES;
-use super::trace::{Movement, Row};
+use super::trace::{Movement, Place, Row};
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 
 /// A motion, or a part of one between two standstills: from when to when its line was executed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Stretch {
-    pub(super) line: u32,
+    pub(super) place: Place,
     pub(super) motion: u64,
     /// s.
     pub(super) from: f64,
@@ -25,9 +25,12 @@ pub(super) struct Outline {
     pub(super) space: [[f64; 2]; 3],
     pub(super) stretches: Vec<Stretch>,
     /// The lines with motions, in the order of their first execution.
-    pub(super) lines: Vec<u32>,
+    pub(super) lines: Vec<Place>,
     /// Where each line is among them.
-    places: HashMap<u32, usize>,
+    places: HashMap<Place, usize>,
+    /// The files that the trace names, and the one that has `main` where that is known.
+    files: Vec<String>,
+    main: Option<String>,
     /// The highest speed of the TCP, mm/s.
     pub(super) speed: f64,
     /// The highest speed of each axis, deg/s (mm/s).
@@ -46,6 +49,8 @@ impl Outline {
             stretches: Vec::new(),
             lines: Vec::new(),
             places: HashMap::new(),
+            files: Vec::new(),
+            main: None,
             speed: 0.0,
             axes: [0.0; AXES],
         };
@@ -76,23 +81,44 @@ impl Outline {
             return;
         }
         match self.stretches.last_mut() {
-            Some(last) if last.to == before && last.motion == row.motion && last.line == row.line => last.to = row.t,
+            Some(last) if last.to == before && last.motion == row.motion && last.place == row.place => last.to = row.t,
             _ => {
                 let from = if row.t > self.time[0] { before } else { row.t };
-                self.stretches.push(Stretch { line: row.line, motion: row.motion, from, to: row.t });
-                if let Entry::Vacant(place) = self.places.entry(row.line) {
+                self.stretches.push(Stretch { place: row.place, motion: row.motion, from, to: row.t });
+                if let Entry::Vacant(place) = self.places.entry(row.place) {
                     place.insert(self.lines.len());
-                    self.lines.push(row.line);
+                    self.lines.push(row.place);
                 }
             }
         }
     }
 
+    /// Names the files of its lines: those that the trace names, and the one that has `main`, where that is known.
+    pub(super) fn with_files(self, files: &[String], main: Option<&str>) -> Self {
+        Self { files: files.to_vec(), main: main.map(str::to_owned), ..self }
+    }
+
+    /// The file of a line, where the trace names it.
+    pub(super) fn file(&self, line: Place) -> Option<&str> {
+        self.files.get(line.file).map(String::as_str).filter(|name| !name.is_empty())
+    }
+
+    /// `12`, or `grips.arl:12` where it is not in the file that has `main`.
+    pub(super) fn label(&self, line: Place) -> String {
+        let number = line.line;
+        // Where nobody says which file has it, the number is enough as long as there is one file.
+        let is_in_main = |file: &str| self.main.as_deref().map_or(self.files.len() == 1, |main| main == file);
+        match self.file(line) {
+            Some(file) if !is_in_main(file) => format!("{file}:{number}"),
+            _ => number.to_string(),
+        }
+    }
+
     /// How often a line was executed.
-    pub(super) fn runs(&self, line: u32) -> usize {
+    pub(super) fn runs(&self, line: Place) -> usize {
         self.stretches
             .iter()
-            .filter(|stretch| stretch.line == line)
+            .filter(|stretch| stretch.place == line)
             .map(|stretch| stretch.motion)
             .collect::<HashSet<_>>()
             .len()
@@ -100,16 +126,16 @@ impl Outline {
 
     /// How many motions there were.
     pub(super) fn motions(&self) -> usize {
-        self.stretches.iter().map(|stretch| (stretch.line, stretch.motion)).collect::<HashSet<_>>().len()
+        self.stretches.iter().map(|stretch| (stretch.place, stretch.motion)).collect::<HashSet<_>>().len()
     }
 
     /// Where a line is among the lines with motions.
-    pub(super) fn place(&self, line: u32) -> Option<usize> {
+    pub(super) fn place(&self, line: Place) -> Option<usize> {
         self.places.get(&line).copied()
     }
 
     /// The colour of a line's motions.
-    pub(super) fn colour(&self, line: u32) -> &'static str {
+    pub(super) fn colour(&self, line: Place) -> &'static str {
         colour(self.place(line).unwrap_or(0))
     }
 }
@@ -127,8 +153,12 @@ pub(super) fn colour(at: usize) -> &'static str {
 mod tests {
     use super::*;
 
+    fn place(line: u32) -> Place {
+        Place { file: 0, line }
+    }
+
     fn row(t: f64, line: u32, motion: u64, x: f64) -> Row {
-        Row { t, line, motion, axes: [f64::NAN; AXES], tcp: [x, 1.0, 2.0] }
+        Row { t, place: place(line), motion, axes: [f64::NAN; AXES], tcp: [x, 1.0, 2.0] }
     }
 
     #[test]
@@ -137,21 +167,38 @@ mod tests {
         let again = [(0.005, 7, 3, 5.0), (0.006, 7, 3, 6.0)];
         let rows = rows.into_iter().chain(again).map(|(t, line, motion, x)| Ok(row(t, line, motion, x)));
         let outline = Outline::of(rows).unwrap().unwrap();
-        assert_eq!(outline.lines, [7, 9]);
-        let stretches: Vec<_> = outline.stretches.iter().map(|it| (it.line, it.from, it.to)).collect();
+        assert_eq!(outline.lines, [7, 9].map(place));
+        let stretches: Vec<_> = outline.stretches.iter().map(|it| (it.place.line, it.from, it.to)).collect();
         assert_eq!(stretches, [(7, 0.0, 0.002), (9, 0.002, 0.003), (7, 0.004, 0.006)]);
         assert_eq!((outline.time, outline.space[0]), ([0.0, 0.006], [1.0, 6.0]));
         assert!((outline.speed - 2000.0).abs() < 1e-6);
-        assert_ne!(outline.colour(7), outline.colour(9));
+        assert_ne!(outline.colour(place(7)), outline.colour(place(9)));
     }
 
     #[test]
     fn a_motion_that_stands_is_not_executed() {
         let rows = [(0.0, 0.0), (0.001, 1.0), (0.002, 2.0), (0.003, 2.0), (0.004, 2.0), (0.005, 3.0), (0.006, 4.0)];
         let outline = Outline::of(rows.into_iter().map(|(t, x)| Ok(row(t, 7, 1, x)))).unwrap().unwrap();
-        let stretches: Vec<_> = outline.stretches.iter().map(|it| (it.line, it.from, it.to)).collect();
+        let stretches: Vec<_> = outline.stretches.iter().map(|it| (it.place.line, it.from, it.to)).collect();
         assert_eq!(stretches, [(7, 0.0, 0.002), (7, 0.004, 0.006)]);
-        assert_eq!((outline.runs(7), outline.motions()), (1, 1));
+        assert_eq!((outline.runs(place(7)), outline.motions()), (1, 1));
+    }
+
+    #[test]
+    fn lines_of_other_files_are_lines_of_their_own() {
+        let at = |t: f64, file: usize| Row { place: Place { file, line: 7 }, ..row(t, 7, 1, t) };
+        let rows = [(0.0, 0), (0.001, 0), (0.002, 1), (0.003, 1)].map(|(t, file)| Ok(at(t, file)));
+        let outline = Outline::of(rows.into_iter()).unwrap().unwrap();
+        let names = ["a.arl".to_owned(), "b.arl".to_owned()];
+        let labels = |main| {
+            let outline = outline.clone().with_files(&names, main);
+            outline.lines.iter().map(|line| outline.label(*line)).collect::<Vec<_>>()
+        };
+        assert_eq!(
+            (labels(Some("a.arl")), labels(None)),
+            (vec!["7".into(), "b.arl:7".into()], vec!["a.arl:7".into(), "b.arl:7".into()])
+        );
+        assert_ne!(outline.colour(outline.lines[0]), outline.colour(outline.lines[1]));
     }
 
     #[test]

@@ -92,9 +92,9 @@ impl<'a> Times<'a> {
             }
             drawn_to = to;
             let block = Area { x: from, width: (to - from - 0.5).max(0.3), ..self.band };
-            picture.rect(&block, "", Some(self.outline.colour(stretch.line)));
-            let text = stretch.line.to_string();
-            if block.width > DIGIT * text.len() as f64 + 3.0 {
+            picture.rect(&block, "", Some(self.outline.colour(stretch.place)));
+            let text = self.outline.label(stretch.place);
+            if block.width > DIGIT * text.chars().count() as f64 + 3.0 {
                 let middle = [block.x + block.width / 2.0, y + height - 4.0];
                 picture.text(middle, Anchor::Middle, "band", &text);
             }

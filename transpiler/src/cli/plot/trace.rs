@@ -8,13 +8,26 @@ use std::path::{Path, PathBuf};
 
 const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
 
+/// What follows where the trace says which file a line is of.
+const FILE_COLUMN: &str = ",file";
+/// How many columns are before that.
+const COLUMNS: usize = 21;
+
+/// A line of a program.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(super) struct Place {
+    /// Its file, by its place among those that the trace names ([`Rows::files`]).
+    pub(super) file: usize,
+    pub(super) line: u32,
+}
+
 /// One control cycle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Row {
     /// s.
     pub(super) t: f64,
     /// The line of the motion that is executed; 0: none.
-    pub(super) line: u32,
+    pub(super) place: Place,
     /// The running number of the motion; 0: none.
     pub(super) motion: u64,
     /// deg (mm); NaN for axes that are not there.
@@ -28,6 +41,7 @@ pub(super) struct Rows {
     path: PathBuf,
     lines: std::io::Lines<BufReader<File>>,
     number: usize,
+    files: Vec<String>,
 }
 
 impl Rows {
@@ -39,13 +53,20 @@ impl Rows {
         let file = File::open(path).map_err(|error| Failure::io("read the trace", path, &error))?;
         let mut lines = BufReader::with_capacity(1 << 16, file).lines();
         match lines.next() {
-            Some(Ok(header)) if header == HEADER => Ok(Self { path: path.to_path_buf(), lines, number: 1 }),
+            Some(Ok(header)) if header.strip_prefix(HEADER).is_some_and(|more| ["", FILE_COLUMN].contains(&more)) => {
+                Ok(Self { path: path.to_path_buf(), lines, number: 1, files: Vec::new() })
+            }
             Some(Err(error)) => Err(Failure::io("read the trace", path, &error)),
             _ => Err(Failure::Usage(format!(
-                "{} is not a trace of a run: its first line must be `{HEADER}`",
+                "{} is not a trace of a run: its first line must be `{HEADER}`, with or without `{FILE_COLUMN}` behind",
                 path.display()
             ))),
         }
+    }
+
+    /// The names of the files that rows have named so far; an empty one where the trace names none.
+    pub(super) fn files(&self) -> &[String] {
+        &self.files
     }
 }
 
@@ -56,7 +77,7 @@ impl Iterator for Rows {
         let line = self.lines.next()?;
         self.number += 1;
         Some(match line {
-            Ok(text) => row(&text).ok_or_else(|| {
+            Ok(text) => row(&text, &mut self.files).ok_or_else(|| {
                 Failure::Usage(format!("{}:{}: this is not a row of a trace", self.path.display(), self.number))
             }),
             Err(error) => Err(Failure::io("read the trace", &self.path, &error)),
@@ -64,8 +85,9 @@ impl Iterator for Rows {
     }
 }
 
-fn row(text: &str) -> Option<Row> {
-    let mut fields = text.split(',');
+/// Reads a row; a file that is new comes behind the others.
+fn row(text: &str, files: &mut Vec<String>) -> Option<Row> {
+    let mut fields = text.splitn(COLUMNS + 1, ',');
     let t = fields.next()?.parse().ok()?;
     let line = fields.next()?.parse().ok()?;
     let motion = fields.next()?.parse().ok()?;
@@ -80,7 +102,26 @@ fn row(text: &str) -> Option<Row> {
     for component in &mut tcp {
         *component = fields.next()?.parse().ok()?;
     }
-    Some(Row { t, line, motion, axes, tcp })
+    let file = match (motion, fields.nth(COLUMNS - 18).map(unquoted)) {
+        (0, _) => 0,
+        (_, file) => place(files, &file.unwrap_or_default()),
+    };
+    Some(Row { t, place: Place { file, line }, motion, axes, tcp })
+}
+
+/// Where a file is among those that are known.
+fn place(files: &mut Vec<String>, name: &str) -> usize {
+    let known = files.iter().position(|known| known == name);
+    known.unwrap_or_else(|| {
+        files.push(name.to_owned());
+        files.len() - 1
+    })
+}
+
+/// The text of a field of CSV.
+fn unquoted(field: &str) -> String {
+    let quoted = field.strip_prefix('"').and_then(|field| field.strip_suffix('"'));
+    quoted.map_or_else(|| field.to_owned(), |text| text.replace("\"\"", "\""))
 }
 
 /// How the robot moved in one cycle.
@@ -136,12 +177,23 @@ mod tests {
 
     #[test]
     fn rows_are_read_and_empty_axes_are_absent() {
-        let found = row("0.001000,12,3,1,2,3,4,,,9,,,,,,100,200,300,0,0,0").unwrap();
-        assert_eq!((found.t, found.line, found.motion, found.tcp), (0.001, 12, 3, [100.0, 200.0, 300.0]));
+        let files = &mut Vec::new();
+        let found = row("0.001000,12,3,1,2,3,4,,,9,,,,,,100,200,300,0,0,0", files).unwrap();
+        let place = |file| Place { file, line: 12 };
+        assert_eq!((found.t, found.place, found.motion, found.tcp), (0.001, place(0), 3, [100.0, 200.0, 300.0]));
         assert_eq!((found.axes[3], found.axes[6]), (4.0, 9.0));
         assert!(found.axes[4].is_nan() && found.axes[11].is_nan());
-        assert_eq!(row("0.001,12,3,1,2"), None);
-        assert_eq!(row("0.001,twelve,3,1,2,3,4,,,9,,,,,,100,200,300,0,0,0"), None);
+        assert_eq!(row("0.001,12,3,1,2", files), None);
+        assert_eq!(row("0.001,twelve,3,1,2,3,4,,,9,,,,,,100,200,300,0,0,0", files), None);
+    }
+
+    #[test]
+    fn the_column_of_files_is_read() {
+        let files = &mut Vec::new();
+        let found = [("3", "a.arl"), ("4", "\"b, \"\"c\"\".arl\""), ("0", ""), ("5", "a.arl")].map(|(motion, file)| {
+            row(&format!("0.001,12,{motion},1,2,3,4,,,9,,,,,,100,200,300,0,0,0,{file}"), files).unwrap().place.file
+        });
+        assert_eq!((found, &files[..]), ([0, 1, 0, 0], &["a.arl".to_owned(), "b, \"c\".arl".to_owned()][..]));
     }
 
     #[test]
@@ -149,7 +201,7 @@ mod tests {
         let at = |t: f64, motion: u64, x: f64, j1: f64| {
             let mut axes = [f64::NAN; AXES];
             axes[0] = j1;
-            Row { t, line: 1, motion, axes, tcp: [x, 0.0, 0.0] }
+            Row { t, place: Place { file: 0, line: 1 }, motion, axes, tcp: [x, 0.0, 0.0] }
         };
         let mut movement = Movement::default();
         assert_eq!(movement.next(at(0.0, 1, 5.0, 1.0)).speed, Some(0.0));

@@ -4,7 +4,7 @@ use super::outline::{Outline, colour};
 use super::scale::{Scale, label, step, ticks};
 use super::svg::{Anchor, Area, Picture};
 use super::thin::Line;
-use super::trace::Moved;
+use super::trace::{Moved, Place};
 use std::collections::{BTreeMap, HashSet};
 
 /// What the axes of the world are called.
@@ -31,13 +31,13 @@ struct View {
     /// How many lines are drawn as one.
     together: usize,
     /// The way so far, by line of the program: the first of those that are drawn as one.
-    ways: BTreeMap<u32, Line>,
-    current: Option<u32>,
+    ways: BTreeMap<Place, Line>,
+    current: Option<Place>,
     last: Option<[f64; 2]>,
     /// Pieces of way that are there already: a program's loop draws its way once.
-    drawn: HashSet<(u32, [i32; 4])>,
+    drawn: HashSet<(Place, [i32; 4])>,
     /// Where the lines' numbers may stand: line and place.
-    marks: Vec<(u32, [f64; 2])>,
+    marks: Vec<(Place, [f64; 2])>,
 }
 
 /// The three views.
@@ -102,7 +102,7 @@ impl View {
             self.lift();
             return;
         }
-        let line = self.drawn_as(outline, moved.row.line);
+        let line = self.drawn_as(outline, moved.row.place);
         if self.current != Some(line) {
             self.lift();
             self.current = Some(line);
@@ -130,7 +130,7 @@ impl View {
     }
 
     /// The first of the lines that a line is drawn with.
-    fn drawn_as(&self, outline: &Outline, line: u32) -> u32 {
+    fn drawn_as(&self, outline: &Outline, line: Place) -> Place {
         let first = outline.place(line).and_then(|at| outline.lines.get(at / self.together * self.together));
         first.copied().unwrap_or(line)
     }
@@ -154,7 +154,7 @@ impl View {
                 self.marks.push((*line, place));
             }
         }
-        self.numbers(picture);
+        self.numbers(outline, picture);
     }
 
     fn ground(&self, step: f64, picture: &mut Picture) {
@@ -178,10 +178,10 @@ impl View {
     }
 
     /// The lines' numbers beside their ways, as far as they do not cover each other.
-    fn numbers(&self, picture: &mut Picture) {
+    fn numbers(&self, outline: &Outline, picture: &mut Picture) {
         let mut taken: Vec<[f64; 4]> = Vec::new();
         for (line, [x, y]) in &self.marks {
-            let text = line.to_string();
+            let text = outline.label(*line);
             let width = 6.5 * text.len() as f64 + 4.0;
             let fits = |[left, top]: [f64; 2]| {
                 let inside = left > self.area.x
@@ -228,7 +228,8 @@ mod tests {
         let row = |line: u32| {
             let angle = f64::from(line) / f64::from(lines) * turns * std::f64::consts::TAU;
             let tcp = [900.0 + 100.0 * angle.cos(), 100.0 * angle.sin(), 500.0];
-            Row { t: f64::from(line) * 1e-3, line: line + 1, motion: u64::from(line) + 1, axes: [f64::NAN; AXES], tcp }
+            let place = Place { file: 0, line: line + 1 };
+            Row { t: f64::from(line) * 1e-3, place, motion: u64::from(line) + 1, axes: [f64::NAN; AXES], tcp }
         };
         let outline = Outline::of((0..lines).map(|line| Ok(row(line)))).unwrap().unwrap();
         let area = Area { x: 0.0, y: 0.0, width: 1100.0, height: 330.0 };

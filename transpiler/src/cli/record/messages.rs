@@ -275,6 +275,9 @@ pub(in super::super) struct Motion {
     pub(in super::super) closest_acc: Option<Closest>,
     #[prost(message, optional, tag = "14")]
     pub(in super::super) closest_jerk: Option<Closest>,
+    /// The file that `line` is of; empty in recordings that were made before it was said.
+    #[prost(string, tag = "15")]
+    pub(in super::super) file: String,
 }
 
 /// `arl2rs.v1.Blend`: how much of a zone was asked for and used, in its unit, and why the robot stopped, where it did.

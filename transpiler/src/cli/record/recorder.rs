@@ -254,6 +254,7 @@ impl<S: Sink> Recorder<S> {
             closest_vel: closest("vel"),
             closest_acc: closest("acc"),
             closest_jerk: closest("jerk"),
+            file: text(object, "file"),
         };
         self.write("/arl/motions", &schemas::MOTION, motion.start, &motion)
     }

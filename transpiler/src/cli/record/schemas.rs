@@ -246,6 +246,7 @@ pub(super) static MOTION: Schema = Schema {
         ("closest_vel", Kind::One(&CLOSEST)),
         ("closest_acc", Kind::One(&CLOSEST)),
         ("closest_jerk", Kind::One(&CLOSEST)),
+        ("file", Kind::Text),
     ],
 };
 

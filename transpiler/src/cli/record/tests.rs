@@ -107,7 +107,7 @@ fn what_is_said_and_what_motions_did_is_there() {
         r#"{"message":{"time":1.25,"channel":"channel 1","hmi":true,"console":false,"text":"part 1\n"}}"#,
         r#"{"warning":"slow"}"#,
         r#"{"alarm":{"number":20003,"text":"alarm 20003: no","file":"pick.arl","line":9}}"#,
-        r#"{"report":{"channel":1,"motion":2,"line":7,"kind":"lin","unit":"mm/s","programmed":500,"reached":480,"start":0.5,
+        r#"{"report":{"channel":1,"motion":2,"file":"parts.arl","line":7,"kind":"lin","unit":"mm/s","programmed":500,"reached":480,"start":0.5,
             "duration":0.7,"way":300,"blend":{"unit":"mm","asked":5,"used":4},"closest":{"acc":{"of":"j2","percent":99}}}}"#,
         r#"{"report":{"channel":1,"cycle_time":1.5,"moving":1.2,"standing":0.3,"motions":1}}"#,
     ];
@@ -120,6 +120,7 @@ fn what_is_said_and_what_motions_did_is_there() {
     let motion = Motion::decode(&motion[..]).unwrap();
     assert_eq!((*time, motion.kind.as_str(), motion.closest_acc.unwrap().of.as_str()), (500_000_000, "lin", "j2"));
     assert_eq!((motion.blend.unwrap().used, motion.closest_jerk), (4.0, None));
+    assert_eq!((&*motion.file, motion.line), ("parts.arl", 7));
 }
 
 /// The frame of this name in the last message that has it: its parent, and where it is in m.
@@ -306,6 +307,7 @@ fn filled() -> Vec<(&'static Schema, Vec<u8>)> {
         closest_vel: closest(),
         closest_acc: closest(),
         closest_jerk: closest(),
+        file: text(),
     };
     let log = Log { timestamp, level: Level::Info.into(), message: text(), name: text(), file: text(), line: 1 };
     let io = Io { time: 1.0, di: vec![true], r#do: vec![true], ai: vec![1.0], ao: vec![1.0] };

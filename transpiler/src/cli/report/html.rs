@@ -47,7 +47,8 @@ fn add_channel(out: &mut String, channel: &OfChannel) {
     let _ = writeln!(
         out,
         "<p>{moving:.3} s moving, {standing:.3} s standing; {motions} motions, {metres:.3} m. \
-         <small>In the bars: moving, then standing.</small></p>"
+         <small>In the bars: moving, then standing. Way: the path of the TCP, with zones and weave. Closest limit: of those in the robot \
+         file the one of which most was used, by the set-points; tcp: along its path, not across it.</small></p>"
     );
     out.push_str(
         "<table><tr><th>line<th>motion<th>runs<th>moving s<th>standing s<th class=\"bar\"><th>way mm<th>blend<th>closest limit</tr>\n",
@@ -59,7 +60,8 @@ fn add_channel(out: &mut String, channel: &OfChannel) {
             let why = if blend.why.is_empty() { String::new() } else { format!(": {}", blend.why) };
             format!("{:.1} of {:.1} {}{why}", blend.used, blend.asked, blend.unit)
         });
-        let closest = line.closest.as_ref().map(|limit| format!("{} {} {:.0} %", limit.of, limit.rate, limit.percent));
+        let closest =
+            line.closest.as_ref().map(|limit| format!("{} {} {} %", limit.of, limit.rate, percent(limit.percent)));
         let runs = if line.motions > 0 { line.motions.to_string() } else { String::new() };
         let way = if line.motions > 0 { format!("{:.1}", line.way) } else { String::new() };
         let _ = writeln!(
@@ -78,6 +80,11 @@ fn add_channel(out: &mut String, channel: &OfChannel) {
         );
     }
     out.push_str("</table>\n");
+}
+
+/// Above 100 %, tenths tell how much: up to 101 % is within the limits.
+fn percent(percent: f64) -> String {
+    if percent < 100.05 { format!("{percent:.0}") } else { format!("{percent:.1}") }
 }
 
 fn add_signals(out: &mut String, summary: &Summary) {

@@ -50,7 +50,7 @@ pub(super) struct OfLine {
     pub(super) motions: usize,
     pub(super) kinds: Vec<String>,
     pub(super) way: f64,
-    /// The blend of which least was used.
+    /// The blend of which the least part was used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) blend: Option<OfBlend>,
     /// The limit that came nearest.
@@ -149,9 +149,14 @@ fn of_channel(store: &Store, track: &Track, channel: usize) -> OfChannel {
     }
     let main = file(track.pointers.iter().find(|at| at.motion_line > 0).map_or(0, |at| at.motion_file));
     for motion in store.motions.iter().filter(own) {
-        // What is shorter than a step between two messages was not seen.
-        let number = u32::try_from(motion.motion).ok().and_then(|number| track.motion_files.get(&number));
-        let file = number.map_or_else(|| main.clone(), |number| file(*number));
+        let file = match &*motion.file {
+            // An old recording says it beside the motion; what is shorter than a step between two messages was not seen.
+            "" => {
+                let number = u32::try_from(motion.motion).ok().and_then(|number| track.motion_files.get(&number));
+                number.map_or_else(|| main.clone(), |number| file(*number))
+            }
+            file => file_name(file).to_owned(),
+        };
         match lines.iter_mut().find(|known| known.line == motion.line && known.file == file) {
             Some(known) => known.add(motion),
             None => {
@@ -186,8 +191,9 @@ impl OfLine {
         if !self.kinds.contains(&motion.kind) {
             self.kinds.push(motion.kind.clone());
         }
+        let share = |used: f64, asked: f64| if asked > 0.0 { used / asked } else { 1.0 };
         if let Some(blend) = &motion.blend
-            && self.blend.as_ref().is_none_or(|least| blend.used < least.used)
+            && self.blend.as_ref().is_none_or(|least| share(blend.used, blend.asked) < share(least.used, least.asked))
         {
             let (unit, why) = (blend.unit.clone(), blend.why.clone());
             self.blend = Some(OfBlend { asked: blend.asked, used: blend.used, unit, why });

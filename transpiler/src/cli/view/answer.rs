@@ -161,7 +161,7 @@ fn motion(motion: &Motion) -> Value {
     let closest = |closest: &Option<Closest>| closest.as_ref().map(|one| json!([one.of, one.percent]));
     let blend = |one: &Blend| json!({"asked": one.asked, "used": one.used, "unit": one.unit, "why": one.why});
     json!({
-        "channel": motion.channel, "motion": motion.motion, "line": motion.line, "kind": motion.kind,
+        "channel": motion.channel, "motion": motion.motion, "file": motion.file, "line": motion.line, "kind": motion.kind,
         "start": motion.start, "duration": motion.duration, "way": motion.way,
         "programmed": motion.programmed, "reached": motion.reached, "unit": motion.unit,
         "blend": motion.blend.as_ref().map(blend),

@@ -1,0 +1,59 @@
+//! What the motions of the robots did, where records of them are kept.
+
+use std::sync::Arc;
+
+use super::Controller;
+use crate::cycle::channel_id::ChannelId;
+use crate::fault::File;
+use crate::motion::MotionRecord;
+use crate::unit::Unit;
+use arl_robot::robot::Robot;
+
+/// What the motions of a foreground channel did.
+#[derive(Clone, Debug)]
+pub(crate) struct Recorded {
+    pub(crate) robot: Arc<Robot>,
+    /// The file that has the `main` of the channel's program.
+    pub(crate) program: File,
+    /// Each with the file that its line is of.
+    pub(crate) motions: Vec<(File, MotionRecord)>,
+}
+
+impl Controller {
+    /// What the motions of the first channel planned so far did, in order; none unless the controller was built with
+    /// [`Builder::record_motions`](super::Builder::record_motions).
+    pub fn motions(&self) -> Vec<MotionRecord> {
+        self.unit.borrow().records().to_vec()
+    }
+
+    /// The robots of the foreground channels by their numbers, each with what its motions did, like
+    /// [`motions`](Controller::motions).
+    pub fn all_motions(&self) -> Vec<(Arc<Robot>, Vec<MotionRecord>)> {
+        let of_unit = |unit: &Unit| (unit.shared_robot(), unit.records().to_vec());
+        self.channels.units().map(|unit| of_unit(&unit.borrow())).collect()
+    }
+
+    /// The file that the line of a motion is of: [`MotionRecord::line`] is of this file. `None`: the channel has no robot, or no motion of
+    /// it with this running number is recorded.
+    pub fn file_of_motion(&self, channel: ChannelId, motion: u64) -> Option<File> {
+        let channel = self.channels.iter().find(|it| it.channel_state().id == channel)?;
+        channel.channel_state().robot()?.recorded_file(motion)
+    }
+
+    /// The same for reports, with the files.
+    pub(crate) fn recorded(&self) -> Vec<Recorded> {
+        let of_channel = |channel: &super::channel::Channel| {
+            let unit = channel.channel_state().robot()?;
+            let program = channel.cx().program();
+            let motion = |record: &MotionRecord| (unit.recorded_file(record.number).unwrap_or(program), record.clone());
+            let motions = unit.records().iter().map(motion).collect();
+            Some(Recorded { robot: unit.shared_robot(), program, motions })
+        };
+        self.channels.foreground().filter_map(of_channel).collect()
+    }
+
+    /// Shows the robots of the foreground channels, by their numbers.
+    pub(crate) fn each_unit(&self, mut each: impl FnMut(&Unit)) {
+        self.channels.units().for_each(|unit| each(&unit.borrow()));
+    }
+}
