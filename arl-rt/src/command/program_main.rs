@@ -25,7 +25,7 @@ pub use crate::context::program::{Make, Other};
 use crate::context::standard_error::tell;
 use crate::context::standstill::Standstill;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
-use crate::cycle::clock_source::{RealClock, VirtualClock};
+use crate::cycle::clock_source::{Lateness, RealClock, VirtualClock};
 use crate::cycle::realtime::Realtime;
 use crate::io::{Pendant, Scenario};
 use crate::storage::state::{Directory, Memory};
@@ -199,7 +199,8 @@ fn run(
     }
     let max_time = options.max_time;
     let cycle_time = options.cycle_time.clone();
-    let real = options.clock == Some(Pace::Real);
+    // Where a robot is driven, its time counts, too.
+    let tells_lateness = options.clock == Some(Pace::Real) || options.drive;
     let report = match options.report.clone().map(report_to).transpose() {
         Ok(report) => report,
         Err(error) => {
@@ -262,7 +263,7 @@ fn run(
     {
         warn(&format!("cannot write {}: {error}", file.display()));
     }
-    if real {
+    if tells_lateness {
         lateness(&controller).iter().for_each(|text| warn(text));
     }
     code
@@ -275,6 +276,11 @@ pub(super) fn lateness(controller: &Controller) -> Vec<String> {
         let (late, lost, longest) = (lateness.late(), lateness.lost(), lateness.longest().as_secs_f64() * 1e3);
         said.push(format!(
             "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
+        ));
+    }
+    if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
+        said.push(format!(
+            "{missing} messages of the robot that gives the beat did not arrive: so many control cycles were lost"
         ));
     }
     if controller.found_late() > 0 {

@@ -54,7 +54,7 @@ use channel::Channel;
 use channels::Channels;
 use external::External;
 use handle::Calls;
-use late_limit::LateLimit;
+use late_limit::{LateLimit, Lost};
 use pointer_store::PointerStore;
 
 /// How often changes of system variables are stored of which every one is kept, in s: what a kill may cost.
@@ -172,6 +172,7 @@ impl Controller {
             self.tell_state();
         }
         self.report_io_problems();
+        self.report_robots();
         self.look_for_lost_cycles(cycle);
         self.channels.each(Channel::scan_events);
         self.channels.each(Channel::poll);
@@ -310,14 +311,24 @@ impl Controller {
         }
     }
 
+    /// Passes on what the drivers of robots tell.
+    fn report_robots(&mut self) {
+        for channel in self.channels.iter() {
+            let state = channel.channel_state();
+            while let Some(warning) = state.robot_mut().and_then(|mut unit| unit.take_driver_warning()) {
+                state.shared.warn(warning);
+            }
+        }
+    }
+
     /// Stops robots where too many cycles were lost: between two set-points they had to do without.
     fn look_for_lost_cycles(&mut self, cycle: u64) {
-        let lost = self.clock.lateness().map_or(0, Lateness::lost);
+        let lost = self.clock.lateness().map_or(Lost::default(), Lost::of);
         if self.had_ended {
             return self.late_limit.forget(lost);
         }
         if let Some(lost) = self.late_limit.look(lost, cycle) {
-            let why = format!("the computer was too busy: {lost} control cycles were lost within a second");
+            let why = lost.to_string();
             self.channels.each(|channel| channel.fail_for_lost_cycles(&why));
         }
     }

@@ -34,7 +34,7 @@ pub use arl_robot::cell::Late;
 ///                 Err(_) => {
 ///                     std::thread::sleep(Duration::from_secs_f64(period));
 ///                     self.newest = Some(Instant::now());
-///                     waited = 2;
+///                     self.lateness.note_missing(1);
 ///                 }
 ///             }
 ///         }
@@ -84,7 +84,7 @@ pub trait Clock {
         let _ = late;
     }
 
-    /// How late cycles began until now, if that is known. What it says of lost ones counts for the limit of the cell file.
+    /// How late cycles began until now, if that is known. What it says of lost and of missing ones counts for the limit of the cell file.
     fn lateness(&self) -> Option<&Lateness> {
         None
     }

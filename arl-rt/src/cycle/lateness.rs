@@ -27,6 +27,7 @@ pub struct Lateness {
     counts: [u64; STEPS_US.len() + 1],
     late: u64,
     lost: u64,
+    missing: u64,
     longest: Duration,
 }
 
@@ -47,6 +48,11 @@ impl Lateness {
         self.lost = self.lost.saturating_add(cycles);
     }
 
+    /// So many beats of what gives them, as messages of a robot, never came: their cycles are lost, too, and not by this computer.
+    pub fn note_missing(&mut self, beats: u64) {
+        self.missing = self.missing.saturating_add(beats);
+    }
+
     /// How many cycles began.
     pub fn cycles(&self) -> u64 {
         self.counts.iter().sum()
@@ -60,6 +66,11 @@ impl Lateness {
     /// How many cycles were lost by that.
     pub fn lost(&self) -> u64 {
         self.lost
+    }
+
+    /// How many cycles were lost as their beats never came: these are not in [`lost`](Lateness::lost).
+    pub fn missing(&self) -> u64 {
+        self.missing
     }
 
     /// How late the latest cycle began.
@@ -79,6 +90,9 @@ impl fmt::Display for Lateness {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (longest, late, lost) = (self.longest.as_secs_f64() * 1e3, self.late, self.lost);
         writeln!(f, "cycles: {}, the latest began {longest:.3} ms late; {late} too late, {lost} lost", self.cycles())?;
+        if self.missing > 0 {
+            writeln!(f, "beats that never came: {}", self.missing)?;
+        }
         for (within, count) in self.histogram() {
             writeln!(f, "{:>10} us late at most: {count}", within.as_micros())?;
         }

@@ -5,6 +5,7 @@ pub mod dynamics;
 mod effort;
 pub(crate) mod hold;
 mod moving;
+mod range;
 mod refusal;
 pub mod robot_driver;
 mod servo;
@@ -92,7 +93,7 @@ pub(crate) struct Unit {
     /// The file of the last `startmove`.
     start_file: File,
     motors: Motors,
-    /// For how many cycles the robot has not said where it is.
+    /// For how many cycles no position has come from the robot.
     silent: u32,
     supervision: Supervision,
     /// What the supervision has found, and in which motion, until it is taken.
@@ -111,10 +112,12 @@ impl Unit {
     /// Its driver cannot start it; why.
     pub(crate) fn new(robot: Robot, mut driver: Box<dyn RobotDriver>, period: f64) -> Result<Self, String> {
         let home = Joints::home(&robot);
-        let start = driver.start(&robot_driver::Start { home: &home, robot: &robot, period })?;
-        if !is_finite(&start, &robot) {
+        let context = robot_driver::Start { home: &home, robot: &robot, period };
+        let start = driver.start(&context)?;
+        if let Err(why) = context.begin_at(start) {
+            driver.switch(Power::Off);
             driver.close();
-            return Err("it says that the robot is at what is no number".to_owned());
+            return Err(why);
         }
         let start = own_axes_of(&robot, start, &home);
         let robot = Arc::new(robot);
@@ -620,6 +623,11 @@ impl Unit {
     /// Switches the motors of a robot that is not let go yet; how its drives are now.
     fn switch(&mut self, power: Power) -> Drives {
         if self.closed { Drives::Off } else { self.driver.switch(power) }
+    }
+
+    /// What the user should know of its driver, once.
+    pub(crate) fn take_driver_warning(&mut self) -> Option<String> {
+        self.driver.take_warning()
     }
 
     /// Lets go of the robot, once, with its motors off: one that moves is cut off. Nothing is called of its driver any more.

@@ -63,10 +63,12 @@ impl Clock for RsiBeat {
             return;
         }
         self.lateness.note(if received.was_there { came.saturating_duration_since(due) } else { Duration::ZERO });
-        let lost = (received.step as f64 / (period * 1e3)).round() - 1.0;
-        if lost >= 1.0 {
-            self.lateness.note_lost(lost as u64);
+        // Of those that came before somebody waited the newest counts; the others were lost here. The rest never came.
+        let sent = (received.step as f64 / (period * 1e3)).round() as u64;
+        if received.count > 1 {
+            self.lateness.note_lost(received.count - 1);
         }
+        self.lateness.note_missing(sent.saturating_sub(received.count));
     }
 
     fn due(&self, _cycle: u64, period: f64) -> Option<Instant> {
