@@ -145,7 +145,8 @@ fn only_the_robot_that_is_named_is_followed() {
     std::thread::sleep(Duration::from_millis(100));
     let robot = robot(to, 4, 1);
     let text = format!(
-        "[controller]\ncycle = 4\n[driver]\nprotocol = \"rsi\"\nlisten = \"{listen}\"\naddress = \"127.0.0.1\"\ntime = \"robot\"\n"
+        "[controller]\ncycle = 4\n[driver]\nprotocol = \"rsi\"\nlisten = \"{listen}\"\n\
+         address = \"127.0.0.1\"\ntime = \"robot\"\n"
     );
     let cell = Cell::parse("cell.toml", &text).unwrap();
     let mut controller = Controller::builder().cell(cell).drivers(arl_drivers::connect).build(program()).unwrap();

@@ -30,7 +30,8 @@ pub enum Protocol {
     Rsi {
         /// The address and port of this computer that the robot's controller sends to.
         listen: String,
-        /// The robot's controller: a host, with the port that it sends from where that is fixed. `None`: whoever sends first.
+        /// The robot's controller: a host, with the port that it sends from where that is fixed. `None`: whoever sends
+        /// first.
         address: Option<String>,
     },
 }

@@ -38,7 +38,8 @@ impl Sender {
         if self.named.is_empty() { Err(format!("{address}: no address")) } else { Ok(()) }
     }
 
-    /// Whether what came from there counts. Another port of the robot followed is for the link to judge: RSI that begins anew has one.
+    /// Whether what came from there counts. Another port of the robot followed is for the link to judge: RSI that
+    /// begins anew has one.
     pub(super) fn is_robot(&self, from: SocketAddr) -> bool {
         let is_host = |robot: &SocketAddr| is_same(*robot, SocketAddr::new(from.ip(), robot.port()));
         let is_named = |robot: &SocketAddr| is_host(robot) && (robot.port() == 0 || robot.port() == from.port());

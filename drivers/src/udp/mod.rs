@@ -275,7 +275,8 @@ impl Link {
 /// Nothing is there to receive.
 struct Empty;
 
-/// A number that no other run has, by chance and not by the time of day: a clock that is set back gives no number again.
+/// A number that no other run has, by chance and not by the time of day: a clock that is set back gives no number
+/// again.
 fn session() -> u32 {
     let random = std::hash::RandomState::new().build_hasher().finish();
     ((random >> 32) as u32).max(1)
