@@ -8,6 +8,7 @@ use crate::command::joints::ALL;
 use crate::command::{Command, GatePart, MotionKind, Settings, Speed, Target};
 use crate::plan::constraints::MANUAL_SPEED_MM_S;
 use crate::plan::motion::Motion;
+use crate::queue::elapsed::Elapsed;
 use crate::queue::path_speed::PathSpeed;
 use crate::queue::{FAST_STOP_FACTOR, Laid, Queue, Step};
 use arl_robot::frames::Carried;
@@ -189,7 +190,7 @@ pub struct Recorder {
     places: Vec<usize>,
     /// The last motion that goes somewhere, and its number.
     last: Option<(u64, Arc<Motion>)>,
-    time: f64,
+    time: Elapsed,
     /// The number of the motion executed last.
     executed: u64,
     joints: [f64; ALL],
@@ -215,7 +216,7 @@ impl Recorder {
             records: Vec::new(),
             places: Vec::new(),
             last: None,
-            time: 0.0,
+            time: Elapsed::default(),
             executed: 0,
             joints: queue.joints().all(),
             rates: [[0.0; ALL]; 2],
@@ -306,8 +307,8 @@ impl Recorder {
     /// Notes what one cycle of `period` s did.
     pub fn step(&mut self, queue: &mut Queue, step: &Step, period: f64) {
         self.laid(queue);
-        let began = self.time;
-        self.time += period;
+        let began = self.time.seconds();
+        self.time.add(period);
         let all = step.joints.all();
         let mut rates = [[0.0; ALL]; 3];
         let [vel, acc, jerk] = &mut rates;

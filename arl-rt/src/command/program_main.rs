@@ -429,6 +429,9 @@ fn watch(
             say_standstill(controller.time(), &waiting);
             controller.stop();
         }
+        if code.is_none() && between.is_none() && recording.is_none() {
+            controller.skip_quiet_cycles(last);
+        }
     }
     controller.close_robots();
     controller.settle_state();

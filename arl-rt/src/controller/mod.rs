@@ -16,6 +16,7 @@ mod order;
 mod outcome;
 mod pendant;
 mod pointer_store;
+mod quiet;
 mod running;
 mod standstill;
 mod status;
@@ -136,6 +137,8 @@ pub struct Controller {
     pointer_store: Option<PointerStore>,
     /// Whether somebody outside may change something: drivers that are not ours.
     has_outside: bool,
+    /// No cycle before this one is left out.
+    awake_until: u64,
     /// The cycle from which on changes of system variables may be stored again of which every one is kept.
     stores_from: u64,
 }
@@ -351,6 +354,7 @@ impl Controller {
 
     /// The same, with nothing stored yet.
     fn step_to_end(&mut self) -> Outcome {
+        self.stay_awake();
         loop {
             let outcome = match self.channels.outcome().cloned() {
                 Some(outcome) if self.is_over() => Some(outcome),
@@ -362,14 +366,17 @@ impl Controller {
             if let Some(outcome) = outcome {
                 return outcome;
             }
+            self.skip_quiet_cycles(u64::MAX);
         }
     }
 
     /// Runs so many seconds of controller time, or until it [is over](Controller::is_over).
     pub fn run_for(&mut self, seconds: f64) -> State {
         let end = self.shared.now.get().saturating_add(self.shared.rate.cycles(seconds));
+        self.stay_awake();
         while self.shared.now.get() < end && !self.is_over() {
             self.step();
+            self.skip_quiet_cycles(end);
         }
         self.state()
     }

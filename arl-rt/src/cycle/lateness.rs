@@ -48,7 +48,8 @@ impl Lateness {
         self.lost = self.lost.saturating_add(cycles);
     }
 
-    /// So many beats of what gives them, as messages of a robot, never came: their cycles are lost, too, and not by this computer.
+    /// So many beats of what gives them, as messages of a robot, never came: their cycles are lost, too, and not by
+    /// this computer.
     pub fn note_missing(&mut self, beats: u64) {
         self.missing = self.missing.saturating_add(beats);
     }

@@ -489,6 +489,18 @@ impl Unit {
         self.queue.rests() && self.is_settled()
     }
 
+    /// Whether each further cycle leaves everything as it is: it stands where it shall, and nobody keeps records of it.
+    pub(crate) fn is_quiet(&self) -> bool {
+        let stands = |moving: &Moving| {
+            let rates = moving.rates.iter().chain(&moving.external_rates).chain(&moving.accelerations);
+            moving.at == moving.before && rates.copied().all(|rate| rate == 0.0)
+        };
+        matches!(self.motors, Motors::On | Motors::Off)
+            && (self.queue.idle() && self.queue.rests() && self.is_settled())
+            && (stands(&self.commanded) && stands(&self.reported) && self.commanded.at == self.reported.at)
+            && (self.recorder.is_none() && self.trouble.is_none() && !self.jogged && self.button == Button::Free)
+    }
+
     /// How many time laws and blends came too late, on the real clock.
     pub(crate) fn found_late(&self) -> u64 {
         self.queue.found_late()

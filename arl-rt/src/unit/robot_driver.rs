@@ -36,7 +36,8 @@ impl<'a> Start<'a> {
         Self { home, robot, period }
     }
 
-    /// The position (deg, mm) that a robot reports before its motors are switched on: it has to be one that the robot file knows.
+    /// The position (deg, mm) that a robot reports before its motors are switched on: it has to be one that the robot
+    /// file knows.
     ///
     /// # Errors
     /// An axis is at no number, or outside of its range by more than what counts as settled; which.
@@ -280,9 +281,12 @@ impl RobotDriver for SimulatedRobot {
             *oldest = *setpoint;
         }
         self.oldest += 1;
-        // Seen from the set-point, so that no rounding is left when all are the same.
+        // Seen from the set-point, so that no rounding is left when all are the same; by their age, so that a motion is
+        // the same to the last bit in whichever cycle it begins.
         let mut position = *setpoint;
-        for old in last.iter().take(count as usize) {
+        let (newer, older) = last.split_at(self.oldest);
+        let older = older.iter().take((count as usize).saturating_sub(self.oldest));
+        for old in older.chain(newer) {
             let axes = position.axes.iter_mut().zip(&old.axes).zip(&setpoint.axes);
             let external = position.external.iter_mut().zip(&old.external).zip(&setpoint.external);
             for ((position, old), setpoint) in axes.chain(external) {
