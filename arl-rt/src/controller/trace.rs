@@ -13,21 +13,24 @@ pub(crate) const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4
 /// Writes one row a cycle.
 pub(crate) struct Trace {
     out: BufWriter<Box<dyn Write>>,
-    /// The first thing that went wrong; nothing is written after it.
+    /// The first thing that went wrong, until it is told.
     error: Option<io::Error>,
+    /// Whether something went wrong: nothing is written after it, also where it was told and a program begins again.
+    is_broken: bool,
 }
 
 impl Trace {
     pub(crate) fn new(writer: Box<dyn Write>) -> io::Result<Self> {
         let mut out = BufWriter::with_capacity(1 << 16, writer);
         writeln!(out, "{HEADER}")?;
-        Ok(Self { out, error: None })
+        Ok(Self { out, error: None, is_broken: false })
     }
 
     /// The row of a cycle that began at `time` seconds.
     pub(crate) fn row(&mut self, time: f64, unit: &Unit) {
-        if self.error.is_none() {
+        if !self.is_broken {
             self.error = self.write(time, unit).err();
+            self.is_broken = self.error.is_some();
         }
     }
 
@@ -48,7 +51,8 @@ impl Trace {
     pub(crate) fn flush(&mut self) -> io::Result<()> {
         match self.error.take() {
             Some(error) => Err(error),
-            None => self.out.flush(),
+            None if self.is_broken => Ok(()),
+            None => self.out.flush().inspect_err(|_| self.is_broken = true),
         }
     }
 }
