@@ -132,7 +132,7 @@ fn a_robot_that_says_nothing_stops_and_is_switched_off_at_rest() {
     let (mut controller, heard) = turning(|cycle, feedback| if cycle < AT_SPEED { feedback } else { Feedback::none() });
     let (number, line, text) = outcome(&mut controller);
     assert_eq!((number, line), (20071, 2), "{text}");
-    assert_eq!(text, "the robot has not said for 21 ms where it is");
+    assert_eq!(text, "no position feedback for 21 ms");
     let heard = heard.borrow();
     keep_limits(&heard);
     assert_eq!(heard.switched, [(Power::Off, 0.0)]);
@@ -255,7 +255,7 @@ fn torques_that_are_no_numbers_are_no_feedback() {
         feedback.with_torque([0.0, second, 0.0, 0.0, 0.0, 0.0])
     });
     let (number, _, text) = outcome(&mut controller);
-    assert_eq!((number, &*text), (20071, "the robot says that its motors give what is no number"));
+    assert_eq!((number, &*text), (20071, "the robot reports no number as a torque of its motors"));
     assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
     keep_limits(&heard.borrow());
 }
@@ -477,7 +477,7 @@ fn motors_come_on_only_where_it_is_known_where_the_robot_is() {
     controller.run();
     controller.press(arl_rt::io::Pendant::ServoOn);
     controller.step();
-    assert!(controller.take_warnings().iter().any(|warning| warning.contains("does not say where it is")));
+    assert!(controller.take_warnings().iter().any(|warning| warning.contains("no position feedback comes")));
     assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
 }
 
@@ -507,7 +507,56 @@ fn a_robot_that_does_not_start_is_no_controller() {
     };
     let problem = refused(Nowhere(Err("no answer from 10.0.0.2:49152")));
     assert_eq!(problem, "the robot of channel 1 cannot be started: no answer from 10.0.0.2:49152");
-    assert!(refused(Nowhere(Ok(f64::NAN))).contains("it says that the robot is at what is no number"));
+    assert!(refused(Nowhere(Ok(f64::NAN))).contains("the robot reports no number as the position of j1"));
+    let outside = refused(Nowhere(Ok(500.0)));
+    let why = "the robot reports j1 at 500.000 deg, outside of its range of -170 to 170 deg";
+    assert!(outside.contains(why) && outside.contains("is the robot file that of this robot?"), "{outside}");
+}
+
+#[test]
+fn a_robot_that_leaves_its_range_is_an_alarm_at_once() {
+    let (mut controller, heard) = turning(|cycle, feedback| changed(cycle, feedback, 500.0));
+    let (number, line, text) = outcome(&mut controller);
+    assert_eq!((number, line), (20070, 2), "{text}");
+    assert!(text.starts_with("the robot does not follow: j3 is "), "{text}");
+    keep_limits(&heard.borrow());
+}
+
+/// Axis 3 is at 500 deg in some of the cycles in which the motors are off.
+fn pushed_away(from: u64, to: u64) -> (Controller, Rc<RefCell<Heard>>) {
+    thread_local!(static WHEN: std::cell::Cell<(u64, u64)> = const { std::cell::Cell::new((0, 0)) });
+    WHEN.set((from, to));
+    let (mut controller, heard) = turning(|cycle, feedback| {
+        let (from, to) = WHEN.get();
+        let mut position = feedback.position.unwrap();
+        if (from..to).contains(&cycle) {
+            position.axes[2] = 500.0;
+        }
+        // The drives come on 0.3 s after they were told to.
+        let drives = if (3000..3300).contains(&cycle) { Drives::Off } else { Drives::On };
+        Feedback::at(position).with_drives(drives)
+    });
+    controller.run_for(1.0);
+    controller.press(arl_rt::io::Pendant::ServoOff);
+    controller.run_for(2.0);
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.step();
+    (controller, heard)
+}
+
+#[test]
+fn motors_come_on_only_where_the_axes_can_be() {
+    let (mut controller, heard) = pushed_away(2500, 4000);
+    let warnings = controller.take_warnings();
+    assert!(
+        warnings.iter().any(|warning| warning.contains("servo on is refused: the robot reports j3 at 500.000 deg"))
+    );
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)], "{warnings:?}");
+    // Where it is there while they come on, it is not asked to stay there.
+    let (mut controller, heard) = pushed_away(3100, 4000);
+    let (number, _, text) = outcome(&mut controller);
+    assert_eq!((number, &text[..38]), (20070, "the robot reports j3 at 500.000 deg, o"));
+    assert_eq!(heard.borrow().switched.last(), Some(&(Power::Off, 0.0)));
 }
 
 #[test]
@@ -549,13 +598,18 @@ fn set_points_have_torques_where_they_are_wanted_and_deadlines_where_time_is_rea
 struct Losing {
     each: u64,
     apart: u64,
+    /// They were never sent.
+    missing: bool,
     lateness: Lateness,
 }
 
 impl Clock for Losing {
     fn wait_for(&mut self, cycle: u64, _period: f64) {
         if cycle == AT_SPEED || cycle == AT_SPEED + self.apart {
-            self.lateness.note_lost(self.each);
+            match self.missing {
+                true => self.lateness.note_missing(self.each),
+                false => self.lateness.note_lost(self.each),
+            }
         }
     }
 
@@ -585,6 +639,18 @@ fn a_computer_that_loses_cycles_stops_its_robot() {
     // It stands on its path, with its motors on.
     assert!(last.velocity.axes[0] == 0.0 && last.position.axes[0] < 89.0, "{last:?}");
     assert!(heard.switched.is_empty());
+}
+
+#[test]
+fn what_was_never_sent_is_not_the_computers_fault() {
+    let clock = Losing { missing: true, ..losing(11, 40) };
+    let (mut controller, heard) = turning_with(|_, feedback| feedback, |builder| builder.clock(clock));
+    let (number, line, text) = outcome(&mut controller);
+    assert_eq!((number, line), (20074, 2), "{text}");
+    assert!(text.starts_with("22 messages of the robot did not arrive within a second"), "{text}");
+    let lateness = controller.lateness().unwrap();
+    assert_eq!((lateness.late(), lateness.lost(), lateness.missing()), (0, 0, 22));
+    keep_limits(&heard.borrow());
 }
 
 #[test]

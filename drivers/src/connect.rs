@@ -18,8 +18,11 @@ pub fn connect(settings: &DriverSettings) -> Result<Driven, DriverError> {
             let (arm, time) = if waits { (arm.in_its_own_time(), DrivenTime::Robot) } else { (arm, DrivenTime::World) };
             Ok(Driven { driver: Box::new(arm), time })
         }
-        Protocol::Rsi { listen } => {
-            let arm = RsiArm::new(listen);
+        Protocol::Rsi { listen, address } => {
+            let arm = match address {
+                Some(address) => RsiArm::of_robot(listen, address),
+                None => RsiArm::new(listen),
+            };
             let arm = if waits { arm.in_its_own_time() } else { arm };
             let beat = arm.beat();
             Ok(Driven { driver: Box::new(arm), time: DrivenTime::Beat(Box::new(beat)) })

@@ -17,6 +17,7 @@
 
 mod connect;
 mod patience;
+mod peer;
 mod position;
 mod readable;
 pub mod rsi;

@@ -87,6 +87,10 @@ fn a_cell_file_drives_a_robot() {
     assert_eq!(controller.joints().axes[0], 20.0);
     assert_eq!(controller.run(), Outcome::Ended);
     assert!((controller.joints().axes[0] - 10.0).abs() < 1e-6);
+    // The cell does not say which robot: the user hears which one it is.
+    let told = controller.take_warnings();
+    let is_told = told.iter().filter(|it| it.contains("is followed, which was the first to send to")).count();
+    assert!(is_told == 1 && told.iter().any(|it| it.contains("`address = \"127.0.0.1\"`")), "{told:?}");
     drop(controller);
     let got = robot.join().unwrap();
     assert_eq!((got[0].correction, got[0].stop), (0.0, false));
@@ -96,6 +100,135 @@ fn a_cell_file_drives_a_robot() {
     assert!(got.windows(2).all(|pair| pair[0].ipoc < pair[1].ipoc));
     assert_eq!(got.iter().filter(|answer| answer.stop).count(), 1);
     assert!(got.len() > 50, "{}", got.len());
+}
+
+/// A driver that has begun with a robot, whose socket it is; the time of the robot then. It waits in real time.
+fn begun(driver: &mut RsiArm, listen: &str, socket: &UdpSocket) -> u64 {
+    let (sender, to) = (socket.try_clone().unwrap(), listen.to_owned());
+    let begin = std::thread::spawn(move || {
+        sender.set_read_timeout(Some(Duration::from_millis(300))).unwrap();
+        let mut ipoc = 1000;
+        let mut next = || {
+            ipoc += 4;
+            message(ipoc, 20.0, 1)
+        };
+        // Until somebody listens, and what the start looks at; the last one is for the first cycle.
+        while ask(&sender, &to, &next()).is_none() {}
+        (0..3).for_each(|_| assert_eq!(ask(&sender, &to, &next()).unwrap().correction, 0.0));
+        sender.send_to(next().as_bytes(), &to).unwrap();
+        ipoc
+    });
+    assert_eq!(start(driver).unwrap(), joints(20.0));
+    begin.join().unwrap()
+}
+
+// Addresses of this computer beside the first one are not everywhere.
+#[cfg(target_os = "linux")]
+#[test]
+fn only_the_robot_that_is_named_is_followed() {
+    let port = free().rsplit_once(':').unwrap().1.to_owned();
+    let (listen, to) = (format!("0.0.0.0:{port}"), format!("127.0.0.1:{port}"));
+    let other = UdpSocket::bind("127.0.0.2:0").unwrap();
+    let from = other.local_addr().unwrap();
+    let to_both = to.clone();
+    let is_over = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+    let ends = std::sync::Arc::clone(&is_over);
+    // It sends all the time, and before the robot.
+    let sends = std::thread::spawn(move || {
+        let mut ipoc = 0;
+        while !ends.load(std::sync::atomic::Ordering::Relaxed) {
+            ipoc += 4;
+            let _ = other.send_to(message(ipoc, 77.0, 1).as_bytes(), &to_both);
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    });
+    std::thread::sleep(Duration::from_millis(100));
+    let robot = robot(to, 4, 1);
+    let text = format!(
+        "[controller]\ncycle = 4\n[driver]\nprotocol = \"rsi\"\nlisten = \"{listen}\"\n\
+         address = \"127.0.0.1\"\ntime = \"robot\"\n"
+    );
+    let cell = Cell::parse("cell.toml", &text).unwrap();
+    let mut controller = Controller::builder().cell(cell).drivers(arl_drivers::connect).build(program()).unwrap();
+    assert_eq!(controller.joints().axes[0], 20.0);
+    assert_eq!(controller.run(), Outcome::Ended);
+    let told = controller.take_warnings();
+    assert!(
+        told.iter().any(|it| it.starts_with(&format!("{from} sends to {listen}, too, and is not heard"))),
+        "{told:?}"
+    );
+    assert!(!told.iter().any(|it| it.contains("is followed, which")), "{told:?}");
+    drop(controller);
+    assert!(robot.join().unwrap().last().unwrap().stop);
+    is_over.store(true, std::sync::atomic::Ordering::Relaxed);
+    sends.join().unwrap();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn nobody_takes_over_where_the_robot_falls_silent() {
+    let port = free().rsplit_once(':').unwrap().1.to_owned();
+    let (listen, to) = (format!("0.0.0.0:{port}"), format!("127.0.0.1:{port}"));
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let mut driver = RsiArm::new(&listen);
+    let mut beat = driver.beat();
+    let ipoc = begun(&mut driver, &to, &socket);
+    let told = driver.take_warning().unwrap();
+    assert!(told.contains("is followed, which was the first") && driver.take_warning().is_none(), "{told}");
+    let mut cycle = || {
+        arl_rt::clock::Clock::wait_for(&mut beat, 0, 0.004);
+        driver.exchange(&Setpoint::resting(joints(20.0), 0.004))
+    };
+    assert_eq!(cycle().position, Some(joints(20.0)));
+    // Longer than after which RSI may begin anew.
+    std::thread::sleep(Duration::from_millis(600));
+    let other = UdpSocket::bind("127.0.0.2:0").unwrap();
+    for at in 1..5 {
+        other.send_to(message(ipoc + 4 * at, 77.0, 1).as_bytes(), &to).unwrap();
+        assert_eq!(cycle().position, None);
+    }
+    // Of the robot itself it is heard that its RSI has begun anew.
+    socket.send_to(message(4, 21.0, 1).as_bytes(), &to).unwrap();
+    let feedback = cycle();
+    assert_eq!(feedback.position, Some(joints(21.0)));
+    assert!(matches!(feedback.drives, Some(Drives::Fault(_))), "{feedback:?}");
+}
+
+#[test]
+fn a_robot_outside_of_its_ranges_is_not_moved() {
+    let listen = free();
+    let to = listen.clone();
+    let sends = std::thread::spawn(move || {
+        let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+        socket.set_read_timeout(Some(Duration::from_millis(10))).unwrap();
+        (1..300).filter_map(|at| ask(&socket, &to, &message(4 * at, 500.0, 1))).count()
+    });
+    let error = start(&mut RsiArm::new(&listen)).unwrap_err();
+    assert!(error.starts_with("the robot reports j1 at 500.000 deg, outside of its range"), "{error}");
+    assert_eq!(sends.join().unwrap(), 0, "it is answered");
+}
+
+#[test]
+fn messages_that_were_never_sent_are_told_apart_from_those_that_waited() {
+    let listen = free();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let mut driver = RsiArm::new(&listen);
+    let mut beat = driver.beat();
+    let ipoc = begun(&mut driver, &listen, &socket);
+    let mut cycle = |driver: &mut RsiArm| {
+        arl_rt::clock::Clock::wait_for(&mut beat, 0, 0.004);
+        driver.exchange(&Setpoint::resting(joints(20.0), 0.004));
+        let lateness = arl_rt::clock::Clock::lateness(&beat).unwrap();
+        (lateness.lost(), lateness.missing())
+    };
+    let send = |at: u64| socket.send_to(message(ipoc + 4 * at, 20.0, 1).as_bytes(), &listen).unwrap();
+    assert_eq!(cycle(&mut driver), (0, 0));
+    // Ten are not sent.
+    send(11);
+    assert_eq!(cycle(&mut driver), (0, 10));
+    // Three are there when the cycle begins: two were lost here. One more is not sent.
+    (13..16).for_each(|at| _ = send(at));
+    assert_eq!(cycle(&mut driver), (2, 11));
 }
 
 #[test]
@@ -150,22 +283,7 @@ fn only_new_messages_are_answered_and_count() {
         arl_rt::clock::Clock::wait_for(&mut beat, 0, 0.004);
         driver.exchange(&Setpoint::resting(joints(target), 0.004))
     };
-    let (sender, to) = (socket.try_clone().unwrap(), listen.clone());
-    let begin = std::thread::spawn(move || {
-        sender.set_read_timeout(Some(Duration::from_millis(300))).unwrap();
-        let mut ipoc = 1000;
-        let mut next = || {
-            ipoc += 4;
-            message(ipoc, 20.0, 1)
-        };
-        // Until somebody listens, and what the start looks at; the last one is for the first cycle.
-        while ask(&sender, &to, &next()).is_none() {}
-        (0..3).for_each(|_| assert_eq!(ask(&sender, &to, &next()).unwrap().correction, 0.0));
-        sender.send_to(next().as_bytes(), &to).unwrap();
-        ipoc
-    });
-    assert_eq!(start(&mut driver).unwrap(), joints(20.0));
-    let base = begin.join().unwrap() - 400;
+    let base = begun(&mut driver, &listen, &socket) - 400;
     assert_eq!(cycle(&mut driver, 20.0).position, Some(joints(20.0)));
     let send = |text: &str| socket.send_to(text.as_bytes(), &listen).unwrap();
     // Three at once: the newest counts. One that is older, or none, or somebody else's, does not.

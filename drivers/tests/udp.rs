@@ -229,7 +229,75 @@ fn what_is_no_number_does_not_start() {
     };
     let (address, arm) = arm(odd);
     let error = start(&mut UdpArm::new(&address)).unwrap_err();
-    assert_eq!(error, "it says that the robot is at what is no number");
+    assert!(error.starts_with("the robot reports no number as the position of j1"), "{error}");
     // Its motors were never told to be on.
     assert!(arm.join().unwrap().iter().all(|command| command[12] == 0));
+}
+
+#[test]
+fn an_arm_outside_of_its_ranges_is_not_moved() {
+    let far: Answers = |command, number| {
+        let mut answer = follows(command, number).remove(0);
+        (0..6).for_each(|axis| answer[40 + 8 * axis..48 + 8 * axis].copy_from_slice(&500.0f64.to_le_bytes()));
+        vec![answer]
+    };
+    let (address, arm) = arm(far);
+    let text = format!("[driver]\nprotocol = \"udp\"\naddress = \"{address}\"\ntime = \"robot\"\n");
+    let cell = Cell::parse("cell.toml", &text).unwrap();
+    let error = Controller::builder().cell(cell).drivers(arl_drivers::connect).build(program()).unwrap_err();
+    let why = "the robot of channel 1 cannot be started: the robot reports j1 at 500.000 deg, outside of its range";
+    assert!(error.to_string().starts_with(why), "{error}");
+    // Its motors were never told to be on, and no set-point was cyclic.
+    assert!(arm.join().unwrap().iter().all(|command| command[12] == 0 && command[28] & 1 == 0));
+}
+
+#[test]
+fn states_of_others_do_not_count() {
+    // Somebody who hears all that the arm hears answers before it, from another port.
+    let other: Answers = |command, number| {
+        let answer = follows(command, 10 * number).remove(0);
+        let mut wrong = follows(command, 10 * number + 1).remove(0);
+        wrong[40..48].copy_from_slice(&9.0f64.to_le_bytes());
+        vec![wrong, answer]
+    };
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let address = socket.local_addr().unwrap().to_string();
+    socket.set_read_timeout(Some(Duration::from_secs(1))).unwrap();
+    let thread = std::thread::spawn(move || {
+        let stranger = UdpSocket::bind("127.0.0.1:0").unwrap();
+        let (mut bytes, mut number) = ([0; 1000], 0);
+        while let Ok((length, from)) = socket.recv_from(&mut bytes) {
+            number += 1;
+            let [wrong, answer] = &other(&bytes[..length], number)[..] else { panic!("two") };
+            stranger.send_to(wrong, from).unwrap();
+            socket.send_to(answer, from).unwrap();
+        }
+    });
+    let mut driver = UdpArm::new(&address).in_its_own_time();
+    assert_eq!(start(&mut driver).unwrap(), joints(0.0));
+    for cycle in 1..50 {
+        let at = joints(f64::from(cycle) * 0.1);
+        assert_eq!(driver.exchange(&Setpoint::resting(at, 0.001)).position, Some(at));
+    }
+    driver.close();
+    drop(driver);
+    thread.join().unwrap();
+}
+
+#[test]
+fn an_arm_that_floods_without_answering_holds_nobody_up() {
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let address = socket.local_addr().unwrap().to_string();
+    let is_over = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+    let ends = std::sync::Arc::clone(&is_over);
+    let flood = std::thread::spawn(move || {
+        let (_, to) = socket.recv_from(&mut [0; 1000]).unwrap();
+        while !ends.load(std::sync::atomic::Ordering::Relaxed) {
+            let _ = socket.send_to(&[1, 2, 3], to);
+        }
+    });
+    let error = start(&mut UdpArm::new(&address)).unwrap_err();
+    assert_eq!(error, format!("no arm answers at {address}: nothing that is an answer came within 3 s"));
+    is_over.store(true, std::sync::atomic::Ordering::Relaxed);
+    flood.join().unwrap();
 }

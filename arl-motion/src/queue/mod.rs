@@ -1,5 +1,6 @@
 //! The look-ahead and the interpolator: motions wait in a queue, and each cycle moves along the first one.
 
+mod elapsed;
 mod layer;
 mod look_ahead;
 mod motion_progress;

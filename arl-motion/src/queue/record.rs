@@ -13,6 +13,7 @@ use crate::command::{Command, GatePart, MotionKind, Settings, Speed, Target};
 use crate::follow::segment::PlainSpeed;
 use crate::plan::constraints::MANUAL_SPEED_MM_S;
 use crate::plan::motion::Motion;
+use crate::queue::elapsed::Elapsed;
 use crate::queue::path_buffer::Leaving;
 use crate::queue::{FAST_STOP_FACTOR, Laid, Queue, Step};
 use arl_robot::frames::Carried;
@@ -223,7 +224,7 @@ pub struct Recorder {
     places: Vec<usize>,
     /// The last motion that goes somewhere, and its number.
     last: Option<(u64, Arc<Motion>)>,
-    time: f64,
+    time: Elapsed,
     /// The number of the motion executed last.
     executed: u64,
     /// How everything moves.
@@ -244,7 +245,7 @@ impl Recorder {
             records: Vec::new(),
             places: Vec::new(),
             last: None,
-            time: 0.0,
+            time: Elapsed::default(),
             executed: 0,
             derivatives: Derivatives::resting(*queue.joints()),
             smooth: DERIVATIVES,
@@ -341,8 +342,8 @@ impl Recorder {
     pub fn step(&mut self, queue: &mut Queue, step: &Step) {
         let period = queue.cycle();
         self.laid(queue);
-        let began = self.time;
-        self.time += period;
+        let began = self.time.seconds();
+        self.time.add(period);
         self.still = if step.motion == 0 { self.still + 1 } else { 0 };
         let number = if step.motion == 0 { self.executed } else { step.motion };
         // Who stands may be moved by others than a motion.

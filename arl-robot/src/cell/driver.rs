@@ -1,6 +1,8 @@
 //! What moves a robot: `[driver]` of a cell file, or of one of its channels. It counts only where a run is told to drive
 //! robots; otherwise they are simulated.
 
+use std::net::IpAddr;
+
 use crate::settings::{Section, SettingsError};
 
 const KEYS: &[&str] = &["protocol", "address", "listen", "time"];
@@ -28,6 +30,9 @@ pub enum Protocol {
     Rsi {
         /// The address and port of this computer that the robot's controller sends to.
         listen: String,
+        /// The robot's controller: a host, with the port that it sends from where that is fixed. `None`: whoever sends
+        /// first.
+        address: Option<String>,
     },
 }
 
@@ -48,51 +53,55 @@ impl DriverSettings {
             return Ok(None);
         };
         let lacks = |key: &str, what: &str| section.source.error(value.span(), format!("{name} lacks `{key}`: {what}"));
-        let spoken = section.word("protocol", SPOKEN)?.ok_or_else(|| lacks("protocol", "\"udp\" or \"rsi\""))?;
-        if let Some(found) = section.find(spoken.other) {
-            let Spoken { key, other, .. } = spoken;
-            let text = format!("{name} has `{other}`, which goes with another protocol: this one has `{key}`");
-            return Err(section.source.error(found.span(), text));
-        }
-        let place = section.text(spoken.key, spoken.place)?.ok_or_else(|| lacks(spoken.key, spoken.place))?;
-        if let (false, Some(found)) = (is_place(place), section.find(spoken.key)) {
-            return Err(section.wrong(spoken.key, found, spoken.place));
-        }
+        let words = [("udp", Spoken::Udp), ("rsi", Spoken::Rsi)];
+        let spoken = section.word("protocol", &words)?.ok_or_else(|| lacks("protocol", "\"udp\" or \"rsi\""))?;
+        let needed = |key, what, is_right| text(&section, key, what, is_right)?.ok_or_else(|| lacks(key, what));
+        let protocol = match spoken {
+            Spoken::Udp => {
+                if let Some(found) = section.find("listen") {
+                    let text = format!("{name} has `listen`, which goes with \"rsi\": this one has `address`");
+                    return Err(section.source.error(found.span(), text));
+                }
+                Protocol::Udp {
+                    address: needed("address", "where the arm listens, like \"192.168.0.30:7447\"", is_place)?,
+                }
+            }
+            Spoken::Rsi => Protocol::Rsi {
+                listen: needed("listen", "what the robot sends to, like \"0.0.0.0:49152\"", is_place)?,
+                address: text(&section, "address", "the robot's controller, like \"192.168.0.30\"", is_host)?,
+            },
+        };
         let times = [("world", DriverTime::World), ("robot", DriverTime::Robot)];
         let time = section.word("time", &times)?.unwrap_or_default();
-        Ok(Some(Self { protocol: (spoken.protocol)(place.to_owned()), time }))
+        Ok(Some(Self { protocol, time }))
     }
 }
 
-/// A protocol in a cell file: the key of the place where somebody listens, what stands there, and the key that others have.
 #[derive(Clone, Copy)]
-struct Spoken {
-    key: &'static str,
-    place: &'static str,
-    other: &'static str,
-    protocol: fn(String) -> Protocol,
+enum Spoken {
+    Udp,
+    Rsi,
 }
 
-const SPOKEN: &[(&str, Spoken)] = &[
-    (
-        "udp",
-        Spoken {
-            key: "address",
-            place: "where the arm listens, like \"192.168.0.30:7447\"",
-            other: "listen",
-            protocol: |address| Protocol::Udp { address },
-        },
-    ),
-    (
-        "rsi",
-        Spoken {
-            key: "listen",
-            place: "what the robot sends to, like \"0.0.0.0:49152\"",
-            other: "address",
-            protocol: |listen| Protocol::Rsi { listen },
-        },
-    ),
-];
+/// A text that has to be right, if it is there.
+fn text(
+    section: &Section<'_>,
+    key: &str,
+    what: &str,
+    is_right: fn(&str) -> bool,
+) -> Result<Option<String>, SettingsError> {
+    let text = section.text(key, what)?;
+    match (text, section.find(key)) {
+        (Some(text), Some(found)) if !is_right(text) => Err(section.wrong(key, found, what)),
+        _ => Ok(text.map(str::to_owned)),
+    }
+}
+
+/// Whether it is a host, with or without a port.
+fn is_host(text: &str) -> bool {
+    let is_name = |host: &str| !host.is_empty() && !host.contains([':', ' ', '/']);
+    text.parse::<IpAddr>().is_ok() || is_name(text) || is_place(text)
+}
 
 /// Whether it is a host with a port.
 fn is_place(text: &str) -> bool {
@@ -112,9 +121,18 @@ mod tests {
         let cell = Cell::parse("cell.toml", text).unwrap();
         let udp = Protocol::Udp { address: "arm.local:7447".into() };
         assert_eq!(cell.driver, Some(DriverSettings { protocol: udp, time: DriverTime::World }));
-        let rsi = Protocol::Rsi { listen: "0.0.0.0:49152".into() };
+        let rsi = Protocol::Rsi { listen: "0.0.0.0:49152".into(), address: None };
         let second = cell.programs.channels[0].driver.as_ref();
         assert_eq!(second, Some(&DriverSettings { protocol: rsi, time: DriverTime::Robot }));
+    }
+
+    #[test]
+    fn a_robot_that_speaks_rsi_can_be_named() {
+        for robot in ["192.168.0.30", "192.168.0.30:49153", "kuka.local", "fe80::1", "[fe80::1]:49153"] {
+            let text = format!("[driver]\nprotocol = \"rsi\"\nlisten = \"0.0.0.0:1\"\naddress = \"{robot}\"\n");
+            let found = Cell::parse("cell.toml", &text).unwrap().driver.unwrap().protocol;
+            assert_eq!(found, Protocol::Rsi { listen: "0.0.0.0:1".into(), address: Some(robot.into()) });
+        }
     }
 
     #[test]
@@ -125,7 +143,14 @@ mod tests {
             ("[driver]\nprotocol = \"tcp\"", 2, "expected \"udp\" or \"rsi\", found the text \"tcp\""),
             ("[driver]\nprotocol = \"udp\"", 1, "[driver] lacks `address`: where the arm listens"),
             ("[driver]\nprotocol = \"udp\"\naddress = \"10.0.0.1\"", 3, "like \"192.168.0.30:7447\""),
-            ("[driver]\nprotocol = \"rsi\"\naddress = \"10.0.0.1:1\"", 3, "this one has `listen`"),
+            ("[driver]\nprotocol = \"rsi\"\naddress = \"10.0.0.1:1\"", 1, "[driver] lacks `listen`: what the robot"),
+            ("[driver]\nprotocol = \"udp\"\naddress = \"a:1\"\nlisten = \"b:1\"", 4, "this one has `address`"),
+            (
+                "[driver]\nprotocol = \"rsi\"\nlisten = \"0.0.0.0:1\"\naddress = \"10.0.0.1:x\"",
+                4,
+                "like \"192.168.0.30\"",
+            ),
+            ("[driver]\nprotocol = \"rsi\"\nlisten = \"0.0.0.0:1\"\naddress = \"\"", 4, "like \"192.168.0.30\""),
             ("[driver]\nprotocol = \"rsi\"\nlisten = \"0.0.0.0:1\"\ntime = \"fast\"", 4, "\"world\" or \"robot\""),
             ("[driver]\nprotocol = \"udp\"\nadress = \"10.0.0.1:1\"", 3, "did you mean `address`?"),
             ("[[channel]]\nprogram = \"a\"\nbackground = true\ndriver = {}", 4, "both `background` and `driver`"),

@@ -26,7 +26,7 @@ impl WaitTime {
         cx.motion_end().await;
         let over = cx.cycle() + cycles;
         while cx.cycle() < over {
-            cx.next_cycle().await;
+            cx.wait_until(over).await;
         }
         Ok(())
     }

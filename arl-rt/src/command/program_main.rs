@@ -200,7 +200,8 @@ fn run(
     }
     let max_time = options.max_time;
     let cycle_time = options.cycle_time.clone();
-    let real = options.clock == Some(Pace::Real);
+    // Where a robot is driven, its time counts, too.
+    let tells_lateness = options.clock == Some(Pace::Real) || options.drive;
     let report = match options.report.clone().map(report_to).transpose() {
         Ok(report) => report,
         Err(error) => {
@@ -263,7 +264,7 @@ fn run(
     {
         warn(&format!("cannot write {}: {error}", file.display()));
     }
-    if real {
+    if tells_lateness {
         lateness(&controller).iter().for_each(|text| warn(text));
     }
     code
@@ -282,6 +283,11 @@ pub(super) fn lateness(controller: &Controller) -> Vec<String> {
         let lost = lateness.lost() - lateness.missing();
         said.push(format!(
             "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
+        ));
+    }
+    if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
+        said.push(format!(
+            "{missing} messages of the robot that gives the beat did not arrive: so many control cycles were lost"
         ));
     }
     if controller.found_late() > 0 {
@@ -432,6 +438,9 @@ fn watch(
             code = Some(EXIT_MAX_TIME);
             say_standstill(controller.time(), &waiting);
             controller.stop();
+        }
+        if code.is_none() && between.is_none() && recording.is_none() {
+            controller.skip_quiet_cycles(last);
         }
     }
     controller.close_robots();

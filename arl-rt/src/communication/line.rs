@@ -62,7 +62,9 @@ mod tty {
             termios::ioctl_tiocexcl(&file)?;
             settings.make_raw();
             self.put_into(&mut settings)?;
-            termios::tcsetattr(&file, OptionalActions::Flush, &settings)?;
+            // At once, with what waits thrown away before: what a line does not take would be waited for, without end.
+            termios::tcflush(&file, QueueSelector::IOFlush)?;
+            termios::tcsetattr(&file, OptionalActions::Now, &settings)?;
             // What a device does not do it leaves out without a word. A pseudo terminal has neither bits nor parity.
             let set = termios::tcgetattr(&file)?;
             if set.input_speed() != self.baud {

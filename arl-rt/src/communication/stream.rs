@@ -28,7 +28,7 @@ pub(super) fn attempt(mut call: impl FnMut() -> io::Result<usize>) -> io::Result
     loop {
         match call() {
             Ok(count) => return Ok(Some(count)),
-            Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => return Ok(None),
+            Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(None),
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
         }
@@ -41,5 +41,24 @@ pub(super) fn wait(poll: &mut Poll, events: &mut Events, deadline: Option<Instan
     match poll.poll(events, timeout) {
         Err(error) if error.kind() != ErrorKind::Interrupted => Err(error),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_peer_that_is_given_up_by_the_system_is_lost_and_not_waited_for() {
+        assert_eq!(attempt(|| Err(ErrorKind::WouldBlock.into())).ok(), Some(None));
+        // What is sent to a computer that was switched off is repeated for minutes; then the system says this, once.
+        let given_up = attempt(|| Err(io::Error::from(ErrorKind::TimedOut)));
+        assert_eq!(given_up.map_err(|error| error.kind()), Err(ErrorKind::TimedOut));
+        let mut interrupted = true;
+        let found = attempt(|| match std::mem::take(&mut interrupted) {
+            true => Err(ErrorKind::Interrupted.into()),
+            false => Ok(3),
+        });
+        assert_eq!(found.ok(), Some(Some(3)));
     }
 }

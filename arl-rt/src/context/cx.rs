@@ -210,6 +210,13 @@ impl Cx {
         self.next_cycle()
     }
 
+    /// Waits for the next cycle, in a loop that ends in that cycle by itself.
+    #[inline]
+    pub(crate) fn wait_until(&self, over: u64) -> NextCycle<'_> {
+        self.waiting.note_time(self.cycle(), over);
+        self.next_cycle()
+    }
+
     /// Says that something goes on in this cycle: the program does something, begins to wait, or looks at what changes by
     /// itself, like time.
     #[inline]
@@ -220,6 +227,11 @@ impl Cx {
     /// What the program has waited for in this cycle, where it did nothing else.
     pub(crate) fn waits_in(&self, cycle: u64) -> Option<WaitsFor> {
         self.waiting.in_cycle(cycle)
+    }
+
+    /// The cycle that the program has waited for in this cycle, where it did nothing else.
+    pub(crate) fn waits_until(&self, cycle: u64) -> Option<u64> {
+        self.waiting.until(cycle)
     }
 
     /// The last cycle in which it did something else.

@@ -60,6 +60,8 @@ pub(crate) struct Waiting {
     waited: Cell<Option<(u64, WaitsFor)>>,
     /// The last cycle in which it did something else.
     acted: Cell<u64>,
+    /// The last cycle in which it waited for the time, and the cycle that it waits for.
+    timed: Cell<Option<(u64, u64)>>,
 }
 
 impl Waiting {
@@ -67,6 +69,12 @@ impl Waiting {
     #[inline]
     pub(crate) fn note(&self, cycle: u64, waits_for: WaitsFor) {
         self.waited.set(Some((cycle, waits_for)));
+    }
+
+    /// The program waits in this cycle until another one comes.
+    #[inline]
+    pub(crate) fn note_time(&self, cycle: u64, until: u64) {
+        self.timed.set(Some((cycle, until)));
     }
 
     /// The program does something in this cycle, begins to wait, or looks at what goes on by itself, like time.
@@ -78,6 +86,12 @@ impl Waiting {
     /// The last cycle in which it did something else.
     pub(crate) fn acted(&self) -> u64 {
         self.acted.get()
+    }
+
+    /// The cycle that the program has waited for in this cycle, without doing anything else.
+    pub(crate) fn until(&self, cycle: u64) -> Option<u64> {
+        let (waited, until) = self.timed.get()?;
+        (waited == cycle && self.acted.get() < cycle).then_some(until)
     }
 
     /// What the program has waited for in this cycle, without doing anything else.
@@ -103,5 +117,9 @@ mod tests {
         waiting.note(7, WaitsFor::Condition);
         waiting.note_action(7);
         assert_eq!(waiting.in_cycle(7), None, "its condition looked at a clock");
+        waiting.note_time(8, 20);
+        assert_eq!((waiting.until(8), waiting.until(9), waiting.in_cycle(8)), (Some(20), None, None));
+        waiting.note_action(8);
+        assert_eq!(waiting.until(8), None, "a handler did something");
     }
 }

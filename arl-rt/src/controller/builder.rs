@@ -478,6 +478,7 @@ impl Builder {
             told: super::State::Running,
             pointer_store,
             stores_from: 0,
+            awake_until: 0,
         })
     }
 }

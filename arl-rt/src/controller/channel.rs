@@ -24,6 +24,9 @@ pub(super) const PROGRAM_STACK_BYTES: usize = 1 << 20;
 /// After so many cycles of rest the program has seen that its robot rests: the one in which it came to rest, and one more.
 const SEEN_AT_REST: u32 = 2;
 
+/// After so many cycles of rest a robot has settled, and each further cycle leaves all that it knows of it as it was.
+const LONG_AT_REST: u32 = 64;
+
 /// What the program does.
 enum Phase {
     /// Its statements run.
@@ -175,16 +178,34 @@ impl Channel {
             Phase::RunningOut(_) if is_at_zero() => WaitsFor::Motion,
             Phase::RunningOut(_) | Phase::Ended(_) => return None,
         };
-        let goes_on = self.cx.is_loading()
+        (!self.goes_on(cycle)).then(|| match waits_for {
+            WaitsFor::Motion if is_at_zero() => Repose::Waiting(WaitsFor::Override),
+            waits_for => Repose::Waiting(waits_for),
+        })
+    }
+
+    /// Whether something of it was under way in this cycle, the last one, beside what its program waits for.
+    fn goes_on(&self, cycle: u64) -> bool {
+        let paused = self.channel_state.paused.get();
+        self.cx.is_loading()
             || self.channel_state.has_pending_alarm()
             || self.cx.events().borrow().ticks()
             || (self.actions.is_empty() && !paused && self.cx.events().borrow().has_due())
             || self.cx.acted() >= cycle
-            || (self.channel_state.robot().is_some() && self.rested < SEEN_AT_REST);
-        (!goes_on).then(|| match waits_for {
-            WaitsFor::Motion if is_at_zero() => Repose::Waiting(WaitsFor::Override),
-            waits_for => Repose::Waiting(waits_for),
-        })
+            || (self.channel_state.robot().is_some() && self.rested < SEEN_AT_REST)
+    }
+
+    /// The cycle before which nothing of it changes by itself, judged by this cycle, the last one; a trace has a row
+    /// for each cycle.
+    pub(super) fn quiet_until(&self, cycle: u64) -> Option<u64> {
+        let waits_for_time = || {
+            let runs = matches!(self.phase, Phase::Running(_)) && !self.channel_state.paused.get();
+            self.cx.waits_until(cycle).filter(|_| runs && !self.goes_on(cycle))
+        };
+        let until = self.repose(cycle).map(|_| u64::MAX).or_else(waits_for_time)?;
+        let has_rows = self.trace.is_some() && self.running;
+        let stands = self.channel_state.robot().is_none_or(|unit| self.rested >= LONG_AT_REST && unit.is_quiet());
+        (stands && !has_rows).then_some(until)
     }
 
     /// Looks for events.

@@ -16,6 +16,7 @@ mod order;
 mod outcome;
 mod pendant;
 mod pointer_store;
+mod quiet;
 mod recorded;
 mod running;
 mod standstill;
@@ -139,6 +140,8 @@ pub struct Controller {
     pointer_store: Option<PointerStore>,
     /// Whether somebody outside may change something: drivers that are not ours.
     has_outside: bool,
+    /// No cycle before this one is left out.
+    awake_until: u64,
     /// The cycle from which on changes of system variables may be stored again of which every one is kept.
     stores_from: u64,
 }
@@ -175,6 +178,7 @@ impl Controller {
             self.tell_state();
         }
         self.report_io_problems();
+        self.report_robots();
         self.look_for_lost_cycles(cycle);
         self.channels.each(Channel::scan_events);
         self.channels.each(Channel::poll);
@@ -313,9 +317,19 @@ impl Controller {
         }
     }
 
+    /// Passes on what the drivers of robots tell.
+    fn report_robots(&mut self) {
+        for channel in self.channels.iter() {
+            let state = channel.channel_state();
+            while let Some(warning) = state.robot_mut().and_then(|mut unit| unit.take_driver_warning()) {
+                state.shared.warn(warning);
+            }
+        }
+    }
+
     /// Stops robots where too many cycles were lost: between two set-points they had to do without.
     fn look_for_lost_cycles(&mut self, cycle: u64) {
-        let lost = self.clock.lateness().map(Lost::from).unwrap_or_default();
+        let lost = self.clock.lateness().map_or(Lost::default(), Lost::of);
         if self.had_ended {
             return self.late_limit.forget(lost);
         }
@@ -343,6 +357,7 @@ impl Controller {
 
     /// The same, with nothing stored yet.
     fn step_to_end(&mut self) -> Outcome {
+        self.stay_awake();
         loop {
             let outcome = match self.channels.outcome().cloned() {
                 Some(outcome) if self.is_over() => Some(outcome),
@@ -354,14 +369,17 @@ impl Controller {
             if let Some(outcome) = outcome {
                 return outcome;
             }
+            self.skip_quiet_cycles(u64::MAX);
         }
     }
 
     /// Runs so many seconds of controller time, or until it [is over](Controller::is_over).
     pub fn run_for(&mut self, seconds: f64) -> State {
         let end = self.shared.now.get().saturating_add(self.shared.rate.cycles(seconds));
+        self.stay_awake();
         while self.shared.now.get() < end && !self.is_over() {
             self.step();
+            self.skip_quiet_cycles(end);
         }
         self.state()
     }

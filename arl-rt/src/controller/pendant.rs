@@ -259,7 +259,7 @@ fn servo_on(channel: &Channel) {
         Ok(false) => channel_state
             .shared
             .warn("servo on: the robot was moved by more than $RESET_POS_THRESHOLD: it stays where it is now".into()),
-        Err(why) => refuse(channel, "servo on", why),
+        Err(why) => refuse(channel, "servo on", &why),
     }
 }
 

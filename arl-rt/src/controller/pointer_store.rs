@@ -134,6 +134,11 @@ impl PointerStore {
         pending.problem.take()
     }
 
+    /// Whether the thread does not know yet what was noted.
+    pub(super) fn has_news(&self) -> bool {
+        self.news
+    }
+
     /// Waits until everything is stored. Gives what went wrong since the last call.
     pub(super) fn settle(&mut self) -> Option<String> {
         self.hurry(false);

@@ -43,8 +43,10 @@ impl More {
 pub(crate) struct Trace {
     more: More,
     out: BufWriter<Box<dyn Write>>,
-    /// The first thing that went wrong; nothing is written after it.
+    /// The first thing that went wrong, until it is told.
     error: Option<io::Error>,
+    /// Whether something went wrong: nothing is written after it, also where it was told and a program begins again.
+    is_broken: bool,
 }
 
 impl Trace {
@@ -54,13 +56,14 @@ impl Trace {
             true => writeln!(out, "{HEADER},{FILE_COLUMN}")?,
             false => writeln!(out, "{HEADER}")?,
         }
-        Ok(Self { more, out, error: None })
+        Ok(Self { more, out, error: None, is_broken: false })
     }
 
     /// The row of a cycle that began at `time` seconds.
     pub(crate) fn row(&mut self, time: f64, unit: &Unit) {
-        if self.error.is_none() {
+        if !self.is_broken {
             self.error = self.write(time, unit).err();
+            self.is_broken = self.error.is_some();
         }
     }
 
@@ -84,7 +87,8 @@ impl Trace {
     pub(crate) fn flush(&mut self) -> io::Result<()> {
         match self.error.take() {
             Some(error) => Err(error),
-            None => self.out.flush(),
+            None if self.is_broken => Ok(()),
+            None => self.out.flush().inspect_err(|_| self.is_broken = true),
         }
     }
 }

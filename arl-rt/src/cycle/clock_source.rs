@@ -34,7 +34,7 @@ pub use arl_robot::cell::Late;
 ///                 Err(_) => {
 ///                     std::thread::sleep(Duration::from_secs_f64(period));
 ///                     self.newest = Some(Instant::now());
-///                     waited = 2;
+///                     self.lateness.note_missing(1);
 ///                 }
 ///             }
 ///         }
@@ -79,12 +79,19 @@ pub trait Clock {
         true
     }
 
+    /// Whether cycles may be left out in which nothing can change: where they take no time. Nothing waits for them
+    /// then; the next cycle has the number that it would have had.
+    fn may_skip(&self) -> bool {
+        false
+    }
+
     /// The cell file says what becomes of cycles that are lost.
     fn set_late(&mut self, late: Late) {
         let _ = late;
     }
 
-    /// How late cycles began until now, if that is known. What it says of lost ones counts for the limit of the cell file.
+    /// How late cycles began until now, if that is known. What it says of lost and of missing ones counts for the limit
+    /// of the cell file.
     fn lateness(&self) -> Option<&Lateness> {
         None
     }
@@ -133,6 +140,10 @@ impl Clock for VirtualClock {
 
     fn is_real(&self) -> bool {
         self.real.is_some()
+    }
+
+    fn may_skip(&self) -> bool {
+        self.real.is_none()
     }
 
     fn set_late(&mut self, late: Late) {

@@ -83,13 +83,50 @@ impl ScriptDir {
             .create(true)
             .open(&path)
             .map_err(|error| fault(format!("cannot be opened for writing: {error}")))?;
-        file.write_all(text).map_err(|error| fault(format!("cannot be written: {error}")))
+        append_whole(&mut file, text).map_err(|error| fault(format!("cannot be written: {error}")))
     }
+}
+
+/// Appends all of a text, or, where the disk is full, nothing of it.
+fn append_whole(file: &mut fs::File, text: &[u8]) -> io::Result<()> {
+    let before = file.metadata()?.len();
+    file.write_all(text).inspect_err(|_| {
+        // Where that cannot be, a part of it stays.
+        let _ = file.set_len(before);
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Where this is set the test runs in a process of its own, whose files may have 2048 bytes (4096 by some shells).
+    #[cfg(target_os = "linux")]
+    const FOLDER: &str = "ARL_TEST_SMALL_FILES";
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_message_that_finds_no_room_leaves_no_part_of_itself() {
+        if let Ok(folder) = std::env::var(FOLDER) {
+            let (scripts, line) = (ScriptDir::new(folder.clone().into()), [b'x'; 100]);
+            let written = (0..100_u64).find(|_| scripts.append(&"log.txt".into(), &line).is_err()).unwrap();
+            assert!((20..=40).contains(&written));
+            return assert_eq!(fs::metadata(Path::new(&folder).join("log.txt")).unwrap().len(), 100 * written);
+        }
+        let folder = std::env::temp_dir().join(format!("arl-rt-no-room-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let name = "storage::script_dir::tests::a_message_that_finds_no_room_leaves_no_part_of_itself";
+        let alone = std::process::Command::new("sh")
+            .args(["-c", "trap '' XFSZ; ulimit -f 4; exec \"$0\" --exact \"$1\""])
+            .arg(std::env::current_exe().unwrap())
+            .arg(name)
+            .env(FOLDER, &folder)
+            .output()
+            .unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        let said = String::from_utf8_lossy(&alone.stdout);
+        assert!(alone.status.success() && said.contains("1 passed"), "{said}");
+    }
 
     #[test]
     fn paths_stay_below_the_script_directory() {

@@ -5,6 +5,7 @@ pub mod dynamics;
 mod effort;
 pub(crate) mod hold;
 mod moving;
+mod range;
 mod refusal;
 pub mod robot_driver;
 mod servo;
@@ -94,7 +95,7 @@ pub(crate) struct Unit {
     /// The file of the last `startmove`.
     start_file: File,
     motors: Motors,
-    /// For how many cycles the robot has not said where it is.
+    /// For how many cycles no position has come from the robot.
     silent: u32,
     supervision: Supervision,
     /// What the supervision has found, and in which motion, until it is taken.
@@ -113,10 +114,12 @@ impl Unit {
     /// Its driver cannot start it; why.
     pub(crate) fn new(robot: Robot, mut driver: Box<dyn RobotDriver>, period: f64) -> Result<Self, DriverError> {
         let home = Joints::home(&robot);
-        let start = driver.start(&robot_driver::Start { home: &home, robot: &robot, period })?;
-        if !is_finite(&start, &robot) {
+        let context = robot_driver::Start { home: &home, robot: &robot, period };
+        let start = driver.start(&context)?;
+        if let Err(why) = context.begin_at(start) {
+            driver.switch(Power::Off);
             driver.close();
-            return Err("it says that the robot is at what is no number".into());
+            return Err(why);
         }
         let start = own_axes_of(&robot, start, &home);
         let robot = Arc::new(robot);
@@ -506,6 +509,18 @@ impl Unit {
         self.queue.rests() && self.is_settled()
     }
 
+    /// Whether each further cycle leaves everything as it is: it stands where it shall, and nobody keeps records of it.
+    pub(crate) fn is_quiet(&self) -> bool {
+        let stands = |moving: &Moving| {
+            let rates = moving.rates.iter().chain(&moving.external_rates).chain(&moving.accelerations);
+            moving.at == moving.before && rates.copied().all(|rate| rate == 0.0)
+        };
+        matches!(self.motors, Motors::On | Motors::Off)
+            && (self.queue.idle() && self.queue.rests() && self.is_settled())
+            && (stands(&self.commanded) && stands(&self.reported) && self.commanded.at == self.reported.at)
+            && (self.recorder.is_none() && self.trouble.is_none() && !self.jogged && self.button == Button::Free)
+    }
+
     /// How many time laws and blends came too late, on the real clock.
     pub(crate) fn found_late(&self) -> u64 {
         self.queue.found_late()
@@ -640,6 +655,11 @@ impl Unit {
     /// Switches the motors of a robot that is not let go yet; how its drives are now.
     fn switch(&mut self, power: Power) -> Drives {
         if self.closed { Drives::Off } else { self.driver.switch(power) }
+    }
+
+    /// What the user should know of its driver, once.
+    pub(crate) fn take_driver_warning(&mut self) -> Option<String> {
+        self.driver.take_warning()
     }
 
     /// Lets go of the robot, once, with its motors off: one that moves is cut off. Nothing is called of its driver any more.

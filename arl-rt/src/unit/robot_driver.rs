@@ -9,6 +9,7 @@ use crate::motion::Joints;
 use arl_robot::cell::DriverSettings;
 use arl_robot::robot::{ROBOT_AXES, Robot};
 
+use super::range;
 use crate::cycle::clock_source::Clock;
 
 /// How long the simulated robot's set-points take to be followed, in s.
@@ -34,6 +35,18 @@ impl<'a> Start<'a> {
     /// What a driver is told by whoever tries it without a controller: deg (mm), s.
     pub fn new(home: &'a Joints, robot: &'a Robot, period: f64) -> Self {
         Self { home, robot, period }
+    }
+
+    /// The position (deg, mm) that a robot reports before its motors are switched on: it has to be one that the robot
+    /// file knows.
+    ///
+    /// # Errors
+    /// An axis is at no number, or outside of its range by more than what counts as settled; which.
+    pub fn begin_at(&self, position: Joints) -> Result<Joints, String> {
+        match range::first_outside(&position, self.robot) {
+            None => Ok(position),
+            Some(outside) => Err(format!("{outside}: is the robot file that of this robot?")),
+        }
     }
 }
 
@@ -157,7 +170,7 @@ pub enum Power {
 /// ```
 pub trait RobotDriver {
     /// Connects to the robot and switches its motors on, once, before the first cycle. It may take its time. Says where the robot is,
-    /// in deg (mm).
+    /// in deg (mm); [`Start::begin_at`] says whether it may be there, before motors are switched on.
     ///
     /// # Errors
     /// Why there is no robot: the controller is not built.
@@ -178,6 +191,11 @@ pub trait RobotDriver {
     /// Says that somebody has moved the robot here while its motors are off: for simulated robots.
     fn moved_by_hand(&mut self, to: &Joints) {
         let _ = to;
+    }
+
+    /// What the user should know, once; asked for in each cycle until there is nothing more.
+    fn take_warning(&mut self) -> Option<String> {
+        None
     }
 
     /// The controller ends; nothing is called any more. It may take its time. A controller that ends while the robot moves has cut the
@@ -264,9 +282,12 @@ impl RobotDriver for SimulatedRobot {
             *oldest = *setpoint;
         }
         self.oldest += 1;
-        // Seen from the set-point, so that no rounding is left when all are the same.
+        // Seen from the set-point, so that no rounding is left when all are the same; by their age, so that a motion is
+        // the same to the last bit in whichever cycle it begins.
         let mut position = *setpoint;
-        for old in last.iter().take(count as usize) {
+        let (newer, older) = last.split_at(self.oldest);
+        let older = older.iter().take((count as usize).saturating_sub(self.oldest));
+        for old in older.chain(newer) {
             let axes = position.axes.iter_mut().zip(&old.axes).zip(&setpoint.axes);
             let external = position.external.iter_mut().zip(&old.external).zip(&setpoint.external);
             for ((position, old), setpoint) in axes.chain(external) {

@@ -2,6 +2,7 @@
 
 use super::Unit;
 use super::moving::Moving;
+use super::range;
 use super::robot_driver::{Drives, Feedback, Power, Setpoint};
 use super::supervision::Now;
 use crate::fault::{Fault, File};
@@ -116,23 +117,26 @@ impl Unit {
     /// was where no axis is farther off than that. Returns whether that was so, where it was asked for.
     ///
     /// # Errors
-    /// The robot moves, or it is not known where it is.
-    pub(crate) fn servo_on(&mut self, threshold: Option<f64>) -> Result<bool, &'static str> {
+    /// The robot moves, it is not known where it is, or it is where its axes cannot be.
+    pub(crate) fn servo_on(&mut self, threshold: Option<f64>) -> Result<bool, String> {
         match self.motors {
             Motors::On | Motors::ComingOn => return Ok(true),
             Motors::GoingOff if !self.supervision.has_found() => {
                 self.motors = Motors::On;
                 return Ok(true);
             }
-            Motors::GoingOff => return Err("the robot has not come to rest yet"),
+            Motors::GoingOff => return Err("the robot has not come to rest yet".into()),
             Motors::Off => {}
         }
         if self.silent > 0 {
-            return Err("the robot does not say where it is");
+            return Err("no position feedback comes from the robot".into());
+        }
+        if let Some(outside) = range::first_outside(&self.reported.at, &self.robot) {
+            return Err(outside.to_string());
         }
         let moves = self.reported.rates.iter().chain(&self.reported.external_rates).any(|rate| rate.abs() > STILL);
         if !self.queue.rests() || moves {
-            return Err("the robot has not come to rest yet");
+            return Err("the robot has not come to rest yet".into());
         }
         let here = self.reported.at;
         let near = threshold.is_some_and(|threshold| self.commanded.at.is_at(&here, threshold));
@@ -143,7 +147,7 @@ impl Unit {
             }
             self.step_beside();
             if !self.go_where_it_is() {
-                return Err("motions of it are still under way");
+                return Err("motions of it are still under way".into());
             }
         }
         self.supervision.begin();

@@ -2,6 +2,7 @@
 
 use crate::fault::Fault;
 use crate::motion::Joints;
+use crate::unit::range::{self, unit};
 use crate::unit::robot_driver::{Drives, Feedback};
 use arl_robot::robot::{Axis, ROBOT_AXES, Robot};
 
@@ -19,7 +20,7 @@ pub(super) struct Now<'a> {
     pub(super) asked: &'a Joints,
     /// The length of the cycle in s.
     pub(super) period: f64,
-    /// For how many cycles it has not said where it is.
+    /// For how many cycles no position has come.
     pub(super) silent: u32,
     /// The motors are told to come on, and have not said that they are.
     pub(super) coming_on: bool,
@@ -107,14 +108,18 @@ fn position(position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
     let Some(position) = position else {
         let lasts = f64::from(now.silent) * now.period;
         let is_lost = now.silent > FEWEST_CYCLES && lasts > now.robot.drives.feedback + 0.5 * now.period;
-        let text = || format!("the robot has not said for {:.0} ms where it is", lasts * 1e3);
+        let text = || format!("no position feedback for {:.0} ms", lasts * 1e3);
         return is_lost.then(|| Fault::NoFeedback(text().into()));
     };
-    if now.silent > 0 {
-        return Some(Fault::NoFeedback("the robot says that it is at what is no number".into()));
+    let outside = range::first_outside(position, now.robot);
+    if now.silent > 0
+        && let Some(outside) = outside
+    {
+        return Some(Fault::NoFeedback(outside.to_string().into()));
     }
     if now.coming_on {
-        return None;
+        // Its set-point is where it reports to be, which has to be a place for it.
+        return outside.map(|outside| Fault::NotFollowing(outside.to_string().into()));
     }
     let off = axes_off(position, now).zip(&now.robot.drives.following).map(|((off, axis), limit)| {
         // What it says is of some cycles ago.
@@ -132,7 +137,7 @@ fn position(position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
 /// What is wrong with the torques that it measures: nobody would find a collision by them.
 fn torque(feedback: &Feedback) -> Option<Fault> {
     let torque = feedback.torque.as_ref()?;
-    let text = "the robot says that its motors give what is no number";
+    let text = "the robot reports no number as a torque of its motors";
     (!is_all_finite(torque)).then(|| Fault::NoFeedback(text.into()))
 }
 
@@ -149,12 +154,7 @@ fn axes_off<'a>(position: &'a Joints, now: Now<'a>) -> impl Iterator<Item = (f64
     pairs.zip(&now.robot.axes).map(|((asked, is), axis)| ((asked - is).abs(), axis))
 }
 
-fn unit(axis: &Axis) -> &'static str {
-    if axis.linear { "mm" } else { "deg" }
-}
-
 /// Whether all axes of a robot are at numbers.
 pub(super) fn is_finite(position: &Joints, robot: &Robot) -> bool {
-    let own = position.axes.iter().take(robot.own_axes().len().min(ROBOT_AXES));
-    own.chain(position.external.iter().take(robot.external_axes().len())).all(|at| at.is_finite())
+    range::axes_at(position, robot).all(|(_, at)| at.is_finite())
 }

@@ -129,6 +129,40 @@ fn an_answer_of_another_length_is_an_alarm() {
     assert_eq!(told, "alarm 20050: read: the PLC sent 2 bytes in place of 4 (t.arl:2)");
 }
 
+/// The answer with bytes changed, cut off, doubled or put in, by a number.
+fn damaged(seed: u64) -> Vec<u8> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut below = |most: usize| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state % most as u64) as usize
+    };
+    let mut bytes = ANSWER.to_vec();
+    for _ in 0..=below(3) {
+        let at = below(bytes.len());
+        match below(5) {
+            0 => bytes.truncate(at + 1),
+            1 => bytes.extend_from_within(at..),
+            2 => bytes.insert(at, below(256) as u8),
+            _ => bytes[at] = below(256) as u8,
+        }
+    }
+    bytes
+}
+
+/// The PLC goes after each: what is no answer, or not all of one, is an alarm; of one that is whole the next question is.
+#[test]
+fn damaged_answers_are_told_and_nothing_is_left_of_them() {
+    for seed in 0..60 {
+        let told = ask_twice(move |mut stream| {
+            stream.read_exact(&mut [0; REQUEST]).unwrap();
+            stream.write_all(&damaged(seed)).unwrap();
+        });
+        assert!(told.contains("alarm 20050: read: "), "{seed}: {told}");
+    }
+}
+
 #[test]
 fn a_thousand_connections_one_after_the_other() {
     const TIMES: usize = 1000;

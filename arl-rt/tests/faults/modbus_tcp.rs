@@ -125,6 +125,22 @@ fn clients_that_find_no_place_leave_nothing() {
 }
 
 #[test]
+fn a_crowd_that_comes_at_once_and_stays_takes_no_place_from_who_is_served() {
+    after(|address| {
+        let mut served = [client(address), client(address)];
+        served.iter_mut().for_each(is_answered);
+        // Nobody of them leaves by itself; more than that a process may not have open everywhere.
+        let mut crowd: Vec<TcpStream> = (0..400).map(|_| client(address)).collect();
+        served.iter_mut().for_each(is_answered);
+        for stream in &mut crowd {
+            // They were sent away: an end, or a reset.
+            assert!(!matches!(stream.read(&mut [0]), Ok(1)), "it got an answer that it did not ask for");
+        }
+        served.iter_mut().for_each(is_answered);
+    });
+}
+
+#[test]
 fn a_server_goes_with_its_clients_time_after_time() {
     watched(|| {
         for _ in 0..50 {

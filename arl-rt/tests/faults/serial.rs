@@ -219,3 +219,54 @@ fn a_line_that_is_unplugged_is_opened_again_when_it_is_back() {
         assert_eq!(robot.run().told(), "true\ntrue\nfalse\ntrue\nthe whole message\n");
     });
 }
+
+/// Nobody reads what the program writes, so that its thread waits for room when the line goes.
+#[test]
+fn a_line_that_vanishes_while_the_program_writes_is_an_alarm() {
+    watched(|| {
+        let outlet = Rc::new(Outlet::new());
+        let plug = Rc::new(Cell::new(Some(outlet.plug())));
+        let mut robot = Robot::new(Controller::builder(), {
+            let (outlet, plug) = (Rc::clone(&outlet), Rc::clone(&plug));
+            move |cx: &Cx| {
+                let (plug, name) = (Rc::clone(&plug), outlet.name());
+                Box::pin(async move {
+                    let line = Iodev::default();
+                    say(cx, &open(cx, &line, &name).await?)?;
+                    let much = Str::from("x".repeat(1 << 16));
+                    // As much as there is room for, here and in the system.
+                    while serial::write_string(cx, &line, &much).await.at(FILE, 2)? {}
+                    drop(plug.take());
+                    loop {
+                        serial::write_string(cx, &line, &much).await.at(FILE, 3)?;
+                        cx.next_cycle().await;
+                    }
+                })
+            }
+        });
+        let told = robot.run().told();
+        assert!(told.starts_with("true\nalarm 20050: write: the line is lost: "), "{told}");
+    });
+}
+
+/// What is there has another name's place: a file, a folder, nothing, and a terminal whose other end has gone.
+#[test]
+fn what_is_no_line_any_more_does_not_open_and_holds_nobody_up() {
+    watched(|| {
+        let outlet = Outlet::new();
+        drop(outlet.plug());
+        let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
+            let gone = outlet.name();
+            Box::pin(async move {
+                for name in [gone.clone(), "/dev/null".into(), "/".into(), "/no/such/line".into()] {
+                    say(cx, &open(cx, &Iodev::default(), &name).await?)?;
+                }
+                Ok(())
+            })
+        });
+        assert_eq!(robot.run().told(), "false\nfalse\nfalse\nfalse\n");
+        let warnings = robot.warnings();
+        assert_eq!(warnings.len(), 4, "{warnings:?}");
+        assert!(warnings.iter().all(|warning| warning.starts_with("open ")), "{warnings:?}");
+    });
+}

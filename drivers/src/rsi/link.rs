@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use arl_rt::motion::Joints;
 
 use super::message::{Answer, LONGEST, Message};
+use super::sender::Sender;
 use crate::patience::Patience;
 use crate::readable;
 
@@ -20,6 +21,7 @@ const MOST: usize = 64;
 pub(super) struct Link {
     listen: String,
     socket: Option<UdpSocket>,
+    sender: Sender,
     newest: Option<Newest>,
     /// The message of this cycle, until it is taken.
     message: Option<Message>,
@@ -51,17 +53,19 @@ pub(super) struct Received {
     pub(super) any: bool,
     /// By how many ms the robot's time has gone on since the message before.
     pub(super) step: u64,
-    /// How many messages have come.
+    /// How many messages have come that count.
     pub(super) count: u64,
     /// Whether it had come before somebody waited.
     pub(super) was_there: bool,
 }
 
 impl Link {
-    pub(super) fn new(listen: String) -> Self {
+    /// Hears what comes to `listen` from the robot at an address, or from the first one that sends.
+    pub(super) fn new(listen: String, address: Option<String>) -> Self {
         Self {
             listen,
             socket: None,
+            sender: Sender::new(address),
             newest: None,
             message: None,
             interrupted: false,
@@ -73,6 +77,7 @@ impl Link {
     }
 
     pub(super) fn open(&mut self) -> Result<(), String> {
+        self.sender.resolve()?;
         let failed = |error: std::io::Error| format!("{}: {error}", self.listen);
         let socket = UdpSocket::bind(&self.listen).map_err(failed)?;
         socket.set_nonblocking(true).map_err(failed)?;
@@ -84,13 +89,9 @@ impl Link {
     pub(super) fn wait(&mut self, limit: Duration) -> Result<Message, String> {
         self.message = None;
         self.receive(Instant::now() + limit);
-        let seconds = limit.as_secs();
-        self.message.ok_or_else(|| {
-            let to = &self.listen;
-            match self.odd {
-                true => format!("what comes to {to} is no message of RSI, or it lacks AIPos or IPOC"),
-                false => format!("no robot has sent anything to {to} within {seconds} s: start RSI on its pendant"),
-            }
+        self.message.ok_or_else(|| match self.odd {
+            true => format!("what comes to {} is no message of RSI, or it lacks AIPos or IPOC", self.listen),
+            false => self.sender.missing(&self.listen, limit.as_secs()),
         })
     }
 
@@ -101,8 +102,8 @@ impl Link {
             match self.take_packet() {
                 Some(step) => {
                     received.any |= step > 0;
-                    received.step = received.step.saturating_add(step);
                     received.count += u64::from(step > 0);
+                    received.step = received.step.saturating_add(step);
                     // Whoever sends what does not count gets no more time than the robot.
                     if packet >= MOST && (received.any || Instant::now() >= until) {
                         break;
@@ -131,6 +132,10 @@ impl Link {
             }
             Err(_) => return None,
         };
+        if !self.sender.is_robot(from) {
+            self.sender.note_other(from);
+            return Some(0);
+        }
         let Some(message) = bytes.get(..length).and_then(Message::parse) else {
             self.odd = true;
             return Some(0);
@@ -139,9 +144,13 @@ impl Link {
         let step = match self.newest {
             None => 1,
             Some(before) => {
-                let goes_on = from == before.from && message.ipoc > before.ipoc;
+                let is_same = from == before.from;
+                let goes_on = is_same && message.ipoc > before.ipoc;
                 let is_silent = at.saturating_duration_since(before.at) > ANEW && self.patience.is_none();
                 if !goes_on && !is_silent {
+                    if !is_same {
+                        self.sender.note_other(from);
+                    }
                     return Some(0);
                 }
                 let step = message.ipoc.saturating_sub(before.ipoc).max(1);
@@ -150,6 +159,7 @@ impl Link {
                 step
             }
         };
+        self.sender.follow(from);
         self.newest = Some(Newest { from, at, ipoc: message.ipoc, ready: message.ready != Some(false) });
         self.message = Some(message);
         Some(step)
@@ -168,6 +178,11 @@ impl Link {
     /// A cycle went on without a message.
     pub(super) fn note_silence(&mut self) {
         self.interrupted = true;
+    }
+
+    /// What the user should know of who sends, once.
+    pub(super) fn take_warning(&mut self) -> Option<String> {
+        self.sender.take_warning(&self.listen)
     }
 
     /// Whether messages were interrupted since this was asked last.

@@ -4,6 +4,7 @@
 mod beat;
 mod link;
 pub mod message;
+mod sender;
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -17,7 +18,7 @@ use link::Link;
 use message::Message;
 
 use crate::patience::Patience;
-use crate::position::{begin_at, difference};
+use crate::position::difference;
 
 /// How long to wait at the start: somebody has to start RSI on the robot's pendant.
 const BEGIN: Duration = Duration::from_secs(30);
@@ -55,10 +56,19 @@ pub struct RsiArm {
 }
 
 impl RsiArm {
-    /// The robot that sends to this address and port of the computer.
+    /// The first robot that sends to this address and port of the computer; a warning of the controller names it.
     pub fn new(listen: impl Into<String>) -> Self {
+        Self::following(listen.into(), None)
+    }
+
+    /// The robot at an address, host or host and port, that sends to this address and port of the computer.
+    pub fn of_robot(listen: impl Into<String>, address: impl Into<String>) -> Self {
+        Self::following(listen.into(), Some(address.into()))
+    }
+
+    fn following(listen: String, address: Option<String>) -> Self {
         let origin = Joints { axes: [0.0; 6], external: [0.0; 6] };
-        let link = Rc::new(RefCell::new(Link::new(listen.into())));
+        let link = Rc::new(RefCell::new(Link::new(listen, address)));
         Self { link, origin, correction: origin, external: 0, power: Power::On, stops: 0, ended: false }
     }
 
@@ -102,7 +112,7 @@ impl RobotDriver for RsiArm {
             );
         }
         let (mut last, mut steps) = (first, [0; FIRST]);
-        self.origin = begin_at(first.position)?;
+        self.origin = start.begin_at(first.position)?;
         link.given_up_ms = given_up_ms(start.period);
         for step in &mut steps {
             link.answer(&self.correction, self.external, false);
@@ -121,7 +131,7 @@ impl RobotDriver for RsiArm {
         if last.ready == Some(false) {
             return Err("its drives are off: switch them on, and start RSI again".into());
         }
-        let moved = difference(&begin_at(last.position)?, &self.origin);
+        let moved = difference(&start.begin_at(last.position)?, &self.origin);
         if moved.axes.iter().chain(&moved.external).any(|by| by.abs() > STANDS) {
             return Err("the robot moves, though nobody has asked it to".into());
         }
@@ -157,6 +167,10 @@ impl RobotDriver for RsiArm {
         // On they are where the robot says so, or says nothing of it.
         let is_on = self.power == Power::On && !self.ended && self.link.borrow().is_ready();
         if is_on { Drives::On } else { Drives::Off }
+    }
+
+    fn take_warning(&mut self) -> Option<String> {
+        self.link.borrow_mut().take_warning()
     }
 
     fn close(&mut self) {

@@ -2,15 +2,16 @@
 
 pub mod packet;
 
+use std::hash::{BuildHasher, Hasher};
 use std::io::ErrorKind;
-use std::net::{ToSocketAddrs, UdpSocket};
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::net::{SocketAddr, ToSocketAddrs, UdpSocket};
+use std::time::{Duration, Instant};
 
 use arl_rt::motion::Joints;
 use arl_rt::robot_driver::{DriverError, Drives, Feedback, Power, RobotDriver, Setpoint, Start};
 
 use crate::patience::Patience;
-use crate::position::begin_at;
+use crate::peer::is_same;
 use crate::readable;
 use packet::{Command, STATE_LENGTH, State};
 
@@ -62,7 +63,7 @@ impl RobotDriver for UdpArm {
     fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError> {
         let mut link = Link::open(&self.address, start)?;
         let state = link.meet(&self.address)?;
-        let position = link.switch_on(state.position)?;
+        let position = link.switch_on(start, state.position)?;
         self.link = Some(link);
         Ok(position)
     }
@@ -117,6 +118,8 @@ impl RobotDriver for UdpArm {
 #[derive(Debug)]
 struct Link {
     socket: UdpSocket,
+    /// The arm: what others have sent before the socket was connected to it does not count.
+    arm: SocketAddr,
     session: u32,
     axes: (u8, u8),
     power: Power,
@@ -140,7 +143,7 @@ impl Link {
         let count = |axes: usize| u8::try_from(axes).unwrap_or(u8::MAX);
         let axes = (count(start.robot.own_axes().len()), count(start.robot.external_axes().len()));
         let last = Setpoint::resting(*start.home, start.period);
-        Ok(Self { socket, session: session(), axes, power: Power::Off, powered: 0, sent: 0, heard: 0, last })
+        Ok(Self { socket, arm: to, session: session(), axes, power: Power::Off, powered: 0, sent: 0, heard: 0, last })
     }
 
     /// Says hello until the arm answers.
@@ -160,22 +163,22 @@ impl Link {
             }
             return Ok(state);
         }
-        Err(format!("no arm answers at {address}: nothing came within {} s", ANSWER.as_secs()))
+        Err(format!("no arm answers at {address}: nothing that is an answer came within {} s", ANSWER.as_secs()))
     }
 
     /// Switches the motors on, and waits until they are; where the arm is then. Until that it is asked to stay where it is.
-    fn switch_on(&mut self, position: Joints) -> Result<Joints, String> {
-        let mut here = begin_at(position)?;
+    fn switch_on(&mut self, start: &Start<'_>, position: Joints) -> Result<Joints, String> {
+        let mut here = start.begin_at(position)?;
         self.switch(Power::On);
         let until = Instant::now() + COMING_ON;
         let mut problem = format!("its drives have not come on within {} s", COMING_ON.as_secs());
         while Instant::now() < until {
             self.send(&Setpoint::resting(here, self.last.period), false);
             let Some(state) = self.answer(Instant::now() + AGAIN, self.powered) else { continue };
-            here = match begin_at(state.position) {
+            here = match start.begin_at(state.position) {
                 Ok(here) => here,
-                Err(no_number) => {
-                    problem = no_number;
+                Err(why) => {
+                    problem = why;
                     break;
                 }
             };
@@ -242,7 +245,9 @@ impl Link {
         loop {
             match self.receive() {
                 Ok(Some(state)) if state.answers >= command => return Some(state),
-                Ok(_) => {}
+                // Who sends without end what is no answer does not keep it from ending.
+                Ok(_) if Instant::now() < until => {}
+                Ok(_) => return None,
                 Err(Empty) if readable::wait_until(&self.socket, until) => {}
                 Err(Empty) => return None,
             }
@@ -252,8 +257,9 @@ impl Link {
     /// Takes a packet: a state that is newer than all before it, or something that does not count.
     fn receive(&mut self) -> Result<Option<State>, Empty> {
         let mut bytes = [0; STATE_LENGTH + 1];
-        match self.socket.recv(&mut bytes) {
-            Ok(length) => {
+        match self.socket.recv_from(&mut bytes) {
+            Ok((_, from)) if !is_same(from, self.arm) => Ok(None),
+            Ok((length, _)) => {
                 let state = bytes.get(..length).and_then(State::from_bytes);
                 let state = state.filter(|state| state.session == self.session && state.sequence > self.heard);
                 self.heard = state.as_ref().map_or(self.heard, |state| state.sequence);
@@ -269,9 +275,9 @@ impl Link {
 /// Nothing is there to receive.
 struct Empty;
 
-/// A number that no other run has.
+/// A number that no other run has, by chance and not by the time of day: a clock that is set back gives no number
+/// again.
 fn session() -> u32 {
-    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-    let mixed = now.as_nanos() as u64 ^ (u64::from(std::process::id()) << 32);
-    ((mixed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as u32).max(1)
+    let random = std::hash::RandomState::new().build_hasher().finish();
+    ((random >> 32) as u32).max(1)
 }

@@ -166,6 +166,20 @@ pub(super) fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> Heard
     }
 }
 
+/// The words of an error, and of the causes that they do not name.
+pub(super) fn with_causes(error: &dyn Error) -> String {
+    let mut words = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        let more = error.to_string();
+        if !words.contains(&more) {
+            words = format!("{words}: {more}");
+        }
+        cause = error.source();
+    }
+    words
+}
+
 /// What a program is to say for those who hear it.
 pub(super) fn wishes(hearers: &[Box<dyn Hears>]) -> impl Iterator<Item = &'static str> {
     let each_cycle = hearers.iter().any(|hearer| hearer.wants_each_cycle()).then_some("--each-cycle");
@@ -183,7 +197,7 @@ pub(super) fn end(mut hearers: Vec<Box<dyn Hears>>, begun: bool) {
     for hearer in hearers {
         let broken = hearer.broken();
         if let Err(error) = hearer.end() {
-            show::warning(&format!("{broken}: {error}"));
+            show::warning(&format!("{broken}: {}", with_causes(&*error)));
         }
     }
 }
@@ -199,8 +213,23 @@ pub(super) fn pass_on(line: Line, hearers: &mut Vec<Box<dyn Hears>>) {
         });
         lines.extend(more);
         if let Err(error) = &heard {
-            show::warning(&format!("{}: {error}", hearer.broken()));
+            show::warning(&format!("{}: {}", hearer.broken(), with_causes(&**error)));
         }
         heard.is_ok()
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cause_of_what_cannot_be_recorded_is_named() {
+        let full = std::io::Error::from(std::io::ErrorKind::StorageFull);
+        let words = full.to_string();
+        let error = mcap::McapError::Io(full);
+        assert!(!error.to_string().contains(&words), "it says so itself now");
+        assert!(with_causes(&error).ends_with(&format!(": {words}")), "{}", with_causes(&error));
+        assert_eq!(with_causes(&std::io::Error::from(std::io::ErrorKind::StorageFull)), words);
+    }
 }

@@ -5,7 +5,7 @@ use crate::context::system::System;
 use crate::io::Pendant;
 
 /// How long a pulse must be that switches the servos, in s.
-const SERVO_PULSE_S: f64 = 0.03;
+pub(in crate::controller) const SERVO_PULSE_S: f64 = 0.03;
 
 /// What of an input counts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -14,6 +14,7 @@ use crate::controller::State;
 use crate::fault::Fault;
 use crate::io::Image;
 use crate::values::Controlmode;
+pub(super) use buttons::SERVO_PULSE_S;
 use buttons::{Buttons, Pressed};
 pub(super) use edge_detector::InputSnapshot;
 use program_number::ProgramNumber;

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use crate::fieldbus::modbus::mbap::{self, Frame, HEAD, LONGEST_FRAME, Start};
 
+const NO_ANSWER: &str = "what it sends is no answer of Modbus TCP";
+
 /// A connection to a Modbus TCP server, for a thread that may wait.
 pub(super) struct Link {
     stream: TcpStream,
@@ -53,7 +55,10 @@ impl Link {
                 {
                     break;
                 }
-                Start::Frame(..) | Start::Garbage => return Err("what it sends is no answer of Modbus TCP".into()),
+                Start::Frame(frame, _) => {
+                    return Err(format!("{NO_ANSWER} to this request: {}", self.difference(frame)));
+                }
+                Start::Garbage => return Err(NO_ANSWER.into()),
             }
             let left = self.timeout.saturating_sub(start.elapsed());
             if left.is_zero() {
@@ -68,6 +73,17 @@ impl Link {
             }
         }
         Ok(self.buffer.get(HEAD..filled).unwrap_or_default())
+    }
+
+    /// Why a frame is not the answer to the last request.
+    fn difference(&self, frame: Frame<'_>) -> String {
+        match frame {
+            Frame { unit, .. } if unit != self.unit => format!("unit {unit} answers in place of unit {}", self.unit),
+            Frame { transaction, .. } if transaction != self.transaction => {
+                format!("it answers the request number {transaction} in place of {}", self.transaction)
+            }
+            _ => "more comes behind the answer".into(),
+        }
     }
 
     fn problem(&self, error: &std::io::Error) -> String {

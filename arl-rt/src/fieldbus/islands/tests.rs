@@ -213,10 +213,19 @@ fn whoever_talks_nonsense_is_lost() {
         (|_| Vec::new(), "it has not answered for 300 ms (it was asked for coils 100 to 102)"),
         (|_| b"HTTP/1.1 400 Bad Request\r\n\r\n".to_vec(), "is no answer of Modbus TCP"),
         // Another transaction, another unit, too many coils, another one's answer behind it.
-        (|request| [&[9, 9], &request[2..5], &[4, request[6], 1, 1, 0]].concat(), "is no answer of Modbus TCP"),
-        (|request| [&request[..5], &[4, 77, 1, 1, 0]].concat(), "is no answer of Modbus TCP"),
+        (
+            |request| [&[9, 9], &request[2..5], &[4, request[6], 1, 1, 0]].concat(),
+            "is no answer of Modbus TCP to this request: it answers the request number 2313 in place of 1",
+        ),
+        (
+            |request| [&request[..5], &[4, 77, 1, 1, 0]].concat(),
+            "is no answer of Modbus TCP to this request: unit 77 answers in place of unit ",
+        ),
         (|request| [&request[..5], &[5, request[6], 1, 2, 0, 0]].concat(), "is no answer of Modbus TCP"),
-        (|request| [&request[..5], &[4, request[6], 1, 1, 0, 0, 0, 0, 0]].concat(), "is no answer of Modbus TCP"),
+        (
+            |request| [&request[..5], &[4, request[6], 1, 1, 0, 0, 0, 0, 0]].concat(),
+            "is no answer of Modbus TCP to this request: more comes behind the answer",
+        ),
     ];
     for (answer, words) in strangers {
         let error = Islands::start(&settings(stranger(answer), "")).err().unwrap();

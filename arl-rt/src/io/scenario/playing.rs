@@ -18,6 +18,8 @@ pub(crate) struct Playing {
     resets: bool,
     rate: Rate,
     due: Due,
+    /// The cycle of the last event.
+    played: u64,
     before_in: Bits,
     before_out: Bits,
     before_pwm: [Pwm; PWM_CHANNELS],
@@ -36,7 +38,7 @@ impl Playing {
         let reset = Action::Effect(Effect::Pendant(Pendant::Reset));
         let resets = events.iter().any(|event| event.actions.contains(&reset));
         let (before_in, before_out) = (image.inputs().clone(), image.outputs().clone());
-        Self { events, watching, resets, rate, due, before_in, before_out, before_pwm: image.pwms() }
+        Self { events, watching, resets, rate, due, played: 0, before_in, before_out, before_pwm: image.pwms() }
     }
 
     /// How many effects a cycle may have at most, if no event comes twice in it.
@@ -52,6 +54,7 @@ impl Playing {
         }
         self.find_edges(cycle, image);
         while let Some(at) = self.due.take(cycle) {
+            self.played = cycle;
             for action in self.events.get(at).map(|event| event.actions.as_slice()).unwrap_or_default() {
                 action.play(image, &mut do_it);
             }
@@ -66,6 +69,18 @@ impl Playing {
     /// Whether an event is on its way, or will be in the next cycle by what has changed in this one.
     pub(crate) fn goes_on(&self, image: &Image) -> bool {
         !self.due.is_empty() || self.watched().any(|(_, event)| self.has_edge(event, image))
+    }
+
+    /// The cycle of the last event that has happened.
+    pub(crate) fn played(&self) -> u64 {
+        self.played
+    }
+
+    /// The cycle before which nothing happens by itself; `None`: something that has changed in this cycle sets an event
+    /// off in the next one.
+    pub(crate) fn quiet_until(&self, image: &Image) -> Option<u64> {
+        let is_set_off = self.watched().any(|(_, event)| self.has_edge(event, image));
+        (!is_set_off).then(|| self.due.next().unwrap_or(u64::MAX))
     }
 
     /// The events that wait for an edge, with their places.
@@ -124,6 +139,11 @@ impl Due {
             return None;
         }
         self.waiting.pop().map(|Reverse((_, _, event))| event)
+    }
+
+    /// The cycle of the next event.
+    fn next(&self) -> Option<u64> {
+        self.waiting.peek().map(|Reverse((when, ..))| *when)
     }
 
     fn is_empty(&self) -> bool {

@@ -55,10 +55,19 @@ fn lock(path: &Path, shared: bool, words: &str) -> std::io::Result<File> {
     Ok(file)
 }
 
-/// When a folder was used last; that of its making, where nobody locked it.
-pub(super) fn last_use(folder: &Path) -> Option<SystemTime> {
+/// When a folder or a file was used last; that of its making, where nobody locked it. A time in the future is one of a
+/// clock that was wrong, or is: it counts as now, is made so, and ages from now on. Otherwise what was used then would
+/// stay longer than all that is used since.
+pub(super) fn last_use(path: &Path) -> Option<SystemTime> {
     let of = |path: &Path| std::fs::metadata(path).and_then(|data| data.modified()).ok();
-    of(&folder.join(NAME)).or_else(|| of(folder))
+    let lock = path.join(NAME);
+    let (used, noted) = of(&lock).map(|used| (used, lock.as_path())).or_else(|| Some((of(path)?, path)))?;
+    let now = SystemTime::now();
+    if used > now {
+        // Where it cannot be set, it is in the future the next time, too.
+        let _ = File::options().write(true).open(noted).and_then(|file| file.set_modified(now));
+    }
+    Some(used.min(now))
 }
 
 const NAME: &str = "lock";

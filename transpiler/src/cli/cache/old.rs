@@ -224,4 +224,34 @@ mod tests {
         assert_eq!(std::fs::read_to_string(root.join("not ours")).expect("it is there"), "stays");
         std::fs::remove_dir_all(&root).expect("removed");
     }
+
+    /// The clock of the computer was set back since it was used.
+    #[test]
+    fn what_was_used_in_the_future_ages_from_now_on() {
+        let root = std::env::temp_dir().join(format!("arl2rs-future-{}", std::process::id()));
+        let cache = Cache { root: root.clone(), limit: None };
+        let day = Duration::from_secs(24 * 3600);
+        let stamped = |name: &str, when: SystemTime| {
+            let folder = root.join("programs").join(name);
+            drop(Lock::take(&folder, true, "").expect("a lock"));
+            let lock = std::fs::File::options().write(true).open(folder.join("lock")).expect("the lock");
+            lock.set_modified(when).expect("the time is set");
+            folder
+        };
+        let future = stamped("arl-a-00000001", SystemTime::now() + day * 3650);
+        let results = cache.results("0a1b");
+        std::fs::create_dir_all(results.parent().expect("a folder")).expect("a folder");
+        std::fs::write(&results, "12345").expect("written");
+        let file = std::fs::File::options().write(true).open(&results).expect("the file");
+        file.set_modified(SystemTime::now() + day).expect("the time is set");
+        assert_eq!(cache.clean(day), Removed::default());
+        let is_now =
+            |path: &Path| path.metadata().and_then(|data| data.modified()).expect("a time") <= SystemTime::now();
+        assert!(is_now(&future.join("lock")) && is_now(&results), "they would stay for ten years");
+        // What is used after that goes later.
+        let later = stamped("arl-b-00000002", SystemTime::now());
+        let order: Vec<PathBuf> = cache.entries().into_iter().map(|entry| entry.path).collect();
+        assert_eq!(order, [results, future, later]);
+        std::fs::remove_dir_all(&root).expect("removed");
+    }
 }

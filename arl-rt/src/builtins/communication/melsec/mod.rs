@@ -128,7 +128,8 @@ impl MelsecDev {
         let Some(mut bytes) = found else { return Ok(None) };
         if bytes.len() != len.next_multiple_of(2) {
             self.handle.close();
-            return Err(fault("read", &format!("the PLC sent {} bytes in place of {len}", bytes.len())));
+            let asked = len.next_multiple_of(2);
+            return Err(fault("read", &format!("the PLC sent {} bytes in place of {asked}", bytes.len())));
         }
         bytes.truncate(len);
         Ok(Some(bytes))

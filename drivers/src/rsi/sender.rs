@@ -1,0 +1,145 @@
+//! Whose packets count.
+
+use std::net::{SocketAddr, ToSocketAddrs};
+
+use crate::peer::is_same;
+
+/// The robot that the cell names, or whoever sent first. Nobody else is heard.
+#[derive(Debug)]
+pub(super) struct Sender {
+    /// What the cell says: a host, with or without a port.
+    address: Option<String>,
+    /// The addresses that this stands for; port 0 is any port.
+    named: Vec<SocketAddr>,
+    /// The robot that is followed.
+    followed: Option<SocketAddr>,
+    /// The first other one that has sent something.
+    other: Option<SocketAddr>,
+    /// Whether the user knows of both.
+    followed_is_known: bool,
+    other_is_known: bool,
+}
+
+impl Sender {
+    pub(super) fn new(address: Option<String>) -> Self {
+        let (named, followed_is_known) = (Vec::new(), address.is_some());
+        Self { address, named, followed: None, other: None, followed_is_known, other_is_known: false }
+    }
+
+    /// Looks up what the cell says.
+    ///
+    /// # Errors
+    /// There is no such host.
+    pub(super) fn resolve(&mut self) -> Result<(), String> {
+        let Some(address) = &self.address else { return Ok(()) };
+        let is_host = address.parse::<std::net::IpAddr>().is_ok() || !address.contains(':');
+        let found = if is_host { (address.as_str(), 0).to_socket_addrs() } else { address.to_socket_addrs() };
+        self.named = found.map_err(|error| format!("{address}: {error}"))?.collect();
+        if self.named.is_empty() { Err(format!("{address}: no address")) } else { Ok(()) }
+    }
+
+    /// Whether what came from there counts. Another port of the robot followed is for the link to judge: RSI that
+    /// begins anew has one.
+    pub(super) fn is_robot(&self, from: SocketAddr) -> bool {
+        let is_host = |robot: &SocketAddr| is_same(*robot, SocketAddr::new(from.ip(), robot.port()));
+        let is_named = |robot: &SocketAddr| is_host(robot) && (robot.port() == 0 || robot.port() == from.port());
+        (self.address.is_none() || self.named.iter().any(is_named)) && self.followed.as_ref().is_none_or(is_host)
+    }
+
+    /// From now on this one is followed.
+    pub(super) fn follow(&mut self, robot: SocketAddr) {
+        self.followed.get_or_insert(robot);
+    }
+
+    /// Somebody else sends, too.
+    pub(super) fn note_other(&mut self, other: SocketAddr) {
+        self.other.get_or_insert(other);
+    }
+
+    /// What the user should know of who sends to `listen`, once.
+    pub(super) fn take_warning(&mut self, listen: &str) -> Option<String> {
+        let followed = self.followed?;
+        if !std::mem::replace(&mut self.followed_is_known, true) {
+            let ip = followed.ip().to_canonical();
+            return Some(format!(
+                "the robot at {followed} is followed, which was the first to send to {listen}: \
+                 `address = \"{ip}\"` of [driver] in the cell lets it be no other one"
+            ));
+        }
+        let other = self.other.filter(|_| !std::mem::replace(&mut self.other_is_known, true))?;
+        Some(format!("{other} sends to {listen}, too, and is not heard: the robot is {followed}"))
+    }
+
+    /// Why nothing that counts has come to `listen` for `seconds`, where anything has come at all.
+    pub(super) fn missing(&self, listen: &str, seconds: u64) -> String {
+        match (&self.address, self.other) {
+            (Some(address), Some(other)) => format!(
+                "nothing has come from {address} to {listen} within {seconds} s, only from {other}: \
+                 `address` of [driver] names another robot than the one that sends"
+            ),
+            (Some(address), None) => {
+                format!(
+                    "nothing has come from {address} to {listen} within {seconds} s: start RSI on the robot's pendant"
+                )
+            }
+            (None, _) => format!("nothing has come to {listen} within {seconds} s: start RSI on the robot's pendant"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(text: &str) -> SocketAddr {
+        text.parse().unwrap()
+    }
+
+    #[test]
+    fn a_host_is_a_robot_from_any_port_and_a_port_is_one_alone() {
+        let mut host = Sender::new(Some("127.0.0.1".into()));
+        assert!(!host.is_robot(at("127.0.0.1:5")), "nobody has looked it up");
+        host.resolve().unwrap();
+        assert!(host.is_robot(at("127.0.0.1:5")) && host.is_robot(at("[::ffff:127.0.0.1]:5")));
+        assert!(!host.is_robot(at("127.0.0.2:5")));
+        let mut port = Sender::new(Some("127.0.0.1:5".into()));
+        port.resolve().unwrap();
+        assert!(port.is_robot(at("127.0.0.1:5")) && !port.is_robot(at("127.0.0.1:6")));
+        let mut six = Sender::new(Some("::1".into()));
+        six.resolve().unwrap();
+        assert!(six.is_robot(at("[::1]:5")) && !six.is_robot(at("[::2]:5")));
+    }
+
+    #[test]
+    fn the_first_one_is_told_and_followed() {
+        let mut sender = Sender::new(None);
+        sender.resolve().unwrap();
+        assert!(sender.is_robot(at("10.0.0.1:5")) && sender.is_robot(at("10.0.0.2:5")));
+        assert_eq!(sender.take_warning("*:1"), None);
+        sender.follow(at("10.0.0.1:5"));
+        sender.follow(at("10.0.0.2:5"));
+        assert!(sender.is_robot(at("10.0.0.1:6")) && !sender.is_robot(at("10.0.0.2:5")));
+        let told = sender.take_warning("*:1").unwrap();
+        assert!(
+            told.starts_with("the robot at 10.0.0.1:5 is followed") && told.contains("address = \"10.0.0.1\""),
+            "{told}"
+        );
+        assert_eq!(sender.take_warning("*:1"), None);
+        sender.note_other(at("10.0.0.2:7"));
+        sender.note_other(at("10.0.0.3:7"));
+        assert_eq!(
+            sender.take_warning("*:1").unwrap(),
+            "10.0.0.2:7 sends to *:1, too, and is not heard: the robot is 10.0.0.1:5"
+        );
+        assert_eq!(sender.take_warning("*:1"), None);
+    }
+
+    #[test]
+    fn who_waits_in_vain_hears_who_has_sent() {
+        let mut sender = Sender::new(Some("10.0.0.1".into()));
+        assert!(sender.missing("*:1", 30).ends_with("start RSI on the robot's pendant"));
+        sender.note_other(at("10.0.0.2:7"));
+        let why = "nothing has come from 10.0.0.1 to *:1 within 30 s, only from 10.0.0.2:7";
+        assert!(sender.missing("*:1", 30).starts_with(why));
+    }
+}
