@@ -12,7 +12,7 @@ mod names;
 mod network;
 mod rate;
 
-pub use bodies::{Body, Form, Grip, Holder, Solid};
+pub use bodies::{Body, Form, Grip, Holder, LARGEST_MM, Solid};
 pub use buses::{BusSettings, ModbusTcpSettings};
 pub use carriers::Carrier;
 pub use driver::{DriverSettings, DriverTime, Protocol};

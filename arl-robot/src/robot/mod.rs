@@ -10,7 +10,7 @@ mod tests;
 
 pub use arl_lang::catalog::Family;
 pub use error::RobotError;
-pub use limbs::Limb;
+pub use limbs::{LIMB_NAMES, Limb};
 
 use crate::changes::{Changes, Part};
 use crate::kinematics::Kinematics;
