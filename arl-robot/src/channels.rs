@@ -6,8 +6,8 @@ use crate::settings::{Section, SettingsError};
 
 const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
 
-/// Far more channels than any cell has.
-const MOST_CHANNELS: u32 = 10_000;
+/// Far more channels of a kind than any cell has.
+pub const MOST_CHANNELS: u32 = 10_000;
 
 /// What an analog channel carries.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

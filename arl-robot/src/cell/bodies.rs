@@ -1,11 +1,13 @@
 //! What stands in a cell or is carried by its robots: `[[body]]` of a cell file.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::{Carrier, Names, Signal, SignalKind};
 use crate::channels::Channels;
 use crate::kinematics::{Frame, frame};
-use crate::settings::{Section, SettingsError, Value, hint, kind, number, table};
+use crate::robot::LIMB_NAMES;
+use crate::settings::{Section, SettingsError, Value, hint, kind, nearest, number, table};
 
 const BODY: &[&str] = &[
     "name",
@@ -29,7 +31,9 @@ const FORMS: [&str; 5] = ["box", "cylinder", "sphere", "mesh", "urdf"];
 /// What a body may be fixed to, besides carriers.
 const HOLDERS: &[&str] = &["world", "flange"];
 /// No cell is larger, in mm.
-const LARGEST_MM: f64 = 1e6;
+pub const LARGEST_MM: f64 = 1e6;
+/// Nothing is turned farther, in deg.
+const LARGEST_DEG: f64 = 1e6;
 /// So many of a kind are enough for a cell.
 const MOST_OF_A_KIND: f64 = 1000.0;
 /// How near the TCP has to be to what it grips, in mm, where nobody says it.
@@ -40,6 +44,8 @@ const WITHIN_MM: f64 = 5.0;
 pub struct Body {
     /// What people call it.
     pub name: String,
+    /// What all of its kind are called, where the cell has several of them: `part` of `part 1`.
+    pub kind: Option<String>,
     /// Its form.
     pub form: Form,
     /// Where its middle is (the origin of a mesh), in what it is fixed to, translation in mm.
@@ -50,7 +56,7 @@ pub struct Body {
     pub when: Option<(Signal, bool)>,
     /// How it is taken along by a robot and put down again, if it is. It stands in the world at first.
     pub grip: Option<Grip>,
-    /// The names of bodies, and of parts of robots, that it may touch.
+    /// The names of bodies and of their kinds, and of parts of robots, that it may touch.
     pub may_touch: Vec<String>,
 }
 
@@ -120,16 +126,24 @@ impl Body {
     ) -> Result<Vec<Self>, SettingsError> {
         let tables = super::tables(top, "body", "tables that begin with [[body]]")?;
         let mut bodies: Vec<Self> = Vec::new();
+        let mut known: HashSet<String> = HashSet::new();
         for value in tables {
             let section = table(top.source, value, "[[body]]", BODY)?;
             let body = Self::read(&section, value, (channels, names), (foreground, carriers), folder)?;
-            for body in all_of_a_kind(body, count(&section)?) {
-                if bodies.iter().any(|other| other.name == body.name) {
-                    let text = format!("there is another [[body]] named `{}`", body.name);
+            let count = count(&section)?;
+            let of_kind = count.map(|_| body.name.clone());
+            let all = all_of_a_kind(body, count);
+            for name in of_kind.iter().chain(all.iter().map(|body| &body.name)) {
+                if !known.insert(name.clone()) {
+                    let text = format!("there is another [[body]] named `{name}`");
                     return Err(top.source.error(value.span(), text));
                 }
-                bodies.push(body);
             }
+            bodies.extend(all);
+        }
+        known.extend(parts_of_robots(foreground));
+        for value in tables {
+            are_known(&table(top.source, value, "[[body]]", BODY)?, &known)?;
         }
         Ok(bodies)
     }
@@ -155,6 +169,7 @@ impl Body {
         }
         Ok(Self {
             name: name.to_owned(),
+            kind: None,
             form: form(section, folder)?.ok_or_else(|| lacks(&format!("its form: {}", forms())))?,
             at: place(section, "at")?.map_or_else(Frame::identity, frame),
             holder,
@@ -215,6 +230,7 @@ fn all_of_a_kind(body: Body, count: Option<u32>) -> Vec<Body> {
     let Some(count) = count else { return vec![body] };
     let numbered = |number: u32| Body {
         name: format!("{} {number}", body.name),
+        kind: Some(body.name.clone()),
         grip: body.grip.map(|grip| Grip { follows: number > 1, ..grip }),
         ..body.clone()
     };
@@ -294,10 +310,18 @@ pub(super) fn place(section: &Section<'_>, key: &str) -> Result<Option<[f64; 6]>
     let Some(value) = section.find(key) else { return Ok(None) };
     let all: Option<Vec<f64>> =
         value.get_ref().as_array().and_then(|all| all.iter().map(|one| number(one.get_ref())).collect());
-    match all.as_deref() {
-        Some([x, y, z]) => Ok(Some([*x, *y, *z, 0.0, 0.0, 0.0])),
-        Some([x, y, z, a, b, c]) => Ok(Some([*x, *y, *z, *a, *b, *c])),
-        _ => {
+    let place = match all.as_deref() {
+        Some([x, y, z]) => Some([*x, *y, *z, 0.0, 0.0, 0.0]),
+        Some([x, y, z, a, b, c]) => Some([*x, *y, *z, *a, *b, *c]),
+        _ => None,
+    };
+    match place {
+        Some([at @ .., a, b, c]) if !is_near(&at, LARGEST_MM) || !is_near(&[a, b, c], LARGEST_DEG) => {
+            let expected = format!("places within {LARGEST_MM} mm and turns within {LARGEST_DEG} deg");
+            Err(section.wrong(key, value, &expected))
+        }
+        Some(place) => Ok(Some(place)),
+        None => {
             let expected =
                 "x, y, z in mm, with a, b, c in deg if it is turned, like [800, 0, -20] or [800, 0, 0, 90, 0, 0]";
             Err(section.wrong(key, value, expected))
@@ -305,12 +329,41 @@ pub(super) fn place(section: &Section<'_>, key: &str) -> Result<Option<[f64; 6]>
     }
 }
 
-fn may_touch(section: &Section<'_>) -> Result<Vec<String>, SettingsError> {
+fn is_near(values: &[f64], most: f64) -> bool {
+    values.iter().all(|value| value.abs() <= most)
+}
+
+/// What the parts of robots are called in a cell with so many of them. Where there are several, a name without a channel is that part of all.
+fn parts_of_robots(robots: u32) -> impl Iterator<Item = String> {
+    let channels = if robots > 1 { robots } else { 0 };
+    let of_channel = |channel: u32| LIMB_NAMES.iter().map(move |name| format!("{name} of channel {channel}"));
+    LIMB_NAMES.iter().map(|name| (*name).to_owned()).chain((1..=channels).flat_map(of_channel))
+}
+
+const MAY_TOUCH: &str = "the names of bodies and of parts of robots, like [\"table\", \"the hand\"]";
+
+/// The names of what a body may touch, each with its value.
+fn names_in<'a>(section: &Section<'a>) -> Result<Vec<(&'a str, &'a Value<'a>)>, SettingsError> {
     let Some(value) = section.find("may_touch") else { return Ok(Vec::new()) };
-    let names = value.get_ref().as_array().and_then(|all| all.iter().map(|one| one.get_ref().as_str()).collect());
-    let names: Option<Vec<&str>> = names;
-    let expected = "the names of bodies and of parts of robots, like [\"table\", \"the hand\"]";
-    Ok(names.ok_or_else(|| section.wrong("may_touch", value, expected))?.into_iter().map(str::to_owned).collect())
+    let name = |one: &'a Value<'a>| Some((one.get_ref().as_str()?, one));
+    let names = value.get_ref().as_array().and_then(|all| all.iter().map(name).collect());
+    names.ok_or_else(|| section.wrong("may_touch", value, MAY_TOUCH))
+}
+
+fn may_touch(section: &Section<'_>) -> Result<Vec<String>, SettingsError> {
+    Ok(names_in(section)?.into_iter().map(|(name, _)| name.to_owned()).collect())
+}
+
+/// That there is everything that a body may touch.
+fn are_known(section: &Section<'_>, known: &HashSet<String>) -> Result<(), SettingsError> {
+    for (name, value) in names_in(section)?.into_iter().filter(|(name, _)| !known.contains(*name)) {
+        let mut all: Vec<&str> = known.iter().map(String::as_str).collect();
+        all.sort_unstable();
+        let near = nearest(name, &all).map_or_else(String::new, |near| format!(": did you mean `{near}`?"));
+        let text = format!("`may_touch`: no body and no part of a robot is called `{name}`{near}");
+        return Err(section.source.error(value.span(), text));
+    }
+    Ok(())
 }
 
 /// How the robot of a channel takes it along, if it does.
@@ -366,7 +419,7 @@ mod tests {
         let text = "[names]\n\"do.3\" = \"gripper\"\n\
                     [[body]]\nname = \"table\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
                     [[body]]\nname = \"part\"\ncylinder = [20, 50.5]\nat = [0, 0, 100, 90, 0, 0]\non = \"flange\"\nwhen = \"gripper\"\n\
-                    [[body]]\nname = \"fixture\"\nmesh = \"fixture.stl\"\nscale = 1000\nwhen = \"!di.1\"\nmay_touch = [\"part\"]\n\
+                    [[body]]\nname = \"fixture\"\nmesh = \"fixture.stl\"\nscale = 1000\nwhen = \"!di.1\"\nmay_touch = [\"part\", \"ball\"]\n\
                     [[body]]\nname = \"tool\"\nurdf = \"tool.urdf\"\non = \"flange\"\nchannel = 2\n\
                     [[body]]\nname = \"ball\"\nsphere = 15\ngripped_by = \"gripper\"\nwithin = 20\nchannel = 2\nwhen = \"di.1\"\ncount = 2\n\
                     [[channel]]\nprogram = \"b.arl\"\n";
@@ -381,7 +434,7 @@ mod tests {
         assert_eq!((part.holder, part.when), (Holder::Flange(1), Signal::parse("do.3").map(|signal| (signal, true))));
         assert_eq!(
             (fixture.when, &fixture.may_touch[..]),
-            (Signal::parse("di.1").map(|signal| (signal, false)), &["part".into()][..])
+            (Signal::parse("di.1").map(|signal| (signal, false)), &["part".into(), "ball".into()][..])
         );
         let file = PathBuf::from("cells/fixture.stl");
         assert_eq!(fixture.form, Form::Solid(Solid::Mesh { file, scale: [1000.0; 3] }));
@@ -396,6 +449,19 @@ mod tests {
     }
 
     #[test]
+    fn bodies_of_a_kind_have_one_name_together() {
+        let text = "[[body]]\nname = \"part\"\nsphere = 1\ngripped_by = \"do.1\"\ncount = 2\nmay_touch = [\"table\", \"part\"]\n\
+                    [[body]]\nname = \"table\"\nsphere = 1\nmay_touch = [\"part 2\", \"the hand\", \"the hand of channel 2\"]\n\
+                    [[channel]]\nprogram = \"b.arl\"\n";
+        let cell = Cell::parse("cell.toml", text).unwrap();
+        let named: Vec<_> = cell.bodies.iter().map(|body| (&*body.name, body.kind.as_deref())).collect();
+        assert_eq!(named, [("part 1", Some("part")), ("part 2", Some("part")), ("table", None)]);
+        let twice = text.replace("\"table\"\nsphere", "\"part\"\nsphere");
+        let error = Cell::parse("cell.toml", &twice).unwrap_err();
+        assert!(error.message.contains("there is another [[body]] named `part`"), "{error}");
+    }
+
+    #[test]
     fn mistakes_say_what_would_be_right() {
         for (text, line, words) in [
             ("body = 3", 1, "tables that begin with [[body]]"),
@@ -406,6 +472,11 @@ mod tests {
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nmesh = \"a.stl\"", 4, "a [[body]] has one form"),
             ("[[body]]\nname = \"a\"\ncylinder = [-1, 2]", 3, "its radius and its length"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nat = [1, 2]", 4, "x, y, z in mm"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nat = [0, 0, nan]", 4, "x, y, z in mm"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nat = [0, 0, 1e7]", 4, "within 1000000 mm"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nat = [0, 0, 0, 1e7, 0, 0]", 4, "within 1000000 deg"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, inf]", 3, "its edges along x, y and z in mm"),
+            ("base = [0, -inf, 0]", 1, "x, y, z in mm"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\non = \"flansh\"", 4, "did you mean `flange`?"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nchannel = 1", 4, "this one stands in the world"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\non = \"flange\"\nchannel = 2", 5, "from 1 to 1"),
@@ -419,6 +490,18 @@ mod tests {
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ngripped_by = \"do.1\"\ncount = 1.5", 5, "a whole number"),
             ("[[body]]\nname = \"\"\nbox = [1, 2, 3]", 2, "what it is called"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nmay_touch = \"b\"", 4, "the names of bodies"),
+            (
+                "[[body]]\nname = \"table\"\nbox = [1, 2, 3]\nmay_touch = [\"the hand\", \"tabel\"]",
+                4,
+                "no body and no part of a robot is called `tabel`: did you mean `table`?",
+            ),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nmay_touch = [\"the hnad\"]", 4, "did you mean `the hand`?"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nmay_touch = [\"something else\"]", 4, "`something else`"),
+            (
+                "[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nmay_touch = [\"the hand of channel 2\"]",
+                4,
+                "called `the hand of channel 2`",
+            ),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nwhen = \"ai.1\"", 4, "a digital input or output"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nwhen = \"do.65\"", 4, "the cell has do.1 to do.64"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ncolour = 1", 4, "has no key `colour`"),

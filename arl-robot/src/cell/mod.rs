@@ -11,7 +11,7 @@ mod late;
 mod names;
 mod network;
 
-pub use bodies::{Body, Form, Grip, Holder, Solid};
+pub use bodies::{Body, Form, Grip, Holder, LARGEST_MM, Solid};
 pub use buses::{BusSettings, ModbusTcpSettings};
 pub use carriers::Carrier;
 pub use driver::{DriverSettings, DriverTime, Protocol};

@@ -13,6 +13,19 @@ const HAND: f64 = 0.03;
 /// How far a SCARA's arms are above the highest place of its flange, as part of the stroke.
 const ABOVE_STROKE: f64 = 0.25;
 
+/// All names of limbs: those of six-axis robots, then those of SCARA robots that they do not share.
+pub const LIMB_NAMES: [&str; 9] = [
+    "the base",
+    "the shoulder",
+    "the upper arm",
+    "the elbow",
+    "the forearm",
+    "the hand",
+    "arm 1",
+    "arm 2",
+    "the spindle",
+];
+
 /// A capsule that belongs to a link: all places that are no farther than `radius` from the straight line between its ends.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limb {
@@ -68,4 +81,17 @@ impl Robot {
 
 fn length(ends: [f64; 3]) -> f64 {
     Vector3::from(ends).norm()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_limb_has_one_of_the_names() {
+        for name in Robot::builtin_names() {
+            let robot = Robot::builtin(name).unwrap();
+            assert!(robot.limbs().iter().all(|limb| LIMB_NAMES.contains(&limb.name)), "{name}");
+        }
+    }
 }

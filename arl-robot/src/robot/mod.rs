@@ -22,7 +22,7 @@ pub use description::Description;
 pub use error::RobotError;
 #[cfg(not(feature = "files"))]
 pub use family::Family;
-pub use limbs::Limb;
+pub use limbs::{LIMB_NAMES, Limb};
 
 use std::ops::Deref;
 

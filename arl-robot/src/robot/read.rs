@@ -4,7 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::description::{Description, lifts};
-use super::section::{Section, Source};
+use super::section::{LARGEST, LARGEST_LIMIT, Section, Source};
 use super::{
     Axis, DriveLimits, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, axis_name, own_axes,
 };
@@ -94,7 +94,7 @@ fn tables<'a>(top: &Section<'a>, key: &str, name: &'a str, known: &[&str]) -> Re
 
 fn opw(geometry: &Section<'_>) -> Result<Opw, RobotError> {
     let length = |key| geometry.number(key, "a length in mm");
-    let signs: [f64; 6] = geometry.fixed("signs", "six signs, 1 or -1")?;
+    let signs: [f64; 6] = geometry.fixed("signs", "six signs, 1 or -1", LARGEST)?;
     if signs.iter().any(|sign| sign.abs() != 1.0) {
         let message = "`signs` of [geometry]: expected six signs, 1 or -1".to_owned();
         return Err(geometry.source.error(geometry.span_of("signs"), message));
@@ -109,7 +109,7 @@ fn opw(geometry: &Section<'_>) -> Result<Opw, RobotError> {
         c2,
         c3,
         c4: length("c4")?,
-        offsets: geometry.fixed("offsets", "six angles in deg")?,
+        offsets: geometry.fixed("offsets", "six angles in deg", LARGEST)?,
         signs,
     }))
 }
@@ -211,8 +211,8 @@ fn links(top: &Section<'_>, family: Family) -> Result<Vec<Link>, RobotError> {
     let read = |link: &Section<'_>| {
         Ok(Link {
             mass: link.positive("mass", "a mass in kg")?,
-            com: link.fixed("com", "the centre of mass: three lengths in mm")?,
-            inertia: link.fixed("inertia", "six moments in kg mm2: xx, xy, xz, yy, yz, zz")?,
+            com: link.fixed("com", "the centre of mass: three lengths in mm", LARGEST)?,
+            inertia: link.fixed("inertia", "six moments in kg mm2: xx, xy, xz, yy, yz, zz", LARGEST_LIMIT)?,
             gear: link.positive("gear", "turns of the motor for one of the axis")?,
             torque_constant: link.positive("torque_constant", "a torque constant in Nm/A")?,
         })

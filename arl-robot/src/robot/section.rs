@@ -32,6 +32,13 @@ pub(super) struct Section<'a> {
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
+/// No length, angle or position of a robot is larger, in mm or deg.
+pub(super) const LARGEST: f64 = 1e6;
+/// No speed, acceleration, jerk, mass or inertia is larger, in the unit of its key.
+pub(super) const LARGEST_LIMIT: f64 = 1e12;
+/// No limit and no mass is smaller: time at such a speed would never end.
+const SMALLEST: f64 = 1e-6;
+
 /// A number and its place.
 type Placed = (f64, Range<usize>);
 
@@ -86,18 +93,33 @@ impl<'a> Section<'a> {
         value.get_ref().as_bool().map(Some).ok_or_else(|| self.wrong(key, value, "true or false"))
     }
 
+    /// A length in mm, an angle in deg, or the like: no robot has a larger one than [`LARGEST`].
     pub(super) fn number(&self, key: &str, what: &str) -> Result<f64, RobotError> {
         let value = self.need(key, what)?;
-        number(value.get_ref()).ok_or_else(|| self.wrong(key, value, what))
+        let number = number(value.get_ref()).ok_or_else(|| self.wrong(key, value, what))?;
+        self.within(key, what, number, LARGEST)
     }
 
-    /// A number above zero.
+    /// A number above zero: a limit or a mass.
     pub(super) fn positive(&self, key: &str, what: &str) -> Result<f64, RobotError> {
-        let value = self.number(key, what)?;
-        if value > 0.0 {
-            return Ok(value);
+        let value = self.need(key, what)?;
+        let number = number(value.get_ref()).ok_or_else(|| self.wrong(key, value, what))?;
+        if number <= 0.0 {
+            let message = format!("`{key}` of {} is {number}: expected {what}, above 0", self.name);
+            return Err(self.source.error(value.span(), message));
         }
-        let message = format!("`{key}` of {} is {value}: expected {what}, above 0", self.name);
+        if number < SMALLEST {
+            let message = format!("`{key}` of {} is {number}: expected {what}, {SMALLEST} or more", self.name);
+            return Err(self.source.error(value.span(), message));
+        }
+        self.within(key, what, number, LARGEST_LIMIT)
+    }
+
+    fn within(&self, key: &str, what: &str, number: f64, most: f64) -> Result<f64, RobotError> {
+        if number.abs() <= most {
+            return Ok(number);
+        }
+        let message = format!("`{key}` of {} is {number}: expected {what}, from -{most} to {most}", self.name);
         Err(self.source.error(self.span_of(key), message))
     }
 
@@ -113,10 +135,11 @@ impl<'a> Section<'a> {
             .map(Some)
     }
 
-    /// An array of exactly `N` numbers.
-    pub(super) fn fixed<const N: usize>(&self, key: &str, what: &str) -> Result<[f64; N], RobotError> {
+    /// An array of exactly `N` numbers, none larger than `most`.
+    pub(super) fn fixed<const N: usize>(&self, key: &str, what: &str, most: f64) -> Result<[f64; N], RobotError> {
         let value = self.need(key, what)?;
         let numbers: Vec<f64> = self.numbers(key, what)?.unwrap_or_default().iter().map(|(n, _)| *n).collect();
+        numbers.iter().try_for_each(|number| self.within(key, what, *number, most).map(drop))?;
         let count = numbers.len();
         numbers.try_into().map_err(|_| {
             let message = format!("`{key}` of {}: expected {what}, found {count} of them", self.name);

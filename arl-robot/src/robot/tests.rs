@@ -38,6 +38,29 @@ fn limits_of_the_default_robot_are_the_published_ones() {
 }
 
 #[test]
+fn robots_that_would_be_stretched_out_at_zeros_stand_bent_at_home() {
+    for name in ["kr6-r700", "irb2400-10", "tx2-60", "cobra600"] {
+        let robot = Robot::builtin(name).unwrap();
+        let home: [f64; 6] = std::array::from_fn(|axis| robot.home.get(axis).copied().unwrap_or_default());
+        let flange = robot.kinematics.forward(&home);
+        let down = flange.rotation * nalgebra::Vector3::z();
+        let (at, arm) = (flange.translation.vector, robot.limbs());
+        assert!(at.y.abs() < 100.0 && at.x > 150.0, "{name}: in front of its base, not {at}");
+        // What is stretched out has no place to go to along its arm.
+        let length =
+            |limb: &Limb| (nalgebra::Vector3::from(limb.ends[1]) - nalgebra::Vector3::from(limb.ends[0])).norm();
+        let reach: f64 =
+            arm.iter().filter(|limb| limb.name != "the base" && limb.name != "the spindle").map(length).sum();
+        let level = nalgebra::Vector3::new(at.x, at.y, 0.0).norm();
+        assert!(level < 0.9 * reach, "{name}: {level} of {reach} mm");
+        if robot.family == Family::SixAxis {
+            assert!((down.z + 1.0).abs() < 1e-9, "{name}: the hand points down, not {down}");
+            assert!(at.z > 200.0, "{name}: {at}");
+        }
+    }
+}
+
+#[test]
 fn an_unknown_key_names_its_place_and_a_near_name() {
     let found = error(&changed("ori_vel", "ori_val"));
     assert_eq!((found.line, found.column), (22, 1), "{found}");
@@ -58,6 +81,12 @@ fn wrong_values_say_what_was_expected() {
         ("\"j2\"", "\"j3\"", 35, "expected \"j2\""),
         ("c2 = 705.0", "", 7, "lacks `c2`"),
         ("c2 = 705.0", "c2 = nan", 12, "expected the length"),
+        ("acc = 8000.0", "acc = inf", 20, "`acc` of [tcp]: expected an acceleration in mm/s2, found the number inf"),
+        ("acc = 8000.0", "acc = 1e300", 20, "`acc` of [tcp] is 1"),
+        ("acc = 8000.0", "acc = 1e-300", 20, "expected an acceleration in mm/s2, 0.000001 or more"),
+        ("c1 = 615.0", "c1 = -1e7", 11, "expected a length in mm, from -1000000 to 1000000"),
+        ("min = -170.0", "min = -1e7", 28, "`min` of [[axis]] is -10000000: expected the lowest position, from"),
+        ("offsets = [0,", "offsets = [1e9,", 15, "six angles in deg, from -1000000"),
         ("profile = \"S\"", "home = [0, 0, 200, 0, 0, 0]", 5, "`home` of j3 is 200"),
         ("profile = \"S\"", "home = [0]", 5, "expected 6 positions"),
         ("profile = \"S\"", "profile = ", 5, "no TOML"),

@@ -17,6 +17,8 @@ mod explain;
 mod failure;
 mod fmt;
 mod framing;
+#[cfg(any(test, feature = "fuzzing"))]
+pub mod fuzzing;
 pub mod host;
 mod link;
 mod listen;

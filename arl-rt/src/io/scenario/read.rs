@@ -269,6 +269,8 @@ fn event(source: Source<'_>, value: &Value<'_>, line: u32, words: &Words<'_>) ->
 /// The axes that a torque can turn, and those that can be moved.
 const OWN_AXES: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6"];
 const ALL_AXES: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
+/// No force or torque is larger, in N and Nm, and nobody moves an axis farther, in deg or mm.
+const MOST: f64 = 1e6;
 /// By how much an axis is moved.
 const LENGTH: &str = "deg, or mm of a linear axis";
 
@@ -411,10 +413,11 @@ fn analogs(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> 
 
 /// A force on the TCP.
 fn force(event: &Section<'_>, value: &Value<'_>) -> Result<RobotEffect, SettingsError> {
-    let wrong = || event.wrong("force", value, "three components in N, like [0, 0, 80]");
+    let wrong = || event.wrong("force", value, "three components in N, like [0, 0, 80], none above 1e6");
     let components = value.get_ref().as_array().ok_or_else(wrong)?;
     let components: Option<Vec<f64>> = components.iter().map(|component| number(component.get_ref())).collect();
     let force = components.and_then(|components| <[f64; 3]>::try_from(components).ok());
+    let force = force.filter(|force| force.iter().all(|component| component.abs() <= MOST));
     force.map(RobotEffect::Force).ok_or_else(wrong)
 }
 
@@ -427,9 +430,10 @@ fn axes<'a>(
 ) -> Result<Vec<(&'a str, f64)>, SettingsError> {
     let axes = table(source, value, name, known)?;
     let read = |(key, span, value): (&'a str, std::ops::Range<usize>, &'a Value<'a>)| {
-        let number = number(value.get_ref()).ok_or_else(|| {
+        let number = number(value.get_ref()).filter(|number| number.abs() <= MOST);
+        let number = number.ok_or_else(|| {
             let found = kind(value.get_ref());
-            source.error(span, format!("`{name}.{key}`: expected {what}, found {found}"))
+            source.error(span, format!("`{name}.{key}`: expected {what}, from -{MOST} to {MOST}, found {found}"))
         });
         Ok((key, number?))
     };

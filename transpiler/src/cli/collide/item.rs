@@ -13,6 +13,8 @@ use super::mesh::Mesh;
 #[derive(Clone)]
 pub(super) struct Item {
     pub(super) name: String,
+    /// What all of its kind are called: bodies of a `count`, or that limb of every robot.
+    pub(super) kind: Option<String>,
     pub(super) shape: SharedShape,
     pub(super) holder: Holder,
     /// Where the shape is in its holder.
@@ -27,7 +29,7 @@ pub(super) struct Item {
     pub(super) part: Option<Part>,
     /// Such a body is not there, or it is held and this is how it stands, or the other way round.
     pub(super) absent: bool,
-    /// The names of what it may touch.
+    /// The names of what it may touch, and of kinds.
     pub(super) may_touch: Vec<String>,
 }
 
@@ -88,8 +90,13 @@ impl Holder {
 impl Item {
     /// A shape that reaches so far, in mm, on something.
     fn new(name: String, (shape, radius): (SharedShape, f64), holder: Holder, at: Pose) -> Self {
-        let (limb, when, part, absent, may_touch) = (None, None, None, false, Vec::new());
-        Self { name, shape, holder, at, limb, radius, when, part, absent, may_touch }
+        let (kind, limb, when, part, absent, may_touch) = (None, None, None, None, false, Vec::new());
+        Self { name, kind, shape, holder, at, limb, radius, when, part, absent, may_touch }
+    }
+
+    /// Whether it says that it may touch another one.
+    pub(super) fn may_touch(&self, other: &Self) -> bool {
+        self.may_touch.iter().any(|name| *name == other.name || other.kind.as_ref() == Some(name))
     }
 
     /// How far its places are from its holder's origin at most, in mm.
@@ -132,8 +139,8 @@ pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<I
     let mut items = Vec::new();
     for piece in &looks.touched {
         let (shape, piece, radius) = form(piece, Meshes::Surfaces)?;
-        let may_touch = body.may_touch.clone();
-        let item = Item { may_touch, ..Item::new(body.name.clone(), (shape, radius), holder, place * piece) };
+        let (kind, may_touch) = (body.kind.clone(), body.may_touch.clone());
+        let item = Item { kind, may_touch, ..Item::new(body.name.clone(), (shape, radius), holder, place * piece) };
         let Some(grip) = body.grip else {
             items.push(Item { when: body.when, ..item });
             continue;

@@ -1,12 +1,14 @@
 //! Triangles of STL files.
 
-use std::io::{BufReader, Cursor};
 use std::path::Path;
 
+use arl_robot::cell::LARGEST_MM;
 use arl_robot::regular_file;
 use parry3d_f64::math::Vector;
 use parry3d_f64::shape::{SharedShape, TriMesh};
 use parry3d_f64::transformation::try_convex_hull;
+
+use super::super::scenery::stl;
 
 /// Triangles by the numbers of their corners, which are in mm.
 pub(super) struct Mesh {
@@ -19,26 +21,16 @@ impl Mesh {
     pub(super) fn load(file: &Path, scale: [f64; 3]) -> Result<Self, String> {
         let cannot = |why: &str| cannot(file, why);
         let bytes = regular_file::read(file).map_err(|error| cannot(&error.to_string()))?;
-        let read = stl_io::read_stl(&mut BufReader::new(Cursor::new(bytes)));
-        let stl = read.map_err(|error| cannot(&format!("it is no STL file ({error})")))?;
-        let corner = |corner: &stl_io::Vertex| {
-            let [x, y, z]: [f32; 3] = (*corner).into();
-            Vector::new(f64::from(x), f64::from(y), f64::from(z)) * Vector::from_array(scale)
-        };
-        let corners: Vec<Vector> = stl.vertices.iter().map(corner).collect();
-        if corners.iter().any(|corner| !corner.is_finite()) {
-            return Err(cannot("it has corners that are no numbers"));
+        let stl = stl::read(&bytes).map_err(|why| cannot(&why))?;
+        let corner = |corner: &[f32; 3]| Vector::from_array(corner.map(f64::from)) * Vector::from_array(scale);
+        let corners: Vec<Vector> = stl.corners.iter().map(corner).collect();
+        let is_far = |corner: &&Vector| !(corner.abs().max_element() <= LARGEST_MM);
+        if let Some(far) = corners.iter().find(is_far) {
+            let why =
+                format!("a corner is at {far} mm; the farthest that can be is {LARGEST_MM} mm: is its `scale` right?");
+            return Err(cannot(&why));
         }
-        let triangles: Option<Vec<[u32; 3]>> = stl
-            .faces
-            .iter()
-            .map(|face| {
-                let [a, b, c] = face.vertices.map(|corner| u32::try_from(corner).ok());
-                Some([a?, b?, c?])
-            })
-            .collect();
-        let triangles = triangles.filter(|all| !all.is_empty()).ok_or_else(|| cannot("it has no triangles"))?;
-        Ok(Self { corners, triangles })
+        Ok(Self { corners, triangles: stl.triangles })
     }
 
     /// How far its corners are from its origin at most, in mm.

@@ -1,8 +1,8 @@
 //! Collisions of a run: each cycle, robots with themselves, with each other, with the bodies of the cell, what they carry and what their
 //! external axes move.
 //!
-//! The first contact of each pair is told with the time and the place of the motion. With a clearance, so is the nearest that a pair comes
-//! to each other, where that is nearer.
+//! Each contact of a pair is told with the time and the place of the motion; once it has parted, the next one is another. With a clearance, so
+//! is the nearest that a pair that never touched comes to each other, where that is nearer.
 
 mod arm;
 mod check;
@@ -14,7 +14,8 @@ mod parts;
 mod tests;
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::fmt;
 use std::rc::Rc;
@@ -30,7 +31,7 @@ use super::show;
 use arm::Arm;
 pub(super) use check::{Look, check};
 use item::{Holder, Item};
-use pair::Pair;
+use pair::{Met, Pair};
 use parts::Parts;
 
 /// What was found, for who asked for it.
@@ -94,8 +95,10 @@ struct Collisions {
     arms: Vec<Option<Arm>>,
     items: Vec<Item>,
     pairs: Vec<Pair>,
-    /// What has touched each other, by names: a body may have several forms.
+    /// What has touched each other, or was told as near, by names: a body may have several forms.
     touched: BTreeSet<[String; 2]>,
+    /// How many forms of two things touch now, by their names.
+    touching: BTreeMap<[String; 2], usize>,
     found: Rc<RefCell<Found>>,
     /// Whether contacts are told as they come.
     tells: bool,
@@ -106,9 +109,13 @@ impl Collisions {
     fn new(scene: Scene, clearance: f64, tells: bool) -> (Self, Rc<RefCell<Found>>) {
         let Scene { bodies, links, carriers, .. } = scene;
         let found = Rc::<RefCell<Found>>::default();
-        let (arms, items, pairs, touched) = (Vec::new(), Vec::new(), Vec::new(), BTreeSet::new());
+        let (arms, items, pairs) = (Vec::new(), Vec::new(), Vec::new());
+        let (touched, touching) = (BTreeSet::new(), BTreeMap::new());
         let watched = Rc::clone(&found);
-        (Self { bodies, links, carriers, clearance, arms, items, pairs, touched, found: watched, tells }, found)
+        (
+            Self { bodies, links, carriers, clearance, arms, items, pairs, touched, touching, found: watched, tells },
+            found,
+        )
     }
 
     fn begin(&mut self, hello: &Hello) {
@@ -129,13 +136,17 @@ impl Collisions {
             let limbs = links.map(|links| links.iter().map(named).collect());
             let mut limbs: Vec<Item> = limbs.unwrap_or_else(|| item::limbs(channel, runs));
             if several {
-                limbs.iter_mut().for_each(|limb| limb.name = format!("{} of channel {}", limb.name, channel + 1));
+                for limb in &mut limbs {
+                    let name = format!("{} of channel {}", limb.name, channel + 1);
+                    limb.kind = Some(std::mem::replace(&mut limb.name, name));
+                }
             }
             self.items.extend(limbs);
         }
         let held = |body: &Item| Item { holder: body.holder.in_arms(hello.channels.len(), &self.arms), ..body.clone() };
         self.items.extend(self.bodies.iter().map(held));
         self.pairs = pair::pairs(&self.items, &self.arms);
+        self.touching.clear();
         self.found.borrow_mut().begun = true;
     }
 
@@ -151,8 +162,9 @@ impl Collisions {
         }
         for pair in &mut self.pairs {
             let [Some(one), Some(other)] = pair.items.map(|at| self.items.get(at)) else { continue };
-            if [one, other].iter().any(|item| item.part.is_some_and(|part| part.body == placing.body)) {
-                pair.place([one, other], &self.arms);
+            let is_its = [one, other].iter().any(|item| item.part.is_some_and(|part| part.body == placing.body));
+            if is_its && pair.place([one, other], &self.arms) {
+                part(&mut self.touching, [one, other]);
             }
         }
     }
@@ -173,7 +185,9 @@ impl Collisions {
         for pair in &mut self.pairs {
             let [Some(one), Some(other)] = pair.items.map(|at| self.items.get(at)) else { continue };
             if !(is_there(one, cycle) && is_there(other, cycle)) {
-                pair.forget();
+                if pair.leave() {
+                    part(&mut self.touching, [one, other]);
+                }
                 continue;
             }
             if !pair.is_due(&self.arms) {
@@ -190,9 +204,18 @@ impl Collisions {
                 other: other.name.clone(),
                 distance,
             };
-            let contact = pair.note(distance, self.clearance, &self.arms, contact);
-            let touched = &mut self.touched;
-            contacts.extend(contact.filter(|contact| touched.insert([contact.one.clone(), contact.other.clone()])));
+            match pair.note(distance, self.clearance, &self.arms, contact) {
+                Some(Met::Touched(contact)) => {
+                    let forms = self.touching.entry(names([one, other])).or_default();
+                    *forms += 1;
+                    if *forms == 1 {
+                        self.touched.insert(names([one, other]));
+                        contacts.push(contact);
+                    }
+                }
+                Some(Met::Parted) => part(&mut self.touching, [one, other]),
+                None => {}
+            }
         }
         contacts
     }
@@ -240,6 +263,21 @@ impl Hears for Collisions {
 
     fn broken(&self) -> String {
         "collisions are not looked for".into()
+    }
+}
+
+/// The names of two items, under which all forms of both are one pair.
+fn names(items: [&Item; 2]) -> [String; 2] {
+    items.map(|item| item.name.clone())
+}
+
+/// Takes in that two forms do not touch any more.
+fn part(touching: &mut BTreeMap<[String; 2], usize>, items: [&Item; 2]) {
+    if let Entry::Occupied(mut forms) = touching.entry(names(items)) {
+        *forms.get_mut() -= 1;
+        if *forms.get() == 0 {
+            forms.remove();
+        }
     }
 }
 

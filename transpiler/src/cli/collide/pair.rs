@@ -11,6 +11,8 @@ use super::item::{Holder, Item, Limb};
 const RESOLUTION_MM: f64 = 0.05;
 /// Links with fewer than so many others between them are too near to each other to be kept apart.
 const LINKS_BETWEEN: usize = 2;
+/// What touched has parted once it is so many mm apart: what grinds along something is one contact.
+const PARTED_MM: f64 = 1.0;
 /// Rounding of distances and positions, in mm.
 const ROUNDING_MM: f64 = 1e-4;
 
@@ -52,8 +54,18 @@ enum State {
     Apart,
     /// Nearer than the clearance: the nearest so far.
     Near(Contact),
-    /// It touched, or all is told.
+    /// It touches, as was told.
+    Touching,
+    /// All is told.
     Done,
+}
+
+/// What came of a pair in a cycle.
+pub(super) enum Met {
+    /// Its items touch, which they did not before.
+    Touched(Contact),
+    /// They do not touch any more.
+    Parted,
 }
 
 struct Known {
@@ -63,62 +75,54 @@ struct Known {
     room: f64,
 }
 
-/// All pairs that count: nothing that is built together, nothing that stands in the world with something else that does.
+/// All pairs that count, in the order of their items: nothing that is built together, nothing that stands in the world with something else
+/// that does.
 pub(super) fn pairs(items: &[Item], arms: &[Option<Arm>]) -> Vec<Pair> {
+    let limbs: Vec<&Item> = items.iter().filter(|item| item.limb.is_some()).collect();
+    // A cell may have many bodies that stand: they are looked at with what moves only.
+    let (standing, moving): (Vec<_>, Vec<_>) = items.iter().enumerate().partition(|(_, item)| stands(item));
     let mut pairs = Vec::new();
-    for (at, one) in items.iter().enumerate() {
-        for (behind, other) in items.iter().enumerate().skip(at + 1) {
-            if counts(items, one, other) {
-                let ends = [one, other].map(|item| End::of(item, arms));
-                let is_own = one.holder.arm() == other.holder.arm();
-                let is_built = is_own || !ends.iter().any(|end| end.arm(arms).is_some_and(Arm::is_robot));
-                let shared = match (ends[0].arm(arms), ends[1].arm(arms)) {
-                    (Some(one), Some(other)) => one.shared_with(other).min(ends[0].link).min(ends[1].link),
-                    _ => 0,
-                };
-                let (state, known) = (State::Apart, None);
-                pairs.push(Pair {
-                    items: [at, behind],
-                    ends,
-                    is_own,
-                    is_built,
-                    shared,
-                    overlap: false,
-                    is_new: false,
-                    stays_near: false,
-                    state,
-                    known,
-                });
+    for (number, (at, one)) in moving.iter().enumerate() {
+        let behind = moving.iter().skip(number + 1);
+        for (other_at, other) in standing.iter().chain(behind) {
+            let ([at, behind], [one, other]) =
+                if at < other_at { ([*at, *other_at], [*one, *other]) } else { ([*other_at, *at], [*other, *one]) };
+            if counts(&limbs, one, other) {
+                pairs.push(Pair::new([at, behind], [one, other], arms));
             }
         }
     }
+    pairs.sort_unstable_by_key(|pair| pair.items);
     pairs
 }
 
-fn counts(items: &[Item], one: &Item, other: &Item) -> bool {
-    let stands = |item: &Item| matches!(item.holder, Holder::World | Holder::Link { link: 0, .. });
-    let may_touch = |one: &Item, other: &Item| one.may_touch.contains(&other.name);
-    if (stands(one) && stands(other)) || may_touch(one, other) || may_touch(other, one) {
+fn stands(item: &Item) -> bool {
+    matches!(item.holder, Holder::World | Holder::Link { link: 0, .. })
+}
+
+/// Whether two items are looked at; `limbs` are those of all robots.
+fn counts(limbs: &[&Item], one: &Item, other: &Item) -> bool {
+    if one.may_touch(other) || other.may_touch(one) {
         return false;
     }
-    if takes(items, one, other) || takes(items, other, one) || are_one(one, other) {
+    if takes(limbs, one, other) || takes(limbs, other, one) || are_one(one, other) {
         return false;
     }
     if one.holder.arm() != other.holder.arm() {
         return true;
     }
     match (one.limb, other.limb) {
-        (Some(limb), Some(behind)) => are_apart(items, one, (limb, behind)),
+        (Some(limb), Some(behind)) => are_apart(limbs, one, (limb, behind)),
         // What is on the flange is fixed to the last limb.
-        (Some(limb), None) | (None, Some(limb)) => !is_last(items, one, limb),
+        (Some(limb), None) | (None, Some(limb)) => !is_last(limbs, one, limb),
         (None, None) => false,
     }
 }
 
 /// Whether the first one is taken along by the second one, what is on the flange or the last limb: that it touches it is what it is for.
-fn takes(items: &[Item], part: &Item, gripper: &Item) -> bool {
+fn takes(limbs: &[&Item], part: &Item, gripper: &Item) -> bool {
     let holds = |by: usize| match gripper.limb {
-        Some(limb) => gripper.holder.arm() == Some(by) && is_last(items, gripper, limb),
+        Some(limb) => gripper.holder.arm() == Some(by) && is_last(limbs, gripper, limb),
         None => gripper.holder == Holder::Flange { arm: by } && gripper.part.is_none(),
     };
     part.part.is_some_and(|part| holds(part.by))
@@ -130,13 +134,13 @@ fn are_one(one: &Item, other: &Item) -> bool {
 }
 
 /// Whether something keeps two limbs of the robot of an item apart.
-fn are_apart(items: &[Item], of: &Item, limbs: (Limb, Limb)) -> bool {
-    match limbs {
+fn are_apart(limbs: &[&Item], of: &Item, both: (Limb, Limb)) -> bool {
+    match both {
         (Limb::Capsule { at, radius, .. }, Limb::Capsule { at: behind, radius: other_radius, .. }) => {
             // What is between them may be too short to keep them apart.
             let (first, second) = (at.min(behind), at.max(behind));
-            let between = items.iter().filter(|item| item.holder.arm() == of.holder.arm());
-            let length = |item: &Item| match item.limb {
+            let between = limbs.iter().filter(|item| item.holder.arm() == of.holder.arm());
+            let length = |item: &&Item| match item.limb {
                 Some(Limb::Capsule { at, length, .. }) if at > first && at < second => Some(length),
                 _ => None,
             };
@@ -148,11 +152,11 @@ fn are_apart(items: &[Item], of: &Item, limbs: (Limb, Limb)) -> bool {
 }
 
 /// Whether a limb is the last one of the robot of an item; of links, what axes turn beside the flange is one limb.
-fn is_last(items: &[Item], of: &Item, limb: Limb) -> bool {
+fn is_last(limbs: &[&Item], of: &Item, limb: Limb) -> bool {
     match limb {
         Limb::Capsule { .. } => {
-            let of_arm = |other: &&Item| other.limb.is_some() && other.holder.arm() == of.holder.arm();
-            items.iter().rfind(of_arm).and_then(|last| last.limb) == Some(limb)
+            let of_arm = |other: &&&Item| other.holder.arm() == of.holder.arm();
+            limbs.iter().rfind(of_arm).and_then(|last| last.limb) == Some(limb)
         }
         Limb::Link { link, of } => link + 1 >= of,
     }
@@ -176,21 +180,39 @@ impl End {
 }
 
 impl Pair {
+    fn new(items: [usize; 2], both: [&Item; 2], arms: &[Option<Arm>]) -> Self {
+        let ends = both.map(|item| End::of(item, arms));
+        let [one, other] = both;
+        let is_own = one.holder.arm() == other.holder.arm();
+        let is_built = is_own || !ends.iter().any(|end| end.arm(arms).is_some_and(Arm::is_robot));
+        let shared = match (ends[0].arm(arms), ends[1].arm(arms)) {
+            (Some(one), Some(other)) => one.shared_with(other).min(ends[0].link).min(ends[1].link),
+            _ => 0,
+        };
+        let (overlap, is_new, stays_near) = (false, false, false);
+        Self { items, ends, is_own, is_built, shared, overlap, is_new, stays_near, state: State::Apart, known: None }
+    }
+
     #[cfg(test)]
     pub(super) fn is_own(&self) -> bool {
         self.is_own
     }
 
-    /// Takes in that one of its items, which are these, is elsewhere.
-    pub(super) fn place(&mut self, items: [&Item; 2], arms: &[Option<Arm>]) {
+    /// Takes in that one of its items, which are these, is elsewhere. Whether they touched until now.
+    pub(super) fn place(&mut self, items: [&Item; 2], arms: &[Option<Arm>]) -> bool {
         self.ends = items.map(|item| End::of(item, arms));
         self.is_new = true;
-        self.forget();
+        self.leave()
     }
 
-    /// Forgets where it was: it is looked at in the next cycle.
-    pub(super) fn forget(&mut self) {
+    /// One of its items is not there, or elsewhere: it is looked at anew once both are there. Whether they touched until now.
+    pub(super) fn leave(&mut self) -> bool {
         self.known = None;
+        let touched = matches!(self.state, State::Touching);
+        if touched {
+            self.state = State::Apart;
+        }
+        touched
     }
 
     /// Whether it may have come near enough to matter.
@@ -228,14 +250,23 @@ impl Pair {
         moved(one, here) + moved(other, there)
     }
 
-    /// Notes how far apart the two are now; the contact, if it is the first one.
+    /// Notes how far apart the two are now, in mm; what came of that.
     pub(super) fn note(
         &mut self,
         distance: f64,
         clearance: f64,
         arms: &[Option<Arm>],
         contact: impl Fn(f64) -> Contact,
-    ) -> Option<Contact> {
+    ) -> Option<Met> {
+        let mut met = None;
+        if matches!(self.state, State::Touching) {
+            if distance < PARTED_MM {
+                self.know(PARTED_MM - distance, arms);
+                return None;
+            }
+            self.state = State::Apart;
+            met = Some(Met::Parted);
+        }
         let touches = distance <= 0.0;
         let is_first = self.is_new || (self.is_built && contact(0.0).line == 0);
         let is_built_so = self.overlap || is_first;
@@ -243,8 +274,9 @@ impl Pair {
         self.stays_near = (is_first || self.stays_near) && distance < clearance;
         self.is_new = false;
         if touches && !is_built_so {
-            self.state = State::Done;
-            return Some(contact(0.0));
+            self.state = State::Touching;
+            self.know(PARTED_MM, arms);
+            return Some(Met::Touched(contact(0.0)));
         }
         let clearance = if self.is_own { 0.0 } else { clearance };
         let room = if distance < clearance {
@@ -256,17 +288,22 @@ impl Pair {
         } else {
             distance - clearance
         };
+        self.know(room, arms);
+        met
+    }
+
+    /// Takes in where the robots are: the pair matters again once its items have moved so far, in mm.
+    fn know(&mut self, room: f64, arms: &[Option<Arm>]) {
         let axes = self.ends.map(|end| end.arm(arms).map_or_else(Vec::new, |arm| arm.axes().to_vec()));
         let based = self.ends.map(|end| end.arm(arms).map_or(0, Arm::based));
         self.known = Some(Known { axes, based, room: (room - ROUNDING_MM).max(0.0) });
-        None
     }
 
     /// The nearest that the two came to each other, if that is to be told; once.
     pub(super) fn take_nearest(&mut self) -> Option<Contact> {
         match std::mem::replace(&mut self.state, State::Done) {
             State::Near(contact) => Some(contact),
-            State::Apart | State::Done => None,
+            State::Apart | State::Touching | State::Done => None,
         }
     }
 }

@@ -343,15 +343,17 @@ fn what_is_wrong_with_bodies_is_said() {
         }
     };
     assert!(refused(None).contains("body `a`: cannot read"));
-    assert!(
-        refused(Some(b"solid nothing")).contains("no triangles") || refused(Some(b"solid")).contains("no STL file")
-    );
+    assert!(refused(Some(b"solid nothing")).contains("no triangles"));
+    assert!(refused(Some(b"no solid")).contains("it is no STL file: text would begin with `solid`"));
+    assert!(refused(Some(b"solid\nfacet\nouter loop\nvertex 1 2 inf")).contains("line 4: expected a finite number"));
     assert!(refused(Some(&[0; 90])).contains("no triangles"));
     let triangle = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
     std::fs::write(&file, triangle).unwrap();
     let triangle = mesh::Mesh::load(&file, [1000.0, 1.0, 1.0]).unwrap();
     assert_eq!(triangle.farthest(), 1000.0);
     assert!(triangle.hull(&file).is_ok());
+    let far = mesh::Mesh::load(&file, [1e7, 1.0, 1.0]).err().unwrap_or_default();
+    assert!(far.contains("the farthest that can be is 1000000 mm: is its `scale` right?"), "{far}");
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
@@ -634,4 +636,76 @@ fn a_part_may_be_near_what_it_lay_on_until_it_has_left_it() {
     };
     assert_eq!(told(false), [0.0; 0]);
     assert!(matches!(told(true)[..], [distance] if distance < 0.1), "{:?}", told(true));
+}
+
+#[test]
+fn what_has_parted_and_touches_again_is_told_again() {
+    let text = "[[body]]\nname = \"post\"\nbox = [60, 60, 60]\nat = [900, 0, 1080]\n";
+    let touched = |swing: &dyn Fn(f64) -> f64| {
+        let mut collisions = begun(text, 50.0, &["kr10-r1420"]);
+        let mut found = Vec::new();
+        for step in 0..=2000 {
+            let axes = vec![swing(f64::from(step) / 500.0), -90.0, 90.0, 0.0, 0.0, 0.0];
+            found.extend(collisions.cycle(&cycle(step, &[axes])));
+        }
+        let nearest = collisions.nearest();
+        assert!(!nearest.iter().any(|contact| contact.one == "the hand"), "it touched: {nearest:?}");
+        let of_hand = found.iter().filter(|contact| (&*contact.one, &*contact.other) == ("the hand", "post"));
+        of_hand.map(|contact| contact.time).collect::<Vec<_>>()
+    };
+    // Past it and back, twice a turn.
+    let times = touched(&|turns| 30.0 * (turns * std::f64::consts::TAU).cos());
+    assert_eq!(times.len(), 8, "{times:?}");
+    assert!(times.windows(2).all(|two| (two[1] - two[0] - 0.25).abs() < 0.02), "{times:?}");
+    // What grinds along it, a fraction of a mm to and fro, touches once.
+    let edge = 30.0 * (times[0] * std::f64::consts::TAU * 2.0).cos();
+    let grinding = touched(&|turns| if turns < 0.2 { edge + 5.0 } else { edge + 0.03 * (turns * 300.0).sin() - 0.02 });
+    assert_eq!(grinding.len(), 1, "{grinding:?}");
+}
+
+#[test]
+fn the_name_of_several_bodies_means_all_of_them() {
+    let part = "[[body]]\nname = \"part\"\nbox = [50, 50, 50]\ngripped_by = \"do.1\"\ncount = 3\n";
+    let post = "[[body]]\nname = \"post\"\nbox = [50, 50, 50]\nat = [900, 0, 0]\n";
+    let pairs = |text: &str, robots: &[&str]| {
+        let collisions = begun(text, 0.0, robots);
+        let name = |at: usize| collisions.items[at].name.clone();
+        let both = |pair: &Pair| pair.items.map(name);
+        collisions.pairs.iter().map(both).collect::<Vec<_>>()
+    };
+    let has = |all: &[[String; 2]], one: &str, other: &str| all.iter().any(|pair| pair[0] == one && pair[1] == other);
+    let all = pairs(&format!("{part}{post}"), &["kr10-r1420"]);
+    assert!((1..=3).all(|number| has(&all, &format!("part {number}"), "post")), "{all:?}");
+    for text in [format!("{part}{post}may_touch = [\"part\"]\n"), format!("{part}may_touch = [\"post\"]\n{post}")] {
+        let all = pairs(&text, &["kr10-r1420"]);
+        assert!(!all.iter().any(|pair| pair[0].starts_with("part") && pair[1] == "post"), "{all:?}");
+    }
+    let one = pairs(&format!("{part}{post}may_touch = [\"part 2\"]\n"), &["kr10-r1420"]);
+    assert!(has(&one, "part 1", "post") && !has(&one, "part 2", "post"), "{one:?}");
+    // The same for a limb of all robots.
+    let two = |may: &str| {
+        let text = format!("{post}may_touch = [\"{may}\"]\n[[channel]]\nprogram = \"b.arl\"\n");
+        let all = pairs(&text, &["kr10-r1420", "kr10-r1420"]);
+        [1, 2].map(|channel| has(&all, &format!("the hand of channel {channel}"), "post"))
+    };
+    assert_eq!(
+        (two("the hand"), two("the hand of channel 2"), two("the elbow")),
+        ([false; 2], [true, false], [true; 2])
+    );
+}
+
+#[test]
+fn many_bodies_cost_by_their_number() {
+    const BODIES: usize = 20_000;
+    let body = |at: usize| {
+        let (x, y) = (at % 200 * 50, at / 200 * 50);
+        format!("[[body]]\nname = \"b{at}\"\nbox = [10, 10, 10]\nat = [{x}, {y}, -5000]\n")
+    };
+    let text: String = (0..BODIES).map(body).collect();
+    let mut collisions = begun(&text, 0.0, &["kr10-r1420"]);
+    // Each with all limbs but the base, which stands as they do.
+    let own = collisions.pairs.iter().filter(|pair| pair.is_own()).count();
+    assert_eq!(collisions.pairs.len() - own, 5 * BODIES);
+    assert!(collisions.pairs.is_sorted_by_key(|pair| pair.items));
+    assert_eq!(collisions.cycle(&cycle(0, &[vec![0.0, -90.0, 90.0, 0.0, 90.0, 0.0]])), []);
 }

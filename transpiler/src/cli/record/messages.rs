@@ -302,8 +302,8 @@ pub(in super::super) struct Closest {
     pub(in super::super) percent: f64,
 }
 
-/// `arl2rs.v1.Contact`: the first time that two bodies touch, or the nearest that they come to each other where that is
-/// nearer than asked for.
+/// `arl2rs.v1.Contact`: two bodies begin to touch, or the nearest that they come to each other where that is nearer than asked
+/// for.
 #[derive(Clone, PartialEq, Message)]
 pub(in super::super) struct Contact {
     #[prost(double, tag = "1")]

@@ -8,7 +8,7 @@ use arl_robot::kinematics::Frame;
 use arl_robot::regular_file;
 
 use super::super::said::{Limb, Placing, State};
-use super::super::scenery::{Looks, Piece, Scenery, Shape};
+use super::super::scenery::{Looks, Piece, Scenery, Shape, stl};
 use super::super::show;
 use super::links::{Arm, WORLD, parts, straight};
 use super::messages::{self, Color, Cylinder, Model, Pose, SceneEntity, SceneEntityDeletion, SceneUpdate, Timestamp};
@@ -34,12 +34,10 @@ struct Meshes(BTreeMap<PathBuf, Option<Vec<u8>>>);
 
 impl Meshes {
     fn read(&mut self, file: &Path) -> Option<Vec<u8>> {
-        let read = || match regular_file::read(file) {
-            Ok(bytes) => Some(bytes),
-            Err(error) => {
-                show::warning(&format!("{} is not drawn: {error}", file.display()));
-                None
-            }
+        let read = || {
+            let bytes = regular_file::read(file).map_err(|error| error.to_string());
+            let wrong = |why| show::warning(&format!("{} is not drawn: {why}", file.display()));
+            bytes.and_then(stl::for_viewers).map_err(wrong).ok()
         };
         self.0.entry(file.to_owned()).or_insert_with(read).clone()
     }

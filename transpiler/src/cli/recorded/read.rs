@@ -12,7 +12,7 @@ use super::super::failure::Failure;
 use super::super::texts::Text;
 use super::store::Store;
 
-/// No record of a recording is longer, in bytes.
+/// No record of a recording is longer, in bytes; none is longer than its file either, whatever it says of itself.
 const LONGEST_RECORD: usize = 1 << 30;
 
 /// The run of a recording.
@@ -20,15 +20,22 @@ const LONGEST_RECORD: usize = 1 << 30;
 /// # Errors
 /// There is no such file, or it is no recording of a run.
 pub(in super::super) fn read(path: &Path) -> Result<Store, Failure> {
-    let opened = regular_file::expect(path).and_then(|()| std::fs::File::open(path));
-    let mut file = opened.map_err(|error| Failure::io("read", path, &error))?;
-    let no_recording = |why: &str| Failure::Other(format!("{} is no recording of a run: {why}", path.display()));
+    let cannot = |error: std::io::Error| Failure::io("read", path, &error);
+    let mut file = regular_file::expect(path).and_then(|()| std::fs::File::open(path)).map_err(cannot)?;
+    let size = file.metadata().map_err(cannot)?.len();
+    of(&mut file, size).map_err(|why| Failure::Other(format!("{} is no recording of a run: {why}", path.display())))
+}
+
+/// The run of a recording of so many bytes.
+///
+/// # Errors
+/// It is none.
+pub(in super::super) fn of(file: &mut impl Read, size: u64) -> Result<Store, String> {
     let mut store = Store::default();
     let mut reading = Reading { store: &mut store, topics: HashMap::new() };
-    let trouble = reading.read_all(&mut file).err();
+    let trouble = reading.read_all(file, size).err();
     if store.cell.channels.is_empty() {
-        let why = trouble.unwrap_or_else(|| "it says nothing of robots or programs (topic /arl/cell)".to_owned());
-        return Err(no_recording(&why));
+        return Err(trouble.unwrap_or_else(|| "it says nothing of robots or programs (topic /arl/cell)".to_owned()));
     }
     store.trouble = trouble.map(|why| format!("the recording ends after {:.3} s: {why}", store.end));
     Ok(store)
@@ -41,8 +48,9 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    fn read_all(&mut self, file: &mut std::fs::File) -> Result<(), String> {
-        let options = LinearReaderOptions::default().with_record_length_limit(LONGEST_RECORD);
+    fn read_all(&mut self, file: &mut impl Read, size: u64) -> Result<(), String> {
+        let longest = usize::try_from(size).unwrap_or(usize::MAX).min(LONGEST_RECORD);
+        let options = LinearReaderOptions::default().with_record_length_limit(longest);
         let mut reader = LinearReader::new_with_options(options);
         while let Some(event) = reader.next_event() {
             match event.map_err(|error| error.to_string())? {

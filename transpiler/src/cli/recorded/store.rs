@@ -1,16 +1,18 @@
 //! The messages of a run, in columns.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 
 use arl_robot::kinematics::frame;
 use mcap::McapResult;
 use prost::Message as _;
+use twox_hash::XxHash3_128;
 
 use super::super::record::messages::{Cell, Channel, Contact, Controller, Io, Log, Motion, SceneUpdate};
 use super::super::record::{Schema, Sink};
 use super::super::said::written;
 use super::super::texts::Text;
+use super::bounds::Bounded;
 
 /// The topics of channels: `/arl/channel_1`.
 const CHANNEL: &str = "/arl/channel_";
@@ -32,6 +34,10 @@ pub(in super::super) struct Store {
     /// The meshes of the scene, each once, and for each model of the scene in turn which one it is.
     pub(in super::super) meshes: Vec<Vec<u8>>,
     pub(in super::super) models: Vec<usize>,
+    /// The places of meshes, by their hash.
+    pub(in super::super) known_meshes: HashMap<u128, usize>,
+    /// What the cell calls signals.
+    pub(in super::super) names: HashMap<String, String>,
     pub(in super::super) tracks: Vec<Track>,
     /// Each signal's changes, by its name in files: `di.1`.
     pub(in super::super) signals: BTreeMap<Signal, Vec<(f64, f64)>>,
@@ -76,6 +82,7 @@ pub(in super::super) struct Track {
     pub(in super::super) motion_files: BTreeMap<u32, u16>,
     /// The names that pointers and states have numbers of.
     pub(in super::super) files: Vec<String>,
+    numbers: HashMap<String, u16>,
     pub(in super::super) states: Vec<(f64, String)>,
     /// What each line took, by the number of its file.
     pub(in super::super) lines: BTreeMap<(u16, u32), Took>,
@@ -109,23 +116,25 @@ impl fmt::Display for Signal {
 impl Store {
     /// What the cell calls a signal, if it has a name for it.
     pub(in super::super) fn name_of(&self, signal: Signal) -> Option<&str> {
-        let signal = signal.to_string();
-        self.cell.names.iter().find(|name| name.signal == signal).map(|name| name.name.as_str())
+        self.names.get(&signal.to_string()).map(String::as_str)
     }
 
     /// Takes in a message; those of other people are passed over.
-    pub(in super::super) fn take(&mut self, topic: &str, time: u64, message: &[u8]) -> Result<(), prost::DecodeError> {
+    ///
+    /// # Errors
+    /// It is none of ours, or says what no run can: why.
+    pub(in super::super) fn take(&mut self, topic: &str, time: u64, message: &[u8]) -> Result<(), String> {
         let time = time as f64 / 1e9;
         match topic {
-            "/arl/cell" => self.cell = Cell::decode(message)?,
-            "/scene" => self.scene(time, SceneUpdate::decode(message)?),
-            "/arl/controller" => self.controller.push(Controller::decode(message)?),
-            "/arl/io" => self.io(Io::decode(message)?),
-            "/arl/motions" => self.motion(Motion::decode(message)?),
-            "/arl/contacts" => self.contacts.push(Contact::decode(message)?),
-            "/log" => self.log.push((time, Log::decode(message)?)),
+            "/arl/cell" => self.cell(decoded(message)?),
+            "/scene" => self.scene(time, decoded(message)?),
+            "/arl/controller" => self.controller.push(decoded(message)?),
+            "/arl/io" => self.io(decoded(message)?),
+            "/arl/motions" => self.motion(decoded(message)?),
+            "/arl/contacts" => self.contacts.push(decoded(message)?),
+            "/log" => self.log.push((time, Log::decode(message).map_err(|error| error.to_string())?)),
             _ => match topic.strip_prefix(CHANNEL).and_then(|number| number.parse::<usize>().ok()) {
-                Some(number @ 1..=MOST_CHANNELS) => self.channel(number - 1, &Channel::decode(message)?),
+                Some(number @ 1..=MOST_CHANNELS) => self.channel(number - 1, &decoded(message)?)?,
                 _ => return Ok(()),
             },
         }
@@ -134,13 +143,20 @@ impl Store {
         Ok(())
     }
 
+    fn cell(&mut self, cell: Cell) {
+        // Of two names of a signal the first one counts.
+        self.names = cell.names.iter().rev().map(|name| (name.signal.clone(), name.name.clone())).collect();
+        self.cell = cell;
+    }
+
     /// A mesh that comes again is kept once.
     fn scene(&mut self, time: f64, mut update: SceneUpdate) {
         for model in update.entities.iter_mut().flat_map(|entity| &mut entity.models) {
             let data = std::mem::take(&mut model.data);
-            let known = self.meshes.iter().position(|mesh| *mesh == data);
-            self.models.push(known.unwrap_or(self.meshes.len()));
-            if known.is_none() {
+            let place = *self.known_meshes.entry(XxHash3_128::oneshot(&data)).or_insert(self.meshes.len());
+            let is_known = self.meshes.get(place) == Some(&data);
+            self.models.push(if is_known { place } else { self.meshes.len() });
+            if !is_known {
                 self.meshes.push(data);
             }
         }
@@ -178,18 +194,17 @@ impl Store {
         }
     }
 
-    fn channel(&mut self, at: usize, said: &Channel) {
+    fn channel(&mut self, at: usize, said: &Channel) -> Result<(), String> {
         if self.tracks.len() <= at {
             self.tracks.resize_with(at + 1, Track::default);
         }
-        if let Some(track) = self.tracks.get_mut(at) {
-            track.take(said);
-        }
+        self.tracks.get_mut(at).map_or(Ok(()), |track| track.take(said))
     }
 }
 
 impl Track {
-    fn take(&mut self, said: &Channel) {
+    fn take(&mut self, said: &Channel) -> Result<(), String> {
+        let (file, motion_file) = (self.file(&said.file)?, self.file(&said.motion_file)?);
         if self.times.is_empty() {
             self.width = said.axes.len();
         }
@@ -205,9 +220,9 @@ impl Track {
         self.axes.extend((0..self.width).map(|axis| said.axes.get(axis).copied().unwrap_or_default() as f32));
         self.tcp.push(tcp);
         let pointers = Pointers {
-            file: self.file(&said.file),
+            file,
             line: said.line,
-            motion_file: self.file(&said.motion_file),
+            motion_file,
             motion_line: said.motion_line,
             motion: u32::try_from(said.motion).unwrap_or(u32::MAX),
         };
@@ -217,6 +232,7 @@ impl Track {
         }
         self.times.push(said.time);
         self.pointers.push(pointers);
+        Ok(())
     }
 
     /// Adds the time since the last message to the lines: to that of the motion while one was executed, and to that of the program while the
@@ -247,14 +263,22 @@ impl Track {
     }
 
     /// The number of a file.
-    fn file(&mut self, name: &str) -> u16 {
-        let known = self.files.iter().position(|known| known == name);
-        let at = known.unwrap_or_else(|| {
-            self.files.push(name.to_owned());
-            self.files.len() - 1
-        });
-        u16::try_from(at).unwrap_or(u16::MAX)
+    fn file(&mut self, name: &str) -> Result<u16, String> {
+        if let Some(number) = self.numbers.get(name) {
+            return Ok(*number);
+        }
+        let number = u16::try_from(self.files.len());
+        let number = number.map_err(|_| format!("it is one of programs of more than {} files", u16::MAX))?;
+        self.files.push(name.to_owned());
+        self.numbers.insert(name.to_owned(), number);
+        Ok(number)
     }
+}
+
+/// A message that says nothing that a run cannot.
+fn decoded<M: prost::Message + Bounded + Default>(message: &[u8]) -> Result<M, String> {
+    let decoded = M::decode(message).map_err(|error| error.to_string())?;
+    decoded.check().map(|()| decoded)
 }
 
 /// A frame from x, y, z in mm, a, b, c in deg.

@@ -44,8 +44,8 @@ areas! {
         "motion" "first-motion" "targets" "orientation" "configuration" "frames" "speed" "blending" "modal" "waiting"
         "motion-events";
     "Running" "rules":
-        "io" "conditions" "interrupts" "channels" "system-variables" "files" "alarms" "projects" "cell-file" "scenarios"
-        "tests" "randomness-and-time";
+        "io" "conditions" "interrupts" "channels" "system-variables" "files" "alarms" "projects" "robot-file" "cell-file"
+        "scenarios" "tests" "randomness-and-time";
 }
 
 /// All pages.

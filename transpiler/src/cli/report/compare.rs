@@ -1,6 +1,6 @@
 //! What differs between two runs.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use serde::Serialize;
@@ -110,12 +110,24 @@ fn signals(one: &Summary, other: &Summary) -> Vec<String> {
 }
 
 fn contacts(one: &Summary, other: &Summary) -> Vec<String> {
-    let pairs = |of: &Summary| -> BTreeSet<(String, String)> {
-        of.contacts.iter().map(|contact| (contact.one.clone(), contact.other.clone())).collect()
+    let pairs = |of: &Summary| {
+        let mut pairs: BTreeMap<(String, String), usize> = BTreeMap::new();
+        for contact in &of.contacts {
+            *pairs.entry((contact.one.clone(), contact.other.clone())).or_default() += 1;
+        }
+        pairs
     };
     let (before, after) = (pairs(one), pairs(other));
-    let gone = before.difference(&after).map(|(one, other)| format!("{one} does not come near {other} any more"));
-    let new = after.difference(&before).map(|(one, other)| format!("{one} now comes near {other}"));
+    let gone = before.keys().filter(|pair| !after.contains_key(pair));
+    let gone = gone.map(|(one, other)| format!("{one} does not come near {other} any more"));
+    let new = after.iter().filter_map(|(pair, now)| {
+        let (one, other) = pair;
+        match before.get(pair) {
+            None => Some(format!("{one} now comes near {other}")),
+            Some(times) if times != now => Some(format!("{one} came near {other} {times} times, now {now} times")),
+            Some(_) => None,
+        }
+    });
     gone.chain(new).collect()
 }
 

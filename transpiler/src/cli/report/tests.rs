@@ -69,6 +69,16 @@ fn what_differs_is_told_by_line_and_in_words() {
 }
 
 #[test]
+fn a_pair_that_touches_more_often_is_told() {
+    let contact = || OfContact { one: "arm 1".into(), other: "post".into(), ..OfContact::default() };
+    let of = |times: usize| Summary { contacts: vec![contact(); times], ..run() };
+    let told = |before, now| Differences::between(&of(before), &of(now)).to_string();
+    assert!(told(3, 1).contains("arm 1 came near post 3 times, now 1 times"), "{}", told(3, 1));
+    assert!(told(3, 0).contains("arm 1 does not come near post any more"));
+    assert_eq!(told(2, 2), "nothing differs: 1.500 s\n");
+}
+
+#[test]
 fn a_report_is_read_as_it_was_written() {
     let text = serde_json::to_string(&run()).unwrap();
     assert_eq!(serde_json::from_str::<Summary>(&text).unwrap(), run());

@@ -1,5 +1,6 @@
 //! Solids of the links of a URDF.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use arl_robot::cell::Solid;
@@ -9,7 +10,7 @@ use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
 use percent_encoding::percent_decode_str;
 use urdf_rs::{Geometry, Link, Material, Pose};
 
-use super::super::urdf::{self, Place};
+use super::super::urdf::{self, Place, Tree};
 use super::{Looks, Piece};
 
 /// A URDF has lengths in m.
@@ -19,13 +20,24 @@ const MM: f64 = 1000.0;
 pub(super) struct Description {
     pub(super) robot: urdf_rs::Robot,
     file: PathBuf,
+    /// The colours of its materials, by their names.
+    colors: HashMap<String, [f64; 4]>,
 }
 
 /// How a thing looks that a URDF describes, with its joints at 0, in the frame of its root.
 pub(super) fn of_body(file: &Path) -> Result<Looks, String> {
-    let description = Description::read(file)?;
-    let root = urdf::root(&description.robot)?;
-    description.looks(&urdf::fixed_to(&description.robot, root, &[]))
+    of_description(&Description::read(file)?)
+}
+
+/// The same of a text; meshes count from the folder of `file`.
+#[cfg(any(test, feature = "fuzzing"))]
+pub(in crate::cli) fn of_text(text: &str, file: &Path) -> Result<Looks, String> {
+    of_description(&Description::of(text, file)?)
+}
+
+fn of_description(description: &Description) -> Result<Looks, String> {
+    let tree = Tree::of(&description.robot)?;
+    description.looks(&tree, &tree.fixed_to(tree.root(), &[]))
 }
 
 /// The meshes that a URDF file names, as far as they are there; none of what is no such file.
@@ -46,14 +58,23 @@ pub(super) fn meshes(file: &Path) -> Vec<PathBuf> {
 impl Description {
     pub(super) fn read(file: &Path) -> Result<Self, String> {
         let text = regular_file::read_text(file).map_err(|error| format!("cannot be read: {error}"))?;
-        Ok(Self { robot: urdf::parse(&text)?, file: file.to_owned() })
+        Self::of(&text, file)
+    }
+
+    /// That of a text; meshes count from the folder of `file`.
+    fn of(text: &str, file: &Path) -> Result<Self, String> {
+        let robot = urdf::parse(text)?;
+        let color = |material: &Material| Some((material.name.clone(), material.color.as_ref()?.rgba.0));
+        // Of two with one name the first one counts.
+        let colors = robot.materials.iter().rev().filter_map(color).collect();
+        Ok(Self { robot, file: file.to_owned(), colors })
     }
 
     /// How these links look together, each at its place in a common frame.
-    pub(super) fn looks(&self, links: &[(&str, Place)]) -> Result<Looks, String> {
+    pub(super) fn looks(&self, tree: &Tree<'_>, links: &[(&str, Place)]) -> Result<Looks, String> {
         let mut looks = Looks::default();
         for (name, place) in links {
-            let Some(link) = self.robot.links.iter().find(|link| link.name == *name) else { continue };
+            let Some(link) = tree.link(name) else { continue };
             let of_link = self.link(link)?;
             let there = frame(place);
             let moved = |piece: Piece| Piece { at: there * piece.at, ..piece };
@@ -147,8 +168,8 @@ impl Description {
     }
 
     fn color(&self, material: &Material) -> Option<[f64; 4]> {
-        let named = || self.robot.materials.iter().find(|named| named.name == material.name)?.color.as_ref();
-        material.color.as_ref().or_else(named).map(|color| color.rgba.0)
+        let named = || self.colors.get(&material.name).copied();
+        material.color.as_ref().map(|color| color.rgba.0).or_else(named)
     }
 }
 

@@ -3,6 +3,7 @@
 mod description;
 mod fit;
 mod shape;
+pub(super) mod stl;
 #[cfg(test)]
 pub(super) mod tests;
 
@@ -14,6 +15,8 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::robot;
 use super::show;
+#[cfg(any(test, feature = "fuzzing"))]
+pub(super) use description::of_text;
 pub(super) use shape::Shape;
 
 /// The bodies of a cell and the shapes of its robots.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use arl_robot::robot::Robot;
 
-use super::super::urdf::{self, Chain};
+use super::super::urdf::{self, Chain, Tree};
 use super::description::Description;
 use super::fit::{fit, made_of};
 use super::{Looks, Piece};
@@ -22,7 +22,8 @@ impl Shape {
     /// The file cannot be read, has forms that cannot, or is of another robot.
     pub(super) fn read(file: &Path, robot: &Robot) -> Result<Self, String> {
         let description = Description::read(file)?;
-        let chain = Chain::of(&description.robot)?;
+        let tree = Tree::of(&description.robot)?;
+        let chain = Chain::of(&tree)?;
         let axes = robot.own_axes().len();
         if chain.joints.len() != axes {
             return Err(format!("its arm has {} moving joints, {} has {axes} axes", chain.joints.len(), robot.name));
@@ -31,9 +32,10 @@ impl Shape {
         let fitted = fit(&chain, robot, &order)?;
         let moving: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
         let mut links = vec![Looks::default(); axes + 1];
-        let roots = std::iter::once(chain.root.as_str()).chain(chain.joints.iter().map(|joint| joint.child.as_str()));
+        let children = chain.joints.iter().filter_map(|joint| Some(tree.link(&joint.child)?.name.as_str()));
+        let roots = std::iter::once(tree.root()).chain(children);
         for (root, fitted) in roots.zip(fitted) {
-            let looks = description.looks(&urdf::fixed_to(&description.robot, root, &moving))?;
+            let looks = description.looks(&tree, &tree.fixed_to(root, &moving))?;
             if looks == Looks::default() {
                 continue;
             }

@@ -3,16 +3,21 @@
 mod chain;
 mod fit;
 mod place;
+mod tree;
+mod vet;
 
 use super::failure::Failure;
 use arl_robot::regular_file;
 use chain::Moving;
-pub(super) use chain::{Chain, fixed_to, parse, root};
+pub(super) use chain::{Chain, parse};
 use fit::{Scara, SixAxes};
 pub(super) use place::Place;
 use std::fmt::Write;
 use std::path::Path;
+pub(super) use tree::Tree;
 
+/// So many joints are named where there are too many.
+const TOLD: usize = 8;
 /// What no URDF gives, as in the built-in robots: mm and deg, per s, s2, s3.
 const TCP: &str = "\
 [tcp]  # mm/s, mm/s2, mm/s3, deg/s, deg/s2, deg/s3
@@ -32,8 +37,13 @@ pub(super) fn import(file: &Path) -> Result<String, Failure> {
         .map_err(|problem| Failure::Usage(format!("{}: {problem}", file.display())))
 }
 
-fn robot_file(text: &str, from: &str) -> Result<String, String> {
-    let chain = Chain::of(&parse(text)?)?;
+/// The robot file of the robot of a URDF; `from` is its file's name.
+///
+/// # Errors
+/// It is none, or of a robot that has no robot file: why.
+pub(super) fn robot_file(text: &str, from: &str) -> Result<String, String> {
+    let robot = parse(text)?;
+    let chain = Chain::of(&Tree::of(&robot)?)?;
     let (family, geometry, joints) = match chain.joints.len() {
         6 => {
             if let Some(joint) = chain.joints.iter().find(|joint| joint.slides) {
@@ -47,7 +57,10 @@ fn robot_file(text: &str, from: &str) -> Result<String, String> {
             ("scara", scara(&fit), joints)
         }
         count => {
-            let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
+            let mut names: Vec<&str> = chain.joints.iter().take(TOLD).map(|joint| joint.name.as_str()).collect();
+            if count > TOLD {
+                names.push("..");
+            }
             let names = if names.is_empty() { String::new() } else { format!(" ({})", names.join(", ")) };
             return Err(format!(
                 "the arm has {count} moving joints{names}; a robot file describes six turning ones, or the four of a SCARA"
