@@ -6,6 +6,7 @@ use arl_robot::kinematics::{Axes, Frame, Refusal, Singularity, Wanted, frame, fr
 use serde::{Deserialize, Serialize};
 
 use super::super::super::said::{Placed, placed, written};
+use super::points::FARTHEST;
 
 /// Below that clearance of a singular point, people are told.
 const NEAR_SINGULAR: f64 = 0.08;
@@ -90,10 +91,25 @@ pub(super) struct Mapped {
 }
 
 impl Where {
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        [self.tool, self.wobj, self.base].into_iter().flatten()
+    }
+
     fn setting(&self) -> Setting {
         let tool = Mount { frame: placed(&self.tool), on_flange: true };
         let wobj = Mount { frame: placed(&self.wobj), on_flange: false };
         Setting::new(tool, wobj, placed(&self.base))
+    }
+}
+
+/// That numbers are such as a cell has.
+fn expect_sensible(numbers: impl Iterator<Item = f64>) -> Result<(), String> {
+    let mut numbers = numbers;
+    match numbers.find(|number| !(-FARTHEST..=FARTHEST).contains(number)) {
+        Some(number) => {
+            Err(format!("{number:e} is out of range: expected mm and deg from {:e} to {FARTHEST:e}", -FARTHEST))
+        }
+        None => Ok(()),
     }
 }
 
@@ -108,6 +124,9 @@ fn own(robot: &Robot, axes: &[f64]) -> Result<Axes, String> {
 
 /// A place and its solutions.
 pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
+    let optional = asked.components.into_iter().chain(asked.before).flatten().chain(asked.placed.into_iter().flatten());
+    let axes = asked.near.iter().chain(asked.axes.iter().flatten()).copied();
+    expect_sensible(asked.setting.numbers().chain(optional).chain(axes))?;
     let setting = asked.setting.setting();
     let near = own(robot, &asked.near)?;
     let pose = match asked {
@@ -116,8 +135,9 @@ pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
         Asked { axes: Some(axes), .. } => setting.pose_of(&robot.kinematics.forward(&own(robot, axes)?)),
         _ => return Err("a place is asked for by `components`, `placed` or `axes`".to_owned()),
     };
-    if !pose.translation.vector.iter().all(|value| value.is_finite()) {
-        return Err("a place is made of numbers".to_owned());
+    let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
+    if !numbers.copied().all(f64::is_finite) {
+        return Err("a place is turned by a quaternion, which is not zero".to_owned());
     }
     let flange = setting.flange_of(&pose).map_err(|error| error.to_string())?;
     let solution = |cfg: &u8| solution(robot, &flange, *cfg, &near);
@@ -175,6 +195,8 @@ fn why(robot: &Robot, refusal: &Refusal) -> String {
 
 /// The places of a plane.
 pub(super) fn map(robot: &Robot, map: &Map) -> Result<Mapped, String> {
+    let numbers = map.components.into_iter().chain([map.half, map.step]).chain(map.near.iter().copied());
+    expect_sensible(map.setting.numbers().chain(numbers))?;
     let side = (2.0 * map.half / map.step).floor() + 1.0;
     if !(side >= 1.0 && side * side <= MOST_PLACES as f64) {
         return Err(format!("a map has at most {MOST_PLACES} places"));
