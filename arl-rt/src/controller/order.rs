@@ -1,7 +1,7 @@
 //! Orders from outside, in the words of a scenario.
 
 use super::{Controller, act};
-use crate::io::Order;
+use crate::io::{Effect, Order};
 use arl_robot::cell::Names;
 
 impl Controller {
@@ -23,7 +23,12 @@ impl Controller {
         // An effect may look at the image itself.
         let mut effects = Vec::new();
         order.carry_out(&mut self.shared.io.borrow_mut(), &robots, |effect| effects.push(effect))?;
-        effects.into_iter().for_each(|effect| act(&mut self.channels, effect));
+        for effect in effects {
+            match effect {
+                Effect::Pendant(button) => self.press(button),
+                effect => act(&mut self.channels, effect),
+            }
+        }
         Ok(())
     }
 }
