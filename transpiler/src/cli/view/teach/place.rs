@@ -95,10 +95,11 @@ impl Where {
         [self.tool, self.wobj, self.base].into_iter().flatten()
     }
 
-    fn setting(&self) -> Setting {
+    fn setting(&self) -> Result<Setting, String> {
+        [self.tool, self.wobj, self.base].iter().try_for_each(expect_turned)?;
         let tool = Mount { frame: placed(&self.tool), on_flange: true };
         let wobj = Mount { frame: placed(&self.wobj), on_flange: false };
-        Setting::new(tool, wobj, placed(&self.base))
+        Ok(Setting::new(tool, wobj, placed(&self.base)))
     }
 }
 
@@ -111,6 +112,12 @@ fn expect_sensible(numbers: impl Iterator<Item = f64>) -> Result<(), String> {
         }
         None => Ok(()),
     }
+}
+
+/// That a place is turned by a quaternion that says how.
+fn expect_turned([.., i, j, k, w]: &Placed) -> Result<(), String> {
+    let length = [i, j, k, w].iter().map(|part| part.powi(2)).sum::<f64>();
+    if length > 0.0 { Ok(()) } else { Err("a place is turned by a quaternion that is not 0".to_owned()) }
 }
 
 /// The robot's own axes.
@@ -127,7 +134,8 @@ pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
     let optional = asked.components.into_iter().chain(asked.before).flatten().chain(asked.placed.into_iter().flatten());
     let axes = asked.near.iter().chain(asked.axes.iter().flatten()).copied();
     expect_sensible(asked.setting.numbers().chain(optional).chain(axes))?;
-    let setting = asked.setting.setting();
+    asked.placed.iter().try_for_each(expect_turned)?;
+    let setting = asked.setting.setting()?;
     let near = own(robot, &asked.near)?;
     let pose = match asked {
         Asked { components: Some(components), .. } => frame(*components),
@@ -135,10 +143,6 @@ pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
         Asked { axes: Some(axes), .. } => setting.pose_of(&robot.kinematics.forward(&own(robot, axes)?)),
         _ => return Err("a place is asked for by `components`, `placed` or `axes`".to_owned()),
     };
-    let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
-    if !numbers.copied().all(f64::is_finite) {
-        return Err("a place is turned by a quaternion, which is not zero".to_owned());
-    }
     let flange = setting.flange_of(&pose).map_err(|error| error.to_string())?;
     let solution = |cfg: &u8| solution(robot, &flange, *cfg, &near);
     let solutions: Vec<Solution> = robot.kinematics.configurations().iter().map(solution).collect();
@@ -201,7 +205,7 @@ pub(super) fn map(robot: &Robot, map: &Map) -> Result<Mapped, String> {
     if !(side >= 1.0 && side * side <= MOST_PLACES as f64) {
         return Err(format!("a map has at most {MOST_PLACES} places"));
     }
-    let (side, setting, near) = (side as usize, map.setting.setting(), own(robot, &map.near)?);
+    let (side, setting, near) = (side as usize, map.setting.setting()?, own(robot, &map.near)?);
     let [_, _, z, a, b, c] = map.components;
     // Around the robot's base, in the plane of the workpiece.
     let base = setting.workpiece().inverse() * placed(&map.setting.base);
