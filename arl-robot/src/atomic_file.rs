@@ -16,6 +16,8 @@ const BESIDE: &str = ".arl-new";
 const LONGEST_WAIT: Duration = Duration::from_secs(5);
 /// So often a change is made anew for others who write the same file.
 const TRIES: usize = 50;
+/// An editor empties a file, and has written it anew so long after.
+const HALF_WRITTEN: Duration = Duration::from_millis(20);
 /// A link that leads to a link, and so on, at most so often.
 const MOST_LINKS: usize = 40;
 
@@ -78,11 +80,12 @@ pub fn create(path: &Path, content: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// Replaces the content of a file by what `change` makes of it: under a lock that all callers share, in all processes of this
-/// computer. What others write meanwhile, editors, is noticed: then `change` is asked again.
+/// Replaces the content of a file by what `change` makes of it: under a lock that all callers share, in all processes
+/// of this computer. What others write meanwhile, editors, is noticed: then `change` is asked again.
 ///
 /// # Errors
-/// It cannot be read or written, `change` refuses, or somebody else goes on writing. The file is as others have left it.
+/// It cannot be read or written, `change` refuses, or somebody else goes on writing. The file is as others have left
+/// it.
 pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E>) -> Result<(), ChangeError<E>> {
     let read = |path: &Path| regular_file::read(path).map_err(ChangeError::Read);
     let file = followed(path).map_err(ChangeError::Read)?;
@@ -95,9 +98,14 @@ pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E
                 sync_directory(&file);
                 return Ok(());
             }
-            // Half of what others write may make no sense.
-            Err(why) if read(&file)? == old => return Err(ChangeError::Refused(why)),
-            Ok(_) | Err(_) => std::thread::sleep(Duration::from_millis(1)),
+            Ok(_) => std::thread::sleep(Duration::from_millis(1)),
+            // Half of what others write may make no sense: they get the time to end it.
+            Err(why) => {
+                std::thread::sleep(HALF_WRITTEN);
+                if read(&file)? == old {
+                    return Err(ChangeError::Refused(why));
+                }
+            }
         }
     }
     Err(ChangeError::Write(io::Error::new(io::ErrorKind::ResourceBusy, "another program goes on writing it")))
@@ -118,8 +126,8 @@ fn replace(file: &Path, old: &[u8], new: &[u8]) -> io::Result<bool> {
     }
 }
 
-/// After an exchange the old content lies beside. Where that is not what was read, somebody has written in between: theirs goes
-/// back to its place. Whether the new content stayed.
+/// After an exchange the old content lies beside. Where that is not what was read, somebody has written in between:
+/// theirs goes back to its place. Whether the new content stayed.
 fn put_back_news(beside: &Path, file: &Path, old: &[u8], new: &[u8]) -> io::Result<bool> {
     let (mut expected, mut placed) = (old.to_vec(), new.to_vec());
     let mut stays = true;
@@ -189,8 +197,8 @@ fn sync_directory(file: &Path) {
     }
 }
 
-/// Waits until nobody else replaces files of a directory by this module. Nothing where directories cannot be locked: then what
-/// is written meanwhile is only noticed.
+/// Waits until nobody else replaces files of a directory by this module. Nothing where directories cannot be locked:
+/// then what is written meanwhile is only noticed.
 fn lock(directory: &Path) -> io::Result<Option<File>> {
     let Ok(directory) = File::open(directory) else { return Ok(None) };
     let began = Instant::now();
@@ -271,7 +279,8 @@ fn make_alike(file: &File, old: &Metadata) -> io::Result<()> {
     file.set_permissions(old.permissions())
 }
 
-/// Makes a file and holds its lock: as long as this process lives and has the file open, nobody takes it for abandoned. What is
+/// Makes a file and holds its lock: as long as this process lives and has the file open, nobody takes it for abandoned.
+/// What is
 /// `private` nobody else may look at yet.
 fn create_held(path: &Path, private: bool) -> io::Result<File> {
     let mut options = OpenOptions::new();

@@ -173,7 +173,8 @@ export function strip({ label, height, color, range, rows, get, value, holds, ga
         const time = found.times[row];
         // No motion led here: the line has a gap.
         if (gaps && found.jumps[row]) context.moveTo(x(time), y(get(found, row)));
-        else if (holds && row > 0 && time - found.times[row - 1] > 0.06) context.lineTo(x(time - 0.004), y(get(found, row - 1)));
+        else if (holds && row > 0 && time - found.times[row - 1] > 0.06)
+          context.lineTo(x(time - 0.004), y(get(found, row - 1)));
         else if (!holds && row > 0 && time - found.times[row - 1] > 0.06) {
           context.lineTo(x(found.times[row - 1]), y(0));
           context.lineTo(x(time - 0.004), y(0));

@@ -12,7 +12,8 @@ const STEP_S = 0.004;
 /**
  * Rows of a run, in columns.
  * @typedef {{count: number, width: number, times: Float64Array, axes: Float32Array, tcp: Float32Array, speed: Float32Array, pointers: Uint32Array, jumps: Uint8Array}} Rows
- * `jumps`: another tool took over since the row before, or the recording does not say where the robot was: no motion led there.
+ * `jumps`: another tool took over since the row before, or the recording does not say where the robot was: no
+ * motion led there.
  * A moment: axes in deg (mm), TCP in mm and as a quaternion, speed in mm/s.
  * @typedef {{axes: number[], tcp: number[], speed: number, line: number, motionLine: number, motion: number, file: number, motionFile: number}} Moment
  */

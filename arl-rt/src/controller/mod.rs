@@ -404,8 +404,8 @@ impl Controller {
     }
 
     /// Resets the program, which starts from its beginning with the next cycle: pulses end, global variables and the
-    /// system variables of the manual's chapter 10.2 are at their defaults. The robot stays where it is. The time of the scenario
-    /// begins once more.
+    /// system variables of the manual's chapter 10.2 are at their defaults. The robot stays where it is. The time of
+    /// the scenario begins once more.
     ///
     /// # Errors
     /// The program still runs: [`stop`](Controller::stop) it first.

@@ -40,9 +40,9 @@ impl Controller {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// The time of a [`Scenario`](crate::io::Scenario) begins with the programs: where they are paused before their first cycle, with
-    /// the start button, and with a reset of programs that have ended once more. Buttons that the scenario itself presses do not
-    /// change its time, nor does it wait where it presses the start button itself.
+    /// The time of a [`Scenario`](crate::io::Scenario) begins with the programs: where they are paused before their
+    /// first cycle, with the start button, and with a reset of programs that have ended once more. Buttons that the
+    /// scenario itself presses do not change its time, nor does it wait where it presses the start button itself.
     pub fn press(&mut self, button: Pendant) {
         let had_ended = self.channels.state() == State::Ended;
         press(&mut self.channels, button);

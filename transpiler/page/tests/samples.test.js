@@ -4,7 +4,10 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { decode, momentAt } from "../samples.js";
 
-/** Rows of one axis, 4 ms apart, as the server sends them. @param {number[]} xs where the TCP is @param {number[]} [jumps] */
+/**
+ * Rows of one axis, 4 ms apart, as the server sends them.
+ * @param {number[]} xs where the TCP is @param {number[]} [jumps]
+ */
 function rows(xs, jumps = []) {
   const count = xs.length;
   const parts = [

@@ -184,7 +184,8 @@ impl Door {
 }
 
 impl Client {
-    /// How long no request has come from it, where that is too long; one that is about to be over says nothing any more.
+    /// How long no request has come from it, where that is too long; one that is about to be over says nothing any
+    /// more.
     fn too_silent(&self, patience: Duration) -> Option<Duration> {
         let Some(connection) = self.connection.upgrade() else { return Some(Duration::MAX) };
         let patience = if connection.has_asked() { patience } else { patience.min(FIRST_REQUEST) };

@@ -25,7 +25,8 @@ pub(in super::super) const TOLD_AGAIN: usize = 64;
 const STEP_S: f64 = 0.004;
 /// A TCP that is elsewhere on the flange by more than that, in mm, is that of another tool.
 const OTHER_TOOL_MM: f64 = 0.01;
-/// Where the flange is not known, a TCP that gets faster than this, in mm/s2, when a motion begins is that of another tool.
+/// Where the flange is not known, a TCP that gets faster than this, in mm/s2, when a motion begins is that of another
+/// tool.
 const OTHER_TOOL_ACC: f64 = 5e5;
 
 /// A run as far as it is known.

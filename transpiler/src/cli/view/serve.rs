@@ -70,7 +70,8 @@ impl<F: Fn(&Asked<'_>) -> Answer> ToPage<F> {
         }
     }
 
-    /// That the page of this server asks: other pages in the same browser must not, under whatever name they know this computer.
+    /// That the page of this server asks: other pages in the same browser must not, under whatever name they know this
+    /// computer.
     fn expect_own(&self, request: &Request) -> Result<(), String> {
         if !self.hosts.contains(&request.host) {
             return Err(format!("this server is http://{}, and nothing else", self.hosts[0]));

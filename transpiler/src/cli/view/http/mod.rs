@@ -1,5 +1,5 @@
-//! An HTTP server for one page and few visitors, which clients that send slowly, or nothing, cannot block: each request has a
-//! time limit, and whoever is slowest leaves where there are too many.
+//! An HTTP server for one page and few visitors, which clients that send slowly, or nothing, cannot block: each request
+//! has a time limit, and whoever is slowest leaves where there are too many.
 
 mod places;
 mod request;

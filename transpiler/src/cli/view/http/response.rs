@@ -65,7 +65,8 @@ impl Response {
         let Self { status, kind, body } = self;
         let connection = if keeps_open { "keep-alive" } else { "close" };
         let head = format!(
-            "HTTP/1.1 {}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: {connection}\r\nCache-Control: no-store\r\n\
+            "HTTP/1.1 {}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: {connection}\r\n\
+             Cache-Control: no-store\r\n\
              X-Content-Type-Options: nosniff\r\nContent-Security-Policy: {POLICY}\r\n\r\n",
             status.line(),
             body.len()

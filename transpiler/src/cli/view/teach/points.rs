@@ -144,7 +144,8 @@ fn all_or_none(steps: impl Iterator<Item = Result<Step, String>>) -> Result<Vec<
     Ok(written)
 }
 
-/// Replaces the content of a file by what `change` makes of it, whoever else writes it meanwhile; what was there, and what is now.
+/// Replaces the content of a file by what `change` makes of it, whoever else writes it meanwhile; what was there, and
+/// what is now.
 fn replace(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, String>) -> Result<Step, String> {
     let mut step = Step { path: path.to_owned(), before: Vec::new(), after: Vec::new() };
     let changed = atomic_file::change(path, |now| {
