@@ -1,40 +1,187 @@
-//! Files are replaced atomically: they are there whole, old or new, at whatever moment their writer is killed.
+//! Files are replaced atomically: they are there whole, old or new, at whatever moment their writer is killed. Links,
+//! modes and owners stay, and what others have written meanwhile is not lost.
 
-use std::fs;
+use std::fmt;
+use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use crate::regular_file;
 
 /// How the name of a file ends that is to take the place of another one: `NAME.PROCESS-NUMBER` and this. No user calls a file so.
 const BESIDE: &str = ".arl-new";
+/// So long it is waited for others who replace files of the same directory.
+const LONGEST_WAIT: Duration = Duration::from_secs(5);
+/// So often a change is made anew for others who write the same file.
+const TRIES: usize = 50;
+/// An editor empties a file, and has written it anew so long after.
+const HALF_WRITTEN: Duration = Duration::from_millis(20);
+/// A link that leads to a link, and so on, at most so often.
+const MOST_LINKS: usize = 40;
 
-/// Writes a file so that a kill at any moment leaves the old or the new content, whole: to a file beside it, which
-/// then takes its name.
+/// Why a file was not changed: the old content is there.
+#[derive(Debug)]
+pub enum ChangeError<E> {
+    /// It cannot be read.
+    Read(io::Error),
+    /// Who changes it does not want to.
+    Refused(E),
+    /// It cannot be written.
+    Write(io::Error),
+}
+
+impl<E: fmt::Display> fmt::Display for ChangeError<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read(error) => write!(f, "cannot be read: {error}"),
+            Self::Refused(why) => why.fmt(f),
+            Self::Write(error) => write!(f, "cannot be written: {error}"),
+        }
+    }
+}
+
+impl<E: fmt::Debug + fmt::Display> std::error::Error for ChangeError<E> {}
+
+/// Writes a file, whatever it holds. A kill at any moment leaves the old or the new content, whole.
 ///
 /// # Errors
-/// What the file system says; the old content is still there.
+/// It is no regular file, it must not be written, or what the file system says; the old content is still there.
 pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
-    /// Several threads may write the same file.
-    static NUMBER: AtomicU64 = AtomicU64::new(0);
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}-{}{BESIDE}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed)));
-    let beside = PathBuf::from(beside);
-    let written = (|| {
-        let mut file = create_held(&beside)?;
-        file.write_all(content)?;
-        file.sync_all()?;
-        fs::rename(&beside, path)
-    })();
-    if written.is_err() {
-        // It is of no use to anybody; that it cannot be removed changes nothing.
-        let _ = fs::remove_file(&beside);
-        return written;
+    let old = writable(path)?;
+    let file = followed(path)?;
+    let draft = Draft::new(&file, content, old.as_ref())?;
+    {
+        let _lock = lock(directory_of(&file))?;
+        fs::rename(&draft.path, &file)?;
     }
-    // The new name is on the disk when its directory is. Some systems cannot sync a directory; they do it themselves.
-    if let Ok(directory) = fs::File::open(directory_of(path)) {
-        let _ = directory.sync_all();
-    }
+    sync_directory(&file);
     Ok(())
+}
+
+/// Writes a file that is not there yet.
+///
+/// # Errors
+/// `AlreadyExists`, or what the file system says.
+pub fn create(path: &Path, content: &[u8]) -> io::Result<()> {
+    if writable(path)?.is_some() {
+        return Err(io::ErrorKind::AlreadyExists.into());
+    }
+    let file = followed(path)?;
+    let _lock = lock(directory_of(&file))?;
+    let draft = Draft::new(&file, content, None)?;
+    match fs::hard_link(&draft.path, &file) {
+        Ok(()) => {}
+        Err(_) if !file.exists() => fs::rename(&draft.path, &file)?,
+        Err(_) => return Err(io::ErrorKind::AlreadyExists.into()),
+    }
+    sync_directory(&file);
+    Ok(())
+}
+
+/// Replaces the content of a file by what `change` makes of it: under a lock that all callers share, in all processes
+/// of this computer. What others write meanwhile, editors, is noticed: then `change` is asked again.
+///
+/// # Errors
+/// It cannot be read or written, `change` refuses, or somebody else goes on writing. The file is as others have left
+/// it.
+pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E>) -> Result<(), ChangeError<E>> {
+    let read = |path: &Path| regular_file::read(path).map_err(ChangeError::Read);
+    let file = followed(path).map_err(ChangeError::Read)?;
+    let _lock = lock(directory_of(&file)).map_err(ChangeError::Write)?;
+    for _ in 0..TRIES {
+        let old = read(&file)?;
+        match change(&old) {
+            Ok(new) if new == old => return Ok(()),
+            Ok(new) if replace(&file, &old, &new).map_err(ChangeError::Write)? => {
+                sync_directory(&file);
+                return Ok(());
+            }
+            Ok(_) => std::thread::sleep(Duration::from_millis(1)),
+            // Half of what others write may make no sense: they get the time to end it.
+            Err(why) => {
+                std::thread::sleep(HALF_WRITTEN);
+                if read(&file)? == old {
+                    return Err(ChangeError::Refused(why));
+                }
+            }
+        }
+    }
+    Err(ChangeError::Write(io::Error::new(io::ErrorKind::ResourceBusy, "another program goes on writing it")))
+}
+
+/// Replaces content that is still the old one; whether it was.
+fn replace(file: &Path, old: &[u8], new: &[u8]) -> io::Result<bool> {
+    let metadata = writable(file)?;
+    let draft = Draft::new(file, new, metadata.as_ref())?;
+    if fs::read(file)? != old {
+        return Ok(false);
+    }
+    match exchange(&draft.path, file) {
+        Ok(()) => put_back_news(&draft.path, file, old, new),
+        Err(_) if !file.exists() => Ok(false),
+        // Not every file system can. What is written in this very moment is lost there.
+        Err(_) => fs::rename(&draft.path, file).map(|()| true),
+    }
+}
+
+/// After an exchange the old content lies beside. Where that is not what was read, somebody has written in between:
+/// theirs goes back to its place. Whether the new content stayed.
+fn put_back_news(beside: &Path, file: &Path, old: &[u8], new: &[u8]) -> io::Result<bool> {
+    let (mut expected, mut placed) = (old.to_vec(), new.to_vec());
+    let mut stays = true;
+    loop {
+        let found = fs::read(beside)?;
+        if found == expected {
+            return Ok(stays);
+        }
+        stays = false;
+        if exchange(beside, file).is_err() {
+            return fs::rename(beside, file).map(|()| stays);
+        }
+        (expected, placed) = (placed, found);
+    }
+}
+
+/// Lets two files change places, at once.
+#[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
+fn exchange(one: &Path, other: &Path) -> io::Result<()> {
+    use rustix::fs::{CWD, RenameFlags, renameat_with};
+    Ok(renameat_with(CWD, one, CWD, other, RenameFlags::EXCHANGE)?)
+}
+
+#[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+fn exchange(_one: &Path, _other: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+/// Where a path leads, also where nothing is there yet.
+fn followed(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&path) {
+            Ok(target) => path = directory_of(&path).join(target),
+            // It is no link; whether it is anything will be seen.
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("its links lead in a circle"))
+}
+
+/// What is known of a file that may be written; nothing where there is none.
+fn writable(path: &Path) -> io::Result<Option<Metadata>> {
+    match regular_file::expect(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        kind => kind?,
+    }
+    let file = OpenOptions::new().write(true).open(path)?;
+    let metadata = file.metadata()?;
+    // The superuser could open it all the same.
+    if metadata.permissions().readonly() {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
+    Ok(Some(metadata))
 }
 
 /// The directory that a file lies in.
@@ -42,10 +189,110 @@ pub fn directory_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Makes a file and holds its lock: as long as this process lives and has the file open, nobody takes it for abandoned.
-fn create_held(path: &Path) -> io::Result<fs::File> {
+/// The new name is on the disk when its directory is.
+fn sync_directory(file: &Path) {
+    // Some systems cannot sync a directory; they do it themselves.
+    if let Ok(directory) = File::open(directory_of(file)) {
+        let _ = directory.sync_all();
+    }
+}
+
+/// Waits until nobody else replaces files of a directory by this module. Nothing where directories cannot be locked:
+/// then what is written meanwhile is only noticed.
+fn lock(directory: &Path) -> io::Result<Option<File>> {
+    let Ok(directory) = File::open(directory) else { return Ok(None) };
+    let began = Instant::now();
     loop {
-        let file = fs::File::create(path)?;
+        match directory.try_lock() {
+            Ok(()) => return Ok(Some(directory)),
+            Err(TryLockError::WouldBlock) if began.elapsed() < LONGEST_WAIT => {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Err(TryLockError::WouldBlock) => {
+                return Err(io::Error::new(io::ErrorKind::TimedOut, "another program keeps its directory locked"));
+            }
+            Err(TryLockError::Error(_)) => return Ok(None),
+        }
+    }
+}
+
+/// A file beside another one, whose place it is to take; gone again where it does not.
+struct Draft {
+    path: PathBuf,
+    /// As long as it is open, nobody takes the file for abandoned.
+    _held: File,
+}
+
+impl Draft {
+    /// With this content, on the disk, and as accessible as the one whose place it is to take.
+    fn new(file: &Path, content: &[u8], old: Option<&Metadata>) -> io::Result<Self> {
+        /// Several threads may write the same file.
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        let (path, mut held) = loop {
+            let mut path = file.as_os_str().to_owned();
+            path.push(format!(".{}-{}{BESIDE}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed)));
+            let path = PathBuf::from(path);
+            match create_held(&path, old.is_some()) {
+                // Another computer, or a container, has a process of the same number.
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                held => break (path, held?),
+            }
+        };
+        let written = (|| {
+            held.write_all(content)?;
+            old.map_or(Ok(()), |old| make_alike(&held, old))?;
+            held.sync_all()
+        })();
+        let draft = Self { path, _held: held };
+        written.map(|()| draft)
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        // Where it has taken its place, there is none any more. That it cannot be removed changes nothing.
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// Gives a file owner, group and mode of another one.
+#[cfg(unix)]
+fn make_alike(file: &File, old: &Metadata) -> io::Result<()> {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    let own = file.metadata()?;
+    if own.uid() != old.uid() {
+        // Few may give files away: whoever may write the file goes on to own it.
+        let _ = fchown(file, Some(old.uid()), None);
+    }
+    if own.gid() != old.gid() && fchown(file, None, Some(old.gid())).is_err() {
+        let mode = old.mode();
+        if (mode >> 3) & 0o7 != mode & 0o7 {
+            let words = "its group could not be kept, which may do something else than others";
+            return Err(io::Error::new(io::ErrorKind::PermissionDenied, words));
+        }
+    }
+    file.set_permissions(old.permissions())
+}
+
+#[cfg(not(unix))]
+fn make_alike(file: &File, old: &Metadata) -> io::Result<()> {
+    file.set_permissions(old.permissions())
+}
+
+/// Makes a file and holds its lock: as long as this process lives and has the file open, nobody takes it for abandoned.
+/// What is
+/// `private` nobody else may look at yet.
+fn create_held(path: &Path, private: bool) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    if private {
+        std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    }
+    #[cfg(not(unix))]
+    let _ = private;
+    loop {
+        let file = options.open(path)?;
         // Where files cannot be locked none is taken for abandoned.
         if file.lock().is_err() || path.exists() {
             return Ok(file);
@@ -58,10 +305,11 @@ fn create_held(path: &Path) -> io::Result<fs::File> {
 pub fn remove_leftovers(directory: &Path) {
     // What cannot be looked at or removed stays: it does no harm.
     let Ok(entries) = fs::read_dir(directory) else { return };
-    for entry in entries.filter_map(Result::ok) {
-        if is_in_the_making(&entry.file_name().to_string_lossy()) {
-            remove_abandoned(&entry.path());
-        }
+    let left = entries.filter_map(Result::ok).filter(|entry| is_in_the_making(&entry.file_name().to_string_lossy()));
+    let mut left = left.map(|entry| entry.path()).peekable();
+    // Somebody may just exchange two files.
+    if left.peek().is_some() && lock(directory).is_ok() {
+        left.for_each(|path| remove_abandoned(&path));
     }
 }
 
@@ -74,7 +322,7 @@ fn is_in_the_making(name: &str) -> bool {
 
 /// Removes a file that nobody holds.
 fn remove_abandoned(path: &Path) {
-    if let Ok(file) = fs::File::open(path)
+    if let Ok(file) = File::open(path)
         && file.try_lock().is_ok()
     {
         let _ = fs::remove_file(path);
@@ -100,7 +348,7 @@ mod tests {
     fn what_the_dead_have_left_is_removed_and_what_the_living_make_is_not() {
         let path = folder("left");
         // This process stands for another one that lives: it holds its file.
-        let alive = create_held(&path.join("I.state.17.arl-new")).unwrap();
+        let alive = create_held(&path.join("I.state.17.arl-new"), false).unwrap();
         for name in ["I.state.1.arl-new", "BASE.2.state.12345678.arl-new", "p_data.arl.3.arl-new"] {
             fs::write(path.join(name), "part").unwrap();
         }
@@ -147,6 +395,131 @@ mod tests {
             }
         });
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "nothing is left beside it");
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_modes_stay() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = folder("links");
+        let (real, link, second) = (folder.join("real.arl"), folder.join("link.arl"), folder.join("second.arl"));
+        symlink("real.arl", &link).unwrap();
+        symlink(&link, &second).unwrap();
+        // Through a link that leads nowhere yet, too.
+        write(&second, b"new").unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o7777;
+        for bits in [0o660, 0o600, 0o4755] {
+            fs::set_permissions(&real, fs::Permissions::from_mode(bits)).unwrap();
+            write(&second, b"one").unwrap();
+            assert_eq!((mode(&real), fs::read(&real).unwrap()), (bits, b"one".to_vec()));
+            change(&link, |old| Ok::<_, String>([old, b"two"].concat())).unwrap();
+            assert_eq!((mode(&real), fs::read(&real).unwrap()), (bits, b"onetwo".to_vec()));
+            assert!([&link, &second].iter().all(|path| path.is_symlink()) && !real.is_symlink());
+        }
+        fs::set_permissions(&real, fs::Permissions::from_mode(0o444)).unwrap();
+        assert_eq!(write(&link, b"three").unwrap_err().kind(), io::ErrorKind::PermissionDenied);
+        let refused = change(&link, |_| Ok::<_, String>(b"three".to_vec())).unwrap_err();
+        assert!(matches!(refused, ChangeError::Write(_)), "{refused}");
+        symlink("round.arl", folder.join("round.arl")).unwrap();
+        assert!(write(&folder.join("round.arl"), b"nowhere").is_err());
+        assert!(write(Path::new("/dev/null"), b"nothing").is_err(), "a device stays one");
+        assert_eq!(fs::read(&real).unwrap(), b"onetwo");
+        assert_eq!(names(&folder), ["link.arl", "real.arl", "round.arl", "second.arl"].map(String::from).into());
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn changes_of_several_are_all_there() {
+        let folder = folder("changes");
+        let path = folder.join("kept");
+        fs::write(&path, "").unwrap();
+        std::thread::scope(|scope| {
+            for who in 0..4 {
+                let add = move |old: &[u8], number| [old, format!("{who}.{number}\n").as_bytes()].concat();
+                let path = &path;
+                scope.spawn(move || {
+                    for number in 0..25 {
+                        change(path, |old| Ok::<_, String>(add(old, number))).unwrap();
+                    }
+                });
+            }
+        });
+        let lines: BTreeSet<_> = fs::read_to_string(&path).unwrap().lines().map(str::to_owned).collect();
+        assert_eq!(lines.len(), 100);
+        assert_eq!(names(&folder), ["kept"].map(String::from).into());
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn what_others_write_meanwhile_is_not_lost() {
+        let folder = folder("others");
+        let path = folder.join("kept");
+        fs::write(&path, "a").unwrap();
+        // An editor writes after the file was read, twice; in its place, and by another file that takes it.
+        let mut asked = 0;
+        let changed = change(&path, |old| {
+            asked += 1;
+            match asked {
+                1 => fs::write(&path, "b").unwrap(),
+                2 => {
+                    fs::write(folder.join("new"), "c").unwrap();
+                    fs::rename(folder.join("new"), &path).unwrap();
+                }
+                _ => {}
+            }
+            Ok::<_, String>([old, b"!"].concat())
+        });
+        changed.unwrap();
+        assert_eq!((asked, fs::read_to_string(&path).unwrap()), (3, "c!".to_owned()));
+        // One that goes on writing keeps its file.
+        let mut number = 0;
+        let never = change(&path, |old| {
+            number += 1;
+            fs::write(&path, number.to_string()).unwrap();
+            Ok::<_, String>([old, b"!"].concat())
+        });
+        assert!(never.unwrap_err().to_string().contains("goes on writing"));
+        assert_eq!(fs::read_to_string(&path).unwrap(), number.to_string());
+        // Who refuses half of a file that is being written is asked again.
+        let mut asked = 0;
+        let whole = |old: &[u8]| if old == b"half" { Err("half") } else { Ok(b"done".to_vec()) };
+        fs::write(&path, "half").unwrap();
+        let changed = change(&path, |old| {
+            asked += 1;
+            fs::write(&path, "whole").unwrap();
+            whole(old)
+        });
+        assert!(changed.is_ok() && asked == 2);
+        fs::write(&path, "half").unwrap();
+        assert!(matches!(change(&path, whole), Err(ChangeError::Refused("half"))));
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    /// What is written between the last look and the exchange is found beside, and put back.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn what_was_exchanged_unseen_comes_back() {
+        let folder = folder("unseen");
+        let (beside, path) = (folder.join("beside"), folder.join("kept"));
+        fs::write(&path, "new").unwrap();
+        fs::write(&beside, "an editor's").unwrap();
+        assert!(!put_back_news(&beside, &path, b"old", b"new").unwrap());
+        assert_eq!((fs::read(&path).unwrap(), fs::read(&beside).unwrap()), (b"an editor's".into(), b"new".into()));
+        fs::write(&path, "new").unwrap();
+        fs::write(&beside, "old").unwrap();
+        assert!(put_back_news(&beside, &path, b"old", b"new").unwrap());
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn what_is_there_is_not_made_anew() {
+        let folder = folder("anew");
+        let path = folder.join("kept");
+        create(&path, b"first").unwrap();
+        assert_eq!(create(&path, b"second").unwrap_err().kind(), io::ErrorKind::AlreadyExists);
+        assert_eq!((fs::read(&path).unwrap(), names(&folder).len()), (b"first".into(), 1));
         fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use arl_rt::emit::*;
-use arl_rt::io::Scenario;
+use arl_rt::io::{Pendant, Scenario};
 use arl_rt::{Controller, Outcome};
 use common::*;
 
@@ -123,6 +123,56 @@ fn setdo_waits_for_the_motion_and_setdoimv_comes_with_its_end() {
     }
     assert!((angles[0] - 10.0).abs() < 0.2, "while it passes its first target: {angles:?}");
     assert_eq!(angles[1], 20.0, "at rest");
+}
+
+/// Says when input 1 has gone on.
+fn waits(cx: &Cx) -> BoxFuture<'_> {
+    Box::pin(async move {
+        while !io::getdi(cx, 1).await.at(FILE, 1)? {
+            flow::waittime(0.01).run(cx).await.at(FILE, 2)?;
+        }
+        say(cx, &cx.time())
+    })
+}
+
+/// Whether so many times were said, to a few steps of the loop.
+fn are_near(said: &str, times: &[f64]) -> bool {
+    let said: Vec<f64> = said.lines().map(|line| line.parse().unwrap()).collect();
+    said.len() == times.len() && said.iter().zip(times).all(|(said, time)| (said - time).abs() < 0.05)
+}
+
+#[test]
+fn the_time_of_a_scenario_begins_with_the_programs() {
+    let short = "[[event]]\nat = 0.2\ndi.1 = true\n[[event]]\nat = 0.25\ndi.1 = false\n";
+    let build = |text| Controller::builder().scenario(Scenario::parse("s.toml", text).unwrap());
+    let (mut paused, messages) = controller(build(short), waits);
+    paused.press(Pendant::Pause);
+    paused.run_for(2.0);
+    assert!(paused.standstill().is_some(), "somebody is to start it");
+    paused.press(Pendant::Start);
+    assert_eq!(paused.run(), Outcome::Ended);
+    // Once more, after a reset: the input goes on again, although it was on when the program ended.
+    paused.press(Pendant::Reset);
+    assert_eq!(paused.run(), Outcome::Ended);
+    paused.reset().unwrap();
+    assert_eq!(paused.run(), Outcome::Ended);
+    assert!(are_near(&messages.text(), &[2.2, 2.4, 2.6]), "{}", messages.text());
+    // An order is a button, too.
+    let (mut ordered, messages) = controller(build(short), waits);
+    ordered.order("pendant = \"pause\"").unwrap();
+    ordered.run_for(0.5);
+    ordered.order("pendant = \"start\"").unwrap();
+    assert_eq!(ordered.run(), Outcome::Ended);
+    assert!(are_near(&messages.text(), &[0.7]), "{}", messages.text());
+    // What a scenario starts itself does not wait, and buttons that it presses do not begin it anew.
+    let starts = format!(
+        "{short}[[event]]\nat = 0.1\npendant = \"start\"\n[[event]]\nat = 1\npendant = \"reset\"\n\
+                          [[event]]\nat = 1.5\ndi.1 = true\n"
+    );
+    let (mut started, messages) = controller(build(&starts), waits);
+    started.press(Pendant::Pause);
+    assert_eq!(started.run(), Outcome::Ended);
+    assert!(are_near(&messages.text(), &[0.2, 1.5]), "{}", messages.text());
 }
 
 #[test]

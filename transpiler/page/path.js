@@ -3,9 +3,6 @@
 import { LineMaterial, LineSegments2, LineSegmentsGeometry } from "./three.js";
 import { kind, light, parts, scale, theme } from "./colors.js";
 
-/** What is farther apart than this within one step is another tool, not a motion, in mm. */
-const JUMP_MM = 120;
-
 /** What the colour tells, by its name, in the order of the keys 1 to 4. */
 export const COLORS = {
   speed: "speed",
@@ -78,7 +75,7 @@ export function path(rows, paint, look) {
   for (let row = 1; row < rows.count; row++) {
     const [from, to] = [(row - 1) * 7, row * 7];
     const way = Math.hypot(rows.tcp[to] - rows.tcp[from], rows.tcp[to + 1] - rows.tcp[from + 1], rows.tcp[to + 2] - rows.tcp[from + 2]);
-    if (way < 1e-3 || (way > JUMP_MM && rows.times[row] - rows.times[row - 1] < 0.06)) continue;
+    if (way < 1e-3 || rows.jumps[row]) continue;
     const [, line, motion] = rows.pointers.subarray(row * 4);
     const color = light(paint.color(rows.speed[row], motion, line));
     for (const at of [from, to]) {

@@ -139,10 +139,10 @@ export function signal(run, lane) {
 
 /**
  * A value over time, from rows that were fetched for this stretch.
- * @param {{label: string, height: number, color: string, range?: number[], rows: () => import('./samples.js').Rows | undefined, get: (rows: import('./samples.js').Rows, row: number) => number, value: (time: number) => string, holds: boolean}} of
+ * @param {{label: string, height: number, color: string, range?: number[], rows: () => import('./samples.js').Rows | undefined, get: (rows: import('./samples.js').Rows, row: number) => number, value: (time: number) => string, holds: boolean, gaps?: boolean}} of
  * @returns {Row}
  */
-export function strip({ label, height, color, range, rows, get, value, holds }) {
+export function strip({ label, height, color, range, rows, get, value, holds, gaps }) {
   return {
     label,
     height,
@@ -171,7 +171,10 @@ export function strip({ label, height, color, range, rows, get, value, holds }) 
       context.beginPath();
       for (let row = Math.max(rowAt(found.times, from), 0); row < found.count; row++) {
         const time = found.times[row];
-        if (holds && row > 0 && time - found.times[row - 1] > 0.06) context.lineTo(x(time - 0.004), y(get(found, row - 1)));
+        // No motion led here: the line has a gap.
+        if (gaps && found.jumps[row]) context.moveTo(x(time), y(get(found, row)));
+        else if (holds && row > 0 && time - found.times[row - 1] > 0.06)
+          context.lineTo(x(time - 0.004), y(get(found, row - 1)));
         else if (!holds && row > 0 && time - found.times[row - 1] > 0.06) {
           context.lineTo(x(found.times[row - 1]), y(0));
           context.lineTo(x(time - 0.004), y(0));

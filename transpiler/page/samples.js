@@ -11,7 +11,9 @@ const STEP_S = 0.004;
 
 /**
  * Rows of a run, in columns.
- * @typedef {{count: number, width: number, times: Float64Array, axes: Float32Array, tcp: Float32Array, speed: Float32Array, pointers: Uint32Array}} Rows
+ * @typedef {{count: number, width: number, times: Float64Array, axes: Float32Array, tcp: Float32Array, speed: Float32Array, pointers: Uint32Array, jumps: Uint8Array}} Rows
+ * `jumps`: another tool took over since the row before, or the recording does not say where the robot was: no
+ * motion led there.
  * A moment: axes in deg (mm), TCP in mm and as a quaternion, speed in mm/s.
  * @typedef {{axes: number[], tcp: number[], speed: number, line: number, motionLine: number, motion: number, file: number, motionFile: number}} Moment
  */
@@ -30,7 +32,7 @@ export function decode(buffer) {
     at += column.byteLength;
     return column;
   };
-  return {
+  return withoutHoles({
     count,
     width,
     times: next(Float64Array, count),
@@ -38,7 +40,33 @@ export function decode(buffer) {
     tcp: next(Float32Array, count * 7),
     speed: next(Float32Array, count),
     pointers: next(Uint32Array, count * 4),
-  };
+    jumps: next(Uint8Array, count),
+  });
+}
+
+/**
+ * Rows in which numbers that are none are those of the row before; no motion leads from or to such rows.
+ * @param {Rows} rows
+ */
+function withoutHoles(rows) {
+  const { count, width, jumps } = rows;
+  let hole = false;
+  for (let row = 0; row < count; row++) {
+    let here = false;
+    for (const [column, length] of /** @type {[Float32Array, number][]} */ ([
+      [rows.axes, width],
+      [rows.tcp, 7],
+      [rows.speed, 1],
+    ]))
+      for (let at = row * length; at < (row + 1) * length; at++) {
+        if (Number.isFinite(column[at])) continue;
+        here = true;
+        column[at] = row > 0 ? column[at - length] : 0;
+      }
+    if (here || hole) jumps[row] = 1;
+    hole = here;
+  }
+  return rows;
 }
 
 /**
@@ -69,18 +97,20 @@ export function momentAt(rows, time) {
   const apart = rows.times[next] - rows.times[row];
   const begin = apart > GAP_S ? rows.times[next] - STEP_S : rows.times[row];
   const part = apart > 0 ? Math.min(Math.max((time - begin) / (rows.times[next] - begin), 0), 1) : 0;
-  /** @param {Float32Array} column @param {number} width */
-  const between = (column, width) =>
+  /** @param {Float32Array} column @param {number} width @param {number} [far] */
+  const between = (column, width, far = part) =>
     Array.from({ length: width }, (_, at) => {
       const from = column[row * width + at];
-      return from + (column[next * width + at] - from) * part;
+      return from + (column[next * width + at] - from) * far;
     });
+  // Another tool is there at once.
+  const far = rows.jumps[next] && part < 1 ? 0 : part;
   // A row tells of the motion of the cycle before it.
   const [line, motionLine, motion, files] = rows.pointers.subarray((part > 0 ? next : row) * 4);
   const program = rows.pointers.subarray(row * 4);
   return {
     axes: between(rows.axes, rows.width),
-    tcp: turned(between(rows.tcp, 7), rows.tcp.subarray(row * 7 + 3), rows.tcp.subarray(next * 7 + 3), part),
+    tcp: turned(between(rows.tcp, 7, far), rows.tcp.subarray(row * 7 + 3), rows.tcp.subarray(next * 7 + 3), far),
     speed: rows.speed[part > 0 ? next : row],
     line: part < 1 ? program[0] : line,
     motionLine,
@@ -185,5 +215,6 @@ function joined(known, more) {
     tcp: both(known.tcp, more.tcp, 7),
     speed: both(known.speed, more.speed, 1),
     pointers: both(known.pointers, more.pointers, 4),
+    jumps: both(known.jumps, more.jumps, 1),
   };
 }

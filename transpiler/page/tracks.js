@@ -74,6 +74,7 @@ export class Tracks {
           rows,
           get: (found, row) => found.speed[row],
           holds: false,
+          gaps: true,
           value: (time) => `${(moment(time)?.speed ?? 0).toFixed(0)} mm/s`,
         }),
       );

@@ -6,6 +6,7 @@ mod now;
 pub use now::{savejointnow, saveposenow};
 
 use std::fmt::Write as _;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use arl_robot::regular_file;
@@ -62,13 +63,17 @@ fn copy(from: &Path, to: &Path, replaces: bool) -> Result<(), Failure> {
         return Err(Failure::Refused);
     }
     let content = regular_file::read(from).map_err(|error| problem(from, format_args!("cannot be read: {error}")))?;
-    write(to, &content)
+    clear_beside(to);
+    let written = if replaces { atomic_file::write(to, &content) } else { atomic_file::create(to, &content) };
+    written.map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => Failure::Refused,
+        _ => problem(to, format_args!("cannot be written: {error}")),
+    })
 }
 
-/// Writes a file whole, and clears its directory of what the dead have left.
-fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
+/// Clears the directory of a file of what the dead have left.
+fn clear_beside(path: &Path) {
     atomic_file::remove_leftovers(atomic_file::directory_of(path));
-    atomic_file::write(path, content).map_err(|error| problem(path, format_args!("cannot be written: {error}")))
 }
 
 /// Writes a pose to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next load on.
@@ -170,9 +175,9 @@ impl Components {
 /// Puts a value in place of the one that a variable of this type has in a file. Fails where there is no such file or variable, where
 /// the file has mistakes, and where it cannot be written.
 fn replace(path: &Path, ty: &str, variable: &str, value: &str) -> Result<(), Failure> {
-    let content = regular_file::read(path).map_err(|error| problem(path, format_args!("cannot be read: {error}")))?;
-    let changed = arl_lang::with_value(&content, ty, variable, value).map_err(|what| problem(path, what))?;
-    write(path, &changed)
+    clear_beside(path);
+    let changed = atomic_file::change(path, |content| arl_lang::with_value(content, ty, variable, value));
+    changed.map_err(|error| problem(path, error))
 }
 
 #[cfg(test)]
@@ -217,6 +222,23 @@ mod tests {
         let before = b"// \xd2\xc6\xb6\xaf\npose p = {x 2} // \xb5\xe3\n";
         let after = b"// \xd2\xc6\xb6\xaf\npose p = {x 1} // \xb5\xe3\n";
         assert_eq!(replaced("gb", before, "pose", "p").as_deref(), Some(&after[..]));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_and_a_mode_stay() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = std::env::temp_dir().join(format!("arl-rt-points-link-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let (link, file) = (folder.join("p_data.arl"), folder.join("shared.arl"));
+        fs::write(&file, "pose p = {x 2}\n").unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o660)).unwrap();
+        symlink("shared.arl", &link).unwrap();
+        replace(&link, "pose", "p", "{x 1}").unwrap();
+        copy(&file, &link, true).unwrap();
+        assert!(link.is_symlink() && fs::metadata(&file).unwrap().permissions().mode() & 0o777 == 0o660);
+        assert_eq!(fs::read_to_string(&file).unwrap(), "pose p = {x 1}\n");
+        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

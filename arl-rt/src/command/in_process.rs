@@ -176,11 +176,11 @@ impl Run {
 
     fn take_news(&mut self) {
         for text in self.controller.take_warnings() {
-            self.recording.iter().for_each(|recording| recording.warning(&text));
+            self.recording.iter().for_each(|recording| recording.warning(&self.controller, &text));
             self.say(&warning_line(&text));
         }
         for alarm in self.controller.take_alarms() {
-            self.recording.iter().for_each(|recording| recording.alarm(&alarm));
+            self.recording.iter().for_each(|recording| recording.alarm(&self.controller, &alarm));
             self.say(&alarm_line(&alarm));
             self.alarms.push(alarm);
         }
@@ -209,7 +209,7 @@ impl Run {
     /// How everything stands, a JSON object as `--live` says it.
     pub fn state(&self) -> String {
         let mut line = String::new();
-        push_state(&mut line, &self.controller);
+        push_state(&mut line, &self.controller, self.controller.time());
         line
     }
 

@@ -28,7 +28,7 @@ use crate::controller::trace::More;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{Lateness, RealClock, VirtualClock};
 use crate::cycle::realtime::Realtime;
-use crate::io::{Pendant, Scenario};
+use crate::io::Scenario;
 use crate::storage::state::{Directory, Memory};
 use crate::unit::robot_driver::Connect;
 use arl_robot::cell::{Cell, Names};
@@ -247,7 +247,7 @@ fn run(
     let code = match voice {
         Some(voice) => {
             if paused {
-                controller.press(Pendant::Pause);
+                controller.wait_for_start();
             }
             let inside = watching.map(|watching| watching.inside);
             code(live::drive(&mut controller, &voice, (inside, wishes), max_time, interrupted))

@@ -15,12 +15,12 @@ pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<
     for text in controller.take_warnings() {
         tell(format_args!("warning: {text}"));
         if let Some(recorder) = recorder {
-            recorder.warning(&text);
+            recorder.warning(controller, &text);
         }
     }
     for alarm in controller.take_alarms() {
         if let Some(recorder) = recorder {
-            recorder.alarm(&alarm);
+            recorder.alarm(controller, &alarm);
         }
         let contexts = controller.contexts();
         let of_alarm = contexts.iter().find(|cx| cx.channel_state().id == alarm.channel);

@@ -297,12 +297,19 @@ impl Controller {
                 return;
             }
         };
+        // Its time goes on while a scenario plays the PLC.
+        let played = self.scenario_starts();
         for button in pressed.into_iter().flatten() {
             // A program that has ended begins again by the start signal, not by the reset.
-            match (button, self.channels.state()) {
-                (Pendant::Start, State::Ended) => pendant::press(&mut self.channels, Pendant::Reset),
-                (Pendant::Reset, State::Ended) => {}
-                _ => pendant::press(&mut self.channels, button),
+            let button = match (button, self.channels.state()) {
+                (Pendant::Start, State::Ended) => Pendant::Reset,
+                (Pendant::Reset, State::Ended) => continue,
+                _ => button,
+            };
+            if played {
+                pendant::press(&mut self.channels, button);
+            } else {
+                self.press(button);
             }
         }
     }
@@ -418,7 +425,8 @@ impl Controller {
     }
 
     /// Resets the program, which starts from its beginning with the next cycle: pulses end, global variables and the
-    /// system variables of the manual's chapter 10.2 are at their defaults. The robot stays where it is.
+    /// system variables of the manual's chapter 10.2 are at their defaults. The robot stays where it is. The time of
+    /// the scenario begins once more.
     ///
     /// # Errors
     /// The program still runs: [`stop`](Controller::stop) it first.
@@ -427,12 +435,23 @@ impl Controller {
             return Err(StillRunning);
         }
         self.channels.each(Channel::reset);
+        self.begin_scenario_again();
         Ok(())
     }
 
     /// Controller time in s: the start of the next cycle.
     pub fn time(&self) -> f64 {
         self.shared.rate.time(self.shared.now.get())
+    }
+
+    /// Controller time of the last cycle in s, as its row of the trace has it; 0 before the first one.
+    pub(crate) fn last_time(&self) -> f64 {
+        self.shared.rate.time(self.shared.now.get().saturating_sub(1))
+    }
+
+    /// Whether the last cycle is one of those that come each so many cycles, from the first one on.
+    pub(crate) fn is_turn(&self, every: u64) -> bool {
+        self.shared.now.get().checked_sub(1).is_some_and(|last| last.is_multiple_of(every.max(1)))
     }
 
     /// The running number of the next cycle, from 0.

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{Controller, act};
-use crate::io::Order;
+use crate::io::{Effect, Order};
 use arl_robot::cell::Names;
 
 impl Controller {
@@ -26,7 +26,12 @@ impl Controller {
         let mut effects = Vec::new();
         let done = order.carry_out(&mut self.shared.io.borrow_mut(), &robots, |effect| effects.push(effect));
         done.map_err(OrderError::NotThere)?;
-        effects.into_iter().for_each(|effect| act(&mut self.channels, effect));
+        for effect in effects {
+            match effect {
+                Effect::Pendant(button) => self.press(button),
+                effect => act(&mut self.channels, effect),
+            }
+        }
         Ok(())
     }
 }

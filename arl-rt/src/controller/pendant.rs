@@ -39,8 +39,54 @@ impl Controller {
     /// assert_eq!(controller.joints().axes[0], 90.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
+    ///
+    /// The time of a [`Scenario`](crate::io::Scenario) begins with the programs: where they are paused before their
+    /// first cycle, with the start button, and with a reset of programs that have ended once more. Buttons that the
+    /// scenario itself presses do not change its time, nor does it wait where it presses the start button itself.
     pub fn press(&mut self, button: Pendant) {
+        let had_ended = self.channels.state() == State::Ended;
         press(&mut self.channels, button);
+        self.time_scenario(button, had_ended);
+    }
+
+    /// Lets the time of the scenario begin with the programs, where a button of this moment makes them begin.
+    fn time_scenario(&mut self, button: Pendant, had_ended: bool) {
+        let (now, state) = (self.shared.now.get(), self.channels.state());
+        let starts = self.scenario_starts();
+        match button {
+            Pendant::Pause if state == State::Paused && self.scenario.began() == now && !starts => self.scenario.wait(),
+            // A robot whose servo is off does not start: a scenario may be there to bring that about.
+            Pendant::Start | Pendant::Step if self.scenario.waits() && (state == State::Running || starts) => {
+                self.scenario.begin(now);
+            }
+            Pendant::Reset if had_ended && state != State::Ended => self.begin_scenario_again(),
+            _ => {}
+        }
+    }
+
+    /// Whether the scenario starts programs itself: at the pendant, or as a PLC.
+    pub(super) fn scenario_starts(&self) -> bool {
+        self.scenario.starts(self.external.is_wired().then(|| self.system().start_prog_di.get()))
+    }
+
+    /// Waits with programs and scenario for somebody who presses the start button; before the first cycle.
+    pub(crate) fn wait_for_start(&mut self) {
+        self.press(Pendant::Pause);
+        self.scenario.wait();
+    }
+
+    /// Programs begin once more, and their scenario with them.
+    pub(super) fn begin_scenario_again(&mut self) {
+        let effects = &mut self.effects;
+        let mut image = self.shared.io.borrow_mut();
+        self.scenario.begin_again(self.shared.now.get(), &mut image, |effect| effects.push(effect));
+        drop(image);
+        for effect in self.effects.drain(..) {
+            super::act(&mut self.channels, effect);
+        }
+        if self.channels.state() == State::Paused {
+            self.scenario.wait();
+        }
     }
 
     /// Switches the loop running mode on or off, for all channels: a program that comes to its end is reset, as by

@@ -41,6 +41,33 @@ after(() => rmSync(path, { recursive: true, force: true }));
 const state = (page) =>
   page.evaluate(() => ({ time: window.page.time, playing: window.page.playing, drawn: window.page.scene.drawn, end: window.page.end }));
 
+test("another tool is no motion", { skip }, async (test) => {
+  const program = `tool grip = {{0, 0, 180, 0, 0, 0}, false}
+func void main()
+  movej j:{0,-90,90,0,30,0}, vp:50%
+  movej j:{20,-80,90,0,30,0}, vp:50%, t:grip
+  movej j:{0,-90,90,0,30,0}, vp:50%
+endfunc
+`;
+  record(path, "tools", program);
+  const { url } = await serve(test, path, "tools.mcap");
+  const { page, troubles } = await visit(test, url);
+  await page.waitForFunction(() => document.querySelector("#legend")?.textContent?.includes("mm/s"));
+  const seen = await page.evaluate(() => {
+    const { run, tracks } = /** @type {any} */ (window).page;
+    const rows = run.channels[0].samples.piece(0, run.end);
+    return {
+      legend: document.querySelector("#legend")?.textContent,
+      jumps: [...rows.jumps].filter(Boolean).length,
+      fastest: Math.max(...tracks.rows.speed),
+    };
+  });
+  assert.ok(seen.jumps === 2, "there and back");
+  assert.ok(seen.fastest < 5000, `${seen.fastest} mm/s`);
+  assert.match(seen.legend ?? "", /^0 to \d{2,4} mm\/s/);
+  assert.deepEqual(troubles, []);
+});
+
 test("a recording plays, scrubs and tells where the program is", { skip }, async (test) => {
   const { url } = await serve(test, path, "a.mcap");
   const { page, troubles } = await visit(test, url);

@@ -5,6 +5,8 @@ use super::failure::{COMPILE_ERRORS, Failure};
 use crate::cli::exit::Exit;
 use crate::format::format;
 use arl_lang::text::{decode, encode_like};
+use arl_robot::atomic_file::{self, ChangeError};
+use arl_robot::regular_file;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -78,20 +80,15 @@ fn laid_out(name: &Path, bytes: &[u8]) -> Result<Vec<u8>, Failure> {
 
 /// Lays a file out; gives its name where it would change and is only to be named.
 fn in_place(file: &Path, check: bool) -> Result<Option<PathBuf>, Failure> {
-    let unreadable = |error: io::Error| Failure::io("read", file, &error);
-    if !fs::metadata(file).map_err(unreadable)?.is_file() {
-        return Err(Failure::Other(format!("cannot read {}: this is no regular file", file.display())));
-    }
-    let bytes = fs::read(file).map_err(unreadable)?;
-    let new = laid_out(file, &bytes)?;
-    if new == bytes {
-        return Ok(None);
-    }
     if check {
-        return Ok(Some(file.to_path_buf()));
+        let bytes = regular_file::read(file).map_err(|error| Failure::io("read", file, &error))?;
+        return Ok((laid_out(file, &bytes)? != bytes).then(|| file.to_path_buf()));
     }
-    replace(file, &new).map_err(|error| Failure::io("write", file, &error))?;
-    Ok(None)
+    atomic_file::change(file, |bytes| laid_out(file, bytes)).map(|()| None).map_err(|error| match error {
+        ChangeError::Read(error) => Failure::io("read", file, &error),
+        ChangeError::Refused(failure) => failure,
+        ChangeError::Write(error) => Failure::io("write", file, &error),
+    })
 }
 
 fn standard_input(check: bool) -> Result<Option<PathBuf>, Failure> {
@@ -104,31 +101,4 @@ fn standard_input(check: bool) -> Result<Option<PathBuf>, Failure> {
     }
     let mut out = io::stdout().lock();
     answer::written(out.write_all(&new).and_then(|()| out.flush())).map(|()| None)
-}
-
-/// Puts new content in the place of a file: it is whole at any moment, the old one or the new one. A link stays one, and
-/// what was forbidden to write stays as it is.
-fn replace(file: &Path, content: &[u8]) -> io::Result<()> {
-    let file = file.canonicalize()?;
-    let permissions = fs::metadata(&file)?.permissions();
-    if permissions.readonly() {
-        return Err(io::ErrorKind::PermissionDenied.into());
-    }
-    let mut name = std::ffi::OsString::from(".");
-    name.push(file.file_name().unwrap_or_default());
-    name.push(format!(".{}.new", std::process::id()));
-    let beside = file.with_file_name(name);
-    let written = write_new(&beside, content, permissions).and_then(|()| fs::rename(&beside, &file));
-    if written.is_err() {
-        // It may not be there at all.
-        let _ = fs::remove_file(&beside);
-    }
-    written
-}
-
-fn write_new(path: &Path, content: &[u8], permissions: fs::Permissions) -> io::Result<()> {
-    let mut file = fs::OpenOptions::new().write(true).create_new(true).open(path)?;
-    file.write_all(content)?;
-    file.set_permissions(permissions)?;
-    file.sync_all()
 }

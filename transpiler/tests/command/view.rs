@@ -4,6 +4,7 @@ use super::Folder;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
 
 const MOVES: &str = "func void main()\n  print \"go\"\n  movej j:{20,-80,90,0,30,0}\nendfunc\n";
 
@@ -76,6 +77,26 @@ fn a_recording_is_served_to_its_own_page_only() {
     // A second one on its port.
     let port = serving.1.rsplit(':').next().expect("a port");
     folder.arl2rs(&["view", "a.mcap", "--no-open", "--port", port]).is(2, "").says(&format!("port {port} is taken"));
+}
+
+#[test]
+fn the_time_of_a_scenario_begins_with_the_start_button() {
+    let program = "func void main()\n  waituntil getdi(1)\n  print \"seen\"\nendfunc\n";
+    let scenario = "[[event]]\nat = 0.3\ndi.1 = true\n[[event]]\nat = 0.5\ndi.1 = false\n";
+    let folder = Folder::new("view_scenario").with("a.arl", program).with("s.toml", scenario);
+    let serving = Serving::start(&folder, &["a.arl", "--io", "s.toml"]);
+    let own = format!("Origin: http://{}\r\n", serving.1);
+    // Longer than the scenario takes.
+    std::thread::sleep(Duration::from_millis(1500));
+    for (order, times) in [("start", 1), ("reset", 2)] {
+        let answer = serving.ask("POST /api/order", &own, &format!("pendant = \"{order}\""));
+        assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
+        let began = Instant::now();
+        while serving.ask("GET /api/run/0", "", "").matches("\"text\":\"seen\"").count() < times {
+            assert!(began.elapsed() < Duration::from_secs(60), "the program waits for ever");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
 }
 
 #[test]

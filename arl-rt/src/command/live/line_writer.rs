@@ -142,7 +142,7 @@ impl LineWriter {
     /// How everything stands.
     pub(super) fn state(&self, controller: &Controller) {
         let mut line = String::with_capacity(1024);
-        push_state(&mut line, controller);
+        push_state(&mut line, controller, controller.last_time());
         self.lines.state(line);
     }
 
@@ -162,6 +162,8 @@ impl LineWriter {
             self.warning(&text);
         }
         for alarm in controller.take_alarms() {
+            // It belongs to this moment.
+            self.state(controller);
             self.alarm(&alarm);
         }
     }
@@ -269,11 +271,11 @@ pub(crate) fn alarm_line(alarm: &Alarm) -> String {
     format!("{{\"alarm\":{{\"number\":{number},\"text\":{text},\"file\":{file},\"line\":{line}}}}}\n")
 }
 
-/// Adds a line that says how everything stands.
-pub(crate) fn push_state(out: &mut String, controller: &Controller) {
+/// Adds a line that says how everything stands at a time.
+pub(crate) fn push_state(out: &mut String, controller: &Controller, time: f64) {
     let status = controller.status();
     out.push_str("{\"state\":{\"time\":");
-    push_number(out, status.time);
+    push_number(out, time);
     let _ = write!(out, ",\"mode\":\"{}\",\"override\":", status.mode.name());
     push_number(out, status.speed_override);
     out.push_str(",\"channels\":");
@@ -293,7 +295,7 @@ pub(crate) fn push_state(out: &mut String, controller: &Controller) {
 /// these say which bodies are there.
 pub(super) fn push_cycle(out: &mut String, controller: &Controller) {
     out.push_str("{\"cycle\":{\"time\":");
-    push_number(out, controller.time());
+    push_number(out, controller.last_time());
     out.push_str(",\"channels\":[");
     let mut first = true;
     controller.each_robot(|motion, base, own, external| {

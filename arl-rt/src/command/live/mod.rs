@@ -61,8 +61,8 @@ pub(crate) fn drive(
     interrupted: &AtomicBool,
 ) -> Result<Option<Outcome>, Cut> {
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
-    let every = controller.cycles(wishes.state_interval).max(1);
-    let every_inside = controller.cycles(INSIDE_INTERVAL_S).max(1);
+    let every = controller.cycles(wishes.state_interval);
+    let every_inside = controller.cycles(INSIDE_INTERVAL_S);
     let orders = Orders::from_standard_input();
     let mut look = Look { inside, channel: None };
     let mut ended_motions = EndedMotions::default();
@@ -89,11 +89,11 @@ pub(crate) fn drive(
         if wishes.each_cycle {
             voice.cycle(controller);
         }
-        if controller.cycle().is_multiple_of(every) {
+        if controller.is_turn(every) {
             voice.state(controller);
             ended_motions.say(controller, voice);
         }
-        if controller.cycle().is_multiple_of(every_inside) {
+        if controller.is_turn(every_inside) {
             look.say(controller, voice);
         }
     }

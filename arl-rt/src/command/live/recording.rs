@@ -62,15 +62,23 @@ impl Recording {
     }
 
     /// A warning.
-    pub(crate) fn warning(&self, text: &str) {
-        self.flush();
+    pub(crate) fn warning(&self, controller: &Controller, text: &str) {
+        self.catch_up(controller);
         self.voice.warning(text);
     }
 
     /// An alarm.
-    pub(crate) fn alarm(&self, alarm: &Alarm) {
-        self.flush();
+    pub(crate) fn alarm(&self, controller: &Controller, alarm: &Alarm) {
+        self.catch_up(controller);
         self.voice.alarm(alarm);
+    }
+
+    /// Says how everything stands now: what comes next belongs to this moment.
+    fn catch_up(&self, controller: &Controller) {
+        self.flush();
+        if controller.cycle() > 0 {
+            self.voice.state(controller);
+        }
     }
 
     /// What waits goes out.
@@ -84,15 +92,14 @@ impl Recording {
     /// What runs on which robots, before the first cycle.
     pub(crate) fn begin(&self, controller: &Controller) {
         self.voice.hello(controller);
-        self.voice.state(controller);
     }
 
     /// A cycle has ended.
     pub(crate) fn cycle_ended(&self, controller: &Controller) {
-        let every = controller.cycles(STATE_INTERVAL_S).max(1);
+        let every = controller.cycles(STATE_INTERVAL_S);
         let mut waiting = self.waiting.borrow_mut();
-        if controller.cycle().is_multiple_of(every) {
-            push_state(&mut waiting, controller);
+        if controller.is_turn(every) {
+            push_state(&mut waiting, controller, controller.last_time());
         }
         if self.wishes.each_cycle {
             push_cycle(&mut waiting, controller);
@@ -142,5 +149,70 @@ impl<O: Output> Output for Both<O> {
 
     fn flush(&mut self) {
         self.output.flush();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{BufRead, BufReader};
+    use std::net::TcpListener;
+
+    use super::*;
+    use crate::emit::*;
+
+    struct Turn;
+
+    impl crate::Program for Turn {
+        fn file(&self) -> File {
+            File::new("turn.arl")
+        }
+        fn family(&self) -> Family {
+            Family::SixAxis
+        }
+        fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+            let target = Joint { j1: 10.0, j2: -90.0, j3: 90.0, j4: 0.0, j5: 45.0, j6: 0.0, ..Joint::default() };
+            Box::pin(async move { motion::movej(target).run(cx).await.at(self.file(), 2) })
+        }
+    }
+
+    /// The first number behind a word in a line, and the first list behind another.
+    fn said(line: &str, word: &str, list: &str) -> (String, String) {
+        let behind = |word: &str| line.split_once(word).map_or("", |(_, rest)| rest);
+        let until = |text: &str, end: char| text.split(end).next().unwrap_or_default().to_owned();
+        (until(behind(word), ','), until(behind(list), ']'))
+    }
+
+    #[test]
+    fn states_and_cycles_have_the_times_of_the_trace() {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let address = listener.local_addr().unwrap().to_string();
+        let recording = Recording::connect(&address, Wishes { each_cycle: true, ..Wishes::default() }).unwrap();
+        let (stream, _) = listener.accept().unwrap();
+        let mut controller = Controller::builder().build(Box::new(Turn)).unwrap();
+        recording.begin(&controller);
+        let mut rows = Vec::new();
+        for _ in 0..101 {
+            controller.step();
+            rows.push(controller.trace_row());
+            recording.cycle_ended(&controller);
+        }
+        drop(recording);
+        let (mut cycles, mut states) = (0, 0);
+        for line in BufReader::new(stream).lines().map(Result::unwrap) {
+            let (time, axes) = said(&line, "\"time\":", "\"axes\":[");
+            let count = match &line {
+                line if line.starts_with("{\"cycle\"") => &mut cycles,
+                line if line.starts_with("{\"state\"") => &mut states,
+                _ => continue,
+            };
+            *count += 1;
+            let time: f64 = time.parse().unwrap();
+            let row = rows.iter().find(|row| row[0] == time).unwrap_or_else(|| panic!("no row of {time} s"));
+            let axes: Vec<f64> = axes.split(',').map(|axis| axis.parse().unwrap()).collect();
+            // Numbers have six places.
+            assert!(axes.iter().zip(&row[3..9]).all(|(said, axis)| (said - axis).abs() < 1e-6), "{row:?}: {line}");
+        }
+        assert_eq!((cycles, states), (101, 26), "each cycle, and every fourth one from the first one on");
+        assert!(rows[100][3] - rows[99][3] > 1e-3, "it moves, faster than what is compared");
     }
 }

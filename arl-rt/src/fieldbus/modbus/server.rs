@@ -24,6 +24,9 @@ use connection::Connection;
 /// A connection that has been silent for so long makes room for a new one.
 const IDLE_TIMEOUT: Duration = Duration::from_secs(60);
 
+/// One that has never asked for anything does so earlier.
+const FIRST_REQUEST: Duration = Duration::from_secs(5);
+
 /// How long nobody is accepted after the system refused to.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 
@@ -172,21 +175,21 @@ impl Door {
         if self.clients.len() < self.most {
             return true;
         }
-        let silences = self.clients.iter().enumerate().map(|(at, client)| (at, client.silence()));
-        match silences.max_by_key(|(_, silence)| *silence) {
-            Some((at, silence)) if silence >= self.patience => {
-                self.clients.swap_remove(at).end();
-                true
-            }
-            _ => false,
-        }
+        let silences = self.clients.iter().enumerate();
+        let too_silent = silences.filter_map(|(at, client)| Some((at, client.too_silent(self.patience)?)));
+        let Some((at, _)) = too_silent.max_by_key(|(_, silence)| *silence) else { return false };
+        self.clients.swap_remove(at).end();
+        true
     }
 }
 
 impl Client {
-    /// How long nothing has come from it; one that is about to be over says nothing any more.
-    fn silence(&self) -> Duration {
-        self.connection.upgrade().map_or(Duration::MAX, |connection| connection.silence())
+    /// How long no request has come from it, where that is too long; one that is about to be over says nothing any
+    /// more.
+    fn too_silent(&self, patience: Duration) -> Option<Duration> {
+        let Some(connection) = self.connection.upgrade() else { return Some(Duration::MAX) };
+        let patience = if connection.has_asked() { patience } else { patience.min(FIRST_REQUEST) };
+        Some(connection.silence()).filter(|silence| *silence >= patience)
     }
 
     fn end(&self) {

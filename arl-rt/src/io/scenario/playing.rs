@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::{Action, Cause, Effect, Event, Pendant, Scenario};
+use super::{Action, Cause, Digital, Effect, Event, Pendant, RobotEffect, Scenario};
 use crate::io::bits::Bits;
 use crate::io::image::PWM_CHANNELS;
 use crate::io::{Image, Pwm};
@@ -15,6 +15,14 @@ pub(crate) struct Playing {
     events: Vec<Event>,
     /// The places of those events that wait for an edge.
     watching: Vec<usize>,
+    /// The places of those that come at a time, with that in cycles.
+    timed: Vec<(usize, u64)>,
+    /// What those set, as it was at first.
+    at_first: Vec<Action>,
+    /// The cycle from which on time counts.
+    began: u64,
+    /// Whether time does not count yet: the programs wait for their start.
+    waits: bool,
     resets: bool,
     rate: Rate,
     due: Due,
@@ -28,17 +36,75 @@ pub(crate) struct Playing {
 impl Playing {
     pub(crate) fn new(scenario: Scenario, image: &Image, rate: Rate) -> Self {
         let events = scenario.events;
-        let (mut due, mut watching) = (Due::with_room(events.len() * 4 + 16), Vec::new());
+        let (mut timed, mut watching, mut at_first) = (Vec::new(), Vec::new(), Vec::new());
         for (at, event) in events.iter().enumerate() {
             match event.cause {
-                Cause::At(time) => due.add(rate.cycles(time), at),
+                Cause::At(time) => {
+                    timed.push((at, rate.cycles(time)));
+                    at_first.extend(event.actions.iter().filter_map(|action| action.undone(image)));
+                }
                 Cause::Edge { .. } | Cause::Pwm(_) => watching.push(at),
             }
         }
-        let reset = Action::Effect(Effect::Pendant(Pendant::Reset));
-        let resets = events.iter().any(|event| event.actions.contains(&reset));
+        let due = Due::with_room(events.len() * 4 + 16);
         let (before_in, before_out) = (image.inputs().clone(), image.outputs().clone());
-        Self { events, watching, resets, rate, due, played: 0, before_in, before_out, before_pwm: image.pwms() }
+        let mut playing = Self {
+            resets: presses(&events, Pendant::Reset),
+            events,
+            watching,
+            timed,
+            at_first,
+            began: 0,
+            waits: false,
+            rate,
+            due,
+            played: 0,
+            before_in,
+            before_out,
+            before_pwm: image.pwms(),
+        };
+        playing.begin(0);
+        playing
+    }
+
+    /// The cycle from which on time counts, or counted last.
+    pub(crate) fn began(&self) -> u64 {
+        self.began
+    }
+
+    /// Whether its time does not count yet.
+    pub(crate) fn waits(&self) -> bool {
+        self.waits
+    }
+
+    /// Lets time stand until [`begin`](Self::begin): somebody is to start the programs. Edges are still answered.
+    pub(crate) fn wait(&mut self) {
+        self.waits = true;
+        let timed = &self.timed;
+        self.due.retain(|event| timed.binary_search_by_key(&event, |(at, _)| *at).is_err());
+    }
+
+    /// Time counts from the start of this cycle on.
+    pub(crate) fn begin(&mut self, cycle: u64) {
+        self.wait();
+        self.waits = false;
+        self.began = cycle;
+        for (event, after) in &self.timed {
+            self.due.add(cycle.saturating_add(*after), *event);
+        }
+    }
+
+    /// The same once more: what events at a time have set is as it was at first.
+    pub(crate) fn begin_again(&mut self, cycle: u64, image: &mut Image, mut do_it: impl FnMut(Effect)) {
+        self.at_first.iter().for_each(|action| action.play(image, &mut do_it));
+        self.begin(cycle);
+    }
+
+    /// Whether it starts programs itself: at the pendant, or by a digital input.
+    pub(crate) fn starts(&self, input: Option<i32>) -> bool {
+        let sets =
+            |action: &Action| matches!(action, Action::Digital(Digital::Di, channel, _) if Some(*channel) == input);
+        presses(&self.events, Pendant::Start) || self.events.iter().any(|event| event.actions.iter().any(sets))
     }
 
     /// How many effects a cycle may have at most, if no event comes twice in it.
@@ -114,6 +180,28 @@ impl Playing {
     }
 }
 
+/// Whether a button is pressed.
+fn presses(events: &[Event], button: Pendant) -> bool {
+    events.iter().any(|event| event.actions.contains(&Action::Effect(Effect::Pendant(button))))
+}
+
+impl Action {
+    /// What brings back what this changes, where it lasts.
+    fn undone(&self, image: &Image) -> Option<Self> {
+        match *self {
+            Self::Digital(what, channel, _) => Some(Self::Digital(what, channel, image.digital(what, channel).ok()?)),
+            Self::Analog(channel, _) => Some(Self::Analog(channel, image.ai(channel).ok()?)),
+            Self::Effect(Effect::Robot(robot, RobotEffect::Force(_))) => {
+                Some(Self::Effect(Effect::Robot(robot, RobotEffect::Force([0.0; 3]))))
+            }
+            Self::Effect(Effect::Robot(robot, RobotEffect::Torque(axis, _))) => {
+                Some(Self::Effect(Effect::Robot(robot, RobotEffect::Torque(axis, 0.0))))
+            }
+            Self::Effect(_) => None,
+        }
+    }
+}
+
 /// Events on their way: the earliest comes first, and those of one cycle in the order in which they were set off.
 #[derive(Default, Debug)]
 struct Due {
@@ -144,6 +232,11 @@ impl Due {
     /// The cycle of the next event.
     fn next(&self) -> Option<u64> {
         self.waiting.peek().map(|Reverse((when, ..))| *when)
+    }
+
+    /// Drops all but these events.
+    fn retain(&mut self, stays: impl Fn(usize) -> bool) {
+        self.waiting.retain(|Reverse((_, _, event))| stays(*event));
     }
 
     fn is_empty(&self) -> bool {

@@ -5,12 +5,13 @@ use std::fmt;
 
 use arl_robot::kinematics::frame;
 use mcap::McapResult;
+use nalgebra::Vector3;
 use prost::Message as _;
 use twox_hash::XxHash3_128;
 
-use super::super::record::messages::{Cell, Channel, Contact, Controller, Io, Log, Motion, SceneUpdate};
+use super::super::record::messages::{Cell, Channel, Contact, Controller, Io, Link, Log, Motion, SceneUpdate};
 use super::super::record::{Schema, Sink};
-use super::super::said::written;
+use super::super::said::{LinkJoint, placed as placed_frame, written};
 use super::super::texts::Text;
 use super::bounds::Bounded;
 
@@ -24,6 +25,11 @@ const GAP_S: f64 = 0.06;
 pub(in super::super) const TOLD_AGAIN: usize = 64;
 /// How far messages are apart while a robot moves, in s.
 const STEP_S: f64 = 0.004;
+/// A TCP that is elsewhere on the flange by more than that, in mm, is that of another tool.
+const OTHER_TOOL_MM: f64 = 0.01;
+/// Where the flange is not known, a TCP that gets faster than this, in mm/s2, when a motion begins is that of another
+/// tool.
+const OTHER_TOOL_ACC: f64 = 5e5;
 
 /// A run as far as it is known.
 #[derive(Default)]
@@ -77,6 +83,10 @@ pub(in super::super) struct Track {
     pub(in super::super) tcp: Vec<[f32; 7]>,
     /// Of the TCP in mm/s.
     pub(in super::super) speed: Vec<f32>,
+    /// Whether the TCP is that of another tool than in the row before: it has not moved from there to here.
+    pub(in super::super) jumps: Vec<bool>,
+    /// What was said last of where the robot is.
+    last: Option<Channel>,
     pub(in super::super) pointers: Vec<Pointers>,
     /// The numbers of the files in which motions stand, as far as a motion was seen.
     pub(in super::super) motion_files: BTreeMap<u32, u16>,
@@ -173,8 +183,8 @@ impl Store {
         ];
         for (kind, before, now) in kinds {
             for (at, value) in now.into_iter().enumerate() {
-                // All begin at 0: a signal that never leaves it has no changes.
-                if before.get(at).copied().unwrap_or_default() != value {
+                // All begin at 0: a signal that never leaves it has no changes. What is no number changes nothing.
+                if before.get(at).copied().unwrap_or_default() != value && value.is_finite() {
                     let signal = Signal { kind, number: at + 1 };
                     self.signals.entry(signal).or_default().push((io.time, value));
                     self.changes.push((signal, io.time, value));
@@ -198,12 +208,13 @@ impl Store {
         if self.tracks.len() <= at {
             self.tracks.resize_with(at + 1, Track::default);
         }
-        self.tracks.get_mut(at).map_or(Ok(()), |track| track.take(said))
+        let links = self.cell.channels.get(at).map(|runs| &runs.links[..]).unwrap_or_default();
+        self.tracks.get_mut(at).map_or(Ok(()), |track| track.take(said, links))
     }
 }
 
 impl Track {
-    fn take(&mut self, said: &Channel) -> Result<(), String> {
+    fn take(&mut self, said: &Channel, links: &[Link]) -> Result<(), String> {
         let (file, motion_file) = (self.file(&said.file)?, self.file(&said.motion_file)?);
         if self.times.is_empty() {
             self.width = said.axes.len();
@@ -216,7 +227,20 @@ impl Track {
             self.bases.push((said.time, base));
         }
         let tcp = placed(&said.tcp);
-        self.speed.push(self.speed_to(said.time, &tcp));
+        let (speed, before) = (self.speed_to(said.time, &tcp), self.speed.last().copied().unwrap_or_default());
+        let jumps = self.last.as_ref().is_some_and(|last| {
+            let moved_mm = way(&last.tcp, &said.tcp);
+            let by_flange = flange_tool(last, links).zip(flange_tool(said, links));
+            last.motion != said.motion
+                && moved_mm > OTHER_TOOL_MM
+                && by_flange.map_or_else(
+                    || f64::from(speed - before) > OTHER_TOOL_ACC * STEP_S,
+                    |(one, other)| (one - other).norm() > OTHER_TOOL_MM,
+                )
+        });
+        self.jumps.push(jumps);
+        self.speed.push(if jumps { before } else { speed });
+        self.last = Some(said.clone());
         self.axes.extend((0..self.width).map(|axis| said.axes.get(axis).copied().unwrap_or_default() as f32));
         self.tcp.push(tcp);
         let pointers = Pointers {
@@ -279,6 +303,25 @@ impl Track {
 fn decoded<M: prost::Message + Bounded + Default>(message: &[u8]) -> Result<M, String> {
     let decoded = M::decode(message).map_err(|error| error.to_string())?;
     decoded.check().map(|()| decoded)
+}
+
+/// How far one place is from another, in mm.
+fn way(from: &[f64], to: &[f64]) -> f64 {
+    from.iter().zip(to).take(3).map(|(from, to)| (to - from).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Where the TCP is on the flange, in mm, where a recording has the robot's links.
+fn flange_tool(said: &Channel, links: &[Link]) -> Option<Vector3<f64>> {
+    let (base, tcp) = (<[f64; 6]>::try_from(&said.base[..]).ok()?, <[f64; 6]>::try_from(&said.tcp[..]).ok()?);
+    let mut flange = frame(base);
+    for (at, link) in links.iter().enumerate() {
+        let origin = <[f64; 7]>::try_from(&link.origin[..]).ok()?;
+        flange *= match <[f64; 3]>::try_from(&link.axis[..]) {
+            Ok(axis) => LinkJoint { origin, axis, linear: link.linear }.joint().at(*said.axes.get(at)?),
+            Err(_) => placed_frame(&origin),
+        };
+    }
+    (!links.is_empty()).then(|| (flange.inverse() * frame(tcp)).translation.vector)
 }
 
 /// A frame from x, y, z in mm, a, b, c in deg.

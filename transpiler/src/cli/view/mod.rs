@@ -3,6 +3,7 @@
 //! The page is in `transpiler/page/`. It asks this server for what it shows, and gives it orders where there is somebody to take them.
 
 mod answer;
+mod http;
 mod live;
 mod page;
 mod serve;
@@ -15,10 +16,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
 
 use arl_robot::Robot;
 use arl_robot::cell::Cell;
-use oxhttp::ListeningServer;
 use serde_json::{Value, json};
 
 use super::args::ViewOptions;
@@ -31,7 +32,7 @@ use super::scenery::Scenery;
 use super::{robot, run, show, texts};
 use answer::{About, Known};
 use live::Live;
-use serve::{Answer, Asked};
+use serve::{Answer, Asked, ToPage};
 use teach::Teacher;
 
 /// At most so many rows are told at once.
@@ -64,7 +65,8 @@ pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<Exit, Fai
             let runs = files.iter().map(|file| Ok((name(file), Arc::new(Mutex::new(recording(file)?)))));
             let shown = Shown { runs: runs.collect::<Result<_, Failure>>()?, live: None, teacher: None };
             let server = serve(&Arc::new(shown), options)?;
-            server.join().map_err(|error| Failure::Other(format!("the server ended: {error}")))?;
+            // It serves for ever.
+            server.join().map_err(|_| Failure::Other("the server ended".to_owned()))?;
             Ok(Exit::SUCCESS)
         }
     }
@@ -103,9 +105,10 @@ fn robots(cell: &Cell, first: Option<&str>) -> Result<Vec<Robot>, Failure> {
 }
 
 /// Serves the page, tells its address and opens it.
-fn serve(shown: &Arc<Shown>, options: &ViewOptions) -> Result<ListeningServer, Failure> {
+fn serve(shown: &Arc<Shown>, options: &ViewOptions) -> Result<JoinHandle<()>, Failure> {
     let shown = Arc::clone(shown);
-    let (address, server) = serve::serve(options.port, move |asked: &Asked<'_>| shown.answer(asked))?;
+    let to_page = |address| ToPage::new(address, move |asked: &Asked<'_>| shown.answer(asked));
+    let (address, server) = http::serve(options.port, to_page).map_err(|error| http::refusal(options.port, &error))?;
     let url = format!("http://{address}/");
     let mut out = std::io::stdout();
     // Nobody may read it.
@@ -139,12 +142,12 @@ impl Shown {
                 _ => Answer::NotFound,
             },
             Some(["teach", rest @ ..]) => match &self.teacher {
-                Some(teacher) => teacher.answer(rest, asked.order.as_deref()),
+                Some(teacher) => teacher.answer(rest, asked.order),
                 None => {
                     Answer::Refused("points are only written where the command was started with --teach".to_owned())
                 }
             },
-            Some(["order"]) => match (&self.live, &asked.order) {
+            Some(["order"]) => match (&self.live, asked.order) {
                 (Some(live), Some(order)) => {
                     live.order(order).map_or_else(Answer::Refused, |()| Answer::Json(Value::Null))
                 }

@@ -2,7 +2,7 @@
 
 use prost::Message as _;
 
-use super::super::record::messages::{Channel, Io, Motion};
+use super::super::record::messages::{Cell, Channel, Io, Link, Motion, Runs};
 use super::super::recorded::{Signal, Store, Took};
 use super::answer::{self, Known};
 
@@ -51,7 +51,7 @@ fn told(bytes: &[u8]) -> (u32, Vec<f64>, Vec<f32>, Vec<f32>) {
     let axes = 8 + rows * 8;
     let tcp = axes + rows * width * 4;
     let speed = tcp + rows * 7 * 4;
-    assert_eq!(bytes.len(), speed + rows * 4 + rows * 16, "nothing is left over");
+    assert_eq!(bytes.len(), speed + rows * 4 + rows * 17, "nothing is left over");
     (rows as u32, f64s(8).collect(), f32s(axes, rows, width).collect(), f32s(speed, rows, 1).collect())
 }
 
@@ -65,6 +65,41 @@ fn a_stretch_of_time_has_the_row_before_it() {
     // Beyond the end there is the last row.
     assert_eq!(told(&answer::samples(&store.tracks[0], [9.0, 10.0], 10)).0, 1);
     assert_eq!(told(&answer::samples(&Store::default().tracks.pop().unwrap_or_default(), [0.0, 1.0], 10)).0, 0);
+}
+
+/// A robot of one axis that turns, and its flange 500 mm above it.
+fn turning() -> Cell {
+    let link =
+        |origin: [f64; 7], axis: &[f64]| Link { origin: origin.to_vec(), axis: axis.to_vec(), ..Link::default() };
+    let up = |z| [0.0, 0.0, z, 0.0, 0.0, 0.0, 1.0];
+    let links = vec![link(up(100.0), &[0.0, 0.0, 1.0]), link(up(400.0), &[])];
+    Cell { channels: vec![Runs { links, ..Runs::default() }], ..Cell::default() }
+}
+
+#[test]
+fn another_tool_is_no_motion() {
+    // It stands in motion 1; motion 2 has a tool that is 45 mm longer, or a hundredth of that.
+    for (longer, cell) in [(45.0, turning()), (0.45, turning()), (45.0, Cell::default())] {
+        let said = |at: u32, motion, z| Channel {
+            axes: vec![f64::from(at) * 0.01],
+            tcp: vec![0.0, 0.0, z, 0.0, 0.0, 0.0],
+            base: vec![0.0; 6],
+            ..channel(f64::from(at) * 0.004, 5, motion, 0.0)
+        };
+        let mut store = Store { cell, ..Store::default() };
+        for at in 0..100 {
+            let (motion, z) = if at < 50 { (1, 500.0) } else { (2, 500.0 + longer) };
+            store.take("/arl/channel_1", 0, &said(at, motion, z).encode_to_vec()).unwrap();
+        }
+        let track = &store.tracks[0];
+        assert!(track.speed.iter().all(|speed| *speed == 0.0), "{longer}: {:?}", track.speed);
+        assert!(track.jumps.iter().enumerate().all(|(row, jumps)| *jumps == (row == 50)));
+        for most in [1000, 9] {
+            let bytes = answer::samples(track, [0.0, 9.0], most);
+            let rows = told(&bytes).0 as usize;
+            assert_eq!(bytes[bytes.len() - rows..].iter().map(|jumps| u32::from(*jumps)).sum::<u32>(), 1);
+        }
+    }
 }
 
 #[test]
@@ -106,6 +141,21 @@ fn signals_are_told_from_where_they_changed() {
     let digital = serde_json::json!({"signal": "di.2", "changes": [3.0, 0.0]});
     let told = news["signals"].as_array().unwrap();
     assert!(told.contains(&analog) && told.contains(&digital), "{told:?}");
+}
+
+#[test]
+fn what_is_no_number_is_none_of_the_page() {
+    let none = f64::NAN;
+    let mut store = Store::default();
+    for time in 0..3u32 {
+        let io = Io { time: f64::from(time), ai: vec![none], ..Io::default() };
+        store.take("/arl/io", u64::from(time) * 1_000_000_000, &io.encode_to_vec()).unwrap();
+    }
+    let motion = Motion { channel: 1, motion: 1, way: none, reached: f64::INFINITY, ..Motion::default() };
+    store.take("/arl/motions", 0, &motion.encode_to_vec()).unwrap();
+    let news = answer::news(&store, &Known::default());
+    assert_eq!((&news["motions"][0]["way"], &news["motions"][0]["reached"]), (&0.0.into(), &0.0.into()));
+    assert_eq!(news["signals"], serde_json::json!([]));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::io::{ErrorKind, Read, Result, Write};
 use std::net::{Shutdown, TcpStream};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::fieldbus::modbus::SharedTables;
@@ -17,8 +17,10 @@ const BUFFER_BYTES: usize = 4 * LONGEST_FRAME;
 pub(super) struct Connection {
     stream: TcpStream,
     since: Instant,
-    /// How long after that something came the last time, in ms.
+    /// How long after that a request came the last time, in ms.
     heard: AtomicU64,
+    /// Whether any has come.
+    has_asked: AtomicBool,
 }
 
 impl Connection {
@@ -30,12 +32,17 @@ impl Connection {
         let stream = TcpStream::from(stream);
         stream.set_nonblocking(false)?;
         stream.set_nodelay(true)?;
-        Ok(Self { stream, since: Instant::now(), heard: AtomicU64::new(0) })
+        Ok(Self { stream, since: Instant::now(), heard: AtomicU64::new(0), has_asked: AtomicBool::new(false) })
     }
 
-    /// How long nothing has come.
+    /// How long no request has come; bytes that are none do not count.
     pub(super) fn silence(&self) -> Duration {
         self.since.elapsed().saturating_sub(Duration::from_millis(self.heard.load(Ordering::Relaxed)))
+    }
+
+    /// Whether a request has ever come.
+    pub(super) fn has_asked(&self) -> bool {
+        self.has_asked.load(Ordering::Relaxed)
     }
 
     /// Ends it, whatever its thread waits for just now.
@@ -52,6 +59,10 @@ impl Connection {
         while let Some(count @ 1..) = self.receive(input.get_mut(filled..).unwrap_or_default()) {
             filled += count;
             let (done, sound) = answer(input.get(..filled).unwrap_or_default(), tables, &mut answers);
+            if done > 0 {
+                self.heard.store(self.since.elapsed().as_millis() as u64, Ordering::Relaxed);
+                self.has_asked.store(true, Ordering::Relaxed);
+            }
             if (&self.stream).write_all(&answers).is_err() || !sound {
                 return;
             }
@@ -65,10 +76,7 @@ impl Connection {
     fn receive(&self, room: &mut [u8]) -> Option<usize> {
         loop {
             match (&self.stream).read(room) {
-                Ok(count) => {
-                    self.heard.store(self.since.elapsed().as_millis() as u64, Ordering::Relaxed);
-                    return Some(count);
-                }
+                Ok(count) => return Some(count),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(_) => return None,
             }

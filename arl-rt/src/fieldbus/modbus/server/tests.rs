@@ -2,7 +2,7 @@
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, TcpStream};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::*;
 use crate::fieldbus::noise::Noise;
@@ -128,6 +128,33 @@ fn who_is_silent_for_long_makes_room() {
     expect_end(&mut silent);
     speaks.write_all(&request(4)).unwrap();
     expect_answer(&mut speaks, 4);
+}
+
+#[test]
+fn who_sends_a_request_byte_by_byte_makes_room() {
+    let tables = SharedTables::default();
+    let patience = Duration::from_millis(300);
+    let server = Server::with_patience(patience, "127.0.0.1:0".parse().unwrap(), 1, tables.clone()).unwrap();
+    set(&tables);
+    let mut slow = client(&server);
+    let slow_one = std::thread::spawn(move || {
+        // The head of a long request, and its bytes one by one, as long as they are taken.
+        let mut sent = slow.write_all(&[0, 1, 0, 0, 0, 250, 9]);
+        while sent.is_ok() {
+            std::thread::sleep(Duration::from_millis(40));
+            sent = slow.write_all(&[3]);
+        }
+    });
+    let began = Instant::now();
+    let mut other = loop {
+        assert!(began.elapsed() < Duration::from_secs(8), "the slow one keeps its place");
+        let mut stream = client(&server);
+        if stream.write_all(&request(3)).is_ok() && matches!(stream.read(&mut [0]), Ok(1)) {
+            break stream;
+        }
+    };
+    expect(&mut other, &[3, 0, 0, 0, 7, 9, 3, 4, 1, 2, 3, 4]);
+    slow_one.join().unwrap();
 }
 
 #[test]

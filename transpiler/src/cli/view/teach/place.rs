@@ -6,6 +6,7 @@ use arl_robot::kinematics::{Axes, Frame, Refusal, Singularity, Wanted, frame, fr
 use serde::{Deserialize, Serialize};
 
 use super::super::super::said::{Placed, placed, written};
+use super::points::FARTHEST;
 
 /// Below that clearance of a singular point, people are told.
 const NEAR_SINGULAR: f64 = 0.08;
@@ -90,11 +91,33 @@ pub(super) struct Mapped {
 }
 
 impl Where {
-    fn setting(&self) -> Setting {
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        [self.tool, self.wobj, self.base].into_iter().flatten()
+    }
+
+    fn setting(&self) -> Result<Setting, String> {
+        [self.tool, self.wobj, self.base].iter().try_for_each(expect_turned)?;
         let tool = Mount { frame: placed(&self.tool), on_flange: true };
         let wobj = Mount { frame: placed(&self.wobj), on_flange: false };
-        Setting::new(tool, wobj, placed(&self.base))
+        Ok(Setting::new(tool, wobj, placed(&self.base)))
     }
+}
+
+/// That numbers are such as a cell has.
+fn expect_sensible(numbers: impl Iterator<Item = f64>) -> Result<(), String> {
+    let mut numbers = numbers;
+    match numbers.find(|number| !(-FARTHEST..=FARTHEST).contains(number)) {
+        Some(number) => {
+            Err(format!("{number:e} is out of range: expected mm and deg from {:e} to {FARTHEST:e}", -FARTHEST))
+        }
+        None => Ok(()),
+    }
+}
+
+/// That a place is turned by a quaternion that says how.
+fn expect_turned([.., i, j, k, w]: &Placed) -> Result<(), String> {
+    let length = [i, j, k, w].iter().map(|part| part.powi(2)).sum::<f64>();
+    if length > 0.0 { Ok(()) } else { Err("a place is turned by a quaternion that is not 0".to_owned()) }
 }
 
 /// The robot's own axes.
@@ -108,7 +131,11 @@ fn own(robot: &Robot, axes: &[f64]) -> Result<Axes, String> {
 
 /// A place and its solutions.
 pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
-    let setting = asked.setting.setting();
+    let optional = asked.components.into_iter().chain(asked.before).flatten().chain(asked.placed.into_iter().flatten());
+    let axes = asked.near.iter().chain(asked.axes.iter().flatten()).copied();
+    expect_sensible(asked.setting.numbers().chain(optional).chain(axes))?;
+    asked.placed.iter().try_for_each(expect_turned)?;
+    let setting = asked.setting.setting()?;
     let near = own(robot, &asked.near)?;
     let pose = match asked {
         Asked { components: Some(components), .. } => frame(*components),
@@ -116,9 +143,6 @@ pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
         Asked { axes: Some(axes), .. } => setting.pose_of(&robot.kinematics.forward(&own(robot, axes)?)),
         _ => return Err("a place is asked for by `components`, `placed` or `axes`".to_owned()),
     };
-    if !pose.translation.vector.iter().all(|value| value.is_finite()) {
-        return Err("a place is made of numbers".to_owned());
-    }
     let flange = setting.flange_of(&pose).map_err(|error| error.to_string())?;
     let solution = |cfg: &u8| solution(robot, &flange, *cfg, &near);
     let solutions: Vec<Solution> = robot.kinematics.configurations().iter().map(solution).collect();
@@ -175,11 +199,13 @@ fn why(robot: &Robot, refusal: &Refusal) -> String {
 
 /// The places of a plane.
 pub(super) fn map(robot: &Robot, map: &Map) -> Result<Mapped, String> {
+    let numbers = map.components.into_iter().chain([map.half, map.step]).chain(map.near.iter().copied());
+    expect_sensible(map.setting.numbers().chain(numbers))?;
     let side = (2.0 * map.half / map.step).floor() + 1.0;
     if !(side >= 1.0 && side * side <= MOST_PLACES as f64) {
         return Err(format!("a map has at most {MOST_PLACES} places"));
     }
-    let (side, setting, near) = (side as usize, map.setting.setting(), own(robot, &map.near)?);
+    let (side, setting, near) = (side as usize, map.setting.setting()?, own(robot, &map.near)?);
     let [_, _, z, a, b, c] = map.components;
     // Around the robot's base, in the plane of the workpiece.
     let base = setting.workpiece().inverse() * placed(&map.setting.base);

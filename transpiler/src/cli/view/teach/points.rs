@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use arl_lang::ast::{BraceItem, Expr, ExprKind, Item, UnaryOp, Var};
 use arl_lang::symbol::Interner;
 use arl_robot::Family;
+use arl_robot::atomic_file::{self, ChangeError};
 use arl_robot::kinematics::frame;
-use arl_robot::{atomic_file, regular_file};
+use arl_robot::regular_file;
 use serde::{Deserialize, Serialize};
 
 use super::super::super::said::{Placed, written};
@@ -19,8 +20,12 @@ const DATA: &str = "_data.arl";
 const POSE: &[&str] = &["x", "y", "z", "a", "b", "c", "cfg", "turn", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
 const JOINT_SCARA: &[&str] = &["j1", "j2", "j3", "j4", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
 const JOINT: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
-/// Those that are whole numbers.
-const WHOLE: &[&str] = &["cfg", "turn"];
+/// Those that are whole numbers, and their ranges.
+const WHOLE: &[(&str, [f64; 2])] = &[("cfg", [0.0, 7.0]), ("turn", [-1.0, 63.0])];
+/// No cell is so large, in mm; no axis turns so far, in deg.
+pub(super) const FARTHEST: f64 = 1e6;
+/// The value of a component that is not set.
+const UNSET: f64 = 9e9;
 /// So many steps can be taken back.
 const UNDONE: usize = 200;
 
@@ -62,25 +67,20 @@ impl Files {
 
     /// Writes points, all or none.
     pub(super) fn save(&mut self, changes: &[Change]) -> Result<(), String> {
-        let mut step: Vec<Step> = Vec::new();
+        let mut by_file: Vec<(PathBuf, Vec<&Change>)> = Vec::new();
         for change in changes {
             let path = self.path(&change.file)?;
-            let at = match step.iter().position(|one| one.path == path) {
-                Some(at) => at,
-                None => {
-                    let before = read(&path)?;
-                    step.push(Step { path, after: before.clone(), before });
-                    step.len() - 1
-                }
-            };
-            if let Some(one) = step.get_mut(at) {
-                expect_known(&one.after, change, self.family)?;
-                let changed =
-                    arl_lang::with_value(&one.after, &change.r#type, &change.name, &literal(change, self.family)?);
-                one.after = changed.map_err(|what| format!("{} {what}", change.file))?;
+            match by_file.iter_mut().find(|(known, _)| *known == path) {
+                Some((_, of_file)) => of_file.push(change),
+                None => by_file.push((path, vec![change])),
             }
         }
-        write_all(step.iter().map(|one| (&one.path, &one.before, &one.after)))?;
+        // What cannot be is told before anything is written.
+        for (path, changes) in &by_file {
+            changed(&read(path)?, changes, self.family)?;
+        }
+        let write = |(path, changes): &(PathBuf, Vec<&Change>)| replace(path, |now| changed(now, changes, self.family));
+        let mut step = all_or_none(by_file.iter().map(write))?;
         step.retain(|one| one.before != one.after);
         if !step.is_empty() {
             if self.steps.len() == UNDONE {
@@ -95,14 +95,9 @@ impl Files {
     pub(super) fn undo(&mut self) -> Result<(), String> {
         let step = self.steps.last().ok_or("nothing was written that could be taken back")?;
         for one in step {
-            if read(&one.path)? != one.after {
-                return Err(format!(
-                    "{} was changed by somebody else since: nothing is taken back",
-                    one.path.display()
-                ));
-            }
+            one.expect_written(&read(&one.path)?)?;
         }
-        write_all(step.iter().map(|one| (&one.path, &one.after, &one.before)))?;
+        all_or_none(step.iter().map(Step::take_back))?;
         self.steps.pop();
         Ok(())
     }
@@ -121,26 +116,61 @@ impl Files {
     }
 }
 
-/// Writes files that hold something now, all or none.
-fn write_all<'a>(files: impl Iterator<Item = (&'a PathBuf, &'a Vec<u8>, &'a Vec<u8>)>) -> Result<(), String> {
-    let mut written = Vec::new();
-    for (path, now, then) in files {
-        if let Err(why) = write(path, then) {
-            // What cannot be written back is told as it is: the first reason counts.
-            written.iter().for_each(|(path, now): &(&PathBuf, &Vec<u8>)| drop(write(path, now)));
-            return Err(why);
-        }
-        written.push((path, now));
+impl Step {
+    /// Puts back what was there before.
+    fn take_back(&self) -> Result<Step, String> {
+        replace(&self.path, |now| self.expect_written(now).map(|()| self.before.clone()))
     }
-    Ok(())
+
+    /// That a file still holds what was written.
+    fn expect_written(&self, now: &[u8]) -> Result<(), String> {
+        let name = self.path.display();
+        if now == self.after { Ok(()) } else { Err(format!("{name} was changed by somebody else since: it stays so")) }
+    }
+}
+
+/// Writes files one after the other; where one cannot be, what was written is taken back.
+fn all_or_none(steps: impl Iterator<Item = Result<Step, String>>) -> Result<Vec<Step>, String> {
+    let mut written: Vec<Step> = Vec::new();
+    for step in steps {
+        match step {
+            Ok(step) => written.push(step),
+            Err(why) => {
+                let stays = written.iter().filter_map(|step| step.take_back().err());
+                return Err(stays.fold(why, |all, why| format!("{all}; what was written before: {why}")));
+            }
+        }
+    }
+    Ok(written)
+}
+
+/// Replaces the content of a file by what `change` makes of it, whoever else writes it meanwhile; what was there, and
+/// what is now.
+fn replace(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, String>) -> Result<Step, String> {
+    let mut step = Step { path: path.to_owned(), before: Vec::new(), after: Vec::new() };
+    let changed = atomic_file::change(path, |now| {
+        (step.before, step.after) = (now.to_vec(), change(now)?);
+        Ok(step.after.clone())
+    });
+    match changed {
+        Ok(()) => Ok(step),
+        Err(ChangeError::Refused(why)) => Err(why),
+        Err(ChangeError::Read(error)) => Err(format!("cannot read {}: {error}", path.display())),
+        Err(ChangeError::Write(error)) => Err(format!("cannot write {}: {error}", path.display())),
+    }
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {
     regular_file::read(path).map_err(|error| format!("cannot read {}: {error}", path.display()))
 }
 
-fn write(path: &Path, content: &[u8]) -> Result<(), String> {
-    atomic_file::write(path, content).map_err(|error| format!("cannot write {}: {error}", path.display()))
+/// The content of a data file in which points have other values.
+fn changed(now: &[u8], changes: &[&Change], family: Family) -> Result<Vec<u8>, String> {
+    changes.iter().try_fold(now.to_vec(), |now, change| {
+        expect_known(&now, change, family)?;
+        let changed = arl_lang::with_value(&now, &change.r#type, &change.name, &literal(change, family)?);
+        changed.map_err(|what| format!("{} {what}", change.file))
+    })
 }
 
 /// What a program computes is not replaced by numbers, nor what somebody else has changed since it was looked at.
@@ -176,10 +206,11 @@ fn components(ty: &str, family: Family) -> Option<&'static [&'static str]> {
 /// The literal of a point: to a thousandth of a mm or deg.
 fn literal(change: &Change, family: Family) -> Result<String, String> {
     let known = components(&change.r#type, family).ok_or("a point is a pose or a joint")?;
-    if let Some((name, _)) = change.values.iter().find(|(name, value)| {
-        !known.contains(&name.as_str()) || !value.is_finite() || WHOLE.contains(&name.as_str()) && value.fract() != 0.0
-    }) {
-        return Err(format!("`{name}` is no component of a {}, or no number for it", change.r#type));
+    for (name, value) in &change.values {
+        if !known.contains(&name.as_str()) {
+            return Err(format!("`{name}` is no component of a {}", change.r#type));
+        }
+        expect_sensible(name, *value)?;
     }
     let rounded = |value: f64| (value * 1000.0).round() / 1000.0 + 0.0;
     let written = known.iter().filter_map(|name| Some(format!("{name} {}", rounded(*change.values.get(*name)?))));
@@ -188,6 +219,19 @@ fn literal(change: &Change, family: Family) -> Result<String, String> {
         return Err(format!("`{}` would have no components", change.name));
     }
     Ok(format!("{{{}}}", written.join(", ")))
+}
+
+/// That a component has a value that a cell may have.
+fn expect_sensible(name: &str, value: f64) -> Result<(), String> {
+    match WHOLE.iter().find(|(whole, _)| *whole == name) {
+        Some((_, [least, most])) if value.fract() != 0.0 || !(*least..=*most).contains(&value) => {
+            Err(format!("`{name}` is {value}: expected a whole number from {least} to {most}"))
+        }
+        None if value != UNSET && !(-FARTHEST..=FARTHEST).contains(&value) => {
+            Err(format!("`{name}` is {value:e}: expected mm or deg from {:e} to {FARTHEST:e}", -FARTHEST))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What data files hold, for the page.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use arl_robot::Robot;
+use arl_robot::{Robot, atomic_file};
 use serde_json::{Value, json};
 
 use super::super::serve::Answer;
@@ -115,7 +115,10 @@ fn nothing_else_is_written() {
     }
     assert!(refused("p_data.arl", "int", "n", json!({"x": 1})).contains("a pose or a joint"));
     assert!(refused("p_data.arl", "pose", "feeder", json!({"x}": 1})).contains("no component"));
-    assert!(refused("p_data.arl", "pose", "feeder", json!({"cfg": 1.5})).contains("no number"));
+    assert!(refused("p_data.arl", "pose", "feeder", json!({"cfg": 1.5})).contains("expected a whole number"));
+    for (name, value) in [("x", 1e306), ("z", -1e7), ("ej1", 8.9e9), ("cfg", 8.0), ("cfg", 1e300), ("turn", -2.0)] {
+        assert!(refused("p_data.arl", "pose", "feeder", json!({name: value})).contains("expected"), "{name} {value}");
+    }
     assert!(refused("p_data.arl", "pose", "feeder", json!({})).contains("no components"));
     assert!(ask(&teacher, "save", &json!({"x": 1})).unwrap_err().contains("not understood"));
     // Nor what is computed.
@@ -129,6 +132,47 @@ fn nothing_else_is_written() {
     std::fs::write(folder.0.join("p_data.arl"), POINTS).unwrap();
     assert_eq!(folder.text(), POINTS);
     assert!(Path::new(&folder.0).read_dir().unwrap().count() == 2, "nothing is left beside the file");
+}
+
+#[test]
+fn saves_and_those_of_a_program_are_all_there() {
+    let folder = Folder::new("beside");
+    let file = folder.0.join("p_data.arl");
+    std::thread::scope(|scope| {
+        // As `savefilepose` does.
+        scope.spawn(|| {
+            for number in 1..=40 {
+                let value = format!("{{x {number}}}");
+                atomic_file::change(&file, |bytes| arl_lang::with_value(bytes, "pose", "later", &value)).unwrap();
+            }
+        });
+        let teacher = folder.teacher();
+        let mut before = json!({"x": 900.0, "y": -500.0, "z": 400.0, "a": 0.0, "b": 180.0, "c": 0.0});
+        for number in 1..=40 {
+            let values = json!({"x": f64::from(number)});
+            let change =
+                json!([{"file": "p_data.arl", "type": "pose", "name": "feeder", "before": before, "values": values}]);
+            ask(&teacher, "save", &change).unwrap();
+            before = values;
+        }
+    });
+    let text = folder.text();
+    assert!(text.contains("feeder = {x 40} // of the belt") && text.contains("later = {x 40}"), "{text}");
+}
+
+#[test]
+fn what_others_write_between_is_not_taken_back() {
+    let folder = Folder::new("between");
+    std::fs::write(folder.0.join("q_data.arl"), "pose second = {x 1}\n").unwrap();
+    let sources = ["p.arl", "p_data.arl", "q_data.arl"].map(|name| folder.0.join(name));
+    let teacher = Teacher::new(vec![Robot::builtin("kr10-r1420").unwrap()], &sources);
+    let both = json!([{"file": "p_data.arl", "type": "pose", "name": "later", "before": {}, "values": {"x": 1}},
+                      {"file": "q_data.arl", "type": "pose", "name": "second", "before": {"x": 1}, "values": {"x": 2}}]);
+    ask(&teacher, "save", &both).unwrap();
+    std::fs::write(folder.0.join("q_data.arl"), "pose second = {x 3}\n").unwrap();
+    assert!(ask(&teacher, "undo", &json!({})).unwrap_err().contains("by somebody else since: it stays so"));
+    assert!(folder.text().contains("later = {x 1}"), "all or none");
+    assert_eq!(std::fs::read_to_string(folder.0.join("q_data.arl")).unwrap(), "pose second = {x 3}\n");
 }
 
 #[test]
@@ -174,6 +218,11 @@ fn a_place_has_all_its_solutions_and_each_leads_to_it() {
     let straight = ask(&teacher, "place", &straight).unwrap();
     assert_eq!(straight["solutions"][0]["near"], "wrist");
     assert!(ask(&teacher, "place", &json!({"channel": 1, "setting": setting, "near": near})).is_err());
+    for (components, tool) in [([1e308, 0.0, 400.0, 0.0, 180.0, 0.0], NONE), ([0.0; 6], [0.0; 7])] {
+        let setting = json!({"tool": tool, "wobj": NONE, "base": NONE});
+        let wild = json!({"components": components, "channel": 1, "setting": setting, "near": near});
+        assert!(ask(&teacher, "place", &wild).is_err(), "{wild}");
+    }
     assert!(ask(&teacher, "place", &json!({"axes": [1], "channel": 1, "setting": setting, "near": near})).is_err());
 }
 
@@ -191,5 +240,7 @@ fn a_map_tells_where_a_plane_is_reached() {
     let at = |x: i32, y: i32| places.as_bytes()[((y + 1500) / 100) as usize * side + ((x + 1500) / 100) as usize];
     assert!(at(-1500, -1500) == b'0' && at(900, 0) > b'1', "{places}");
     let many = json!({"components": [0, 0, 400, 0, 180, 0], "channel": 1, "setting": setting, "near": near, "half": 1e9, "step": 1});
+    assert!(ask(&teacher, "map", &many).unwrap_err().contains("out of range"));
+    let many = json!({"components": [0, 0, 400, 0, 180, 0], "channel": 1, "setting": setting, "near": near, "half": 1e6, "step": 1});
     assert!(ask(&teacher, "map", &many).unwrap_err().contains("at most"));
 }

@@ -1,0 +1,101 @@
+//! The places of connections: so many may be there at once, and who has asked for something sensible goes last.
+
+use std::collections::BTreeMap;
+use std::net::{Shutdown, TcpStream};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// A page keeps a few connections, several pages some more; nobody else has any.
+const MOST: usize = 128;
+
+/// Who has a place: the lowest leaves first, and among them whose last request is longest ago.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Debug)]
+pub(in super::super) enum Rank {
+    /// It has not asked for anything yet that was answered.
+    #[default]
+    Unknown,
+    /// It reads.
+    Reader,
+    /// It gives orders: the buttons of the pendant.
+    Orders,
+}
+
+/// All places, by the numbers of the visitors.
+#[derive(Default)]
+pub(super) struct Places(Mutex<Taken>);
+
+#[derive(Default)]
+struct Taken {
+    /// Counts visitors and requests.
+    counted: u64,
+    by_number: BTreeMap<u64, Visitor>,
+}
+
+struct Visitor {
+    rank: Rank,
+    /// When it asked for something, or came, by that count.
+    asked: u64,
+    stream: Arc<TcpStream>,
+}
+
+/// A place, free again when it is dropped.
+pub(super) struct Place {
+    number: u64,
+    of: Arc<Places>,
+}
+
+impl Places {
+    /// Gives a connection a place; where there are too many, another one loses its own.
+    pub(super) fn take(self: &Arc<Self>, stream: TcpStream) -> (Place, Arc<TcpStream>) {
+        let stream = Arc::new(stream);
+        let mut taken = self.taken();
+        if taken.by_number.len() >= MOST {
+            taken.free_one();
+        }
+        let number = taken.count();
+        taken.by_number.insert(number, Visitor { rank: Rank::Unknown, asked: number, stream: Arc::clone(&stream) });
+        (Place { number, of: Arc::clone(self) }, stream)
+    }
+
+    /// Ends the connection that is missed least.
+    pub(super) fn free_one(&self) {
+        self.taken().free_one();
+    }
+
+    fn taken(&self) -> MutexGuard<'_, Taken> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Taken {
+    fn count(&mut self) -> u64 {
+        self.counted += 1;
+        self.counted
+    }
+
+    fn free_one(&mut self) {
+        let lowest = self.by_number.iter().min_by_key(|(_, visitor)| (visitor.rank, visitor.asked));
+        let lowest = lowest.map(|(number, _)| *number);
+        if let Some(visitor) = lowest.and_then(|number| self.by_number.remove(&number)) {
+            // Its thread wakes up and ends. It may be closed already.
+            let _ = visitor.stream.shutdown(Shutdown::Both);
+        }
+    }
+}
+
+impl Place {
+    /// Notes what the visitor has asked for; it keeps the highest rank that it had.
+    pub(super) fn rises_to(&self, rank: Rank) {
+        let mut taken = self.of.taken();
+        let now = taken.count();
+        if let Some(visitor) = taken.by_number.get_mut(&self.number) {
+            visitor.rank = rank.max(visitor.rank);
+            visitor.asked = now;
+        }
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        self.of.taken().by_number.remove(&self.number);
+    }
+}

@@ -1,0 +1,85 @@
+//! Responses as they are written to a connection.
+
+use std::io::{self, Write};
+use std::net::TcpStream;
+use std::time::Instant;
+
+use super::EXCHANGE_LIMIT;
+
+/// The page may load nothing but what this server has.
+const POLICY: &str = "default-src 'self'; img-src 'self' data:; style-src 'self'; frame-ancestors 'none'";
+const TEXT: &str = "text/plain; charset=utf-8";
+/// So much is written at once.
+const PIECE: usize = 1 << 16;
+
+/// How a request went.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(in super::super) enum Status {
+    Ok,
+    BadRequest,
+    Forbidden,
+    NotFound,
+    MethodNotAllowed,
+    Timeout,
+    Conflict,
+    TooLarge,
+}
+
+impl Status {
+    /// Its number and its words.
+    fn line(self) -> &'static str {
+        match self {
+            Self::Ok => "200 OK",
+            Self::BadRequest => "400 Bad Request",
+            Self::Forbidden => "403 Forbidden",
+            Self::NotFound => "404 Not Found",
+            Self::MethodNotAllowed => "405 Method Not Allowed",
+            Self::Timeout => "408 Request Timeout",
+            Self::Conflict => "409 Conflict",
+            Self::TooLarge => "413 Content Too Large",
+        }
+    }
+}
+
+/// What is answered.
+#[derive(Debug)]
+pub(in super::super) struct Response {
+    status: Status,
+    kind: &'static str,
+    body: Vec<u8>,
+}
+
+impl Response {
+    /// Bytes of a type.
+    pub(in super::super) fn new(status: Status, kind: &'static str, body: Vec<u8>) -> Self {
+        Self { status, kind, body }
+    }
+
+    /// A text for people.
+    pub(in super::super) fn text(status: Status, text: &str) -> Self {
+        Self::new(status, TEXT, text.as_bytes().to_vec())
+    }
+
+    /// Writes it, to somebody who has to take it in time.
+    pub(super) fn write(&self, mut stream: &TcpStream, keeps_open: bool) -> io::Result<()> {
+        let Self { status, kind, body } = self;
+        let connection = if keeps_open { "keep-alive" } else { "close" };
+        let head = format!(
+            "HTTP/1.1 {}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: {connection}\r\n\
+             Cache-Control: no-store\r\n\
+             X-Content-Type-Options: nosniff\r\nContent-Security-Policy: {POLICY}\r\n\r\n",
+            status.line(),
+            body.len()
+        );
+        let until = Instant::now() + EXCHANGE_LIMIT;
+        for piece in std::iter::once(head.as_bytes()).chain(body.chunks(PIECE)) {
+            let limit = until.saturating_duration_since(Instant::now());
+            if limit.is_zero() {
+                return Err(io::ErrorKind::TimedOut.into());
+            }
+            stream.set_write_timeout(Some(limit))?;
+            stream.write_all(piece)?;
+        }
+        Ok(())
+    }
+}
