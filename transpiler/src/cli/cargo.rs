@@ -180,6 +180,8 @@ fn compile(built: &mut Built, mut command: Command, progress: &Progress) -> Resu
     }
     let status = child.wait().map_err(|error| Failure::io("wait for", &cargo, &error))?;
     let complaints = complaints.join().unwrap_or_default();
+    // Who was ended from outside says nothing.
+    let complaints = if complaints.trim().is_empty() { status.to_string() } else { complaints };
     if status.success() { Ok(()) } else { refused(built, complaints.trim_end()) }
 }
 
