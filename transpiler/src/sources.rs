@@ -1,4 +1,5 @@
-//! Sources from the file system.
+//! Sources from the file system. Only regular files are read: a named pipe may never be written, and a device never
+//! end.
 
 use crate::{SourceError, Sources};
 use std::io::ErrorKind;
@@ -11,11 +12,16 @@ pub struct FileSystem;
 impl Sources for FileSystem {
     #[expect(clippy::disallowed_methods, reason = "this is where the doors read files")]
     fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
-        std::fs::read(path).map_err(|error| match error.kind() {
+        let failed = |error: std::io::Error| match error.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => SourceError::Missing,
             ErrorKind::IsADirectory => SourceError::Unreadable("it is a directory".into()),
             _ => SourceError::Unreadable(error.to_string()),
-        })
+        };
+        match std::fs::metadata(path).map_err(failed)?.file_type() {
+            kind if kind.is_file() => std::fs::read(path).map_err(failed),
+            kind if kind.is_dir() => Err(SourceError::Unreadable("it is a directory".into())),
+            _ => Err(SourceError::Unreadable("it is no regular file, but a pipe, a socket or a device".into())),
+        }
     }
 }
 

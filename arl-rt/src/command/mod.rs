@@ -3,6 +3,7 @@
 //! It imports everything, and nothing imports it but `lib.rs`.
 
 mod between;
+mod connection;
 mod coverage;
 mod debug;
 pub mod in_process;

@@ -1,8 +1,9 @@
 //! A program that makes run after run: a line of the standard input asks for one, a line of the standard output answers.
 //!
-//! A question is the words of a command line with tabs between; `\t`, `\n` and `\\` stand for themselves in a word. An answer is a JSON object:
-//! `{"summary": {..}, "said": [..]}` with what [`Run::summary`] and [`Run::take_said`] say, or `{"refused": ".."}`. Who closes the input wants nothing more: the process ends then,
-//! also in the middle of a run, so that none outlives who asked for it.
+//! A question is the words of a command line with tabs between; `\t`, `\n`, `\r` and `\\` stand for themselves in a
+//! word. An answer is a JSON object: `{"summary": {..}, "said": [..]}` with what [`Run::summary`] and
+//! [`Run::take_said`] say, or `{"refused": ".."}`. Who closes the input wants nothing more: the process ends then, also
+//! in the middle of a run, so that none outlives who asked for it.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, Write};
@@ -56,8 +57,10 @@ fn answer_all(make: &dyn Fn() -> Box<dyn Program>, others: &[Other], script_dir:
 }
 
 fn words(line: &str) -> Vec<OsString> {
-    let words = line.split('\t').filter(|word| !word.is_empty());
-    words.map(|word| OsString::from(unescaped(word))).collect()
+    if line.is_empty() {
+        return Vec::new();
+    }
+    line.split('\t').map(|word| OsString::from(unescaped(word))).collect()
 }
 
 fn unescaped(word: &str) -> String {
@@ -68,6 +71,7 @@ fn unescaped(word: &str) -> String {
             '\\' => text.extend(match rest.next() {
                 Some('t') => Some('\t'),
                 Some('n') => Some('\n'),
+                Some('r') => Some('\r'),
                 other => other,
             }),
             c => text.push(c),
@@ -83,7 +87,8 @@ mod tests {
     #[test]
     fn words_have_tabs_between_them_and_may_have_any_character() {
         assert_eq!(words("--seed\t5"), ["--seed", "5"]);
-        assert_eq!(words("a b\tc\\td\\ne\\\\f"), ["a b", "c\td\ne\\f"]);
+        assert_eq!(words("a b\tc\\td\\ne\\\\f\\r"), ["a b", "c\td\ne\\f\r"]);
+        assert_eq!(words("--robot\t\t--seed"), ["--robot", "", "--seed"]);
         assert_eq!(words(""), Vec::<OsString>::new());
     }
 }

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use arl_lang::ast::{Decl, Item, Var};
 use arl_lang::span::Span;
 use arl_lang::symbol::Interner;
+use arl_robot::regular_file;
 
 use crate::fault::{Alarm, Fault, File};
 use crate::values::teach_variable;
@@ -115,7 +116,7 @@ pub(crate) fn place(mut places: impl Iterator<Item = PathBuf>) -> Option<PathBuf
 /// The content of a data file, and where it lies.
 fn read(name: &str, folder: &Path) -> Option<(PathBuf, std::io::Result<Vec<u8>>)> {
     for place in places(name, folder) {
-        match std::fs::read(&place) {
+        match regular_file::read(&place) {
             Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {}
             content => return Some((place, content)),
         }

@@ -192,8 +192,8 @@ pub(super) struct ViewOptions {
     /// The cell of a program.
     #[arg(long, value_name = "FILE")]
     pub(super) cell: Option<PathBuf>,
-    /// A scenario: what the outside does to the inputs of a program.
-    #[arg(long, value_name = "FILE")]
+    /// A scenario: what the outside does to the inputs of a program; `none` for none, whatever arl.toml says.
+    #[arg(long, value_name = "FILE|none")]
     pub(super) io: Option<PathBuf>,
     /// The folder that the program's files are in; the program's folder if absent.
     #[arg(long, value_name = "DIR")]

@@ -4,7 +4,7 @@
 use super::args::{Checking, RunOptions};
 use super::failure::Failure;
 use super::program_path;
-use super::show;
+use super::{robots, show};
 use crate::check::clean;
 use arl_robot::settings::Source;
 use arl_robot::{Robot, regular_file};
@@ -13,6 +13,11 @@ use std::path::{Path, PathBuf};
 
 /// How the file is called.
 pub(super) const NAME: &str = "arl.toml";
+
+/// Whether this is no file, but says that there is no scenario, whatever the file says.
+pub(super) fn is_no_scenario(io: &Path) -> bool {
+    io == Path::new("none")
+}
 
 /// The file.
 #[derive(Clone, Default, PartialEq, Deserialize, Debug)]
@@ -29,6 +34,31 @@ pub(super) struct ArlToml {
     /// Where it was found.
     #[serde(skip)]
     pub(super) path: PathBuf,
+    /// The lines of its keys.
+    #[serde(skip)]
+    lines: Vec<(String, usize)>,
+}
+
+impl ArlToml {
+    /// That what a key names is there, for who takes it from here.
+    ///
+    /// # Errors
+    /// It is not: the error names this file.
+    pub(super) fn expect(&self, key: &str) -> Result<(), Failure> {
+        let absent = |path: &Option<PathBuf>| {
+            let path = path.as_ref().filter(|path| !path.exists())?;
+            Some(format!("there is no {}", show::path(path).display()))
+        };
+        let problem = match key {
+            "robot" => self.robot.as_deref().and_then(|robot| Some(robots::text(Some(robot)).err()?.to_string())),
+            "cell" => absent(&self.cell),
+            "io" => absent(&self.io),
+            _ => absent(&self.script_dir),
+        };
+        let Some(problem) = problem else { return Ok(()) };
+        let line = self.lines.iter().find(|(known, _)| known == key).map_or(1, |(_, line)| *line);
+        Err(Failure::Usage(format!("{}:{line}: {key}: {problem}", show::path(&self.path).display())))
+    }
 }
 
 /// The file that holds for a program; none where there is none.
@@ -46,7 +76,12 @@ pub(super) fn of_program(program: &Path) -> Result<Option<ArlToml>, Failure> {
 pub(super) fn find(program: &Path) -> Option<PathBuf> {
     // `../other/p.arl` lies in the other folder, and not in this one, too.
     let program = clean(&std::path::absolute(program).ok()?);
-    program.ancestors().skip(1).map(|folder| folder.join(NAME)).find(|path| path.is_file())
+    program.ancestors().skip(1).map(|folder| folder.join(NAME)).find(|path| is_there(path))
+}
+
+/// Whether there is something of this name but a folder: what is no regular file is refused, and not passed over.
+fn is_there(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|about| !about.is_dir())
 }
 
 /// Reads the file, which is given in full; so are then the paths in it.
@@ -71,6 +106,8 @@ pub(super) fn read(path: &Path) -> Result<ArlToml, Failure> {
         }
     }
     file.path = path.to_path_buf();
+    let key = |(at, line): (usize, &str)| Some((line.split_once('=')?.0.trim().to_owned(), at + 1));
+    file.lines = text.lines().enumerate().filter_map(key).collect();
     Ok(file)
 }
 
@@ -83,21 +120,28 @@ enum Slot<'a> {
 }
 
 /// Takes from `file` what was not said; where that is wanted, it is told what came from where.
-fn fill<'a>(file: &Path, tells: bool, entries: impl IntoIterator<Item = Entry<'a>>) {
+///
+/// # Errors
+/// What the file says is not there.
+fn fill<'a>(file: &ArlToml, tells: bool, entries: impl IntoIterator<Item = Entry<'a>>) -> Result<(), Failure> {
     let mut said = String::new();
     for (name, slot) in entries {
         let (was_said, value) = match slot {
             Slot::Text(own, other) => (own.is_some(), take(own, other).map(PathBuf::from)),
             Slot::Path(own, other) => (own.is_some(), take(own, other)),
         };
+        if !was_said {
+            file.expect(name)?;
+        }
         if let Some(value) = value {
-            let from = if was_said { "the command line".into() } else { show::path(file).display().to_string() };
+            let from = if was_said { "the command line".into() } else { show::path(&file.path).display().to_string() };
             said += &format!("{name}: {} ({from})\n", show::path(&value).display());
         }
     }
     if tells {
         show::say(&said);
     }
+    Ok(())
 }
 
 fn take<T: Clone>(own: &mut Option<T>, other: Option<T>) -> Option<T> {
@@ -114,11 +158,11 @@ impl Checking {
         let file = of_program(program)?.unwrap_or_default();
         let mut all = self.clone();
         let entries = [
-            ("robot", Slot::Text(&mut all.robot, file.robot)),
-            ("cell", Slot::Path(&mut all.cell, file.cell)),
-            ("script-dir", Slot::Path(&mut all.script_dir, file.script_dir)),
+            ("robot", Slot::Text(&mut all.robot, file.robot.clone())),
+            ("cell", Slot::Path(&mut all.cell, file.cell.clone())),
+            ("script-dir", Slot::Path(&mut all.script_dir, file.script_dir.clone())),
         ];
-        fill(&file.path, self.verbose, entries);
+        fill(&file, self.verbose, entries)?;
         Ok(all)
     }
 }
@@ -130,12 +174,13 @@ impl RunOptions {
         let file = of_program(program)?.unwrap_or_default();
         let mut all = self.clone();
         let entries = [
-            ("robot", Slot::Text(&mut all.robot, file.robot)),
-            ("cell", Slot::Path(&mut all.cell, file.cell)),
-            ("io", Slot::Path(&mut all.io, file.io)),
-            ("script-dir", Slot::Path(&mut all.script_dir, file.script_dir)),
+            ("robot", Slot::Text(&mut all.robot, file.robot.clone())),
+            ("cell", Slot::Path(&mut all.cell, file.cell.clone())),
+            ("io", Slot::Path(&mut all.io, file.io.clone())),
+            ("script-dir", Slot::Path(&mut all.script_dir, file.script_dir.clone())),
         ];
-        fill(&file.path, self.verbose, entries);
+        fill(&file, self.verbose, entries)?;
+        all.io = all.io.filter(|io| !is_no_scenario(io));
         Ok(all)
     }
 }

@@ -4,18 +4,18 @@
 
 use std::error::Error;
 use std::io::{BufRead, BufReader};
-use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::net::TcpStream;
 use std::process::{Child, Command, ExitStatus};
-use std::time::Duration;
 
 use super::failure::Failure;
+use super::port::{Port, Secret};
 use super::said::Line;
 use super::show;
 
 /// How often a program says how everything stands to those who keep it, in s: as in every recording.
 pub(super) const STATE_INTERVAL: &str = "0.004";
-/// How often it is looked whether the program has connected, or has ended before it did.
-const LOOK_INTERVAL: Duration = Duration::from_millis(2);
+/// The option of a program that tells where it is listened to.
+pub(super) const OPTION: &str = "--listener";
 
 /// Who wants to know what happens in a run.
 pub(super) trait Hears {
@@ -44,51 +44,6 @@ pub(super) trait Hears {
     fn broken(&self) -> String;
 }
 
-/// What a run connects to.
-pub(super) struct Port {
-    listener: TcpListener,
-    address: SocketAddr,
-}
-
-impl Port {
-    /// Another one, of this computer.
-    ///
-    /// # Errors
-    /// There are none left.
-    pub(super) fn open() -> Result<Self, Failure> {
-        let opened = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).and_then(|listener| {
-            listener.set_nonblocking(true)?;
-            Ok(Self { address: listener.local_addr()?, listener })
-        });
-        opened.map_err(|error| Failure::Usage(format!("this computer has no connection to itself: {error}")))
-    }
-
-    /// The words that have a run connect.
-    pub(super) fn words(&self) -> [String; 2] {
-        ["--listener".into(), self.address.to_string()]
-    }
-
-    /// The connection of a run, or how it ended without one. There is none behind it.
-    pub(super) fn accept<E>(
-        self,
-        mut ended: impl FnMut() -> std::io::Result<Option<E>>,
-    ) -> std::io::Result<Result<TcpStream, E>> {
-        loop {
-            // Asked first: a connection that was made before the end is there to be accepted then.
-            let ended = ended()?;
-            match (self.listener.accept(), ended) {
-                (Ok((stream, _)), _) => {
-                    stream.set_nonblocking(false)?;
-                    return Ok(Ok(stream));
-                }
-                (Err(error), _) if error.kind() != std::io::ErrorKind::WouldBlock => return Err(error),
-                (Err(_), Some(ended)) => return Ok(Err(ended)),
-                (Err(_), None) => std::thread::sleep(LOOK_INTERVAL),
-            }
-        }
-    }
-}
-
 /// A port for a program, and who hears it.
 pub(super) struct Listener {
     port: Port,
@@ -112,12 +67,13 @@ impl Listener {
         if hearers.is_empty() {
             return Ok(None);
         }
-        Ok(Some(Self { port: Port::open()?, hearers }))
+        Ok(Some(Self { port: Port::open(Secret::new()?)?, hearers }))
     }
 
     /// Has the program say what happens.
     pub(super) fn ask(&self, command: &mut Command) {
-        command.args(self.port.words()).args(wishes(&self.hearers));
+        self.port.ask(command, OPTION);
+        command.args(wishes(&self.hearers));
     }
 
     /// Hears the program until it has ended, whatever comes between.

@@ -26,6 +26,8 @@ mod lsp;
 mod new;
 mod pendant;
 mod plot;
+mod port;
+mod private_folder;
 mod program;
 mod program_path;
 mod progress;

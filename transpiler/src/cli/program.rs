@@ -1,13 +1,13 @@
 //! From a source file to a compiled program, with as little work as the changes need.
 
 use super::args::Checking;
-use super::cache::{Cache, Kind, Lock, Place, write_if_changed};
+use super::cache::{Cache, Content, Kind, Lock, Place, RECORD, write_if_changed};
 use super::failure::Failure;
 use super::progress::Progress;
 use super::project::{Emitted, EmittedOther};
 use super::runtime::{Runtime, hash_state};
 use super::several::{self, Other, absolute};
-use super::stamp::{Freshness, Recording, Stamp};
+use super::stamp::{Freshness, Kept, Recording, Stamp};
 use super::{cargo, project, robots, show};
 use crate::CheckOptions;
 use crate::Sources;
@@ -181,19 +181,23 @@ fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
     if let (Freshness::Fresh, Some(stamp)) = (freshness, &stamp) {
         return start_again(&place, stamp, lock, job.is_checked);
     }
+    if let (None, Some(damaged)) = (&stamp, damaged(&place)) {
+        show::warning(&format!("{} is damaged: the program is compiled anew", damaged.display()));
+    }
 
     let read = Recording::new(&FileSystem);
     let done = job.compile(&read)?;
     // The runtime reads data files again below the script directory: here it must be the folder of the main file.
     let read_again = checking.script_dir.is_none() && freshness == Freshness::DataChanged;
     let kept = stamp.filter(|stamp| read_again && only_values(stamp, &done.programs, &read));
-    let program = match kept {
-        Some(stamp) => stamp.program,
+    let (name, program) = match kept {
+        Some(stamp) => (stamp.kept.name, stamp.kept.program),
         None => build(&cache, &place, runtime, &done, &job.main()?)?,
     };
-    write_if_changed(&place.folder.join("said"), done.said.as_bytes())?;
-    let path = place.folder.join(&program);
-    let stamp = Stamp::of(&done.programs, &read, identity, program);
+    write_if_changed(&place.said(), done.said.as_bytes())?;
+    let path = place.folder.join(&name);
+    let kept = Kept { name, program, said: Content::of(done.said.as_bytes()) };
+    let stamp = Stamp::of(&done.programs, &read, identity, kept);
     if let Some(stamp) = &stamp {
         write_if_changed(&place.stamp(), stamp.text().as_bytes())?;
     }
@@ -201,23 +205,37 @@ fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
 }
 
 fn only_values(stamp: &Stamp, compiled: &[Compiled], read: &Recording<'_>) -> bool {
-    Stamp::of(compiled, read, stamp.identity, stamp.program.clone()).is_some_and(|now| stamp.same_but_values(&now))
+    Stamp::of(compiled, read, stamp.identity, stamp.kept.clone()).is_some_and(|now| stamp.same_but_values(&now))
 }
 
-/// What the stamp says. A program that is gone is as good as changed.
+/// What the stamp says. A program that is gone, or not what was compiled, is as good as changed.
 fn state(place: &Place, identity: u64) -> (Freshness, Option<Stamp>) {
-    match Stamp::read(&place.stamp()).filter(|stamp| place.folder.join(&stamp.program).is_file()) {
-        Some(stamp) => (stamp.freshness(identity), Some(stamp)),
-        None => (Freshness::Stale, None),
-    }
+    let none = (Freshness::Stale, None);
+    let Some(stamp) = Stamp::read(&place.stamp()) else { return none };
+    let freshness = stamp.freshness(identity);
+    // Nobody asks what is in a program that is not started.
+    if freshness != Freshness::Stale && !is_whole(place, &stamp.kept) { none } else { (freshness, Some(stamp)) }
+}
+
+fn is_whole(place: &Place, kept: &Kept) -> bool {
+    kept.program.is_in(&place.folder.join(&kept.name)) && kept.said.is_in(&place.said())
+}
+
+/// The file of a program that is not what was written when it was compiled.
+fn damaged(place: &Place) -> Option<PathBuf> {
+    let Some(Stamp { kept, .. }) = Stamp::read(&place.stamp()) else {
+        return Stamp::is_damaged(&place.stamp()).then(|| place.stamp());
+    };
+    let files = [(place.folder.join(&kept.name), kept.program), (place.said(), kept.said)];
+    files.into_iter().find_map(|(path, content)| (path.exists() && !content.is_in(&path)).then_some(path))
 }
 
 /// Shows the warnings again, but for what is checked, and leaves the rest as it is.
 fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Result<Ready, Failure> {
     if !is_checked {
-        show::say(&std::fs::read_to_string(place.folder.join("said")).unwrap_or_default());
+        show::say(&std::fs::read_to_string(place.said()).unwrap_or_default());
     }
-    let (program, sources) = (place.folder.join(&stamp.program), sources(stamp));
+    let (program, sources) = (place.folder.join(&stamp.kept.name), sources(stamp));
     renew(&program, &sources);
     Ok(Ready { program, lock, sources })
 }
@@ -238,15 +256,23 @@ fn sources(stamp: &Stamp) -> Vec<PathBuf> {
 }
 
 /// Compiles the Rust and puts the program into its place under a name of its own, so that older ones run on.
-fn build(cache: &Cache, place: &Place, runtime: Runtime, done: &Done, main: &Path) -> Result<String, Failure> {
+fn build(
+    cache: &Cache,
+    place: &Place,
+    runtime: Runtime,
+    done: &Done,
+    main: &Path,
+) -> Result<(String, Content), Failure> {
     let mut hasher = DefaultHasher::new();
     (&done.rust.first, &done.rust.others, runtime.state()).hash(&mut hasher);
     let checked = done.programs.first().and_then(|compiled| compiled.checked.program.as_ref());
     let stem = checked.map_or("program", |program| program.name.as_str());
     let name = format!("{stem}-{:016x}{}", hasher.finish(), std::env::consts::EXE_SUFFIX);
-    compile_rust(cache, place, runtime, &done.rust, main, false, &place.folder.join(&name))?;
+    let path = place.folder.join(&name);
+    compile_rust(cache, place, runtime, &done.rust, main, false, &path)?;
     remove_old(place, &name);
-    Ok(name)
+    let content = Content::of_file(&path).map_err(|error| Failure::io("read", &path, &error))?;
+    Ok((name, content))
 }
 
 /// Compiles emitted Rust with cargo; the executable is put at `to`.
@@ -279,7 +305,7 @@ pub(super) fn compile_rust(
 
 /// Removes programs of earlier states. One that runs goes on where the system allows it.
 fn remove_old(place: &Place, keep: &str) {
-    const OURS: [&str; 7] = ["Cargo.toml", "Cargo.lock", "base.lock", "src", "stamp", "said", "lock"];
+    const OURS: [&str; 8] = ["Cargo.toml", "Cargo.lock", "base.lock", "src", "stamp", "said", "lock", RECORD];
     let Ok(entries) = std::fs::read_dir(&place.folder) else { return };
     for entry in entries.filter_map(Result::ok) {
         let name = entry.file_name();

@@ -95,6 +95,16 @@ toml_parser = { opt-level = 0 }
 winnow = { opt-level = 0 }
 ";
 
+/// What the profile says of what a program does, said once more where settings of a user's cannot change it.
+pub(super) const SETTINGS: [&str; 6] = [
+    "profile.dev.panic=\"unwind\"",
+    "profile.dev.overflow-checks=false",
+    "profile.dev.debug-assertions=false",
+    "profile.release.panic=\"unwind\"",
+    "profile.release.overflow-checks=false",
+    "profile.release.debug-assertions=false",
+];
+
 /// Writes Cargo.toml, and Cargo.lock where the versions of other packages are known.
 pub(super) fn manifest(
     folder: &Path,
@@ -122,9 +132,14 @@ pub(super) fn manifest(
     write_if_changed(&folder.join("Cargo.toml"), text.as_bytes())?;
     let Some(lock) = runtime.lock_file.as_ref().and_then(|path| std::fs::read(path).ok()) else { return Ok(()) };
     // cargo takes out of the lock file what the project does not need, so a copy tells whether the original changed.
-    if write_if_changed(&folder.join("base.lock"), &lock)? {
-        std::fs::write(folder.join("Cargo.lock"), &lock)
-            .map_err(|error| Failure::io("write", &folder.join("Cargo.lock"), &error))?;
+    let own = folder.join("Cargo.lock");
+    if write_if_changed(&folder.join("base.lock"), &lock)? || !is_toml(&own) {
+        std::fs::write(&own, &lock).map_err(|error| Failure::io("write", &own, &error))?;
     }
     Ok(())
+}
+
+/// Whether a file holds TOML: what is left of a damaged one does not, as a rule, and cargo refuses it for good.
+fn is_toml(path: &Path) -> bool {
+    std::fs::read_to_string(path).is_ok_and(|text| toml::from_str::<toml::Table>(&text).is_ok())
 }

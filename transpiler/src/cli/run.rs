@@ -8,6 +8,7 @@ use super::failure::Failure;
 use super::listen::{Hears, Listener};
 use super::pendant;
 use super::plot::{self, Lane, Ran};
+use super::private_folder::PrivateFolder;
 use super::program::{Ready, prepare};
 use super::record::Recording;
 use super::report::Reporting;
@@ -17,9 +18,9 @@ use super::show;
 use super::signals::Signals;
 use super::texts;
 use crate::cli::exit::Exit;
-use arl_robot::Robot;
 use arl_robot::cell::Cell;
 use arl_robot::changes::Part;
+use arl_robot::{Robot, regular_file};
 use std::cell::RefCell;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -111,50 +112,28 @@ fn run_and_plot(
 ) -> Result<Exit, Failure> {
     // Better now than after a long run.
     std::fs::write(picture, "").map_err(|error| Failure::io("write", picture, &error))?;
-    let kept = options.trace.clone().map(Trace::Kept);
-    let trace = kept.unwrap_or_else(|| {
-        let path = std::env::temp_dir().join(format!("arl2rs-{}.csv", std::process::id()));
+    // Without a wish for the trace it goes with the plot.
+    let passing = PrivateFolder::new("arl2rs-plot-");
+    let passing = passing.map_err(|error| Failure::Other(format!("there is no place for a trace: {error}")))?;
+    let trace = options.trace.clone().unwrap_or_else(|| {
+        let path = passing.path().join("trace.csv");
         command.arg("--trace").arg(&path).args(["--trace-columns", "file"]);
-        Trace::Passing(path)
+        path
     });
     // What lies there from another run is not to be drawn.
-    let _ = std::fs::remove_file(trace.path());
+    let _ = std::fs::remove_file(&trace);
     let ran = ran(file, &ready.sources);
     let code = wait(command, listener, ready)?;
     let ran = Ran { lanes: lanes.take(), ..ran };
-    match trace.path().is_file() {
+    match trace.is_file() {
         true => {
             let robot = robot::load_with(options.robot.as_deref(), &options.changed()?)?;
-            draw(trace.path(), picture, robot, &ran)?;
+            draw(&trace, picture, robot, &ran)?;
         }
         // The program did not even begin, and has said why.
         false => drop(std::fs::remove_file(picture)),
     }
     Ok(code)
-}
-
-/// Where the trace is.
-enum Trace {
-    /// The user wants it.
-    Kept(PathBuf),
-    /// It goes with the plot.
-    Passing(PathBuf),
-}
-
-impl Trace {
-    fn path(&self) -> &Path {
-        let (Trace::Kept(path) | Trace::Passing(path)) = self;
-        path
-    }
-}
-
-impl Drop for Trace {
-    fn drop(&mut self) {
-        if let Trace::Passing(path) = self {
-            // It lies in the system's folder for files that go.
-            let _ = std::fs::remove_file(path);
-        }
-    }
 }
 
 /// What the plot says of the program.

@@ -1,23 +1,36 @@
 //! What a compiled program was made from, so that an unchanged one starts without compiling.
 
+use super::cache::{Content, read_sealed, sealed};
 use crate::compile::Compiled;
 use crate::hir::Program;
 use crate::{SourceError, Sources};
+use arl_robot::regular_file;
 use std::cell::RefCell;
 use std::fmt::Write;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// The first line of a stamp file; another version is as good as no stamp.
-const VERSION: &str = "arl2rs stamp 1";
+const VERSION: &str = "arl2rs stamp 2";
+
+/// A program that was compiled, and what was said then.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Kept {
+    /// The program's file name in its place.
+    pub(super) name: String,
+    /// What the program's file holds.
+    pub(super) program: Content,
+    /// What the file of the warnings holds.
+    pub(super) said: Content,
+}
 
 /// Everything that a compiled program depends on.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Stamp {
     /// The compiler, its runtime and its options.
     pub(super) identity: u64,
-    /// The program's file name in its place.
-    pub(super) program: String,
+    /// What is kept in its place.
+    pub(super) kept: Kept,
     /// The files that were read.
     pub(super) files: Vec<Stamped>,
     /// The files that were looked for and not there.
@@ -67,8 +80,8 @@ impl Sources for Recording<'_> {
 
 impl Stamp {
     /// The stamp of what was compiled together. `None` where a path cannot be written into a stamp.
-    pub(super) fn of(compiled: &[Compiled], read: &Recording<'_>, identity: u64, program: String) -> Option<Self> {
-        let mut stamp = Self { identity, program, files: Vec::new(), missing: Vec::new() };
+    pub(super) fn of(compiled: &[Compiled], read: &Recording<'_>, identity: u64, kept: Kept) -> Option<Self> {
+        let mut stamp = Self { identity, kept, files: Vec::new(), missing: Vec::new() };
         for (path, content) in read.seen.borrow().iter() {
             let path = std::path::absolute(path).ok()?;
             if path.to_str()?.contains(['\n', '\r']) {
@@ -89,15 +102,17 @@ impl Stamp {
         Some(stamp)
     }
 
-    /// Reads a stamp; `None` where there is none, or one of another version.
+    /// Reads a stamp; `None` where there is none, or one that is damaged or of another version.
     pub(super) fn read(path: &Path) -> Option<Self> {
-        let text = std::fs::read_to_string(path).ok()?;
+        let text = read_sealed(path)?;
         let mut lines = text.lines();
         if lines.next()? != VERSION {
             return None;
         }
         let identity = u64::from_str_radix(lines.next()?, 16).ok()?;
-        let mut stamp = Self { identity, program: lines.next()?.into(), files: Vec::new(), missing: Vec::new() };
+        let (name, program, said) = (lines.next()?.into(), lines.next()?, lines.next()?);
+        let kept = Kept { name, program: Content::parse(program)?, said: Content::parse(said)? };
+        let mut stamp = Self { identity, kept, files: Vec::new(), missing: Vec::new() };
         for line in lines {
             let mut words = line.splitn(4, ' ');
             let (kind, content, shape, path) = (words.next()?, words.next()?, words.next()?, words.next()?);
@@ -112,9 +127,16 @@ impl Stamp {
         Some(stamp)
     }
 
+    /// Whether a file was a stamp once.
+    pub(super) fn is_damaged(path: &Path) -> bool {
+        let begins = |bytes: Vec<u8>| bytes.starts_with(VERSION.as_bytes());
+        regular_file::read(path).is_ok_and(begins) && Self::read(path).is_none()
+    }
+
     /// The text of a stamp file.
     pub(super) fn text(&self) -> String {
-        let mut text = format!("{VERSION}\n{:x}\n{}\n", self.identity, self.program);
+        let Kept { name, program, said } = &self.kept;
+        let mut text = format!("{VERSION}\n{:x}\n{name}\n{}\n{}\n", self.identity, program.text(), said.text());
         for file in &self.files {
             let shape = file.shape.map_or_else(|| "-".to_string(), |shape| format!("{shape:x}"));
             // Writing to a string cannot fail.
@@ -123,7 +145,7 @@ impl Stamp {
         for path in &self.missing {
             let _ = writeln!(text, "missing - - {}", path.display());
         }
-        text
+        sealed(&text)
     }
 
     /// How the program stands to its sources now.
@@ -133,7 +155,7 @@ impl Stamp {
         }
         let mut freshness = Freshness::Fresh;
         for file in &self.files {
-            match std::fs::read(&file.path) {
+            match regular_file::read(&file.path) {
                 Ok(bytes) if hash(&bytes) == file.content => {}
                 Ok(_) if file.shape.is_some() => freshness = Freshness::DataChanged,
                 _ => return Freshness::Stale,
@@ -223,7 +245,7 @@ mod tests {
         let file = |path, text: &str, shape| Stamped { path, content: hash(text.as_bytes()), shape };
         Stamp {
             identity: 7,
-            program: "pick-1".into(),
+            kept: Kept { name: "pick-1".into(), program: Content::of(b"ELF"), said: Content::of(b"") },
             files: vec![file(main, "main", None), file(data, "int a = 1\n", Some(shape))],
             missing: vec![folder.0.join("other.arl")],
         }

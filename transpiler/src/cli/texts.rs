@@ -1,5 +1,6 @@
 //! The texts of a program, for who shows them.
 
+use arl_robot::regular_file;
 use std::path::PathBuf;
 
 /// A file of a program.
@@ -13,7 +14,7 @@ pub(super) struct Text {
 /// Reads the files; what cannot be read is left out.
 pub(super) fn read(files: &[PathBuf]) -> Vec<Text> {
     let read = |path: &PathBuf| {
-        let bytes = std::fs::read(path).ok()?;
+        let bytes = regular_file::read(path).ok()?;
         let text = arl_lang::text::decode(&bytes).ok()?.into_owned();
         Some(Text { name: file_name(&path.to_string_lossy()).to_owned(), text })
     };

@@ -6,7 +6,18 @@ use super::table::width;
 /// How much shorter than the longest line of a group the shortest one may be.
 const FARTHEST: usize = 40;
 
-/// A line with a comment at its end.
+/// What a line has at its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum End {
+    /// A comment.
+    Comment(Commented),
+    /// None, but it declares something: so it parts no list of declarations.
+    Declaration(Commented),
+    /// Nothing that counts.
+    Other,
+}
+
+/// A line that may have a comment at its end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Commented {
     /// Its level.
@@ -28,36 +39,43 @@ impl Commented {
     }
 }
 
-/// The blanks in front of the comment of each line; `None` stands for a line without one.
-pub(super) fn gaps(lines: &[Option<Commented>]) -> Vec<usize> {
+/// The blanks in front of the comment of each line.
+pub(super) fn gaps(lines: &[End]) -> Vec<usize> {
     let mut gaps = vec![1; lines.len()];
     let mut start = 0;
     while start < lines.len() {
         let group = group(lines.get(start..).unwrap_or_default());
-        let end = start + group.len().max(1);
-        let column = group.iter().map(|line| line.width).max().unwrap_or(0);
-        for (gap, line) in gaps.iter_mut().skip(start).zip(&group) {
-            *gap = 1 + column - line.width;
+        let column = group.iter().map(|(_, line)| line.width).max().unwrap_or(0);
+        for (at, line) in &group {
+            if let Some(gap) = gaps.get_mut(start + at) {
+                *gap = 1 + column - line.width;
+            }
         }
-        start = end;
+        start += group.last().map_or(1, |(at, _)| at + 1);
     }
     gaps
 }
 
-/// The lines at the beginning of `lines` whose comments stand in one column.
-fn group(lines: &[Option<Commented>]) -> Vec<Commented> {
-    let mut group: Vec<Commented> = Vec::new();
+/// The lines at the beginning of `lines` whose comments stand in one column: which they are.
+fn group(lines: &[End]) -> Vec<(usize, Commented)> {
+    let mut group: Vec<(usize, Commented)> = Vec::new();
     let (mut least, mut most) = (usize::MAX, 0);
-    for line in lines {
-        let Some(line) = line else { break };
-        least = least.min(line.width);
-        most = most.max(line.width);
-        let fits =
-            group.first().is_none_or(|first| line.follows && line.level == first.level && most - least <= FARTHEST);
-        if !fits {
+    for (at, line) in lines.iter().enumerate() {
+        let (End::Comment(own) | End::Declaration(own)) = line else { break };
+        let goes_on = group.first().is_none_or(|(_, first)| own.follows && own.level == first.level);
+        if !goes_on {
             break;
         }
-        group.push(*line);
+        if matches!(line, End::Declaration(_)) {
+            // A group begins with a comment.
+            if group.is_empty() { break } else { continue }
+        }
+        least = least.min(own.width);
+        most = most.max(own.width);
+        if most - least > FARTHEST {
+            break;
+        }
+        group.push((at, *own));
     }
     group
 }

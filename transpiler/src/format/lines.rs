@@ -64,6 +64,11 @@ impl<'a> Line<'a> {
         !self.frozen && self.pieces().next().is_none()
     }
 
+    /// Whether it declares variables or constants, as far as its first words tell.
+    pub(super) fn declares(&self) -> bool {
+        self.pieces().next().is_some_and(|first| first.is_word("const") || first.role == Role::Type)
+    }
+
     /// Its lexemes.
     pub(super) fn pieces(&self) -> impl Iterator<Item = &Piece<'a>> {
         self.items.iter().filter_map(|item| match item {

@@ -17,7 +17,7 @@ mod table;
 mod tests;
 mod trivia;
 
-use comments::Commented;
+use comments::{Commented, End};
 use levels::Place;
 use lines::{Line, read};
 #[cfg(feature = "cli")]
@@ -144,12 +144,16 @@ fn set_tables(lines: &[Line<'_>], places: &[Place], blanks: &[bool], texts: &mut
 
 /// All lines, with one line end at the end.
 fn joined(lines: &[Line<'_>], places: &[Place], blanks: &[bool], texts: &[Option<Text>]) -> String {
-    let mut commented: Vec<Option<Commented>> = Vec::with_capacity(lines.len());
-    for ((text, place), blank) in texts.iter().zip(places).zip(blanks) {
-        let text = text.as_ref().filter(|text| text.trailing.is_some());
-        commented.push(text.map(|text| Commented::new(&text.body, place.level, !blank)));
+    let mut ends: Vec<End> = Vec::with_capacity(lines.len());
+    for (((line, text), place), blank) in lines.iter().zip(texts).zip(places).zip(blanks) {
+        let commented = |text: &Text| Commented::new(&text.body, place.level, !blank);
+        ends.push(match text {
+            Some(text) if text.trailing.is_some() => End::Comment(commented(text)),
+            Some(text) if line.declares() => End::Declaration(commented(text)),
+            _ => End::Other,
+        });
     }
-    let gaps = comments::gaps(&commented);
+    let gaps = comments::gaps(&ends);
     let mut whole = String::new();
     for (at, (line, place)) in lines.iter().zip(places).enumerate() {
         if blanks.get(at) == Some(&true) {

@@ -136,6 +136,19 @@ fn comments_at_line_ends_stand_in_a_column() {
 }
 
 #[test]
+fn a_declaration_without_a_comment_parts_no_column() {
+    check(
+        "const int PICK=1 // where parts come\nconst int NOTHING=2\nconst int DEPOSIT=300 // where they go\n",
+        "const int PICK = 1      // where parts come\nconst int NOTHING = 2\nconst int DEPOSIT = 300 // where they go\n",
+    );
+    // A blank line does, and so does a statement.
+    statements(
+        "int a=1//1\nint b\n\nint cde=2//2\nf=4\nint g=5//3",
+        "int a = 1 //1\nint b\n\nint cde = 2 //2\nf = 4\nint g = 5 //3",
+    );
+}
+
+#[test]
 fn comments_on_lines_of_their_own() {
     check(
         "  // top\nint a\n// f\nfunc void f()\n// in\nif(a)\n// b\nb=1\n// end of if\nelse\n// empty\nendif\n// last\nendfunc\n // end",

@@ -64,3 +64,55 @@ fn programs_read_and_write_regular_files() {
     folder.write("reads.arl", &reads.replace("zero", "link"));
     folder.arl2rs(&["run", "reads.arl"]).is(0, "kept\n");
 }
+
+/// Makes a pipe that nobody writes to.
+fn pipe(folder: &Folder, name: &str) {
+    let made = std::process::Command::new("mkfifo").arg(folder.path.join(name)).status().expect("mkfifo");
+    assert!(made.success());
+}
+
+#[test]
+fn what_is_no_regular_file_is_refused_wherever_a_file_is_named() {
+    const WORDS: &str = "no regular file";
+    let folder = Folder::new("pipes").with("a.arl", PRINTS).with("sub/a.arl", PRINTS);
+    for name in ["pipe.arl", "pipe.toml", "pipe.csv", "pipe.mcap", "pipe.urdf", "p_data.arl", "sub/arl.toml", "t/c.arl"]
+    {
+        std::fs::create_dir_all(folder.path.join("t")).expect("a folder");
+        pipe(&folder, name);
+    }
+    symlink("/dev/zero", folder.path.join("zero.arl")).expect("a link");
+    folder.write("t/c.out", "");
+    folder.write("p.arl", PRINTS);
+    folder.write("imports.arl", "import \"pipe.arl\"\nfunc void main()\nendfunc\n");
+    for program in ["pipe.arl", "zero.arl", "p.arl", "imports.arl"] {
+        for command in ["check", "emit", "run"] {
+            folder.arl2rs(&[command, program]).is(1, "").says(WORDS);
+        }
+    }
+    folder.arl2rs(&["check", "sub/a.arl"]).is(1, "").says("arl.toml").says(WORDS);
+    folder.arl2rs(&["check", "a.arl", "--robot", "pipe.toml"]).is(2, "").says(WORDS);
+    folder.arl2rs(&["check", "a.arl", "--cell", "pipe.toml"]).is(2, "").says(WORDS);
+    folder.arl2rs(&["fmt", "pipe.arl"]).is(1, "").says(WORDS);
+    folder.arl2rs(&["plot", "pipe.csv", "p.svg"]).says(WORDS);
+    folder.arl2rs(&["compare", "pipe.mcap", "pipe.mcap"]).says(WORDS);
+    folder.arl2rs(&["robots", "--import", "pipe.urdf"]).says(WORDS);
+    folder.arl2rs(&["sweep", "pipe.toml"]).is(1, "").says(WORDS);
+    folder.arl2rs(&["view", "pipe.mcap", "--no-open"]).says(WORDS);
+    let tested = folder.arl2rs(&["test", "t"]);
+    assert!(tested.code == Some(1) && tested.out.contains(WORDS), "{tested:?}");
+    // Standard input is asked for by its own name.
+    let mut command = folder.command(&["fmt", "-"]);
+    let piped = || std::process::Stdio::piped();
+    let mut child = command.stdin(piped()).stdout(piped()).stderr(piped()).spawn().expect("it starts");
+    std::io::Write::write_all(&mut child.stdin.take().expect("its input"), b"int  a\n").expect("written");
+    Answer::of(child.wait_with_output().expect("it ends")).is(0, "int a\n");
+}
+
+#[test]
+fn a_program_that_becomes_a_pipe_is_not_waited_for() {
+    let folder = Folder::new("becomes_a_pipe").with("a.arl", PRINTS).with("a_data.arl", "int b = 1\n");
+    folder.arl2rs(&["run", "a.arl"]).is(0, "part 1\npart 2\npart 3\n");
+    std::fs::remove_file(folder.path.join("a_data.arl")).expect("removed");
+    pipe(&folder, "a_data.arl");
+    folder.arl2rs(&["run", "a.arl"]).is(1, "").says("no regular file");
+}

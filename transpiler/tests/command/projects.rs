@@ -103,3 +103,30 @@ fn a_scenario_tells_where_it_names_what_is_not_there() {
         .with("s.toml", "[[event]]\nat = 1\ndi.1 = true\n\n[[event]]\nat = 2\ndi.99 = true\n");
     folder.arl2rs(&["run", "a.arl", "--io", "s.toml"]).is(2, "").says("s.toml:5: the scenario sets an input");
 }
+
+#[test]
+fn what_arl_toml_names_and_is_not_there_is_told_with_its_line() {
+    let folder = Folder::new("typos").with("a.arl", WAITS);
+    for (text, words) in [
+        ("robot = \"six10\"\n", "arl.toml:1: robot: no robot `six10` is built in"),
+        ("# none\nrobot = \"my.toml\"\n", "arl.toml:2: robot: cannot read the robot file"),
+        ("\ncell = \"cel.toml\"\n", "arl.toml:2: cell: there is no cel.toml"),
+    ] {
+        folder.write("arl.toml", text);
+        folder.arl2rs(&["check", "a.arl"]).is(2, "").says(words);
+        folder.arl2rs(&["run", "a.arl"]).is(2, "").says(words);
+    }
+    folder.write("arl.toml", "io = \"sc.toml\"\n");
+    folder.arl2rs(&["run", "a.arl"]).is(2, "").says("arl.toml:1: io: there is no sc.toml");
+    // What the command says goes first.
+    folder.write("arl.toml", "robot = \"six10\"\nio = \"sc.toml\"\n");
+    folder.arl2rs(&["check", "a.arl", "--robot", "six-10"]).is(0, "");
+}
+
+#[test]
+fn no_scenario_can_be_asked_for() {
+    let folder = Folder::new("no_scenario").with("a.arl", WAITS).with("arl.toml", "io = \"s.toml\"\n");
+    folder.write("s.toml", "[[event]]\nat = 0.5\ndi.1 = true\n");
+    folder.arl2rs(&["run", "a.arl"]).is(0, "came\n");
+    folder.arl2rs(&["run", "a.arl", "--io", "none"]).is(4, "").says("nothing can change any more");
+}

@@ -280,3 +280,58 @@ fn robots_of_other_channels_go_along_with_the_runs() {
     folder.write("t.toml", "program = \"p.arl\"\ncell = \"cell.toml\"\nset.\"cell.channel.1.robot\" = \"none.toml\"\n");
     folder.arl2rs(&["sweep", "t.toml"]).is(1, "").says("none.toml");
 }
+
+#[test]
+fn a_slip_in_the_name_of_a_variable_is_told_before_anything_runs() {
+    let folder = Folder::new("sweep-slip").with("p.arl", PROGRAM);
+    let sweep = |table: &str| {
+        folder.write("s.toml", &format!("program = \"p.arl\"\n{table}"));
+        folder.arl2rs(&["sweep", "s.toml"])
+    };
+    sweep("[grid]\n\"global.pich\" = [1, 2]\n").is(2, "").says("no global variable `pich`; did you mean `pitch`?");
+    sweep("[[run]]\n\"global.pitch\" = 1\n\"global.a\\nb\" = 1\n").is(2, "").says("no global variable");
+    // Names fold, and may have the name of a file in front.
+    let outcomes = |table: &str| rows(&sweep(table)).iter().map(|row| row["outcome"].clone()).collect::<Vec<_>>();
+    assert_eq!(outcomes("[grid]\n\"global.p::Pitch\" = [100]\n"), ["ended"]);
+    // One row with something else to say is a sweep.
+    assert_eq!(outcomes("[[run]]\n\"global.pich\" = 1\n[[run]]\nseed = 1\n"), ["refused", "ended"]);
+}
+
+#[test]
+fn hostile_tables_are_refused_in_words() {
+    let folder = Folder::new("sweep-hostile").with("p.arl", PROGRAM);
+    let sweep = |table: &str| {
+        folder.write("s.toml", &format!("program = \"p.arl\"\n{table}"));
+        folder.arl2rs(&["sweep", "s.toml"])
+    };
+    sweep("grid.seed = { from = 1, to = 2, count = 1000000000 }\n").is(2, "").says("[grid] seed");
+    let grid = "{ from = 1, to = 2, count = 100000 }";
+    sweep(&format!("[grid]\nseed = {grid}\noverride = {grid}\n")).is(2, "").says("more than 10000000 runs");
+    for number in ["nan", "inf", "-inf"] {
+        sweep(&format!("set.\"global.pitch\" = {number}\n")).is(2, "").says("null, nan and inf are none");
+        sweep(&format!("max-time = {number}\n")).is(2, "").says("max-time: expected seconds");
+        sweep(&format!("grid.seed = {{ from = {number}, to = 2, count = 3 }}\n")).is(2, "").says("[grid] seed");
+    }
+    for file in ["../p.arl", "/etc/passwd", "a/../../p.arl"] {
+        sweep(&format!("files = [{file:?}]\n")).is(2, "").says("expected a path in");
+    }
+    sweep("io = \"a\\nb.toml\"\n").is(2, "").says("b.toml");
+    // A text is one word of a run, whatever it holds.
+    let table = "[[run]]\n\"global.name\" = \"a\\r\\n\\tb\\\\\"\n[[run]]\nmode = \"\"\n[[run]]\nmode = \"auto\\r\"\n";
+    let all = rows(&sweep(table));
+    let outcomes: Vec<_> = all.iter().map(|row| row["outcome"].clone()).collect();
+    assert_eq!(outcomes, ["ended", "refused", "refused"], "{all:?}");
+    assert!(all[1]["problem"].as_str().is_some_and(|why| why.starts_with("--mode :")), "{}", all[1]);
+}
+
+#[test]
+fn files_of_a_row_are_called_as_the_user_calls_them() {
+    let folder =
+        Folder::new("sweep-names").with("p.arl", PROGRAM).with("plans/s9.toml", "[[event]]\nat = 1\ndi.999 = maybe\n");
+    folder.write("plans/good.toml", "[[event]]\nat = 1\ndi.1 = true\n");
+    folder.write("s.toml", "program = \"p.arl\"\n[grid]\nio = [\"plans/good.toml\", \"plans/s9.toml\"]\n");
+    let all = rows(&folder.arl2rs(&["sweep", "s.toml"]));
+    assert_eq!((&all[0]["outcome"], &all[1]["outcome"]), (&"ended".into(), &"refused".into()));
+    let problem = all[1]["problem"].as_str().unwrap_or_default();
+    assert!(problem.starts_with("plans/s9.toml:3") && !problem.contains("named/"), "{problem}");
+}

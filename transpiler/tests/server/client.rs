@@ -3,6 +3,7 @@
 use crate::messages::{messages, send};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::Receiver;
@@ -92,6 +93,12 @@ impl Client {
 
     pub(crate) fn send_text(&mut self, body: &str) {
         send(self.input.as_mut().expect("the input is open"), body);
+    }
+
+    /// Sends bytes as they are.
+    pub(crate) fn send_raw(&mut self, bytes: &str) {
+        let input = self.input.as_mut().expect("the input is open");
+        input.write_all(bytes.as_bytes()).and_then(|()| input.flush()).expect("the server reads");
     }
 
     pub(crate) fn tell(&mut self, method: &str, params: Value) {

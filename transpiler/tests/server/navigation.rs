@@ -269,3 +269,73 @@ fn the_unsaved_text_of_a_module_beside_the_folder_goes_first() {
     let edit = client.ask("textDocument/rename", at);
     assert!(edit["changes"][&rack].is_array() && edit["changes"][&main].is_array(), "{edit}");
 }
+
+/// All addresses that an answer has.
+fn addresses(value: &Value, found: &mut Vec<String>) {
+    match value {
+        Value::Array(values) => values.iter().for_each(|value| addresses(value, found)),
+        Value::Object(values) => {
+            for (key, value) in values {
+                match value.as_str() {
+                    Some(uri) if key == "uri" => found.push(uri.to_owned()),
+                    _ if key == "changes" => {
+                        found.extend(value.as_object().into_iter().flat_map(|all| all.keys().cloned()))
+                    }
+                    _ => addresses(value, found),
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn addresses_come_back_as_the_client_spells_them() {
+    let folder = Folder::new("spelling");
+    let base = folder.path.display();
+    for uri in [
+        format!("file://{base}/a%20(b)/main.arl"),
+        format!("file://{base}/a%20%28b%29/main.arl"),
+        format!("file://{base}/\u{96f6}\u{4ef6}/main.arl"),
+        format!("file://{base}/c%2bd@e/m%C3%A4in.arl"),
+        "inmemory://model/1.arl".to_owned(),
+        "vscode-vfs://github/cell/a%20(b)/main.arl".to_owned(),
+        "untitled:Untitled-1".to_owned(),
+    ] {
+        let mut client = Client::new(&folder);
+        let text = "int wrong = \"x\"\nfunc void part()\nendfunc\nfunc void main()\n    part()\nendfunc\n";
+        client.set(&uri, text);
+        assert!(!client.diagnostics(&uri).is_empty(), "under this address: {uri}");
+        let place = json!({"textDocument": {"uri": uri}, "position": {"line": 4, "character": 5}});
+        let mut rename = place.clone();
+        rename["newName"] = json!("piece");
+        let mut uses = place.clone();
+        uses["context"] = json!({"includeDeclaration": true});
+        for (method, params) in [
+            ("textDocument/definition", &place),
+            ("textDocument/references", &uses),
+            ("textDocument/rename", &rename),
+            ("textDocument/prepareCallHierarchy", &place),
+            ("workspace/symbol", &json!({"query": "part"})),
+        ] {
+            let mut found = Vec::new();
+            addresses(&client.ask(method, params.clone()), &mut found);
+            assert!(!found.is_empty() && found.iter().all(|found| *found == uri), "{method}: {uri} became {found:?}");
+        }
+        // What was told of a file is taken back under the same address.
+        client.tell("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
+        assert_eq!(client.told_again(&uri), json!([]));
+        assert!(client.leave());
+    }
+}
+
+#[test]
+fn files_beside_an_open_one_are_spelled_like_it() {
+    let folder = Folder::new("beside (it)").with("rack.arl", RACK).with("main.arl", MAIN);
+    let uri = format!("file://{}/main.arl", folder.path.display().to_string().replace(' ', "%20"));
+    let mut client = Client::new(&Folder::new("elsewhere"));
+    client.set(&uri, MAIN);
+    let found = client.ask("textDocument/definition", place(&uri, "rack::", "full"));
+    assert_eq!(found["uri"], uri.replace("main.arl", "rack.arl"));
+    assert!(client.leave());
+}

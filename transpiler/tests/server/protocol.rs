@@ -154,3 +154,63 @@ fn a_robot_file_that_changes_is_read_again() {
     client.tell("workspace/didChangeWatchedFiles", json!({"changes": changes}));
     assert_eq!(client.told_again(&uri)[0]["code"], "ARL0208");
 }
+
+#[test]
+fn a_header_that_is_wrong_does_not_take_the_next_request_with_it() {
+    let folder = Folder::new("headers");
+    let mut client = Client::new(&folder);
+    let lost = "{\"jsonrpc\":\"2.0\",\"method\":\"$/lost\",\"params\":{}}";
+    for field in
+        ["Content-Length: 5", "Content-Length: 70", "Content-Length: 5000", "Content-Length: x", "Content-Length: -1"]
+    {
+        client.send_raw(&format!("{field}\r\n\r\n{lost}"));
+        assert_eq!(client.ask("workspace/symbol", json!({"query": ""})), json!([]), "{field}");
+    }
+    assert!(client.leave());
+}
+
+#[test]
+fn a_change_of_a_range_that_is_none_is_refused() {
+    let folder = Folder::new("no_range");
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    client.set(&uri, WRONG);
+    let before = client.diagnostics(&uri);
+    assert!(!before.is_empty());
+    for line in [json!(-1), json!(1.5), json!("1"), json!(4_294_967_296_u64), json!(null)] {
+        let range = json!({"start": {"line": line, "character": 0}, "end": {"line": line, "character": 1}});
+        client.edit(&uri, json!([{"range": range, "text": ""}]));
+        client.ask("workspace/symbol", json!({"query": ""}));
+        let told = client.shown.pop().unwrap_or_default();
+        assert!(told.contains("a range that is none"), "{line}: {told}");
+    }
+    // The text is still there.
+    let symbols = client.ask("textDocument/documentSymbol", json!({"textDocument": {"uri": uri}}));
+    assert_eq!(symbols[0]["name"], "main");
+    // Whole documents need no range.
+    client.edit(&uri, json!([{"range": null, "text": "func void main()\nendfunc\n"}]));
+    assert!(client.diagnostics(&uri).is_empty());
+    assert!(client.leave());
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_in_the_workspace_stop_nothing() {
+    let folder = Folder::new("pipes").with("uses.arl", "import \"pipe.arl\"\nfunc void main()\nendfunc\n");
+    let made = std::process::Command::new("mkfifo").arg(folder.path.join("pipe.arl")).status().expect("mkfifo");
+    assert!(made.success());
+    for name in ["zero.arl", "main_data.arl", "arl.toml"] {
+        std::os::unix::fs::symlink("/dev/zero", folder.path.join(name)).expect("a link");
+    }
+    let (mut client, uri) = (Client::new(&folder), folder.uri("uses.arl"));
+    client.set(&uri, "import \"pipe.arl\"\nimport \"zero.arl\"\nfunc void main()\nendfunc\n");
+    let told = client.diagnostics(&uri);
+    let messages: Vec<&str> = told.iter().filter_map(|one| one["message"].as_str()).collect();
+    assert_eq!(messages.iter().filter(|text| text.contains("no regular file")).count(), 2, "{messages:?}");
+    let main = folder.uri("main.arl");
+    client.set(&main, "func void main()\nendfunc\n");
+    // What is wrong with the data file is not told of its program.
+    assert!(client.diagnostics(&main).is_empty());
+    client.ask("workspace/symbol", json!({"query": ""}));
+    assert!(client.shown.iter().any(|text| text.contains("arl.toml")), "{:?}", client.shown);
+    assert!(client.leave());
+}

@@ -9,6 +9,8 @@ use std::thread::{Builder, JoinHandle};
 
 use arl_motion::beside;
 
+use crate::command::connection;
+
 /// What a debugger wants: a number, a word, and what the word takes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Request {
@@ -51,7 +53,7 @@ const GONE: usize = usize::MAX / 2;
 
 impl Link {
     pub(super) fn connect(address: &str) -> Result<Self> {
-        let stream = TcpStream::connect(address)?;
+        let stream = connection::connect(address)?;
         stream.set_nodelay(true)?;
         let (sender, requests) = channel();
         let (lines, outgoing) = channel::<String>();

@@ -6,10 +6,9 @@
 
 use std::cell::RefCell;
 use std::io;
-use std::net::TcpStream;
 
 use super::line_writer::{IfFull, LineWriter, Messages, push_cycle, push_state};
-use crate::command::report;
+use crate::command::{connection, report};
 use crate::context::output::{Message, Output};
 use crate::controller::Controller;
 use crate::fault::Alarm;
@@ -47,7 +46,7 @@ pub(crate) struct Recording {
 impl Recording {
     /// Connects to the listener at an address.
     pub(crate) fn connect(address: &str, wishes: Wishes) -> io::Result<Self> {
-        let stream = TcpStream::connect(address)?;
+        let stream = connection::connect(address)?;
         Ok(Self { voice: LineWriter::to(stream, IfFull::Waits), wishes, waiting: RefCell::default() })
     }
 

@@ -2,6 +2,7 @@
 
 use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
+use crate::cli::trouble;
 use std::fs::{File, TryLockError};
 use std::io::ErrorKind;
 use std::path::Path;
@@ -17,9 +18,9 @@ impl Lock {
     /// Locks a folder, which is made where there is none, and notes that it is used now. `words` say what is waited for.
     pub(in crate::cli) fn take(folder: &Path, shared: bool, words: &str) -> Result<Self, Failure> {
         loop {
-            std::fs::create_dir_all(folder).map_err(|error| Failure::io("make the folder", folder, &error))?;
+            std::fs::create_dir_all(folder).map_err(|error| unusable("make the folder", folder, &error))?;
             let path = folder.join(NAME);
-            let lock = lock(&path, shared, words).map_err(|error| Failure::io("lock", &path, &error))?;
+            let lock = lock(&path, shared, words).map_err(|error| unusable("lock", &path, &error))?;
             // Who was waited for may have removed the folder.
             if path.exists() {
                 // Where the time cannot be set it is older than it should be: the folder goes earlier, and is made again.
@@ -31,7 +32,7 @@ impl Lock {
 
     /// Locks a folder that nobody uses; nothing where somebody does. Notes no use.
     pub(super) fn of_unused(folder: &Path) -> Option<Self> {
-        let file = File::options().read(true).write(true).create(true).truncate(false).open(folder.join(NAME)).ok()?;
+        let file = File::options().read(true).write(true).open(folder.join(NAME)).ok()?;
         match file.try_lock() {
             Ok(()) => Some(Self { _file: file }),
             Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Some(Self { _file: file }),
@@ -40,8 +41,29 @@ impl Lock {
     }
 }
 
+/// Why a file or folder of the cache cannot be used, and what to do.
+fn unusable(doing: &str, path: &Path, error: &std::io::Error) -> Failure {
+    match Failure::io(doing, path, error) {
+        Failure::Other(said) => Failure::Other(trouble::of(&said).unwrap_or(said)),
+        other => other,
+    }
+}
+
+/// Opens the file of a lock, which is made where there is none. What is only started needs no more than to be read.
+fn open(path: &Path, shared: bool) -> std::io::Result<File> {
+    let opened = File::options().read(true).write(true).create(true).truncate(false).open(path);
+    match opened {
+        Err(error) if shared && is_read_only(&error) => File::open(path).map_err(|_| error),
+        opened => opened,
+    }
+}
+
+fn is_read_only(error: &std::io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem)
+}
+
 fn lock(path: &Path, shared: bool, words: &str) -> std::io::Result<File> {
-    let file = File::options().read(true).write(true).create(true).truncate(false).open(path)?;
+    let file = open(path, shared)?;
     match if shared { file.try_lock_shared() } else { file.try_lock() } {
         Ok(()) => {}
         Err(TryLockError::WouldBlock) => {
@@ -53,6 +75,11 @@ fn lock(path: &Path, shared: bool, words: &str) -> std::io::Result<File> {
         Err(TryLockError::Error(error)) => return Err(error),
     }
     Ok(file)
+}
+
+/// Whether a folder was locked once: then it is one of the cache.
+pub(super) fn is_lockable(folder: &Path) -> bool {
+    folder.join(NAME).is_file()
 }
 
 /// When a folder or a file was used last; that of its making, where nobody locked it. A time in the future is one of a

@@ -1,12 +1,16 @@
 //! Where compiled programs are kept: a folder `programs` with one for each program, and a folder `runtime` with one for each
 //! runtime: its sources, where the command carries them, and what cargo made with it; and a folder `results` with what came of sweeps.
 
+mod content;
 mod limit;
 mod lock;
+mod made;
 mod old;
 
+pub(super) use content::{Content, read_sealed, sealed};
 pub(super) use lock::Lock;
-pub(super) use old::Removed;
+pub(super) use made::{Made, RECORD};
+pub(super) use old::{Removed, remove_made};
 
 use super::failure::Failure;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -15,6 +19,8 @@ use std::path::{Path, PathBuf};
 const PROGRAMS: &str = "programs";
 const RUNTIMES: &str = "runtime";
 const RESULTS: &str = "results";
+/// How files of results end.
+const RESULTS_END: &str = "jsonl";
 
 /// The folder of all compiled programs of a user.
 #[derive(Clone, Debug)]
@@ -56,7 +62,7 @@ impl Cache {
 
     /// The file of what came of runs, by what they depend on.
     pub(super) fn results(&self, key: &str) -> PathBuf {
-        self.root.join(RESULTS).join(key).with_extension("jsonl")
+        self.root.join(RESULTS).join(key).with_extension(RESULTS_END)
     }
 
     /// The folder of a runtime.
@@ -138,6 +144,11 @@ impl Place {
 
     pub(super) fn stamp(&self) -> PathBuf {
         self.folder.join("stamp")
+    }
+
+    /// The file of what was said when the program was checked.
+    pub(super) fn said(&self) -> PathBuf {
+        self.folder.join("said")
     }
 
     /// Waits until no other process compiles this program. `shared` is for starting it.

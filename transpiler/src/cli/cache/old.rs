@@ -1,7 +1,7 @@
 //! What the cache holds, and how it is removed.
 
-use super::lock::{Lock, last_use};
-use super::{Cache, Kind, PROGRAMS, RESULTS, RUNTIMES};
+use super::lock::{Lock, is_lockable, last_use};
+use super::{Cache, Kind, PROGRAMS, RESULTS, RESULTS_END, RUNTIMES};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -41,7 +41,7 @@ impl Cache {
     pub(super) fn entries(&self) -> Vec<Entry> {
         let mut all = Vec::new();
         for (name, what) in [(RESULTS, What::Results), (PROGRAMS, What::Program), (RUNTIMES, What::Runtime)] {
-            let some = entries(&self.root.join(name)).filter(|path| path.is_dir() != (what == What::Results));
+            let some = entries(&self.root.join(name)).filter(|path| is_ours(path, what));
             let mut some: Vec<Entry> = some
                 .map(|path| Entry { used: last_use(&path).unwrap_or(SystemTime::UNIX_EPOCH), path, what })
                 .collect();
@@ -75,8 +75,8 @@ impl Cache {
         }
         let mut bytes = 0;
         if *what == What::Program {
-            let made = folders(&self.root.join(RUNTIMES)).flat_map(|runtime| made_of(path, &runtime));
-            bytes += made.map(|path| remove(&path)).sum::<u64>();
+            let runtimes = folders(&self.root.join(RUNTIMES));
+            bytes += runtimes.map(|runtime| remove_made(path, &runtime.join("target"))).sum::<u64>();
         }
         // Windows removes no folder with an open file in it; elsewhere nobody gets in between.
         let lock = (!cfg!(windows)).then_some(lock);
@@ -92,10 +92,27 @@ impl Cache {
     }
 }
 
-/// What cargo made of a program, for its own use, in the folder of a runtime.
-fn made_of(program: &Path, runtime: &Path) -> Vec<PathBuf> {
+/// Whether an entry was made by this command: the folder that is named for the cache may hold other things, and links
+/// to such.
+fn is_ours(path: &Path, what: What) -> bool {
+    let kind = std::fs::symlink_metadata(path).map(|about| about.file_type());
+    match what {
+        What::Results => {
+            kind.is_ok_and(|kind| kind.is_file()) && path.extension().is_some_and(|end| end == RESULTS_END)
+        }
+        What::Program | What::Runtime => kind.is_ok_and(|kind| kind.is_dir()) && is_lockable(path),
+    }
+}
+
+/// Removes what cargo made of a program, for its own use; how many bytes that gave back.
+pub(in crate::cli) fn remove_made(program: &Path, target: &Path) -> u64 {
+    made_of(program, target).iter().map(|path| remove(path)).sum()
+}
+
+/// What cargo made of a program in its folder for what it makes.
+fn made_of(program: &Path, target: &Path) -> Vec<PathBuf> {
     let Some(package) = program.file_name().map(|name| name.to_string_lossy().into_owned()) else { return Vec::new() };
-    let profiles = folders(&runtime.join("target"));
+    let profiles = folders(target);
     let places = profiles.flat_map(|profile| {
         ["", "deps", "incremental", ".fingerprint"]
             .map(|name| if name.is_empty() { profile.clone() } else { profile.join(name) })
@@ -199,7 +216,14 @@ mod tests {
         program("arl-a-00000001", 3);
         program("arl-b-00000002", 1);
         program("arl-c-00000003", 3);
+        drop(Lock::take(&root.join("runtime/r"), true, "").expect("a lock"));
         std::fs::write(root.join("not ours"), "stays").expect("written");
+        // Folders and files of somebody else, and links to such.
+        std::fs::create_dir_all(root.join("programs/mine")).expect("a folder");
+        std::fs::create_dir_all(root.join("results")).expect("a folder");
+        std::fs::write(root.join("results/mine.txt"), "stays").expect("written");
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(root.join("programs/mine"), root.join("programs/link")).expect("a link");
         let results = cache.results("0a1b");
         std::fs::create_dir_all(results.parent().expect("a folder")).expect("a folder");
         std::fs::write(&results, "12345").expect("written");
@@ -221,7 +245,11 @@ mod tests {
         drop(used);
         let removed = cache.clean(Duration::ZERO);
         assert_eq!((removed.programs, removed.runtimes, removed.kept), (2, 1, Vec::new()));
-        assert_eq!(std::fs::read_to_string(root.join("not ours")).expect("it is there"), "stays");
+        for name in ["not ours", "results/mine.txt"] {
+            assert_eq!(std::fs::read_to_string(root.join(name)).expect("it is there"), "stays");
+        }
+        assert_eq!(entries(&root.join("programs/mine")).count(), 0, "it is there, and nothing was left in it");
+        assert_eq!(root.join("programs/link").exists(), cfg!(unix));
         std::fs::remove_dir_all(&root).expect("removed");
     }
 

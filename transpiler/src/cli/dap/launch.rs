@@ -1,6 +1,7 @@
 //! What the editor's launch configuration says.
 
 use crate::cli::args::{Clock, Mode, RunOptions};
+use crate::cli::arl_toml;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -53,6 +54,7 @@ impl Launch {
             true => self.found(Path::new(robot)).display().to_string(),
             false => robot.clone(),
         });
+        let io = self.io.as_ref().map(|io| if arl_toml::is_no_scenario(io) { io.clone() } else { self.found(io) });
         let found = |path: &Option<PathBuf>| path.as_ref().map(|path| self.found(path));
         Ok(RunOptions {
             robot,
@@ -60,7 +62,7 @@ impl Launch {
             clock,
             script_dir: found(&self.script_dir),
             state_dir: found(&self.state_dir),
-            io: found(&self.io),
+            io,
             trace: found(&self.trace),
             repeats: self.repeats,
             max_time: self.max_time,

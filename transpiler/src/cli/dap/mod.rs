@@ -21,7 +21,7 @@ mod variables;
 pub(super) use program::{FileKey, Key, Programs};
 
 use super::failure::Failure;
-use super::framing;
+use super::framing::Messages;
 use crate::cli::exit::Exit;
 use session::Session;
 use std::sync::mpsc::channel;
@@ -41,8 +41,8 @@ pub(super) fn dap() -> Result<Exit, Failure> {
     let (sender, events) = channel();
     let requests = sender.clone();
     std::thread::spawn(move || {
-        let mut input = std::io::stdin().lock();
-        while let Some(body) = framing::read(&mut input) {
+        let mut input = Messages::new(std::io::stdin().lock());
+        while let Some(body) = input.next() {
             // What is no request has nobody who waits for an answer.
             if let Ok(request) = serde_json::from_slice::<protocol::Request>(&body)
                 && requests.send(Event::Request(request)).is_err()

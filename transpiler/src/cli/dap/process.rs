@@ -1,9 +1,10 @@
 //! The program that is debugged: a process that connects to the adapter.
 
 use super::Event;
+use crate::cli::port::{Port, Secret};
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Read, Write};
-use std::net::{TcpListener, TcpStream};
+use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
@@ -35,10 +36,8 @@ impl Process {
     /// # Errors
     /// It cannot be started, or ends before it connects: what it says then is new of it, too, and that it has ended.
     pub(super) fn start(mut command: Command, number: u64, events: &Sender<Event>) -> Result<Self, String> {
-        let listener = TcpListener::bind(("127.0.0.1", 0)).map_err(|error| error.to_string())?;
-        let address = listener.local_addr().map_err(|error| error.to_string())?;
-        listener.set_nonblocking(true).map_err(|error| error.to_string())?;
-        command.arg("--debug").arg(address.to_string());
+        let port = Secret::new().and_then(Port::open).map_err(|failure| failure.to_string())?;
+        port.ask(&mut command, "--debug");
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().map_err(|error| format!("the program cannot be started: {error}"))?;
         let pipes: [Option<(&'static str, Box<dyn Read + Send>)>; 2] = [
@@ -47,7 +46,7 @@ impl Process {
         ];
         let readers: Vec<_> =
             pipes.into_iter().flatten().map(|(name, pipe)| output(name, pipe, number, events)).collect();
-        let stream = match accept(&listener, &mut child) {
+        let stream = match accept(port, &mut child) {
             Ok(stream) => stream,
             Err(why) => {
                 let _ = child.kill();
@@ -110,22 +109,17 @@ impl Drop for Process {
 }
 
 /// Waits until the program connects.
-fn accept(listener: &TcpListener, child: &mut Child) -> Result<TcpStream, String> {
+fn accept(port: Port, child: &mut Child) -> Result<TcpStream, String> {
     let start = Instant::now();
-    loop {
-        if let Ok((stream, _)) = listener.accept() {
-            stream.set_nonblocking(false).map_err(|error| error.to_string())?;
-            stream.set_nodelay(true).map_err(|error| error.to_string())?;
-            return Ok(stream);
-        }
-        if let Ok(Some(status)) = child.try_wait() {
-            return Err(format!("the program ended before it began ({status})"));
-        }
-        if start.elapsed() > LONGEST_START {
-            return Err("the program does not answer".into());
-        }
-        std::thread::sleep(Duration::from_millis(2));
-    }
+    let gone = || -> std::io::Result<Option<String>> {
+        Ok(match child.try_wait()? {
+            Some(status) => Some(format!("the program ended before it began ({status})")),
+            None => (start.elapsed() > LONGEST_START).then(|| "the program does not answer".to_owned()),
+        })
+    };
+    let stream = port.accept(gone).map_err(|error| error.to_string())??;
+    stream.set_nodelay(true).map_err(|error| error.to_string())?;
+    Ok(stream)
 }
 
 /// Passes on what a program prints.

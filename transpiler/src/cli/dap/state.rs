@@ -2,6 +2,7 @@
 //! repeat each other. What they keep goes with the session.
 
 use super::remains::PREFIX;
+use crate::cli::private_folder::PrivateFolder;
 use std::path::{Path, PathBuf};
 
 /// Where it is where nobody says otherwise, below the program's folder.
@@ -10,15 +11,15 @@ const STATE_DIR: &str = ".arl-state";
 /// A copy that goes with the session.
 pub(super) struct State {
     original: PathBuf,
-    copy: PathBuf,
+    /// None where none can be made.
+    copy: std::io::Result<PrivateFolder>,
 }
 
 impl State {
     /// For programs that keep their state in a folder, or else below that of their files.
     pub(super) fn new(folder: Option<&Path>, files: &Path) -> Self {
         let original = folder.map_or_else(|| files.join(STATE_DIR), Path::to_path_buf);
-        let copy = std::env::temp_dir().join(format!("{PREFIX}{}-state", std::process::id()));
-        Self { original, copy }
+        Self { original, copy: PrivateFolder::new(PREFIX) }
     }
 
     /// The folder for another run, which finds what is in the original.
@@ -26,20 +27,15 @@ impl State {
     /// # Errors
     /// It cannot be copied.
     pub(super) fn begin(&self) -> Result<&Path, String> {
-        let failed = |error: std::io::Error| format!("cannot copy {}: {error}", self.original.display());
-        let _ = std::fs::remove_dir_all(&self.copy);
-        std::fs::create_dir_all(&self.copy).map_err(failed)?;
-        let Ok(entries) = std::fs::read_dir(&self.original) else { return Ok(&self.copy) };
-        for entry in entries.filter_map(Result::ok).filter(|entry| entry.path().is_file()) {
-            std::fs::copy(entry.path(), self.copy.join(entry.file_name())).map_err(failed)?;
+        let failed = |error: &std::io::Error| format!("cannot copy {}: {error}", self.original.display());
+        let copy = self.copy.as_ref().map(PrivateFolder::path).map_err(failed)?;
+        for entry in std::fs::read_dir(copy).map_err(|error| failed(&error))?.flatten() {
+            std::fs::remove_file(entry.path()).map_err(|error| failed(&error))?;
         }
-        Ok(&self.copy)
-    }
-}
-
-impl Drop for State {
-    fn drop(&mut self) {
-        // It lies in the system's folder for files that go.
-        let _ = std::fs::remove_dir_all(&self.copy);
+        let Ok(entries) = std::fs::read_dir(&self.original) else { return Ok(copy) };
+        for entry in entries.filter_map(Result::ok).filter(|entry| entry.path().is_file()) {
+            std::fs::copy(entry.path(), copy.join(entry.file_name())).map_err(|error| failed(&error))?;
+        }
+        Ok(copy)
     }
 }

@@ -3,7 +3,7 @@
 use super::navigation::uses_of;
 use super::programs::Program;
 use super::server::{Refusal, Server};
-use super::uri::{path_of, uri_of};
+use super::uri::path_of;
 use crate::hir::FuncId;
 use crate::index::{Meaning, Role};
 use gen_lsp_types::*;
@@ -31,7 +31,7 @@ fn item(server: &Server, program: &Program, id: FuncId) -> Option<CallHierarchyI
         kind: SymbolKind::Function,
         tags: None,
         detail: path.file_stem().map(|stem| stem.to_string_lossy().into_owned()),
-        uri: uri_of(path),
+        uri: server.documents.uri(path),
         range: text.range(function.span()),
         selection_range: text.range(function.at.span),
         data: None,

@@ -1,11 +1,12 @@
 //! The files that are open in the editor, whose text goes before that of the disk.
 
 use super::text::{Encoding, Text};
+use super::uri::{beside, path_of, uri_of};
 use crate::check::clean;
 use crate::sources::FileSystem;
 use crate::{SourceError, Sources};
 use arl_lang::span::LineIndex;
-use gen_lsp_types::TextDocumentContentChangeEvent as Change;
+use gen_lsp_types::{TextDocumentContentChangeEvent as Change, Uri};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -52,11 +53,29 @@ impl Document {
 #[derive(Debug, Default)]
 pub(super) struct Documents {
     open: BTreeMap<PathBuf, Document>,
+    /// How the client spells the addresses of files that it has opened, also of those that it has closed again: an
+    /// address can be spelled in many ways, and clients compare them letter by letter.
+    spelled: BTreeMap<PathBuf, Uri>,
 }
 
 impl Documents {
-    pub(super) fn open(&mut self, path: PathBuf, document: Document) {
-        self.open.insert(path, document);
+    /// Takes in an open file; its path.
+    pub(super) fn open(&mut self, uri: &Uri, document: Document) -> PathBuf {
+        let path = path_of(uri);
+        self.open.insert(path.clone(), document);
+        self.spelled.insert(path.clone(), uri.clone());
+        path
+    }
+
+    /// The address of a file, as the client spells it where it has said so, of the file or of another one in its
+    /// folder.
+    pub(super) fn uri(&self, path: &Path) -> Uri {
+        let own = || self.spelled.get(path).cloned();
+        let beside = || {
+            let (other, uri) = self.spelled.iter().find(|(other, _)| other.parent() == path.parent())?;
+            beside(uri, other, path)
+        };
+        own().or_else(beside).unwrap_or_else(|| uri_of(path))
     }
 
     pub(super) fn close(&mut self, path: &Path) {

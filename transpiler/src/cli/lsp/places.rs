@@ -3,7 +3,7 @@
 use super::programs::Program;
 use super::server::Server;
 use super::text::Text;
-use super::uri::{path_of, uri_of};
+use super::uri::path_of;
 use crate::diagnostics::{FileId, Location};
 use crate::index::{Index, Mention};
 use gen_lsp_types::{Position, TextDocumentIdentifier, TextDocumentPositionParams, Uri};
@@ -66,7 +66,7 @@ impl Server {
 
     /// A place of a program as the protocol writes it.
     pub(super) fn location(&self, program: &Program, at: Location) -> Option<gen_lsp_types::Location> {
-        let uri = uri_of(program.path(at.file)?);
+        let uri = self.documents.uri(program.path(at.file)?);
         let range = program.text(at.file, self.encoding)?.range(at.span);
         Some(gen_lsp_types::Location { uri, range })
     }

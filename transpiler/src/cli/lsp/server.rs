@@ -11,7 +11,7 @@ use super::projects::Projects;
 use super::settings::Settings;
 use super::text::Encoding;
 use super::transport::{Incoming, answer, notification, refusal};
-use super::uri::{path_of, uri_of};
+use super::uri::path_of;
 use super::workspace::Workspace;
 use super::{capabilities, diagnostics, requests};
 use crate::CheckOptions;
@@ -247,10 +247,12 @@ impl Server {
             "textDocument/didOpen" => {
                 self.with(method, params, |server, params: DidOpenTextDocumentParams| {
                     let item = params.text_document;
-                    let path = path_of(&item.uri);
-                    server.documents.open(path.clone(), Document::new(item.text, item.version));
+                    let path = server.documents.open(&item.uri, Document::new(item.text, item.version));
                     server.changed(&path);
                 });
+            }
+            "textDocument/didChange" if has_range_of_none(&params) => {
+                self.complain("a change names a range that is none: the server goes on with the text that it had");
             }
             "textDocument/didChange" => {
                 self.with(method, params, |server, params: DidChangeTextDocumentParams| {
@@ -365,7 +367,7 @@ impl Server {
         }
         let had = if found.is_empty() { self.told.remove(&path) } else { !self.told.insert(path.clone()) };
         if version.is_some() || had || !found.is_empty() {
-            let params = PublishDiagnosticsParams { uri: uri_of(&path), version, diagnostics: found };
+            let params = PublishDiagnosticsParams { uri: self.documents.uri(&path), version, diagnostics: found };
             self.send(notification("textDocument/publishDiagnostics", &params));
         }
         self.programs.free();
@@ -421,6 +423,13 @@ impl Server {
             self.look();
         }
     }
+}
+
+/// Whether a change names a range that is none: without it the change would be that of the whole document.
+fn has_range_of_none(params: &Value) -> bool {
+    let changes = params.get("contentChanges").and_then(Value::as_array).into_iter().flatten();
+    let mut ranges = changes.filter_map(|change| change.get("range")).filter(|range| !range.is_null());
+    ranges.any(|range| serde_json::from_value::<Range>(range.clone()).is_err())
 }
 
 #[cfg(test)]

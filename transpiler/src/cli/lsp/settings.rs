@@ -46,6 +46,11 @@ impl Settings {
             let file = below(&PathBuf::from(robot));
             if file.is_file() { file.display().to_string() } else { robot.clone() }
         });
+        for (key, is_said) in [("robot", robot.is_some()), ("cell", self.cell.is_some())] {
+            if let (false, Some(beside)) = (is_said, beside) {
+                beside.expect(key).map_err(|failure| failure.to_string())?;
+            }
+        }
         let path = |path: &Option<PathBuf>| path.as_ref().filter(|path| !path.as_os_str().is_empty()).map(below);
         let checking = Checking {
             strict: self.strict,

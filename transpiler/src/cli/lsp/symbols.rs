@@ -74,7 +74,7 @@ pub(super) fn of_workspace(
         let Some(file) = server.file(&path) else { continue };
         let module = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         for symbol in declared(server, &file).into_iter().filter(|symbol| fits(&symbol.name, &params.query)) {
-            let location = Location { uri: super::uri::uri_of(&path), range: symbol.selection_range };
+            let location = Location { uri: server.documents.uri(&path), range: symbol.selection_range };
             found.push(WorkspaceSymbol {
                 location: WorkspaceSymbolLocation::Location(location),
                 data: None,

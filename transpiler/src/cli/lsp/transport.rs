@@ -3,7 +3,7 @@
 //! A message that is no JSON, or not what the protocol allows, is answered and passed over: its header tells its length.
 //! What stands between messages and is no header is passed over, too.
 
-use crate::cli::framing;
+use crate::cli::framing::{self, Messages};
 use gen_lsp_types::ErrorCodes;
 use gen_lsp_types::json_rpc::Id;
 use serde::Serialize;
@@ -45,7 +45,7 @@ pub(super) fn notification(method: &str, params: &impl Serialize) -> Value {
 pub(super) fn reader() -> Receiver<Incoming> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || {
-        let mut input = std::io::stdin().lock();
+        let mut input = Messages::new(std::io::stdin().lock());
         while let Some(incoming) = read(&mut input) {
             if sender.send(incoming).is_err() {
                 break;
@@ -70,8 +70,8 @@ pub(super) fn writer() -> (Sender<Value>, std::thread::JoinHandle<()>) {
 }
 
 /// The next message; `None` at the end of the input.
-fn read(input: &mut impl BufRead) -> Option<Incoming> {
-    let body = framing::read(input)?;
+fn read(input: &mut Messages<impl BufRead>) -> Option<Incoming> {
+    let body = input.next()?;
     Some(match serde_json::from_slice::<Value>(&body) {
         Ok(value) => message(value),
         Err(error) => Incoming::Malformed(refusal(&Id::Null, ErrorCodes::ParseError, &error.to_string())),
@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     fn all(input: &str) -> Vec<Incoming> {
-        let mut input = input.as_bytes();
+        let mut input = Messages::new(input.as_bytes());
         std::iter::from_fn(|| read(&mut input)).collect()
     }
 

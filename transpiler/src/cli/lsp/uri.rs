@@ -22,18 +22,30 @@ pub(super) fn uri_of(path: &Path) -> Uri {
     if !path.is_absolute() && text.contains(':') {
         return Uri(text.into_owned());
     }
-    let mut uri = FILE.to_string();
     let text = text.replace('\\', "/");
-    if !text.starts_with('/') {
-        uri.push('/');
-    }
+    let root = if text.starts_with('/') { "" } else { "/" };
+    Uri(format!("{FILE}{root}{}", encoded(&text)))
+}
+
+/// The address of a file in the folder of another one, whose address is known.
+pub(super) fn beside(uri: &Uri, other: &Path, path: &Path) -> Option<Uri> {
+    let (folder, name) = uri.0.rsplit_once('/')?;
+    // What stands behind the name in an address may have a slash.
+    let is_name = other.file_name().is_some_and(|other| decoded(name) == other.to_string_lossy());
+    is_name.then_some(Uri(format!("{folder}/{}", encoded(&path.file_name()?.to_string_lossy()))))
+}
+
+fn encoded(text: &str) -> String {
+    let mut encoded = String::new();
     for byte in text.bytes() {
         match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'-' | b'_' | b'.' | b'~' => uri.push(char::from(byte)),
-            _ => uri.push_str(&format!("%{byte:02X}")),
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'/' | b'-' | b'_' | b'.' | b'~' => {
+                encoded.push(char::from(byte))
+            }
+            _ => encoded.push_str(&format!("%{byte:02X}")),
         }
     }
-    Uri(uri)
+    encoded
 }
 
 /// The text with its `%41` resolved.

@@ -48,7 +48,7 @@ impl Workspace {
             let passed_over = name.starts_with('.') || PASSED_OVER.contains(&&*name);
             if kind.is_dir() && !passed_over && depth < MOST_DEPTH {
                 self.search_in(&path, depth + 1, searched);
-            } else if is_program(&path) && !is_data(&path) && self.open.len() < MOST_FILES {
+            } else if is_program(&path) && !is_data(&path) && self.open.len() < MOST_FILES && path.is_file() {
                 self.open.insert(path);
             }
         }

@@ -2,6 +2,7 @@
 
 use super::super::failure::Failure;
 use super::super::robot::AXES;
+use arl_robot::regular_file;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -50,7 +51,8 @@ impl Rows {
     /// # Errors
     /// It cannot be read, or is no trace.
     pub(super) fn open(path: &Path) -> Result<Self, Failure> {
-        let file = File::open(path).map_err(|error| Failure::io("read the trace", path, &error))?;
+        let opened = regular_file::expect(path).and_then(|()| File::open(path));
+        let file = opened.map_err(|error| Failure::io("read the trace", path, &error))?;
         let mut lines = BufReader::with_capacity(1 << 16, file).lines();
         match lines.next() {
             Some(Ok(header)) if header.strip_prefix(HEADER).is_some_and(|more| ["", FILE_COLUMN].contains(&more)) => {

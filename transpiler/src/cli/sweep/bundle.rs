@@ -2,15 +2,18 @@
 
 use super::cell_files::CellFiles;
 use super::folder::{Folder, Spread};
+use super::globals;
 use super::looking::{self, Looking};
 use super::parameter::Parameters;
+use super::result::RunResult;
 use super::table::Settings;
 use crate::check::{clean, is_data};
 use crate::cli::args::RunOptions;
 use crate::cli::cache::Kind;
 use crate::cli::failure::Failure;
+use crate::cli::port::Secret;
 use crate::cli::program::prepare;
-use crate::cli::several;
+use crate::cli::{several, show};
 use arl_robot::{Robot, regular_file};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -57,6 +60,7 @@ impl Bundle {
         let clearance = settings.clearance();
         let Settings { program, robot, cell, io, script_dir, files, .. } = settings.clone();
         let options = RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }.of_program(&program)?;
+        globals::check(&program, &options, rows.clone())?;
         let ready = prepare(Kind::Named, &program, options.cell.as_deref(), &options.checking())?;
         let executable = read(&ready.program)?;
         let sources = ready.sources;
@@ -127,6 +131,18 @@ impl Bundle {
         Ok(words)
     }
 
+    /// What is said of a run, with the files as they are called here.
+    pub(super) fn in_own_names(&self, mut result: RunResult) -> RunResult {
+        for (here, place) in &self.places {
+            let here = show::path(here).display().to_string();
+            if let Some(problem) = &mut result.problem {
+                *problem = problem.replace(place, &here);
+            }
+            result.alarms.iter_mut().for_each(|alarm| alarm.text = alarm.text.replace(place, &here));
+        }
+        result
+    }
+
     /// A number that changes with everything that the runs depend on but their parameters.
     pub fn key(&self) -> String {
         let mut hasher = XxHash3_128::new();
@@ -194,7 +210,7 @@ impl Bundle {
         }
         let spread = Spread::new(self).map_err(not_written)?;
         let folder = Folder::new(&spread).map_err(not_written)?;
-        let mut looking = Looking::new(0.0, folder.path());
+        let mut looking = Looking::new(0.0, folder.path(), Secret::new()?);
         for (words, count) in counts {
             files.check(&looking.cell(words)?, folder.path(), count)?;
             match files.looks.then(|| looking.scene(words)) {

@@ -1,17 +1,20 @@
 //! The folder that a worker's program runs in, which is that of the bundle again before each run.
 
 use super::bundle::{Bundle, PROGRAM};
+use crate::cli::cache::Content;
 use std::fs::File;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::SystemTime;
+use std::time::{Duration, Instant, SystemTime};
 
 /// A bundle that lies on the disk: its program once, its other files for each worker.
 #[derive(Clone, Debug)]
 pub struct Spread {
     files: Arc<Vec<(String, Vec<u8>)>>,
+    /// The program, which is written again where it is damaged.
+    program: Arc<Vec<u8>>,
     root: Arc<Root>,
 }
 
@@ -27,6 +30,8 @@ struct Root {
 const ROOT: &str = "arl2rs-sweep-";
 /// The file that is locked while a folder is made.
 const TURN: &str = "arl2rs-sweeps.lock";
+/// So long it takes at most to make a folder.
+const LONGEST_TURN: Duration = Duration::from_secs(2);
 /// The file that is locked.
 const LOCK: &str = "lock";
 
@@ -43,12 +48,19 @@ impl Root {
     }
 }
 
-/// As long as this lives nobody else removes what was left: he would take a folder that is not locked yet for such. `None` where the file is somebody
-/// else's, who cannot remove ours either.
+/// As long as this lives nobody else removes what was left: he would take a folder that is not locked yet for such. `None`
+/// where the file is somebody else's, who cannot remove ours either, or keeps it: no sweep waits for him.
 fn turn() -> Option<File> {
     let path = std::env::temp_dir().join(TURN);
     let file = File::options().write(true).create(true).truncate(false).open(path).ok()?;
-    file.lock().ok().map(|()| file)
+    let until = Instant::now() + LONGEST_TURN;
+    while file.try_lock().is_err() {
+        if Instant::now() >= until {
+            return None;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    Some(file)
 }
 
 impl Drop for Root {
@@ -92,11 +104,20 @@ impl Spread {
         files.sort();
         let program = files.iter().position(|(path, _)| path == PROGRAM).map(|at| files.remove(at));
         let program = program.ok_or_else(|| io::Error::other("the bundle has no program"))?;
-        let path = root.path.join(PROGRAM);
-        std::fs::write(&path, program.1)?;
+        let spread = Self { files: Arc::new(files), program: Arc::new(program.1), root: Arc::new(root) };
+        spread.write_program()?;
+        Ok(spread)
+    }
+
+    /// Writes the program to the disk. One that runs cannot be written over, but another one can take its name.
+    fn write_program(&self) -> io::Result<()> {
+        static NEXT: AtomicUsize = AtomicUsize::new(0);
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        let beside = self.root.path.join(format!("{PROGRAM}-{number}"));
+        std::fs::write(&beside, &**self.program)?;
         #[cfg(unix)]
-        std::fs::set_permissions(&path, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
-        Ok(Self { files: Arc::new(files), root: Arc::new(root) })
+        std::fs::set_permissions(&beside, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
+        std::fs::rename(&beside, self.root.path.join(PROGRAM))
     }
 }
 
@@ -140,8 +161,16 @@ impl Folder {
         &self.path
     }
 
-    pub(super) fn program(&self) -> PathBuf {
-        self.spread.root.path.join(PROGRAM)
+    /// The program, as it was compiled.
+    ///
+    /// # Errors
+    /// It is damaged, and cannot be written again.
+    pub(super) fn program(&self) -> io::Result<PathBuf> {
+        let path = self.spread.root.path.join(PROGRAM);
+        if !Content::of(&self.spread.program).is_in(&path) {
+            self.spread.write_program()?;
+        }
+        Ok(path)
     }
 
     /// Makes it that of the bundle again, if a run has changed something.

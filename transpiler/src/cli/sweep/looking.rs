@@ -4,7 +4,8 @@ use crate::check::clean;
 use crate::cli::args::RunOptions;
 use crate::cli::collide::Scene;
 use crate::cli::failure::Failure;
-use crate::cli::listen::{Heard, Port, hear};
+use crate::cli::listen::{self, Heard, hear};
+use crate::cli::port::{Port, Secret};
 use crate::cli::said::Contact;
 use crate::cli::scenery::{self, Scenery};
 use crate::cli::{robot, run, show};
@@ -39,6 +40,8 @@ pub(super) enum Contacts {
 pub(super) struct Looking {
     /// mm; 0: contacts only.
     clearance: f64,
+    /// What the worker's process knows.
+    secret: Secret,
     /// The folder of the worker, which files are named from.
     folder: PathBuf,
     /// What stood in the cell of the last run, and the words that decided it: mostly it is the same again.
@@ -46,8 +49,9 @@ pub(super) struct Looking {
 }
 
 impl Looking {
-    pub(super) fn new(clearance: f64, folder: &Path) -> Self {
-        Self { clearance, folder: folder.to_owned(), last: None }
+    /// Who looks at the runs of a process that works in this folder and knows this secret.
+    pub(super) fn new(clearance: f64, folder: &Path, secret: Secret) -> Self {
+        Self { clearance, secret, folder: folder.to_owned(), last: None }
     }
 
     /// Has `make` make the run of these words and of those that it is given besides; gives what touched with what it gives.
@@ -61,8 +65,8 @@ impl Looking {
     ) -> Result<(T, Contacts), String> {
         let scene = self.scene(words)?;
         // The next run must not find the connection of one that was lost: each has a port of its own.
-        let port = Port::open().map_err(|failure| failure.to_string())?;
-        let asked = port.words().into_iter().chain(["--each-cycle".to_owned()]);
+        let port = Port::open(self.secret.clone()).map_err(|failure| failure.to_string())?;
+        let asked = [listen::OPTION.to_owned(), port.address(), "--each-cycle".to_owned()];
         let words: Vec<String> = words.iter().cloned().chain(asked).collect();
         let (is_over, clearance) = (AtomicBool::new(false), self.clearance);
         Ok(std::thread::scope(|scope| {
@@ -171,8 +175,8 @@ pub(super) fn naming(words: &[String]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cli::port::tests::connect;
     use std::io::Write;
-    use std::net::TcpStream;
 
     #[test]
     fn what_decides_about_a_cell_is_what_names_and_changes_it() {
@@ -193,7 +197,7 @@ mod tests {
                 "named/1/r.toml"
             ]
         );
-        let options = Looking::new(0.0, Path::new("/w")).options(&deciding);
+        let options = Looking::new(0.0, Path::new("/w"), Secret::new().unwrap()).options(&deciding);
         assert_eq!(options.robot.as_deref(), Some("named/1/r.toml"), "it is not there");
         assert_eq!(options.cell.as_deref(), Some(Path::new("/w/cell/c.toml")));
         assert_eq!(options.changes, ["cell.body.1.at=[1, 2, 3]"]);
@@ -201,10 +205,11 @@ mod tests {
 
     /// What is found in a run that says these lines, by who looks in a folder without a cell.
     fn found(lines: &str) -> Contacts {
-        let mut looking = Looking::new(0.0, Path::new("/nowhere"));
+        let mut looking = Looking::new(0.0, Path::new("/nowhere"), Secret::new().unwrap());
+        let secret = looking.secret.clone();
         let run = |words: Vec<String>| {
             assert_eq!((&*words[0], &*words[2]), ("--listener", "--each-cycle"));
-            let mut stream = TcpStream::connect(&words[1]).unwrap();
+            let mut stream = connect(&words[1], &secret);
             stream.write_all(lines.as_bytes()).unwrap();
         };
         looking.look(&[], run).unwrap().1
@@ -219,7 +224,7 @@ mod tests {
         assert_eq!(found(hello), Contacts::Broken, "its process was lost");
         assert_eq!(found("{\"ended\":0}\n"), Contacts::Broken);
         assert_eq!(found(&format!("{hello}what?\n{{\"ended\":0}}\n")), Contacts::Broken);
-        let mut looking = Looking::new(0.0, Path::new("/nowhere"));
+        let mut looking = Looking::new(0.0, Path::new("/nowhere"), Secret::new().unwrap());
         assert_eq!(looking.look(&[], |_| ()), Ok(((), Contacts::Broken)), "it did not connect");
         // The next run is heard by itself.
         assert_eq!(found(&all), Contacts::All(Vec::new()));

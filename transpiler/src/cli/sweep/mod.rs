@@ -6,6 +6,7 @@
 mod bundle;
 mod cell_files;
 mod folder;
+mod globals;
 mod kept;
 mod looking;
 mod parameter;

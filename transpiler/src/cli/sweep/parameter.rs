@@ -6,8 +6,10 @@ use std::fmt;
 
 /// What a parameter may be beside a place of `--set`: an option of a run.
 const OPTIONS: [&str; 7] = ["robot", "io", "max-time", "mode", "override", "seed", "start-time"];
+/// Where the place of a global variable begins.
+pub(super) const GLOBAL: &str = "global.";
 /// Where places of `--set` begin.
-const PLACES: [&str; 4] = ["global.", "robot.", "cell.", "io."];
+const PLACES: [&str; 4] = [GLOBAL, "robot.", "cell.", "io."];
 
 /// The parameters of one run, in their order.
 #[derive(Clone, PartialEq, Default, Debug)]
@@ -51,8 +53,8 @@ impl Parameters {
 
 fn word(name: &str, value: &Value) -> Result<[String; 2], String> {
     if PLACES.iter().any(|place| name.starts_with(place)) {
-        let value = if name.starts_with("global.") { as_arl(value) } else { as_toml(value) };
-        let value = value.ok_or_else(|| format!("parameter `{name}`: a value cannot be null"))?;
+        let value = if name.starts_with(GLOBAL) { as_arl(value) } else { as_toml(value) };
+        let value = value.ok_or_else(|| format!("parameter `{name}`: expected a value; null, nan and inf are none"))?;
         return Ok(["--set".into(), format!("{name}={value}")]);
     }
     if !OPTIONS.contains(&name) {

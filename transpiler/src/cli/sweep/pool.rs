@@ -73,7 +73,7 @@ pub(super) fn run(
             waiting.insert(at, result);
             while let Some(result) = waiting.remove(&expected) {
                 let Some((run, parameters)) = rows.get(expected) else { break };
-                let row = Row { run: *run, parameters: (*parameters).clone(), result };
+                let row = Row { run: *run, parameters: (*parameters).clone(), result: bundle.in_own_names(result) };
                 expected += 1;
                 if take(row).is_break() {
                     break 'all;

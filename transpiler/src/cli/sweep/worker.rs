@@ -3,6 +3,7 @@
 use super::folder::{Folder, Spread};
 use super::looking::{Contacts, Looking};
 use super::result::RunResult;
+use crate::cli::port::Secret;
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -24,6 +25,8 @@ pub struct Worker {
     folder: Folder,
     timeout: Duration,
     process: Option<Process>,
+    /// What its process says where it connects to who looks.
+    secret: Secret,
     looking: Option<Looking>,
 }
 
@@ -53,8 +56,9 @@ impl Worker {
         let timeout =
             Duration::try_from_secs_f64(timeout.unwrap_or(TIMEOUT)).map_err(|error| format!("timeout: {error}"))?;
         let folder = Folder::new(spread).map_err(|error| format!("the folder of a worker: {error}"))?;
-        let looking = clearance.map(|clearance| Looking::new(clearance, folder.path()));
-        Ok(Self { folder, timeout, process: None, looking })
+        let secret = Secret::new().map_err(|failure| failure.to_string())?;
+        let looking = clearance.map(|clearance| Looking::new(clearance, folder.path(), secret.clone()));
+        Ok(Self { folder, timeout, process: None, secret, looking })
     }
 
     /// Makes the run of these words: its result, and whether the same run gives it again. A process that is lost is begun anew, and asked once more
@@ -141,8 +145,9 @@ impl Worker {
     }
 
     fn begin(&self) -> std::io::Result<Process> {
-        let mut command = Command::new(self.folder.program());
+        let mut command = Command::new(self.folder.program()?);
         command.arg("--serve").current_dir(self.folder.path()).stdin(Stdio::piped()).stdout(Stdio::piped());
+        self.secret.hand_over(&mut command);
         let mut child = command.spawn()?;
         let (Some(questions), Some(out)) = (child.stdin.take(), child.stdout.take()) else {
             return Err(std::io::Error::other("it has no streams"));
@@ -187,7 +192,7 @@ fn end(process: Process, patience: Duration) -> String {
 }
 
 fn escaped(word: &str) -> String {
-    word.replace('\\', "\\\\").replace('\t', "\\t").replace('\n', "\\n")
+    word.replace('\\', "\\\\").replace('\t', "\\t").replace('\n', "\\n").replace('\r', "\\r")
 }
 
 #[cfg(test)]

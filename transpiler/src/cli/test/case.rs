@@ -2,6 +2,7 @@
 
 use super::expect::{ExpectedAlarm, ExpectedError, parse_alarm, parse_errors};
 use crate::cli::arl_toml;
+use arl_robot::regular_file;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -122,7 +123,7 @@ fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, Str
         return Err(format!("nothing is expected of it: add {files}, or let --bless write what comes"));
     }
     let path = |ending: &str| source.with_file_name(format!("{stem}{ending}"));
-    let bytes = |ending: &str| match std::fs::read(path(ending)) {
+    let bytes = |ending: &str| match regular_file::read(&path(ending)) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(format!("cannot read {stem}{ending}: {error}")),
@@ -158,7 +159,7 @@ fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, Str
             Err(_) if new => None,
             alarm => alarm.map_err(told(".alarm"))?,
         },
-        scenario: scenario.is_file().then_some(scenario),
+        scenario: scenario.exists().then_some(scenario),
         is_new: !expects || (new && damaged_alarm),
         robot: robot.or(project.robot),
         cell: options.cell.as_ref().map(|cell| source.with_file_name(cell)).or(project.cell),

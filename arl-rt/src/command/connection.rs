@@ -1,0 +1,73 @@
+//! The connection of a run to who listens to it or debugs it. Any user of the computer may connect to a port, or open
+//! one: so both prove that they belong together before anything else is said.
+//!
+//! Who starts the run hands over a secret in its environment, `ARL2RS_SECRET`: two words with a colon between, which
+//! other users do not see. The run says the first one in a line, and who listens answers with the second one in a line.
+//! Without a secret nothing of this is said: a host listens as it likes.
+
+use std::io::{Error, ErrorKind, Read, Result, Write};
+use std::net::TcpStream;
+use std::time::Duration;
+
+/// The variable of the environment that has the secret.
+const SECRET: &str = "ARL2RS_SECRET";
+/// How long who listens may take for his answer.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// Connects to who listens at an address.
+///
+/// # Errors
+/// Nobody does, or it is not who started this run.
+pub(super) fn connect(address: &str) -> Result<TcpStream> {
+    let mut stream = TcpStream::connect(address)?;
+    if let Ok(secret) = std::env::var(SECRET) {
+        greet(&mut stream, &secret)?;
+    }
+    Ok(stream)
+}
+
+/// Says the one word, and expects the other.
+fn greet(stream: &mut TcpStream, secret: &str) -> Result<()> {
+    let (own, other) = secret.split_once(':').unwrap_or((secret, ""));
+    stream.write_all(format!("{own}\n").as_bytes())?;
+    stream.set_read_timeout(Some(PATIENCE))?;
+    let mut answer = vec![0; other.len() + 1];
+    let answered = stream.read_exact(&mut answer);
+    stream.set_read_timeout(None)?;
+    match answered {
+        Ok(()) if answer.strip_suffix(b"\n") == Some(other.as_bytes()) => Ok(()),
+        _ => Err(Error::new(ErrorKind::PermissionDenied, "who listens there has not started this run")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::net::TcpListener;
+
+    /// What comes of a greeting that is answered like this, and what was said.
+    fn greeted(answer: &str) -> (Result<()>, String) {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let address = listener.local_addr().unwrap();
+        let answer = answer.to_owned();
+        let other = std::thread::spawn(move || {
+            let (mut stream, _) = listener.accept().unwrap();
+            let mut said = [0; 4];
+            stream.read_exact(&mut said).unwrap();
+            stream.write_all(answer.as_bytes()).unwrap();
+            String::from_utf8_lossy(&said).into_owned()
+        });
+        let mut stream = TcpStream::connect(address).unwrap();
+        (greet(&mut stream, "one:two"), other.join().unwrap())
+    }
+
+    #[test]
+    fn only_who_knows_the_secret_is_spoken_to() {
+        let (greeted_well, said) = greeted("two\n");
+        assert!(greeted_well.is_ok());
+        assert_eq!(said, "one\n");
+        for answer in ["", "two", "one\n", "too\n"] {
+            assert_eq!(greeted(answer).0.unwrap_err().kind(), ErrorKind::PermissionDenied, "{answer}");
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! A port of this computer for one run, and the secret that tells the run from whoever else connects to it.
+//!
+//! The other side is `arl-rt/src/command/connection.rs`.
+
+use std::fmt::Write as _;
+use std::io::{ErrorKind, Read, Result, Write};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::process::Command;
+use std::time::Duration;
+
+use super::failure::Failure;
+
+/// The variable of the environment that hands the secret over: other users see command lines, but no environments.
+const SECRET: &str = "ARL2RS_SECRET";
+/// How many random bytes a word of the secret has.
+const BYTES: usize = 16;
+/// How often it is looked whether the program has connected, or has ended before it did.
+const LOOK_INTERVAL: Duration = Duration::from_millis(2);
+/// So many connections may be open that have not said who they are; then the first one has to go.
+const MOST_UNKNOWN: usize = 128;
+
+/// What a run says when it connects, and what it is answered.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Secret {
+    said: String,
+    answer: String,
+}
+
+impl Secret {
+    /// Another one.
+    ///
+    /// # Errors
+    /// The system gives no random numbers.
+    pub(super) fn new() -> std::result::Result<Self, Failure> {
+        let word = || -> std::result::Result<String, Failure> {
+            let mut bytes = [0; BYTES];
+            let filled = getrandom::fill(&mut bytes);
+            filled.map_err(|error| Failure::Other(format!("this computer has no random numbers: {error}")))?;
+            let mut text = String::new();
+            for byte in bytes {
+                // Writing to a string cannot fail.
+                let _ = write!(text, "{byte:02x}");
+            }
+            Ok(text)
+        };
+        Ok(Self { said: word()?, answer: word()? })
+    }
+
+    /// Hands it over to a program that will connect.
+    pub(super) fn hand_over(&self, command: &mut Command) {
+        command.env(SECRET, format!("{}:{}", self.said, self.answer));
+    }
+}
+
+/// What a run connects to.
+#[derive(Debug)]
+pub(super) struct Port {
+    listener: TcpListener,
+    address: SocketAddr,
+    secret: Secret,
+}
+
+impl Port {
+    /// Another one, of this computer, for a run that knows this secret.
+    ///
+    /// # Errors
+    /// There are none left.
+    pub(super) fn open(secret: Secret) -> std::result::Result<Self, Failure> {
+        let opened = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).and_then(|listener| {
+            listener.set_nonblocking(true)?;
+            Ok(Self { address: listener.local_addr()?, listener, secret })
+        });
+        opened.map_err(|error| Failure::Usage(format!("this computer has no connection to itself: {error}")))
+    }
+
+    /// Where it is.
+    pub(super) fn address(&self) -> String {
+        self.address.to_string()
+    }
+
+    /// Has a program connect, which this option of its own tells where.
+    pub(super) fn ask(&self, command: &mut Command, option: &str) {
+        self.secret.hand_over(command);
+        command.arg(option).arg(self.address());
+    }
+
+    /// The connection of the run, or how it ended without one. Whoever else connects is not heard. There is none behind
+    /// it.
+    pub(super) fn accept<E>(
+        self,
+        mut ended: impl FnMut() -> Result<Option<E>>,
+    ) -> Result<std::result::Result<TcpStream, E>> {
+        let mut unknown = Vec::new();
+        loop {
+            // Asked first: a connection that was made before the end is there to be accepted then.
+            let ended = ended()?;
+            self.take_in(&mut unknown)?;
+            if let Some(mut stream) = self.known(&mut unknown) {
+                stream.set_nonblocking(false)?;
+                stream.write_all(format!("{}\n", self.secret.answer).as_bytes())?;
+                return Ok(Ok(stream));
+            }
+            match ended {
+                Some(ended) => return Ok(Err(ended)),
+                None => std::thread::sleep(LOOK_INTERVAL),
+            }
+        }
+    }
+
+    /// Takes in all connections that wait.
+    fn take_in(&self, unknown: &mut Vec<Unknown>) -> Result<()> {
+        loop {
+            match self.listener.accept() {
+                Ok((stream, _)) => {
+                    stream.set_nonblocking(true)?;
+                    if unknown.len() >= MOST_UNKNOWN {
+                        unknown.remove(0);
+                    }
+                    unknown.push(Unknown { stream, said: Vec::new() });
+                }
+                Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(()),
+                // Who has left again is nobody.
+                Err(error) if error.kind() == ErrorKind::ConnectionAborted => {}
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// The one that has said the word; those that have said another one are closed.
+    fn known(&self, unknown: &mut Vec<Unknown>) -> Option<TcpStream> {
+        let word = format!("{}\n", self.secret.said).into_bytes();
+        let mut at = 0;
+        while let Some(one) = unknown.get_mut(at) {
+            match one.says(&word) {
+                Says::Nothing => at += 1,
+                Says::Another => drop(unknown.remove(at)),
+                Says::TheWord => return Some(unknown.remove(at).stream),
+            }
+        }
+        None
+    }
+}
+
+/// A connection that has not said yet who it is.
+struct Unknown {
+    stream: TcpStream,
+    said: Vec<u8>,
+}
+
+/// What a connection has said.
+enum Says {
+    /// Not enough.
+    Nothing,
+    /// Something else, or it is gone.
+    Another,
+    TheWord,
+}
+
+impl Unknown {
+    fn says(&mut self, word: &[u8]) -> Says {
+        // Not a byte more than the word: what comes behind it is for who hears the run.
+        let mut rest = vec![0; word.len() - self.said.len()];
+        match self.stream.read(&mut rest) {
+            Ok(0) => return Says::Another,
+            Ok(count) => self.said.extend(rest.iter().take(count)),
+            Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => {}
+            Err(_) => return Says::Another,
+        }
+        match self.said.as_slice() {
+            said if said == word => Says::TheWord,
+            said if word.starts_with(said) => Says::Nothing,
+            _ => Says::Another,
+        }
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Connects as a run does that knows the secret.
+    pub(in crate::cli) fn connect(address: &str, secret: &Secret) -> TcpStream {
+        let mut stream = TcpStream::connect(address).expect("a port");
+        stream.write_all(format!("{}\n", secret.said).as_bytes()).expect("it is open");
+        let mut answer = vec![0; secret.answer.len() + 1];
+        stream.read_exact(&mut answer).expect("an answer");
+        assert_eq!(answer, format!("{}\n", secret.answer).into_bytes());
+        stream
+    }
+
+    #[test]
+    fn secrets_differ() {
+        let secrets = [Secret::new().expect("random numbers"), Secret::new().expect("random numbers")];
+        assert_ne!(secrets[0], secrets[1]);
+        assert!(secrets.iter().all(|secret| secret.said.len() == 2 * BYTES && secret.said != secret.answer));
+    }
+
+    #[test]
+    fn whoever_connects_first_is_not_heard_unless_it_is_the_run() {
+        let secret = Secret::new().expect("random numbers");
+        let port = Port::open(secret.clone()).expect("a port");
+        let address = port.address();
+        // One says nothing, one something else, one leaves at once, and some are many.
+        let silent: Vec<TcpStream> = (0..100).map(|_| TcpStream::connect(&address).expect("a port")).collect();
+        let mut stranger = TcpStream::connect(&address).expect("a port");
+        stranger.write_all(b"{\"hello\":{\"channels\":[]}}\n").expect("it is open");
+        drop(TcpStream::connect(&address).expect("a port"));
+        let run = std::thread::spawn(move || {
+            let mut stream = connect(&address, &secret);
+            stream.write_all(b"{\"ended\":0}\n").expect("it is open");
+        });
+        let stream = port.accept(|| Ok(None::<()>)).expect("no error").expect("a connection");
+        assert_eq!(std::io::read_to_string(stream).expect("a text"), "{\"ended\":0}\n");
+        run.join().expect("no panic");
+        let mut left = Vec::new();
+        // It was closed, and told nothing.
+        assert!(stranger.read_to_end(&mut left).is_err() || left.is_empty());
+        drop(silent);
+    }
+
+    #[test]
+    fn a_run_that_ends_without_a_connection_is_not_waited_for() {
+        let port = Port::open(Secret::new().expect("random numbers")).expect("a port");
+        let stranger = TcpStream::connect(port.address()).expect("a port");
+        assert_eq!(port.accept(|| Ok(Some(7))).expect("no error").expect_err("it has ended"), 7);
+        drop(stranger);
+    }
+}
