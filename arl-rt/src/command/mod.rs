@@ -2,6 +2,7 @@
 //!
 //! It imports everything, and nothing imports it but `lib.rs`.
 
+mod asked;
 mod between;
 mod coverage;
 mod debug;
@@ -9,6 +10,7 @@ pub mod in_process;
 mod json;
 mod live;
 mod observation;
+mod polling;
 pub mod program_main;
 mod report;
 mod say;

@@ -149,7 +149,7 @@ impl Problem for TargetProblem {
                 "an axis would have to turn at once, and {ALARM}; let the line keep away from it, or go there with ptp or movej"
             ),
         };
-        let by_name = |what: &&str| if **what == "tool" { "`t:`" } else { "`w:`" };
+        let by_name = |what: &&str| if *what == "tool" { "`t:`" } else { "`w:`" };
         let labels: Vec<&str> = self.inherited.iter().map(by_name).collect();
         Some(match labels.as_slice() {
             [] => words,

@@ -73,7 +73,7 @@ impl<'a> Walk<'a, '_> {
         {
             also.push((global.module, global.span, "the target is given here"));
         }
-        let held = |label, from: Option<Span>, mount: Option<Mount>, start| {
+        let held = |label: &str, from: Option<Span>, mount: Option<Mount>, start: Mount| {
             from.filter(|_| argument(motion, label).is_none() && mount.is_some_and(|mount| mount != start))
         };
         let frame = held("w", self.state.wobj_from, self.state.wobj, world());
