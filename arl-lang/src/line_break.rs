@@ -27,8 +27,9 @@ impl Statement {
     /// The statement that begins with the lexemes of a line.
     pub(crate) fn of(lexemes: &[PlacedLexeme], source: &str) -> Self {
         let mut statement = Self::default();
+        let is_header = || lexemes.first().is_some_and(|first| is_one_of(&HEADERS, *first, source));
         let opens_block = matches!(lexemes, [.., (_, before, _), (_, Lexeme::BraceOpen, _)]
-            if *before == Lexeme::ParenClose || lexemes.first().is_some_and(|first| is_one_of(&HEADERS, *first, source)));
+            if *before == Lexeme::ParenClose || is_header());
         if lexemes.len() > 1 && !opens_block {
             statement.go_on(lexemes);
         }

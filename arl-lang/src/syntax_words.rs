@@ -293,11 +293,12 @@ impl SyntaxErrorKind {
 
 /// How the motions of ARL are not those of other languages.
 pub const OTHER_MOTIONS: &str = "in ARL commas stand between the arguments and a colon behind each label, \
-poses and joints stand in braces, in mm and deg. `accset` sets accelerations; `movej` goes to a joint, `ptp` and `lin` go to a pose.";
+poses and joints stand in braces, in mm and deg. `accset` sets accelerations; `movej` goes to a joint, \
+`ptp` and `lin` go to a pose.";
 
 /// How a statement of several lines is written.
-const JOINED_LINES: &str = "The end of a line ends a statement, inside brackets, too. A `\\` as the last character joins a line \
-with the next: write it at the end of each line of the statement but the last, without a comment behind it.";
+const JOINED_LINES: &str = "The end of a line ends a statement, inside brackets, too. A `\\` as the last character joins a \
+line with the next: write it at the end of each line of the statement but the last, without a comment behind it.";
 
 /// Units that ARL does not have: the number that makes ARL's unit of each, and that unit.
 const OTHER_UNITS: [(&str, f64, &str); 8] = [

@@ -1,8 +1,8 @@
 //! What the checker says, beyond what the conformance corpus holds it to: codes, marked places, other places that
 //! explain, help, and that one mistake is one diagnostic.
 //!
-//! The cases are in `checker/*.txt`. `# title` begins one, `[strict]`, `[scara]` and `[robot NAME]` in it are options; the
-//! program follows, `--- name.arl` begins a further file of it. Then comes a line for each diagnostic, in order:
+//! The cases are in `checker/*.txt`. `# title` begins one, `[strict]`, `[scara]` and `[robot NAME]` in it are options;
+//! the program follows, `--- name.arl` begins a further file of it. Then comes a line for each diagnostic, in order:
 //!
 //! ```text
 //! => ARL0205 3 `Count` ;; declared twice ;; also 2 `count` first declared here ;; help another name

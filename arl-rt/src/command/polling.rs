@@ -55,8 +55,8 @@ struct Stay {
 }
 
 impl Watched {
-    /// Notes where the program is, `None` where a robot moves or it only calculates; `now` in the time of the world, `time`
-    /// that of the controller in s.
+    /// Notes where the program is, `None` where a robot moves or it only calculates; `now` in the time of the world,
+    /// `time` that of the controller in s.
     fn look(&mut self, now: Duration, time: f64, place: Option<(File, u32)>) -> Option<String> {
         let Some((file, line)) = place.filter(|_| !self.is_told) else {
             self.stay = None;
@@ -82,8 +82,8 @@ impl Watched {
         };
         let seconds = time - stay.time;
         Some(format!(
-            "the program has been at {lines} for {seconds:.0} s of controller time, and no robot moves; where a loop asks \
-             for a signal there, `waituntil` says what it waits for, and `--max-time` ends such a run"
+            "the program has been at {lines} for {seconds:.0} s of controller time, and no robot moves; where a loop \
+             asks for a signal there, `waituntil` says what it waits for, and `--max-time` ends such a run"
         ))
     }
 }

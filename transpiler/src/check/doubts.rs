@@ -66,7 +66,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Warns of a loop that only looks at inputs until they are as it wants them. `until`: whether the condition ends it.
+    /// Warns of a loop that only looks at inputs until they are as it wants them. `until`: whether its condition ends
+    /// it.
     pub(crate) fn doubt_polling(&mut self, body: &Body, condition: &ast::Expr, until: bool, block: &ast::Block) {
         if !self.reads_input(body, condition) || !block.iter().all(|stmt| self.only_asks(body, stmt)) {
             return;

@@ -106,7 +106,8 @@ impl Problem for Doubt {
             Doubt::OtherScale { right, .. } => right.clone(),
             Doubt::Polls { condition } => {
                 format!(
-                    "`waituntil {condition}` waits for it, and may have a `maxtime`; a run that waits in vain then says so"
+                    "`waituntil {condition}` waits for it, and may have a `maxtime`; a run that waits in \
+                     vain then says so"
                 )
             }
             Doubt::EndlessHandler { .. } => "give it a `maxtime`, and look at its `timeoutflag`".into(),

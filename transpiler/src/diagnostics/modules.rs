@@ -70,7 +70,8 @@ impl Problem for ModuleProblem {
     fn help(&self) -> Option<String> {
         match self {
             ModuleProblem::Mixture { .. } | ModuleProblem::UnreadableMixture { .. } => Some(
-                "a file has one encoding: write these lines again in an editor that is set to one, best to UTF-8, and save"
+                "a file has one encoding: write these lines again in an editor that is set to one, \
+                 best to UTF-8, and save"
                     .into(),
             ),
             ModuleProblem::Missing { .. } => Some(

@@ -156,7 +156,8 @@ impl Problem for TargetProblem {
             labels => {
                 let (held, labels) = (self.inherited.join(" and "), labels.join(" and "));
                 format!(
-                    "{words}; this motion gives no {labels}: the {held} of an earlier one still holds. Give {labels} here"
+                    "{words}; this motion gives no {labels}: the {held} of an earlier one still holds. \
+                     Give {labels} here"
                 )
             }
         })
