@@ -27,17 +27,28 @@ const TYPES: &[(&str, &str)] = &[
     ("zonedata", "slip"),
 ];
 
+/// What ARL has in place of `try` and its relatives.
+const NO_EXCEPTIONS: &str =
+    "no exceptions: a mistake ends the program with an alarm; look at the value before, with `if`";
+
+/// What ARL has in place of the timers of a PLC.
+const NO_TIMER_BLOCKS: &str = "no timer blocks: `waittime 0.5` waits (in s), `pulsedo(1, true, 0.5)` pulses an output, \
+a `clock` with `clkstart` and `clkread` measures";
+
 /// Instructions, functions and words of control structures of other languages, and what is written here.
 const WORDS: &[(&str, &str)] = &[
     ("atoi", "`toint(text, dec)`"),
     ("begin", "no word for the beginning of a block: the line that opens it is enough"),
     ("calcjointt", "`getjoint(p1, $FLANGE, $WORLD)`"),
     ("calcrobt", "`getpose(j1, $FLANGE, $WORLD)`"),
+    ("catch", NO_EXCEPTIONS),
     ("chr", "`tostr`"),
     ("circ", "`cir m:p1,p:p2`"),
     ("cjointt", "`cjoint()`"),
     ("connect", "`interrupt` to call a function when a condition comes true"),
     ("crobt", "`cpose()`"),
+    ("ctd", "`n--` to count"),
+    ("ctu", "`n++` to count"),
     ("date", "`cdate()`"),
     ("decl", "declarations without such a word: `int n = 3`"),
     ("def", "`func void name()` ... `endfunc`"),
@@ -48,7 +59,11 @@ const WORDS: &[(&str, &str)] = &[
     ("echo", "`print`"),
     ("elif", "`elseif(condition)`"),
     ("elsif", "`elseif(condition)`"),
+    ("endtry", NO_EXCEPTIONS),
     ("enum", "no enumerations of a program's own: constants, `const int RED = 0`"),
+    ("except", NO_EXCEPTIONS),
+    ("f_trig", "`interrupt`, which calls a function when a condition comes true"),
+    ("finally", NO_EXCEPTIONS),
     ("fold", "comments (`// text`) for this"),
     ("from", "`import \"file\"`, and then `file::name`"),
     ("function", "`func int name()` ... `endfunc`"),
@@ -88,6 +103,7 @@ const WORDS: &[(&str, &str)] = &[
     ("movs", "`spl`"),
     ("numtostr", "`tostr(n)`"),
     ("offs", "`offset(p1, dx:10, dy:0, dz:0, rz:0, ry:0, rx:0)`"),
+    ("on_error", NO_EXCEPTIONS),
     ("output", "`setdo(1, true)`"),
     ("pass", "blocks that may be empty: leave it out"),
     ("pers", "declarations without such a word: `int n = 3`"),
@@ -101,6 +117,7 @@ const WORDS: &[(&str, &str)] = &[
     ("procedure", "`func void name()` ... `endfunc`"),
     ("ptp_rel", "`movej` to a joint that is calculated from the target before"),
     ("pulse", "`pulsedo(1, true, 0.5)`"),
+    ("r_trig", "`interrupt`, which calls a function when a condition comes true"),
     ("raise", "`assert(condition)` to end the program with an alarm"),
     ("random", "`rand`"),
     ("readnum", "`toint(gettextstr(\"file.txt\", 1), dec)`"),
@@ -108,6 +125,7 @@ const WORDS: &[(&str, &str)] = &[
     ("reset", "`setdo(1, false)`"),
     ("resume", "`startmove`"),
     ("retain", "`$I`, `$D` and `$P` with `savesv` for what is kept between runs"),
+    ("retry", NO_EXCEPTIONS),
     ("round", "`floor(x + 0.5)`"),
     ("scirc", "`cir m:p1,p:p2`"),
     ("select", "`switch(n)` ... `endswitch`"),
@@ -136,13 +154,18 @@ const WORDS: &[(&str, &str)] = &[
     ("testdi", "`getdi(1)`"),
     ("textmsg", "`print`"),
     ("thread", "`interrupt`, or a channel of its own in the cell file"),
+    ("throw", "`assert(condition)` to end the program with an alarm"),
     ("time", "`ctime()`"),
+    ("tof", NO_TIMER_BLOCKS),
+    ("ton", NO_TIMER_BLOCKS),
     ("tostring", "`tostr`"),
+    ("tp", "`pulsedo(1, true, 0.5)` for a pulse at an output"),
     ("tperase", "no screen to be cleared: `print` writes below what is there"),
     ("tpreadnum", "`scan`"),
     ("tpwrite", "`print`"),
     ("trap", "`func void name()`, which an `interrupt` calls"),
-    ("try", "no exceptions: a mistake ends the program with an alarm; look at the value before"),
+    ("try", NO_EXCEPTIONS),
+    ("trynext", NO_EXCEPTIONS),
     ("valtostr", "`tostr(n)`"),
     ("var", "declarations with a type and no other word: `int n = 3`"),
     ("wait", "`waittime 0.5` for a time in s, `waituntil getdi(1)` for a condition"),
@@ -181,9 +204,9 @@ const ARGUMENTS: &[(&str, &str)] = &[
     ("null", "no such value: leave it out"),
     ("off", "`false`"),
     ("on", "`true`"),
-    ("tool0", "`$FLANGE`"),
+    ("tool0", "`$FLANGE` for the flange without a tool, `$tool0` for the tool 0 of the controller"),
     ("vmax", "`vp:100%`"),
-    ("wobj0", "`$WORLD`"),
+    ("wobj0", "`$WORLD` for the world, `$wobj0` for the workpiece frame 0 of the controller"),
 ];
 
 /// Labels of other languages' motions, and those that ARL has for the same.

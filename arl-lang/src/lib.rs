@@ -18,9 +18,11 @@ mod habits;
 mod lexeme;
 pub mod lexer;
 mod line;
+mod line_break;
 pub mod near;
 pub mod number;
 pub mod operators;
+pub mod other_motions;
 mod other_words;
 pub mod outline;
 mod parse;
@@ -40,6 +42,7 @@ pub use parse::{
     ParseOptions, Parsed, ParsedExpression, ParsedStatements, Splice, outline, parse, parse_expression,
     parse_statements,
 };
+pub use syntax_words::OTHER_MOTIONS;
 pub use tree::EXPRESSION_LEVELS;
 pub use words::{control_word, control_words, is_reserved, language_words};
 

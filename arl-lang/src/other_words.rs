@@ -171,6 +171,15 @@ pub(crate) fn function_of_others(tokens: &[Placed], source: &str) -> Option<Synt
     Some(SyntaxError::new(SyntaxErrorKind::OtherWord(word.into(), ours), span))
 }
 
+/// The error for a refused line that is a motion in another language.
+pub(crate) fn motion_of_others(tokens: &[Placed], source: &str) -> Option<SyntaxError> {
+    let (first, last) = (tokens.first()?, tokens.last()?);
+    let (Token::Name(_) | Token::Instruction(_)) = first.1 else { return None };
+    let span = Span::new(first.0, last.2);
+    let motion = crate::other_motions::other_motion(span.text(source))?;
+    Some(SyntaxError::new(SyntaxErrorKind::OtherMotion(Box::new(motion)), span))
+}
+
 /// The error for a line that begins with the sign of another language's comments.
 pub(crate) fn comment(tokens: &[Placed], source: &str) -> Option<SyntaxError> {
     let (start, Token::Semicolon | Token::Not, end) = *tokens.first()? else { return None };

@@ -11,8 +11,11 @@ use crate::grammar::LineParser;
 use crate::habits::repair;
 use crate::lexer::{Lexeme, LexicalError};
 use crate::line::{Line, LineKind};
+use crate::line_break::{self, Statement};
 use crate::number::{Number, NumberError, NumberValue};
-use crate::other_words::{Meant, argument, comment, first_word, function_of_others, replace_operators};
+use crate::other_words::{
+    Meant, argument, comment, first_word, function_of_others, motion_of_others, replace_operators,
+};
 use crate::outline::Outline;
 use crate::recovery::{Recovered, other_function, recover};
 use crate::span::Span;
@@ -142,6 +145,12 @@ struct Parser<'a> {
     void: Symbol,
     /// Where the outline is wanted: as far as it was read.
     outline: Option<Outline>,
+    /// How far the rest of an incomplete statement was looked for, in vain.
+    looked_until: u32,
+    /// The end of the last line that was read.
+    above: Option<Span>,
+    /// Whether that line went on with the statement above it.
+    is_inside: bool,
 }
 
 impl<'a> Parser<'a> {
@@ -171,15 +180,21 @@ impl<'a> Parser<'a> {
             splices: Vec::new(),
             void,
             outline: None,
+            looked_until: 0,
+            above: None,
+            is_inside: false,
         }
     }
 
     fn run(&mut self) {
         loop {
             let before = self.context.errors.len();
-            let (more, broken) = self.read_line();
+            let (mut more, broken) = self.read_line();
             // What follows from a character or a number that could not be read is not reported once more.
-            let quiet = self.context.errors.len() > before;
+            let mut quiet = self.context.errors.len() > before;
+            if !quiet && let Some(read) = self.read_on() {
+                (more, quiet) = (read, true);
+            }
             let lexemes = std::mem::take(&mut self.lexemes);
             let mut rest = lexemes.as_slice();
             while !rest.is_empty() {
@@ -188,6 +203,7 @@ impl<'a> Parser<'a> {
                     outline.note_part(rest.get(..adapted.taken).unwrap_or(rest), &self.adapter.tokens);
                 }
                 self.line(broken || adapted.broken, quiet);
+                self.above = self.adapter.tokens.last().map(|last| Span::new(last.0, last.2)).or(self.above);
                 rest = rest.get(adapted.taken.max(1)..).unwrap_or_default();
             }
             self.lexemes = lexemes;
@@ -221,6 +237,44 @@ impl<'a> Parser<'a> {
             }
         }
         (false, broken)
+    }
+
+    /// Reads the rest of a statement that is not complete at the end of the line, from the lines below, and reports
+    /// that; whether more lines may follow then. `None` where the line is complete, or the next ones are not its rest.
+    fn read_on(&mut self) -> Option<bool> {
+        let mut statement = Statement::of(&self.lexemes, self.source);
+        let (_, _, end) = *self.lexemes.last()?;
+        // The layout of lines with mistakes is left alone; and lines are looked at once, however many are incomplete.
+        if !statement.is_unfinished() || self.outline.is_some() || end < self.looked_until {
+            return None;
+        }
+        let (lexer, splices, errors) = (self.lexer.clone(), self.splices.len(), self.context.errors.len());
+        let mut lexemes = std::mem::take(&mut self.lexemes);
+        let own = lexemes.len();
+        let more = loop {
+            let (more, broken) = self.read_line();
+            let is_rest = statement.can_go_on_with(&self.lexemes, self.source);
+            if broken || !is_rest || self.context.errors.len() > errors {
+                break None;
+            }
+            statement.go_on(&self.lexemes);
+            lexemes.append(&mut self.lexemes);
+            if !statement.is_unfinished() {
+                break Some(more);
+            }
+        };
+        self.lexemes = lexemes;
+        if let (Some(_), [.., last], [next, ..]) = (more, self.lexemes.get(..own)?, self.lexemes.get(own..)?) {
+            let error = line_break::error(Span::new(last.0, last.2), Span::new(next.0, next.2));
+            self.context.errors.push(error);
+            return more;
+        }
+        self.looked_until = u32::try_from(self.lexer.span().end).unwrap_or(u32::MAX);
+        self.lexemes.truncate(own);
+        self.lexer = lexer;
+        self.splices.truncate(splices);
+        self.context.errors.truncate(errors);
+        None
     }
 
     fn splice(&mut self, start: u32, end: u32) -> Lexeme {
@@ -306,6 +360,7 @@ impl<'a> Parser<'a> {
         if self.adapter.tokens.is_empty() {
             return;
         }
+        let inside = std::mem::take(&mut self.is_inside);
         replace_operators(&mut self.adapter.tokens, self.source, &mut self.context.errors);
         let habits = repair(&mut self.adapter.tokens, self.source, &mut self.context.errors);
         let mut doubts = Doubts {
@@ -345,7 +400,17 @@ impl<'a> Parser<'a> {
             }
             Err(error) => {
                 self.context.errors.truncate(before);
+                if !quiet && let Some(error) = line_break::begins_inside(tokens, self.above) {
+                    // Of several such lines the first one tells it.
+                    self.context.errors.extend(Some(error).filter(|_| !inside));
+                    self.is_inside = true;
+                    return;
+                }
                 if !quiet && let Some(error) = comment(tokens, self.source) {
+                    self.context.errors.push(error);
+                    return;
+                }
+                if !quiet && let Some(error) = motion_of_others(tokens, self.source) {
                     self.context.errors.push(error);
                     return;
                 }

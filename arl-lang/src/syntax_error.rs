@@ -1,5 +1,6 @@
 //! What can be wrong with the form of a program, and the words for it.
 
+use crate::other_motions::OtherMotion;
 use crate::span::Span;
 use std::fmt;
 
@@ -179,6 +180,15 @@ pub enum Hint {
     Braces,
     /// `import lib`: the path of a module without its quotes.
     ImportQuotes,
+}
+
+/// Where a statement goes on over the end of a line.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LineBreak {
+    /// Behind the marked end of a line.
+    Behind,
+    /// The marked place is the beginning of the next line.
+    Before,
 }
 
 /// Declares the kinds: number, title, what each is.
@@ -396,6 +406,12 @@ syntax_errors! { $
     156 "A word of a control structure with a slip in it" =>
         /// `whlie`: what was written, what was meant.
         Misspelt(Box<str>, &'static str),
+    157 "A statement that goes on on the next line" =>
+        /// A statement whose lines are not joined by `\`.
+        LineBreak(LineBreak),
+    158 "A motion of another language" =>
+        /// A motion as another language writes it.
+        OtherMotion(Box<OtherMotion>),
 }
 
 /// How many brackets may be open at one place.

@@ -1,6 +1,6 @@
 //! The words for what can be wrong with the form of a program.
 
-use crate::syntax_error::{Hint, SyntaxErrorKind};
+use crate::syntax_error::{self, Hint, SyntaxErrorKind};
 
 impl Hint {
     const fn text(self) -> Option<&'static str> {
@@ -128,6 +128,13 @@ impl SyntaxErrorKind {
             OtherWord(word, _) => format!("`{word}` is no word of ARL"),
             OtherOperator(found, ours) => format!("ARL writes `{ours}`, not `{found}`"),
             Misspelt(word, _) => format!("`{word}` is no word of ARL"),
+            OtherMotion(motion) => format!("this is a motion as {} writes it", motion.language),
+            LineBreak(syntax_error::LineBreak::Behind) => {
+                "this statement is not complete at the end of its line".into()
+            }
+            LineBreak(syntax_error::LineBreak::Before) => {
+                "this line goes on with the statement of the line above".into()
+            }
         }
     }
 
@@ -183,6 +190,9 @@ impl SyntaxErrorKind {
             NotOneExpression => "this is something else".into(),
             OtherWord(..) => "not known".into(),
             OtherOperator(_, ours) | Misspelt(_, ours) => format!("write `{ours}`"),
+            OtherMotion(motion) => format!("in ARL `{}`", motion.ours),
+            LineBreak(syntax_error::LineBreak::Behind) => "write `\\` behind this, at the end of the line".into(),
+            LineBreak(syntax_error::LineBreak::Before) => "write `\\` at the end of the line above".into(),
         }
     }
 
@@ -217,6 +227,16 @@ impl SyntaxErrorKind {
             BareSplice => "Write `#name` for a Rust variable, `#(expression)` for anything else.",
             FileTooLarge => "ARL files may have up to 4 GB.",
             Unexpected { hint, .. } | EndsEarly { hint, .. } => return hint.text().map(String::from),
+            OtherMotion(motion) => {
+                return Some(format!("Write `{}`: {OTHER_MOTIONS}", motion.ours));
+            }
+            LineBreak(_) => JOINED_LINES,
+            MissingClose(_) => {
+                "A statement ends with its line. Where it goes on on the next one, the line ends with `\\`."
+            }
+            MissingValue(_, before) if before.is_empty() => {
+                "A statement ends with its line. Where it goes on on the next one, the line ends with `\\`."
+            }
             MissingColon => "Write `case 1:` or `default:`, the statements on the lines below.",
             Semicolon => {
                 "The end of the line ends the statement. A `;` adds events to a motion: `lin p1;T(1),setdo(2,true)`."
@@ -270,6 +290,15 @@ impl SyntaxErrorKind {
         }
     }
 }
+
+/// How the motions of ARL are not those of other languages.
+pub const OTHER_MOTIONS: &str = "in ARL commas stand between the arguments and a colon behind each label, \
+poses and joints stand in braces, in mm and deg. `accset` sets accelerations; `movej` goes to a joint, \
+`ptp` and `lin` go to a pose.";
+
+/// How a statement of several lines is written.
+const JOINED_LINES: &str = "The end of a line ends a statement, inside brackets, too. A `\\` as the last character joins a \
+line with the next: write it at the end of each line of the statement but the last, without a comment behind it.";
 
 /// Units that ARL does not have: the number that makes ARL's unit of each, and that unit.
 const OTHER_UNITS: [(&str, f64, &str); 8] = [

@@ -52,6 +52,36 @@ pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, DecodeError> {
     }
 }
 
+/// Lines of one file in two encodings.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Mixed {
+    /// The first line that is UTF-8, from 1.
+    pub utf8: usize,
+    /// The first line that is not.
+    pub other: usize,
+}
+
+/// Whether some lines of a file are UTF-8 and others are not, as where two editors wrote it.
+///
+/// ```
+/// let file = [b"//\xb5\xe3\n".as_slice(), "print \"点\"".as_bytes()].concat();
+/// let mixed = arl_lang::text::mixed(&file).unwrap();
+/// assert_eq!((mixed.other, mixed.utf8), (1, 2));
+/// ```
+pub fn mixed(bytes: &[u8]) -> Option<Mixed> {
+    // Two bytes of GB18030 are often a letter of UTF-8, too; three of Chinese in UTF-8 are hardly ever chance.
+    let is_chinese = |text: &str| text.chars().filter(|c| !c.is_ascii()).all(|c| c >= '\u{2e80}');
+    let (mut utf8, mut other) = (None, None);
+    for (line, number) in bytes.split(|byte| *byte == b'\n').zip(1..).filter(|(line, _)| !line.is_ascii()) {
+        match std::str::from_utf8(line) {
+            Ok(text) if is_chinese(text) => _ = utf8.get_or_insert(number),
+            Ok(_) => {}
+            Err(_) => _ = other.get_or_insert(number),
+        }
+    }
+    Some(Mixed { utf8: utf8?, other: other? })
+}
+
 /// The text of GB18030 bytes, or the offset of the first byte that does not fit.
 fn decode_gb18030(bytes: &[u8]) -> Result<String, usize> {
     let mut decoder = GB18030.new_decoder_without_bom_handling();

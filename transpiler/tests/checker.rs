@@ -1,8 +1,8 @@
 //! What the checker says, beyond what the conformance corpus holds it to: codes, marked places, other places that
 //! explain, help, and that one mistake is one diagnostic.
 //!
-//! The cases are in `checker/*.txt`. `# title` begins one, `[strict]` and `[scara]` in it are options; the program
-//! follows, `--- name.arl` begins a further file of it. Then comes a line for each diagnostic, in order:
+//! The cases are in `checker/*.txt`. `# title` begins one, `[strict]`, `[scara]` and `[robot NAME]` in it are options;
+//! the program follows, `--- name.arl` begins a further file of it. Then comes a line for each diagnostic, in order:
 //!
 //! ```text
 //! => ARL0205 3 `Count` ;; declared twice ;; also 2 `count` first declared here ;; help another name
@@ -42,6 +42,12 @@ impl Case {
         let mut options = CheckOptions { strict: self.title.contains("[strict]"), ..CheckOptions::default() };
         if self.title.contains("[scara]") {
             options.family = arl_lang::catalog::Family::Scara;
+        }
+        #[cfg(feature = "cli")]
+        if let Some((name, _)) = self.title.split_once("[robot ").and_then(|(_, rest)| rest.split_once(']')) {
+            let robot = arl_robot::Robot::builtin(name).unwrap();
+            options.family = robot.family;
+            options.robot = Some(robot);
         }
         check_text(Path::new("main.arl"), &self.main, &self.others, &options)
     }
@@ -161,7 +167,9 @@ fn odd_words(checked: &Checked) -> Option<String> {
 
 fn run(text: &str) {
     let mut failures = String::new();
-    let cases = read(text);
+    let mut cases = read(text);
+    // Only the command knows robots.
+    cases.retain(|case| cfg!(feature = "cli") || !case.title.contains("[robot "));
     assert!(cases.len() > 3, "the cases are read");
     for case in &cases {
         let checked = case.check();
@@ -314,6 +322,42 @@ fn words_of_other_languages() {
 #[test]
 fn doubts() {
     run(include_str!("checker/doubts.txt"));
+}
+
+/// What robot programmers wrote and got no help with: each message says what to write.
+#[test]
+fn messages() {
+    run(include_str!("checker/messages.txt"));
+}
+
+/// Files as they are on disk.
+struct Bytes(Vec<u8>);
+
+impl Sources for Bytes {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
+        if path.ends_with("main.arl") { Ok(self.0.clone()) } else { Err(SourceError::Missing) }
+    }
+}
+
+#[test]
+fn lines_in_two_encodings() {
+    let gbk = b"// \xbc\xd0\xd7\xa6\nfunc void main()\n".as_slice();
+    let even = [gbk, "  print \"夹爪\"\nendfunc\n".as_bytes()].concat();
+    let odd = [gbk, "  print \"夹爪打\"\nendfunc\n".as_bytes()].concat();
+    let first = |bytes: &[u8]| {
+        let checked = arl2rs::check(Path::new("main.arl"), &Bytes(bytes.to_vec()), &CheckOptions::default());
+        let found: Vec<String> = checked.diagnostics.iter().map(|found| written(&checked, found)).collect();
+        found.join("\n")
+    };
+    let (warned, refused) = (first(&even), first(&odd));
+    let words = "line 3 is UTF-8, but line 1 is GBK (GB18030)";
+    assert!(
+        warned.starts_with("ARL0923 3 ") && warned.contains(words) && warned.contains("UTF-8, and save"),
+        "{warned}"
+    );
+    let words = "is in two encodings: line 3 is UTF-8, line 1 is GBK";
+    assert!(refused.starts_with("ARL0603 ") && refused.contains(words), "{refused}");
+    assert_eq!(first(&[gbk, b"endfunc\n"].concat()), "");
 }
 
 #[test]

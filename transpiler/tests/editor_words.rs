@@ -24,7 +24,9 @@ fn the_lists_are_those_of_the_catalog() {
     let constants = catalog::constants().iter().flat_map(|constant| spellings(constant.name, &[]));
     let constants = constants.chain(enums.flat_map(|constant| spellings(constant.name, constant.aliases)));
     let types = catalog::type_names().filter(|(_, base)| !base.is_system()).map(|(name, _)| name.to_ascii_lowercase());
+    let elements = catalog::system_variables().flat_map(catalog::SystemVariable::element_names);
     let system = catalog::system_variables().flat_map(|variable| spellings(variable.name, variable.aliases));
+    let system = system.chain(elements);
     let expected = [
         ("types", types.collect()),
         ("instructions", entries(Kind::Instruction)),

@@ -353,6 +353,7 @@ impl SystemVariable {
         Self {
             name,
             aliases: &[],
+            elements: None,
             ty,
             dims: &[],
             access: Access::ReadWrite,
@@ -389,6 +390,8 @@ setters! { SystemVariable:
     range(low: f64, high: f64) { takes = Takes::Range(low, high) }
     /// What it is to motion.
     role(role: Role) { role = Some(role) }
+    /// What its elements are called, without their number.
+    elements(name: &'static str) { elements = Some(name) }
     /// The texts that it takes.
     words(words: &'static [&'static str]) { takes = Takes::Words(words) }
     /// Other spellings.

@@ -229,6 +229,8 @@ pub struct SystemVariable {
     pub name: &'static str,
     /// Other spellings that are accepted.
     pub aliases: &'static [&'static str],
+    /// The default name of its elements, without the number behind it: `tool` for `$tool0`, `$tool1` and so on.
+    pub elements: Option<&'static str>,
     /// The type of the elements.
     pub ty: Base,
     /// Array sizes; empty for a scalar.

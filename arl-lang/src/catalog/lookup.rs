@@ -189,6 +189,23 @@ pub fn system_variable(name: &str) -> Option<&'static SystemVariable> {
     find(&INDEX.variables, name)
 }
 
+/// The system variable one of whose elements has that default name, which is given without `$`, and the element's
+/// number.
+///
+/// ```
+/// use arl_lang::catalog::{system_element, system_variable};
+/// assert_eq!(system_element("tool7"), system_variable("TOOLS").map(|tools| (tools, 7)));
+/// assert_eq!(system_element("tool32"), None);
+/// ```
+pub fn system_element(name: &str) -> Option<(&'static SystemVariable, u32)> {
+    let digits = name.trim_start_matches(|letter: char| !letter.is_ascii_digit());
+    let stem = name.get(..name.len() - digits.len())?;
+    let number = digits.parse().ok().filter(|number: &u32| number.to_string() == digits)?;
+    let variable = system_variables()
+        .find(|variable| variable.elements.is_some_and(|elements| elements.eq_ignore_ascii_case(stem)))?;
+    variable.dims.first().is_some_and(|size| number < *size).then_some((variable, number))
+}
+
 /// All constants with plain names.
 pub fn constants() -> &'static [Constant] {
     super::constants::CONSTANTS
@@ -259,6 +276,14 @@ impl Base {
     /// Whether the type's name is written with `$`.
     pub fn is_system(self) -> bool {
         self.name().starts_with('$')
+    }
+}
+
+impl SystemVariable {
+    /// The default names of its elements, without `$`; none where they have no names.
+    pub fn element_names(&self) -> impl Iterator<Item = String> {
+        let count = self.dims.first().copied().unwrap_or_default();
+        self.elements.into_iter().flat_map(move |name| (0..count).map(move |number| format!("{name}{number}")))
     }
 }
 

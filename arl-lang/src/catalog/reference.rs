@@ -22,7 +22,8 @@ pub fn page(name: &str) -> Option<String> {
     if let Some(base) = lookup::base_type(bare).filter(|base| plain || base.is_system()) {
         parts.extend(type_page(base));
     }
-    parts.extend(lookup::system_variable(bare).map(system_variable));
+    let element = || lookup::system_element(bare).map(|(variable, _)| variable);
+    parts.extend(lookup::system_variable(bare).or_else(element).map(system_variable));
     if plain {
         let found = lookup::enum_constant(name);
         parts.extend(

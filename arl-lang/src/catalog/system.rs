@@ -20,19 +20,19 @@ variables! { pub(super) DATA =
     P: pose[100] = "{{9e+09}}" { "10.1.7", saved; "$P[0] = {x 100,y 0,z 50}\nprint $P[0].x" }
     /// 100 joints for the user; savesv keeps them.
     J: joint[100] = "{{9e+09}}" { "10.1.8", saved; "$J[0] = {j1 10}\nprint $J[0].j1" }
-    /// 32 tools for the user; savesv keeps them.
-    TOOLS: tool[32] = "{{{0},false}}" { "10.1.9", saved; "$TOOLS[1] = {{0,0,120,0,0,0},false}\nprint $TOOLS[1]" }
+    /// 32 tools for the user; savesv keeps them. By their default names they are $tool0 to $tool31.
+    TOOLS: tool[32] = "{{{0},false}}" { "10.1.9", saved, elements("tool"); "$TOOLS[1] = {{0,0,120,0,0,0},false}\nprint $TOOLS[1]" }
     /// Names for the elements of $TOOLS.
     TOOLS_NAME: string[32] = "{\"\"}" { "10.1.10", permanent; "$TOOLS_NAME[1] = \"gripper\"\nprint $TOOLS_NAME[1]" }
-    /// 32 workpiece frames for the user; savesv keeps them.
-    WOBJS: wobj[32] = "{{{0},false}}" { "10.1.11", saved; "$WOBJS[1] = {{500,0,100,0,0,0},false}\nprint $WOBJS[1]" }
+    /// 32 workpiece frames for the user; savesv keeps them. By their default names they are $wobj0 to $wobj31.
+    WOBJS: wobj[32] = "{{{0},false}}" { "10.1.11", saved, elements("wobj"); "$WOBJS[1] = {{500,0,100,0,0,0},false}\nprint $WOBJS[1]" }
     /// Names for the elements of $WOBJS.
     WOBJS_NAME: string[32] = "{\"\"}" { "10.1.12", permanent; "$WOBJS_NAME[1] = \"pallet\"\nprint $WOBJS_NAME[1]" }
     /// Where the bases of the mechanical units stand in the world.
     BASE: wobj[3] = "{{{0,0,0,0,0,0},false},{{0,0,0,0,0,0},false},{{0,0,0,0,0,0},false}}"
         { "10.1.13", saved, role(Role::Frame); "print $BASE[0]" }
     /// The flange as a tool: no tool at all.
-    FLANGE: tool = "{{0,0,0,0,0,0},false}" { "10.1.14", permanent, role(Role::Flange), readonly, alias(&["TOOL0"]); "print $FLANGE" }
+    FLANGE: tool = "{{0,0,0,0,0,0},false}" { "10.1.14", permanent, role(Role::Flange), readonly; "print $FLANGE" }
     /// The world as a workpiece frame.
     WORLD: wobj = "{{0,0,0,0,0,0},false,\"WORLD\"}" { "10.1.15", permanent, role(Role::World), readonly; "print $WORLD" }
     /// 32 loads, for toolload and toolswitch.

@@ -76,7 +76,13 @@ fn names_match_in_any_case_and_by_alias() {
     assert_eq!(functions("setdo").len(), 2);
     assert_eq!(instructions("StartWeaveLin"), instructions("startweave"));
     assert_eq!(functions("dhread"), functions("dnread"));
-    assert_eq!(system_variable("tool0"), system_variable("FLANGE"));
+    assert_eq!(system_element("Tool0"), system_variable("tools").map(|tools| (tools, 0)));
+    assert_eq!(system_element("WOBJ31"), system_variable("wobjs").map(|frames| (frames, 31)));
+    for name in
+        ["tool", "tool32", "tool07", "tool-1", "tool4294967296", "tools1", "1tool1", "wobj", "flange0", "\u{e9}1"]
+    {
+        assert_eq!(system_element(name), None, "{name}");
+    }
     assert_eq!(system_variable("congfig_CHECK"), system_variable("Config_Check"));
     assert_eq!(base_type("melsec"), Some(Base::Handle(Handle::MelsecDev)));
     assert_eq!(base_type("modbus_parity"), Some(Base::Enum(Enum::Parity)));

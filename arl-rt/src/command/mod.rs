@@ -2,6 +2,7 @@
 //!
 //! It imports everything, and nothing imports it but `lib.rs`.
 
+mod asked;
 mod between;
 mod connection;
 mod coverage;
@@ -10,6 +11,7 @@ pub mod in_process;
 mod json;
 mod live;
 mod observation;
+mod polling;
 pub mod program_main;
 mod report;
 mod say;

@@ -16,8 +16,9 @@ use crate::command::between::{Beat, Between};
 use crate::command::coverage;
 use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
+use crate::command::polling::Polling;
 use crate::command::report;
-use crate::command::say::say;
+use crate::command::say::{say, say_condition};
 use crate::command::serve;
 use crate::context::output::{Output, Stream};
 use crate::context::program::Program;
@@ -308,11 +309,15 @@ pub(super) fn listed(waiting: &[Standstill]) -> Vec<String> {
 }
 
 /// Says who waits for what in vain.
-fn say_standstill(time: f64, waiting: &[Standstill]) {
+fn say_standstill(controller: &Controller, sources: &Path, waiting: &[Standstill]) {
+    let time = controller.time();
     tell(format_args!(
         "nothing can change any more after {time} s: no event of a scenario is left, nothing moves, and no timer runs"
     ));
-    listed(waiting).iter().for_each(|line| tell(format_args!("  {line}")));
+    for (one, line) in waiting.iter().zip(listed(waiting)) {
+        tell(format_args!("  {line}"));
+        say_condition(controller, sources, one).iter().for_each(|line| tell(format_args!("  {line}")));
+    }
 }
 
 /// A controller for a run in this process, with the same options as on a command line, after how many s it ends at the latest, and whether it is asked to be in real time.
@@ -408,6 +413,9 @@ fn watch(
     recording.iter().for_each(|recording| recording.begin(controller));
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let mut code = None;
+    // In real time waiting for a hand is nothing special, and whoever listens sees where the program is.
+    let is_alone = between.is_none() && recording.is_none() && !controller.is_real_time();
+    let mut polling = is_alone.then(Polling::new);
     // Who was told to stop does not begin again.
     let is_over = |controller: &Controller, stopped: bool| match stopped {
         true => controller.outcome().is_some(),
@@ -428,6 +436,9 @@ fn watch(
         controller.step();
         recording.iter().for_each(|recording| recording.cycle_ended(controller));
         say(controller, sources, recording.as_ref());
+        if let Some(text) = polling.as_mut().and_then(|polling| polling.cycle_ended(controller)) {
+            tell(format_args!("{text}"));
+        }
         if code.is_none()
             && beat != Beat::Stands
             && let Some(waiting) = controller.standstill()
@@ -436,7 +447,7 @@ fn watch(
                 .is_some_and(|between| between.nothing_can_change(controller, &listed(&waiting).join("; ")))
         {
             code = Some(EXIT_MAX_TIME);
-            say_standstill(controller.time(), &waiting);
+            say_standstill(controller, sources, &waiting);
             controller.stop();
         }
         if code.is_none() && between.is_none() && recording.is_none() {

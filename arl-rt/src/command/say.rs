@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use crate::command::asked;
 use crate::command::live::Recording;
 use crate::context::standard_error::tell;
+use crate::context::standstill::Standstill;
 use crate::controller::Controller;
 use crate::fault::File;
+use arl_robot::cell::{Signal, SignalKind};
 
 /// Files that are longer are not looked into.
 const LARGEST_FILE: u64 = 16 << 20;
@@ -45,16 +48,46 @@ pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<
     }
 }
 
-/// The line of a file, as it is shown below an alarm: its number and its text. Nothing where the file is not there any
-/// more, or was changed after the program was compiled.
-fn source_line(file: &Path, line: u32) -> Option<String> {
+/// The line that waits in vain, and what the signals are that it asks for.
+pub(super) fn say_condition(controller: &Controller, sources: &Path, waiting: &Standstill) -> Vec<String> {
+    let contexts = controller.contexts();
+    let Some(cx) = contexts.iter().find(|cx| cx.channel_state().id == waiting.channel) else { return Vec::new() };
+    let file = sources.join(cx.program_itself().folder()).join(waiting.file.name());
+    let Some((text, line)) = source(&file).zip(source_line(&file, waiting.line)) else { return Vec::new() };
+    let code = line.split_once('|').map_or(line.as_str(), |(_, code)| code);
+    let io = cx.shared().io.borrow();
+    let level = |on: Option<bool>| on.map(|on| String::from(if on { "on" } else { "off" }));
+    let value = |signal: Signal| {
+        let at = usize::try_from(signal.channel.checked_sub(1)?).ok()?;
+        match signal.kind {
+            SignalKind::DigitalInput => level(io.inputs().levels().get(at).copied()),
+            SignalKind::DigitalOutput => level(io.outputs().levels().get(at).copied()),
+            SignalKind::AnalogInput => io.analogs(false).get(at).map(f64::to_string),
+            SignalKind::AnalogOutput => io.analogs(true).get(at).map(f64::to_string),
+            SignalKind::InternalInput | SignalKind::InternalOutput => None,
+        }
+    };
+    let signals = asked::signals(code, &text);
+    let told =
+        signals.into_iter().map(|signal| format!("  {}", asked::told(signal, controller.names(), value(signal))));
+    std::iter::once(line.clone()).chain(told).collect()
+}
+
+/// The text of a file that was not changed since the program was compiled.
+fn source(file: &Path) -> Option<String> {
     let about = file.metadata().ok().filter(|about| about.is_file() && about.len() <= LARGEST_FILE)?;
     let compiled = std::env::current_exe().ok()?.metadata().ok()?.modified().ok()?;
     if about.modified().ok()? > compiled {
         return None;
     }
     let bytes = std::fs::read(file).ok()?;
-    let text = arl_lang::text::decode(&bytes).ok()?;
+    arl_lang::text::decode(&bytes).ok().map(std::borrow::Cow::into_owned)
+}
+
+/// The line of a file, as it is shown below an alarm: its number and its text. Nothing where the file is not there any
+/// more, or was changed after the program was compiled.
+fn source_line(file: &Path, line: u32) -> Option<String> {
+    let text = source(file)?;
     let found = text.lines().nth((line as usize).checked_sub(1)?)?.trim();
     (!found.is_empty()).then(|| format!("  {line} | {found}"))
 }

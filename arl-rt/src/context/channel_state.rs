@@ -9,7 +9,7 @@ use crate::cycle::channel_id::ChannelId;
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::{NoBlend, Progress, UnblendedTarget};
 use crate::storage::pointers::StoredPointers;
-use crate::unit::{Collision, SENSITIVITY, Unit, joint};
+use crate::unit::{Collision, Mounts, SENSITIVITY, Unit, joint};
 use crate::values::{self, VelProfile};
 use arl_robot::cell::Sensitivity;
 use arl_robot::robot::VelocityProfile;
@@ -30,6 +30,8 @@ pub(crate) struct ChannelState {
     /// Whether the program waits for the start button.
     pub(crate) paused: Cell<bool>,
     pub(crate) stepping: Stepping,
+    /// Which motions gave the tool and the workpiece frame that hold.
+    pub(crate) mounts: Cell<Mounts>,
     /// Whether a program that comes to its end is reset and begins again.
     pub(crate) repeats: Cell<bool>,
     /// Whether an alarm has ended the program and nobody has acknowledged it.
@@ -102,6 +104,7 @@ impl ChannelState {
             begun: Cell::new(false),
             paused: Cell::new(false),
             stepping: Stepping::default(),
+            mounts: Cell::default(),
             repeats: Cell::new(false),
             alarmed: Cell::new(false),
             pending_alarm: RefCell::default(),

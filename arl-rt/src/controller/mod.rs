@@ -496,6 +496,16 @@ impl Controller {
         self.channels.first().cx().place()
     }
 
+    /// Whether a robot has motion to do.
+    pub(crate) fn moves(&self) -> bool {
+        self.channels.iter().any(|channel| channel.channel_state().robot().is_some_and(|unit| unit.moves()))
+    }
+
+    /// Whether its time is the world's.
+    pub(crate) fn is_real_time(&self) -> bool {
+        self.clock.is_real()
+    }
+
     /// The file that has the program's `main`.
     pub fn program(&self) -> File {
         self.channels.first().cx().program()

@@ -33,6 +33,7 @@ pub(crate) use effort::{Collision, Outside, SENSITIVITY};
 use hold::Button;
 pub(crate) use moving::Moving;
 use refusal::alarm;
+pub(crate) use refusal::{Inherited, Mounts};
 pub use servo::Motors;
 use supervision::{Supervision, is_all_finite, is_finite};
 
@@ -443,9 +444,16 @@ impl Unit {
 
     /// Plans a motion of a program file, under [`Unit::settings`] with the changes that it brings along; the alarm where
     /// that, or a motion before it, cannot be.
-    pub(crate) fn plan(&mut self, command: &Command, settings: &Settings, file: File) -> Result<(), Alarm> {
+    pub(crate) fn plan(
+        &mut self,
+        command: &Command,
+        settings: &Settings,
+        mounts: Mounts,
+        file: File,
+    ) -> Result<(), Alarm> {
         let planned = self.queue.add(command, settings);
-        self.planned = planned.map_err(|error| alarm(error, self.file, (file, command.line), Some(&command.target)))?;
+        let about = Some((&command.target, mounts));
+        self.planned = planned.map_err(|error| alarm(error, self.file, (file, command.line), about))?;
         self.file = file;
         self.note_planned(self.planned, command, settings, file);
         Ok(())

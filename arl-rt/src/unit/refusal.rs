@@ -4,15 +4,54 @@ use crate::fault::{Alarm, Fault, File};
 use crate::motion::{Joints, PlanError, Target, UNSET};
 use std::fmt::Write;
 
+/// What an earlier motion, or a variable, left of what carries tool and workpiece.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Inherited {
+    /// x, y, z in mm, a, b, c in deg.
+    pub(crate) frame: [f64; 6],
+    /// The motion that gave it; `None` where the program wrote the system variable.
+    pub(crate) from: Option<(File, u32)>,
+}
+
+/// Tool and workpiece frame that a motion does not give itself, where they are not the flange and the world.
+#[derive(Clone, Copy, PartialEq, Default, Debug)]
+pub(crate) struct Mounts {
+    pub(crate) tool: Option<Inherited>,
+    pub(crate) wobj: Option<Inherited>,
+}
+
+impl Mounts {
+    /// What there is to say of them behind the words of a target out of reach.
+    fn words(&self, file: File) -> String {
+        let all = [("w", "workpiece frame", "$DFWOBJ", self.wobj), ("t", "tool", "$DFTOOL", self.tool)];
+        let words = all.into_iter().filter_map(|(label, name, variable, mount)| {
+            let Inherited { frame, from } = mount?;
+            let frame: Vec<String> = frame.iter().map(|value| ((value * 1e3).round() / 1e3).to_string()).collect();
+            let from = match from {
+                Some((other, line)) if other == file => format!("of line {line}"),
+                Some((other, line)) => format!("of {}:{line}", other.name()),
+                None => format!("in {variable}"),
+            };
+            Some(format!("; this motion gives no `{label}:`, so the {name} {{{}}} {from} holds", frame.join(",")))
+        });
+        words.collect()
+    }
+}
+
 /// The alarm of a motion, here or in an earlier line of another file. Where it is about `target`, it tells that.
-pub(super) fn alarm(error: PlanError, earlier: File, (file, line): (File, u32), target: Option<&Target>) -> Alarm {
+pub(super) fn alarm(
+    error: PlanError,
+    earlier: File,
+    (file, line): (File, u32),
+    target: Option<(&Target, Mounts)>,
+) -> Alarm {
     if let PlanError::Earlier { line, error } = error {
         return alarm(*error, earlier, (earlier, line), None);
     }
     let mut words = words(&error);
-    if let Some(target) = target.filter(|_| is_about_target(&error)) {
+    if let Some((target, mounts)) = target.filter(|_| is_about_target(&error)) {
         let there = if words.ends_with("at the target") { "" } else { "; the target is" };
-        let _ = write!(words, "{there} {}", written(target));
+        let _ = write!(words, "{there} {}{}", written(target), mounts.words(file));
     }
     let words = words.into();
     let fault = match error {

@@ -1,10 +1,10 @@
 //! Stopping and moving the robot beside its program: pause, servo, jogging.
 
-use super::Unit;
 use super::moving::Moving;
 use super::range;
 use super::robot_driver::{Drives, Feedback, Power, Setpoint};
 use super::supervision::Now;
+use super::{Mounts, Unit};
 use crate::fault::{Fault, File};
 use crate::motion::{Command, Joints, Settings, Speed, Start, Stop, Target, Zone};
 
@@ -253,7 +253,7 @@ impl Unit {
         self.queue.resume();
         let settings = Settings { manual: true, ..Settings::default() };
         let file = self.file;
-        self.plan(&command, &settings, file).map_err(|alarm| alarm.fault.to_string())
+        self.plan(&command, &settings, Mounts::default(), file).map_err(|alarm| alarm.fault.to_string())
     }
 
     /// Moves an axis, from 1, while the servo is off.

@@ -536,6 +536,9 @@ impl<'a> Checker<'a> {
         };
         self.check_range(body, param, &value)?;
         self.check_kept(body, param, &value)?;
+        if arg.unit.is_none() {
+            self.doubt_scale(body, param.name, param.units, &value);
+        }
         unit?;
         Some(Passed::Value(value))
     }

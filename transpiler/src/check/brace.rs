@@ -3,6 +3,7 @@
 use super::context::{Body, Checker};
 use super::convert::number;
 use crate::diagnostics::components::ComponentRange;
+use crate::diagnostics::doubts::Doubt;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, GlobalId, Type, Value};
 use arl_lang::ast::{self, BinaryOp, BraceItem, UnaryOp};
@@ -28,6 +29,9 @@ impl Checker<'_> {
     }
 
     fn structure(&mut self, body: &mut Body, items: &[BraceItem], id: Struct, span: Span) -> Option<Expr> {
+        if let Some(problem) = self.flat_structure(body, items, id) {
+            return self.report(body, span, problem);
+        }
         let components = id.def(self.family()).components;
         let mut values: Vec<Option<Expr>> = components.iter().map(|_| None).collect();
         let mut by_position = components.iter().enumerate().filter(|(_, component)| component.by_position);
@@ -88,6 +92,56 @@ impl Checker<'_> {
             }
         }
         good.then(|| Expr { ty: Type::scalar(Base::Struct(id)), kind: ExprKind::Struct(id, values), span })
+    }
+
+    /// What is wrong with the values of a structure that holds structures, where those have no braces of their own:
+    /// `wobj w = {500,-650,100,0,0,0}`.
+    fn flat_structure(&self, body: &Body, items: &[BraceItem], id: Struct) -> Option<TypeProblem> {
+        let def = id.def(self.family());
+        let mut rest = items.iter().peekable();
+        let mut written = Vec::new();
+        let mut inner_name = None;
+        for component in def.components {
+            let Base::Struct(inner) = component.ty else {
+                written.extend(rest.next().map(|item| self.item_text(body, item)));
+                continue;
+            };
+            let fields = inner.def(self.family()).components;
+            let mut values = Vec::new();
+            while values.len() < fields.len()
+                && let Some(item) = rest.next_if(|item| self.is_number_of(item, inner))
+            {
+                values.push(item);
+            }
+            if values.is_empty() {
+                written.extend(rest.next().map(|item| self.item_text(body, item)));
+                continue;
+            }
+            let named = values.iter().any(|item| item.name.is_some());
+            let values: Vec<String> = values.into_iter().map(|item| self.item_text(body, item)).collect();
+            let label = if named { format!("{} ", component.name) } else { String::new() };
+            written.push(format!("{label}{{{}}}", values.join(",")));
+            inner_name.get_or_insert((component.name, inner.def(self.family()).name));
+        }
+        written.extend(rest.map(|item| self.item_text(body, item)));
+        let (component, inner) = inner_name?;
+        let (ty, right) = (def.name.into(), format!("{{{}}}", written.join(",")));
+        Some(TypeProblem::FlatStructure { ty, component: component.into(), inner: inner.into(), right })
+    }
+
+    /// Whether an item is a number as it is written, by itself or for a component of the structure.
+    fn is_number_of(&self, item: &BraceItem, id: Struct) -> bool {
+        let value = match &item.value.kind {
+            ast::ExprKind::Unary(UnaryOp::Negate, inner) => &inner.kind,
+            kind => kind,
+        };
+        let is_its = item.name.is_none_or(|name| self.find_component(id, name.symbol).is_some());
+        is_its && matches!(value, ast::ExprKind::Int(..) | ast::ExprKind::Double(_))
+    }
+
+    fn item_text(&self, body: &Body, item: &BraceItem) -> String {
+        let span = item.name.map_or(item.value.span, |name| name.span.to(item.value.span));
+        self.text(body.module, span).to_string()
     }
 
     /// Warns of a constant that makes no sense in a component.
@@ -176,6 +230,11 @@ impl Checker<'_> {
                 None => good = false,
             }
         }
+        let given = out.len() - begin;
+        if good && (2..total).contains(&given) {
+            let rest = start_words(want.base);
+            self.report::<()>(body, span, Doubt::TooFewValues { given, size: total, rest });
+        }
         good.then_some(())
     }
 
@@ -205,7 +264,9 @@ impl Checker<'_> {
                 id.and_then(|id| self.global_type(id))
             }
             ast::ExprKind::System(symbol) => {
-                catalog::system_variable(self.names.name(*symbol)).map(|variable| Type::scalar(variable.ty))
+                let name = self.names.name(*symbol);
+                let element = || catalog::system_element(name).map(|(variable, _)| variable);
+                catalog::system_variable(name).or_else(element).map(|variable| Type::scalar(variable.ty))
             }
             ast::ExprKind::Index(both) => return self.plainly_is(body, &both.0, base),
             ast::ExprKind::Call(call) => self.call_type(body, call),
@@ -293,6 +354,16 @@ fn subtract(left: ast::Expr, expr: &ast::Expr) -> Option<ast::Expr> {
         _ => return None,
     };
     Some(ast::Expr { kind, span })
+}
+
+/// The start value of a type in words.
+fn start_words(base: Base) -> &'static str {
+    match base {
+        Base::Int | Base::Uint | Base::Byte | Base::Double => "0",
+        Base::Bool => "false",
+        Base::String => "empty",
+        _ => "at the start value of the type",
+    }
 }
 
 /// The start value of a type as an expression.

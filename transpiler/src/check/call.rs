@@ -10,6 +10,8 @@ use crate::hir::{Bound, Builtin, Expr, ExprKind, FuncId, Passed, Type, Value};
 use crate::index::{Meaning, Wanted};
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, Entry, Family, Form, ParamType, Presence};
+use arl_lang::elsewhere;
+use arl_lang::other_motions::other_motion;
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 
@@ -54,8 +56,10 @@ impl Checker<'_> {
 
     fn unknown_function<T>(&mut self, body: &mut Body, call: &ast::Call) -> Option<T> {
         self.expect(body, call.name.symbol, call.name.span, Wanted::Function);
+        let is_of_others = elsewhere::word(self.names.name(call.name.symbol)).is_some();
         for arg in &call.args {
-            if !matches!(arg.value.kind, ast::ExprKind::Brace(_)) {
+            // What another language's function takes is told with the function.
+            if !is_of_others && !matches!(arg.value.kind, ast::ExprKind::Brace(_)) {
                 self.expr(body, &arg.value, None);
             }
         }
@@ -70,7 +74,10 @@ impl Checker<'_> {
         let near = self.member_named(body, call.name.symbol, true);
         let near = near.or_else(|| self.hints.nearest(name, scope.funcs.len() + builtin.len(), known).map(Into::into));
         let name = self.text(body.module, call.name.span).to_string();
-        self.report(body, call.name.span, NameProblem::UnknownFunction { name, near, is_instruction })
+        let end = call.args.last().map_or(call.name.span.end, |last| last.value.span.end);
+        let call_text = format!("{})", self.text(body.module, Span::new(call.name.span.start, end)));
+        let motion = is_of_others.then(|| other_motion(&call_text)).flatten();
+        self.report(body, call.name.span, NameProblem::UnknownFunction { name, near, is_instruction, motion })
     }
 
     fn call_user(&mut self, body: &mut Body, func: FuncId, call: &ast::Call, span: Span) -> Option<Expr> {

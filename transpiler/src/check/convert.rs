@@ -4,7 +4,7 @@ use super::context::{Body, Checker};
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, Type, Value};
-use arl_lang::catalog::{Base, Enum};
+use arl_lang::catalog::{Base, Enum, Struct};
 use std::fmt::Display;
 
 /// An expression with what matters of the way it was written.
@@ -147,7 +147,12 @@ pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
         (Base::Int, Base::Byte) => "only constants of 0 to 255 fit a byte; `tobytes(...)` takes an int apart",
         (Base::Int, Base::Uint) => "only constants of 0 or more fit a uint",
         (Base::Uint, Base::Int) => "a uint may be beyond int: keep it in a uint or a double",
-        (Base::Struct(_), Base::Struct(_)) => "`getpose` and `getjoint` convert between joints and poses",
+        (Base::Struct(Struct::Tool | Struct::Wobj), Base::Struct(Struct::Tool | Struct::Wobj)) => {
+            "`t:` takes the tool (a `tool`), `w:` the workpiece frame (a `wobj`): are the two swapped?"
+        }
+        (Base::Struct(Struct::Pose | Struct::Joint), Base::Struct(Struct::Pose | Struct::Joint)) => {
+            "`getpose` and `getjoint` convert between joints and poses"
+        }
         _ => return None,
     };
     Some(words.into())
@@ -212,11 +217,31 @@ impl Checker<'_> {
                     found: self.type_name(from),
                     wanted: self.type_name(to),
                     what: what.to_string(),
-                    use_instead: unquoted(&expr, to.base).or_else(|| instead(from.base, to.base)),
+                    use_instead: (self.without_quotes(body, &expr, to))
+                        .or_else(|| unquoted(&expr, to.base))
+                        .or_else(|| instead(from.base, to.base)),
                 };
                 self.report(body, expr.span, problem)
             }
         }
+    }
+
+    /// What to write in place of a text that is the name of a variable of the wanted type, or of a signal.
+    fn without_quotes(&mut self, body: &Body, expr: &Expr, to: Type) -> Option<String> {
+        let ExprKind::Const(Value::String(text)) = &expr.kind else { return None };
+        let symbol = self.names.find(&text.to_ascii_lowercase());
+        let local = symbol.and_then(|symbol| body.find(symbol)).and_then(|local| body.local_type(local));
+        let global = symbol.and_then(|symbol| self.find_global(body, symbol));
+        let found = local.or_else(|| {
+            let (id, _) = global?;
+            self.check_global(id);
+            self.globals.get(id.0 as usize)?.ty
+        });
+        if found.is_some_and(|found| !found.is_array() && conversion(found.base, to.base).is_some()) {
+            return Some(format!("a name stands without quotes: `{text}`"));
+        }
+        let (signal, channel) = self.signal_named(text)?;
+        Some(format!("the cell calls {signal} so; a program gives its number: `{channel}`"))
     }
 
     fn warn_extended(&mut self, body: &Body, expr: &Expr, to: Type) {

@@ -298,6 +298,8 @@ impl<'a> Checker<'a> {
             let labels = [(body.module, first, "first declared here")];
             let problem = NameProblem::Duplicate { name: text, what: "variable" };
             self.report_in::<()>(body.module, name.span, problem, &labels);
+        } else {
+            self.doubt_hidden(body, name);
         }
         let info = LocalInfo { ty, constant, value: value.clone(), func: body.func, parameter: false };
         self.mention_local(body, name, info);

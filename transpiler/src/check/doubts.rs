@@ -8,8 +8,9 @@ use crate::diagnostics::{Diagnostic, Label, Location, Problem};
 use crate::hir::{Block, Builtin, Expr, ExprKind, Func, FuncId, ModuleId, Passed, Program, Stmt, StmtKind};
 use crate::visit;
 use arl_lang::ast::{self, BinaryOp, UnaryOp};
-use arl_lang::catalog::{Effect, Family, Form, Mode, Struct};
+use arl_lang::catalog::{self, Base, Effect, Family, Form, Mode, Struct};
 use arl_lang::span::Span;
+use arl_lang::symbol::Symbol;
 use std::collections::HashSet;
 
 impl Checker<'_> {
@@ -26,6 +27,151 @@ impl Checker<'_> {
             }
             _ => {}
         }
+    }
+}
+
+impl Checker<'_> {
+    /// Warns of a local variable with the name of another one outside, where that is spelled in another case: whoever
+    /// wrote both took them for two.
+    pub(crate) fn doubt_hidden(&mut self, body: &Body, name: ast::Ident) {
+        let (module, outside, what) = match body.find(name.symbol).and_then(|local| body.locals.get(local.0 as usize)) {
+            Some(local) => (body.module, local.span, if local.constant { "constant" } else { "variable" }),
+            None => {
+                let Some((id, _)) = self.find_global(body, name.symbol) else { return };
+                let Some(slot) = self.globals.get(id.0 as usize) else { return };
+                let what = if slot.decl.constant.is_some() { "constant" } else { "variable" };
+                (slot.module, slot.var.name.span, what)
+            }
+        };
+        let (own, hidden) = (self.text(body.module, name.span).to_string(), self.text(module, outside).to_string());
+        if own != hidden && own.eq_ignore_ascii_case(&hidden) {
+            let labels = [(module, outside, "this one is hidden")];
+            let problem = Doubt::HiddenByCase { name: own, hidden, what };
+            self.report_in::<()>(body.module, name.span, problem, &labels);
+        }
+    }
+
+    /// Whether a name is written as a global variable is declared that a local one hides: then that one was meant.
+    pub(crate) fn means_hidden(&self, body: &Body, symbol: Symbol, span: Span) -> bool {
+        let global = self.find_global(body, symbol).and_then(|(id, _)| self.globals.get(id.0 as usize));
+        global.is_some_and(|slot| self.text(slot.module, slot.var.name.span) == self.text(body.module, span))
+    }
+
+    /// Warns of a bare number that is much too small in the parameter's unit, and right in another one.
+    pub(crate) fn doubt_scale(&mut self, body: &Body, parameter: &str, units: &[ast::Unit], value: &Expr) {
+        let Some(scale) = SCALES.iter().find(|scale| units.contains(&scale.unit)) else { return };
+        let Some(number) = number(value) else { return };
+        if let Some(doubt) = scale.doubt(parameter, number) {
+            self.report::<()>(body, value.span, doubt);
+        }
+    }
+
+    /// Warns of a loop that only looks at inputs until they are as it wants them. `until`: whether its condition ends
+    /// it.
+    pub(crate) fn doubt_polling(&mut self, body: &Body, condition: &ast::Expr, until: bool, block: &ast::Block) {
+        if !self.reads_input(body, condition) || !block.iter().all(|stmt| self.only_asks(body, stmt)) {
+            return;
+        }
+        let wanted = match &condition.kind {
+            _ if until => self.text(body.module, condition.span).to_string(),
+            ast::ExprKind::Unary(UnaryOp::Not, inner) => self.text(body.module, inner.span).to_string(),
+            _ => format!("!({})", self.text(body.module, condition.span)),
+        };
+        self.report::<()>(body, condition.span, Doubt::Polls { condition: wanted });
+    }
+
+    /// Whether an expression reads an input or another signal, which makes the robot stand.
+    fn reads_input(&self, body: &Body, expr: &ast::Expr) -> bool {
+        let mut found = false;
+        ast_calls(expr, &mut |call| found |= self.input_read(body, call) == Some(true));
+        found
+    }
+
+    /// Whether a call reads a signal (`Some(true)`) or does nothing at all (`Some(false)`); `None`: it does something.
+    fn input_read(&self, body: &Body, call: &ast::Call) -> Option<bool> {
+        if call.module.is_some() || self.scopes.get(body.module.0 as usize)?.funcs.contains_key(&call.name.symbol) {
+            return None;
+        }
+        let entry = catalog::functions(self.names.name(call.name.symbol)).first()?;
+        match entry.effect {
+            Effect::Pure => Some(false),
+            Effect::Waits if entry.space().is_some() && entry.result != Base::Void => Some(true),
+            _ => None,
+        }
+    }
+
+    /// Whether a statement only asks and counts.
+    fn only_asks(&self, body: &Body, stmt: &ast::Stmt) -> bool {
+        let quiet = |expr: &ast::Expr| {
+            let mut quiet = true;
+            ast_calls(expr, &mut |call| quiet &= self.input_read(body, call).is_some());
+            quiet
+        };
+        match &stmt.kind {
+            ast::StmtKind::Expr(expr) => quiet(expr),
+            ast::StmtKind::CompactIf(both) => quiet(&both.0) && self.only_asks(body, &both.1),
+            ast::StmtKind::If(branches) => {
+                let blocks = branches.arms.iter().map(|(_, block)| block).chain(&branches.otherwise);
+                branches.arms.iter().all(|(condition, _)| quiet(condition))
+                    && blocks.flatten().all(|stmt| self.only_asks(body, stmt))
+            }
+            ast::StmtKind::Break | ast::StmtKind::Continue => true,
+            _ => false,
+        }
+    }
+}
+
+/// Calls `see` with every call in an expression.
+fn ast_calls(expr: &ast::Expr, see: &mut dyn FnMut(&ast::Call)) {
+    match &expr.kind {
+        ast::ExprKind::Call(call) => {
+            see(call);
+            call.args.iter().for_each(|arg| ast_calls(&arg.value, see));
+        }
+        ast::ExprKind::Field(inner, _) | ast::ExprKind::Unary(_, inner) | ast::ExprKind::Step(_, inner) => {
+            ast_calls(inner, see);
+        }
+        ast::ExprKind::Index(both) | ast::ExprKind::Binary(_, both) | ast::ExprKind::Assign(_, both) => {
+            ast_calls(&both.0, see);
+            ast_calls(&both.1, see);
+        }
+        ast::ExprKind::Brace(items) => items.iter().for_each(|item| ast_calls(&item.value, see)),
+        _ => {}
+    }
+}
+
+/// A unit in which small fractions are most often numbers of another one.
+struct Scale {
+    unit: ast::Unit,
+    /// Fractions up to this one are doubted.
+    most: f64,
+    found: &'static str,
+    wanted: &'static str,
+    /// What makes a number of ARL's unit of it.
+    factor: f64,
+    written: &'static str,
+}
+
+const SCALES: [Scale; 3] = [
+    Scale {
+        unit: ast::Unit::MillimetrePerSecond,
+        most: 2.0,
+        found: "m/s",
+        wanted: "mm/s",
+        factor: 1000.0,
+        written: "mm/s",
+    },
+    Scale { unit: ast::Unit::Percent, most: 1.0, found: "a share", wanted: "%", factor: 100.0, written: "%" },
+    Scale { unit: ast::Unit::Millimetre, most: 0.1, found: "metres", wanted: "mm", factor: 1000.0, written: "mm" },
+];
+
+impl Scale {
+    fn doubt(&self, name: &str, number: f64) -> Option<Doubt> {
+        let looks = number > 0.0 && number < self.most && number.fract() != 0.0;
+        let meant = (number * self.factor * 1000.0).round() / 1000.0;
+        let (found, wanted, unit) = (self.found, self.wanted, self.written);
+        let right = format!("`{meant}{unit}` if that is meant, else `{number}{unit}`: with its unit it is not doubted");
+        looks.then(|| Doubt::OtherScale { name: name.into(), value: number.to_string(), found, wanted, right })
     }
 }
 
@@ -197,18 +343,16 @@ fn zone(motion: &Builtin) -> Option<Zone> {
     })
 }
 
-/// Tells the first `break` of each `switch` all of whose cases end with one, as they do in C.
+/// Tells each `break` of a `switch` whose cases end with one, as they do in C: all of them, but perhaps the last.
 fn breaks_of_cases(block: &Block, tell: &mut dyn FnMut(Span)) {
     for stmt in block {
         if let StmtKind::Switch(_, arms) = &stmt.kind {
+            let ends = |stmt: &&Stmt| matches!(stmt.kind, StmtKind::Break);
+            let breaks: Vec<_> = arms.iter().filter_map(|arm| arm.body.last().filter(ends)).collect();
             let cases: Vec<_> = arms.iter().filter(|arm| arm.value.is_some()).collect();
-            let last = cases.iter().filter_map(|arm| arm.body.last());
-            let breaks: Vec<_> = last.filter(|stmt| matches!(stmt.kind, StmtKind::Break)).collect();
-            if cases.len() > 1
-                && breaks.len() == cases.len()
-                && let Some(first) = breaks.first()
-            {
-                tell(first.span);
+            let others = cases.split_last().map_or(&[][..], |(_, others)| others);
+            if breaks.len() > 1 && others.iter().all(|arm| arm.body.last().is_some_and(|last| ends(&last))) {
+                breaks.iter().for_each(|found| tell(found.span));
             }
         }
         inner_blocks(stmt).for_each(|inner| breaks_of_cases(inner, tell));

@@ -106,11 +106,16 @@ impl Loaded {
 
     /// Decodes and parses a file; `None` where it cannot be decoded.
     fn add(&mut self, path: &Path, shown: String, bytes: &[u8], from: Option<Location>) -> Option<ModuleId> {
+        let mixed = arl_lang::text::mixed(bytes);
         let text = match arl_lang::text::decode(bytes) {
             Ok(text) => text.into_owned(),
             Err(error) => {
                 let (offset, utf16) = (error.offset, error.utf16);
-                let problem = ModuleProblem::Encoding { path: shown.clone(), offset, utf16 };
+                let path_shown = shown.clone();
+                let problem = match mixed.filter(|_| !utf16) {
+                    Some(mixed) => ModuleProblem::UnreadableMixture { path: path_shown, mixed },
+                    None => ModuleProblem::Encoding { path: path_shown, offset, utf16 },
+                };
                 let file = self.files.add(shown, String::new());
                 let at = from.unwrap_or(Location { file, span: Span::default() });
                 self.diagnostics.push(problem.at(at));
@@ -119,7 +124,11 @@ impl Loaded {
             }
         };
         let parsed = parse(&text, &mut self.names, ParseOptions::default());
+        let mixture = mixed.map(|mixed| (mixed, line_span(&text, mixed.utf8)));
         let file = self.files.add(shown, text);
+        if let Some((mixed, span)) = mixture {
+            self.diagnostics.push(ModuleProblem::Mixture { mixed }.at(Location { file, span }));
+        }
         for error in &parsed.errors {
             self.diagnostics.push(syntax_diagnostic(error, file));
         }
@@ -367,4 +376,12 @@ pub(crate) fn clean(path: &Path) -> PathBuf {
         }
     }
     out
+}
+
+/// Where a line of a text is; lines count from 1.
+fn line_span(text: &str, number: usize) -> Span {
+    let line = text.split('\n').nth(number.saturating_sub(1)).unwrap_or_default();
+    let start = line.as_ptr() as usize - text.as_ptr() as usize;
+    let end = start + line.trim_end().len();
+    Span::new(start as u32, end as u32)
 }

@@ -26,7 +26,9 @@ impl Checker<'_> {
             let found = body.locals.get(local.0 as usize);
             let value = found.and_then(|local| local.value.clone());
             if let Some(declared) = found.map(|local| local.span) {
-                self.strict_case(body, span, self.text(body.module, declared));
+                if !self.means_hidden(body, symbol, span) {
+                    self.strict_case(body, span, self.text(body.module, declared));
+                }
                 let declared = self.location(body.module, declared);
                 self.mention_within(body, span, symbol, Meaning::Local(declared));
             }
@@ -95,7 +97,8 @@ impl Checker<'_> {
             near = body.nearest_local(&mut self.hints, self.names, name);
         }
         if near.is_none() && name.len() > 2 {
-            near = catalog::system_variable(name).map(|variable| format!("${}", variable.name));
+            let element = || catalog::system_element(name).map(|_| format!("${name}"));
+            near = catalog::system_variable(name).map(|variable| format!("${}", variable.name)).or_else(element);
         }
         if near.is_none() {
             let data = self.module(body.module).and_then(|module| module.data_module);
@@ -119,12 +122,12 @@ impl Checker<'_> {
 
     /// The signal that the cell calls so, as files write it, and its channel.
     #[cfg(feature = "cli")]
-    fn signal_named(&self, name: &str) -> Option<(String, u32)> {
+    pub(crate) fn signal_named(&self, name: &str) -> Option<(String, u32)> {
         self.options.cell.as_ref()?.names.signal(name).map(|signal| (signal.to_string(), signal.channel))
     }
 
     #[cfg(not(feature = "cli"))]
-    fn signal_named(&self, _: &str) -> Option<(String, u32)> {
+    pub(crate) fn signal_named(&self, _: &str) -> Option<(String, u32)> {
         None
     }
 

@@ -8,7 +8,7 @@ use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, ModuleId, Place, Projection, Root, Type, Value};
 use crate::index::{Meaning, Wanted};
 use arl_lang::ast;
-use arl_lang::catalog::{Access, Base, Struct};
+use arl_lang::catalog::{self, Access, Base, Struct, SystemVariable};
 use arl_lang::span::Span;
 
 const INT: Type = Type::scalar(Base::Int);
@@ -46,21 +46,43 @@ impl Checker<'_> {
     /// `$NAME`
     fn system(&mut self, body: &Body, symbol: arl_lang::symbol::Symbol, span: Span) -> Option<PlaceOrValue> {
         let name = self.names.name(symbol);
-        let Some(variable) = arl_lang::catalog::system_variable(name) else {
+        if let Some((variable, number)) = catalog::system_element(name) {
+            return self.system_element(body, variable, number, span);
+        }
+        let Some(variable) = catalog::system_variable(name) else {
             self.expect(body, symbol, span, Wanted::System);
-            if let Some(now) = arl_lang::catalog::renamed(&format!("${name}")) {
+            if let Some(now) = catalog::renamed(&format!("${name}")) {
                 let name = self.text(body.module, span).to_string();
                 return self.report(body, span, NameProblem::Renamed { name, now: now.into() });
             }
-            let candidates = arl_lang::catalog::system_variables().map(|variable| variable.name);
+            let candidates = catalog::system_variables().map(|variable| variable.name);
             let near = crate::near::nearest(name, candidates).map(Into::into);
+            let elements = elements_called(name);
             let name = self.text(body.module, span).trim_start_matches('$').to_string();
-            return self.report(body, span, NameProblem::UnknownSystem { name, near });
+            return self.report(body, span, NameProblem::UnknownSystem { name, near, elements });
         };
         self.strict_case(body, Span::new(span.start + 1, span.end), variable.name);
         self.mention(body, span, Meaning::System(variable));
         let ty = Type::array(variable.ty, variable.dims)?;
         Some(PlaceOrValue::Place(Place { root: Root::System(variable), path: Vec::new(), ty, span }))
+    }
+
+    /// `$tool3`: the element `$TOOLS[3]` by its default name.
+    fn system_element(
+        &mut self,
+        body: &Body,
+        variable: &'static SystemVariable,
+        number: u32,
+        span: Span,
+    ) -> Option<PlaceOrValue> {
+        if let Some(name) = variable.element_names().nth(number as usize) {
+            self.strict_case(body, Span::new(span.start + 1, span.end), &name);
+        }
+        self.mention(body, span, Meaning::System(variable));
+        let array = Type::array(variable.ty, variable.dims)?;
+        let index = Expr { ty: INT, kind: ExprKind::Const(Value::Int(i32::try_from(number).ok()?)), span };
+        let path = vec![Projection::Index(vec![index], array)];
+        Some(PlaceOrValue::Place(Place { root: Root::System(variable), path, ty: array.element(), span }))
     }
 
     fn field(&mut self, body: &mut Body, inner: &ast::Expr, name: ast::Ident, span: Span) -> Option<PlaceOrValue> {
@@ -236,4 +258,13 @@ impl Checker<'_> {
         let slot = self.globals.get(global.0 as usize)?;
         slot.decl.constant.map(|_| (slot.module, slot.var.name.span))
     }
+}
+
+/// The elements that begin like `name`, where a variable has such: those that there are.
+fn elements_called(name: &str) -> Option<String> {
+    let stem = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
+    let variable = catalog::system_variables().find(|variable| variable.elements == Some(stem))?;
+    let mut names = variable.element_names();
+    let (first, last) = (names.next()?, names.last()?);
+    Some(format!("`${first}` to `${last}`, the elements of `${}`", variable.name))
 }

@@ -26,6 +26,22 @@ problems! {
             /// All cases of a `switch` in a loop end with `break`.
             BreakOfCase,
         }
+        warning 919 "A local variable that hides another by case alone" => {
+            /// `n` inside, `N` outside. `hidden`: as it is declared outside; `what`: what that is.
+            HiddenByCase { name: String, hidden: String, what: &'static str },
+        }
+        warning 920 "Fewer values than elements" => {
+            /// `int a[5] = {1,2,3}`.
+            TooFewValues { given: usize, size: usize, rest: &'static str },
+        }
+        warning 921 "A number that looks like another unit" => {
+            /// `vl:0.15`: `found` is what it looks like, `right` the same in ARL's unit.
+            OtherScale { name: String, value: String, found: &'static str, wanted: &'static str, right: String },
+        }
+        warning 922 "A loop that only looks at an input" => {
+            /// `while(!getdi(1))` and its like. `condition`: what it waits for.
+            Polls { condition: String },
+        }
         warning 917 "A handler that may wait for ever" => {
             /// A `waituntil` without a time limit in a function that handles an event.
             EndlessHandler { handler: String },
@@ -45,6 +61,20 @@ impl Problem for Doubt {
                 format!("this zone never acts: the robot stops at the target, since `{culprit}` waits for it")
             }
             Doubt::BreakOfCase => "this leaves the loop around the `switch`, and not only the case".into(),
+            Doubt::HiddenByCase { name, hidden, what } => {
+                format!("`{name}` hides the {what} `{hidden}`: names that differ in case alone are the same name")
+            }
+            Doubt::TooFewValues { given, size, rest } => {
+                let last =
+                    if size - given == 1 { "the last one is".into() } else { format!("the last {} are", size - given) };
+                format!("{given} values for {size} elements: {last} {rest}")
+            }
+            Doubt::OtherScale { name, value, found, wanted, .. } => {
+                format!("`{name}` is {value}, which looks like {found}: ARL takes {wanted}")
+            }
+            Doubt::Polls { .. } => {
+                "this loop does nothing but ask, as fast as it can, until the condition comes".into()
+            }
             Doubt::EndlessHandler { handler } => {
                 format!("`{handler}` handles an event, and this may hold up the program for ever")
             }
@@ -67,6 +97,19 @@ impl Problem for Doubt {
                 "leave it out, or act on the way with an event: `lin p1,sl:10;T(0.2),setdo(2,true)`".into()
             }
             Doubt::BreakOfCase => "a case ends by itself where the next one begins: remove the `break`".into(),
+            Doubt::HiddenByCase { hidden, .. } => {
+                format!("here `{hidden}` means the inner one, too: give one of them another name")
+            }
+            Doubt::TooFewValues { given, .. } => {
+                format!("give all values, or declare the array with {given} elements")
+            }
+            Doubt::OtherScale { right, .. } => right.clone(),
+            Doubt::Polls { condition } => {
+                format!(
+                    "`waituntil {condition}` waits for it, and may have a `maxtime`; a run that waits in \
+                     vain then says so"
+                )
+            }
             Doubt::EndlessHandler { .. } => "give it a `maxtime`, and look at its `timeoutflag`".into(),
         })
     }

@@ -2,6 +2,7 @@
 
 use super::Problem;
 use super::declare::problems;
+use arl_lang::text::Mixed;
 
 problems! {
     /// What is wrong with a file.
@@ -17,6 +18,12 @@ problems! {
         error 603 "A file of unknown encoding" => {
             /// A file that is neither UTF-8 nor GB18030.
             Encoding { path: String, offset: usize, utf16: bool },
+            /// The same, since some lines are in one and others in the other encoding.
+            UnreadableMixture { path: String, mixed: Mixed },
+        }
+        warning 923 "A file in two encodings" => {
+            /// Lines in UTF-8 in a file that is read as GB18030.
+            Mixture { mixed: Mixed },
         }
         error 604 "A file name that cannot name a module" => {
             /// A file name that cannot be used in front of `::`.
@@ -42,6 +49,14 @@ impl Problem for ModuleProblem {
             ModuleProblem::Encoding { path, offset, .. } => {
                 format!("the file \"{path}\" is neither UTF-8 nor GB18030 (byte {offset})")
             }
+            ModuleProblem::UnreadableMixture { path, mixed } => {
+                let Mixed { utf8, other } = mixed;
+                format!("the file \"{path}\" is in two encodings: line {utf8} is UTF-8, line {other} is GBK (GB18030)")
+            }
+            ModuleProblem::Mixture { mixed } => {
+                let Mixed { utf8, other } = mixed;
+                format!("line {utf8} is UTF-8, but line {other} is GBK (GB18030): this text is read wrongly")
+            }
             ModuleProblem::ModuleName { path } => format!("the file name of \"{path}\" cannot name a module"),
             ModuleProblem::SameName { name, .. } => format!("two imported files have the module name `{name}`"),
             ModuleProblem::FunctionInData => "a data file holds variables only, no functions".into(),
@@ -54,6 +69,11 @@ impl Problem for ModuleProblem {
 
     fn help(&self) -> Option<String> {
         match self {
+            ModuleProblem::Mixture { .. } | ModuleProblem::UnreadableMixture { .. } => Some(
+                "a file has one encoding: write these lines again in an editor that is set to one, \
+                 best to UTF-8, and save"
+                    .into(),
+            ),
             ModuleProblem::Missing { .. } => Some(
                 "a path is relative to the file that imports, or absolute; /home/ae/script/ is the script folder"
                     .into(),

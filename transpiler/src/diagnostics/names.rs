@@ -3,6 +3,7 @@
 use super::Problem;
 use super::declare::problems;
 use arl_lang::elsewhere;
+use arl_lang::other_motions::OtherMotion;
 
 problems! {
     /// What is wrong with a name.
@@ -16,7 +17,13 @@ problems! {
         }
         error 202 "A function that is not known" => {
             /// No function of this name.
-            UnknownFunction { name: String, near: Option<String>, is_instruction: bool },
+            UnknownFunction {
+                name: String,
+                near: Option<String>,
+                is_instruction: bool,
+                /// The motion that the call is in another language.
+                motion: Option<OtherMotion>,
+            },
         }
         error 203 "A module or enumeration that is not known" => {
             /// Neither a module nor an enumeration.
@@ -44,7 +51,8 @@ problems! {
         }
         error 209 "A system variable that is not known" => {
             /// No system variable of this name.
-            UnknownSystem { name: String, near: Option<String> },
+            /// `elements`: those of an array that have such names.
+            UnknownSystem { name: String, near: Option<String>, elements: Option<String> },
         }
         error 210 "A constant that the enumeration does not have" => {
             /// An enumeration has no such constant.
@@ -130,6 +138,10 @@ impl Problem for NameProblem {
                 let of_others = |ours| format!("`{name}` of other languages is called `{ours}` here");
                 elsewhere::type_of(name).map(of_others).or_else(|| elsewhere::word(name).map(has))
             }),
+            NameProblem::UnknownFunction { motion: Some(motion), .. } => {
+                let OtherMotion { language, ours } = motion;
+                Some(format!("this is {language}; write `{ours}`: {}", arl_lang::OTHER_MOTIONS.trim_end_matches('.')))
+            }
             NameProblem::UnknownFunction { near, name, .. } => {
                 // What an imported module has was surely meant.
                 let member = meant(near).filter(|_| near.as_ref().is_some_and(|near| near.contains("::")));
@@ -137,7 +149,8 @@ impl Problem for NameProblem {
                 member.or(operator).or_else(|| elsewhere::word(name).map(has)).or_else(|| meant(near))
             }
             NameProblem::UnknownLabel { near, .. } | NameProblem::NotInModule { near, .. } => meant(near),
-            NameProblem::UnknownSystem { name, near } => {
+            NameProblem::UnknownSystem { elements: Some(elements), .. } => Some(format!("there are {elements}")),
+            NameProblem::UnknownSystem { name, near, .. } => {
                 let near = near.as_ref().map(|near| format!("did you mean `${near}`?"));
                 elsewhere::system(name).map(has).or(near)
             }
@@ -192,7 +205,11 @@ impl Problem for NameProblem {
             | NameProblem::UnknownInstruction { near, .. }
             | NameProblem::UnknownLabel { near, .. }
             | NameProblem::NotInModule { near, .. } => near.clone(),
-            NameProblem::UnknownSystem { name, .. } if elsewhere::system(name).is_some() => None,
+            NameProblem::UnknownSystem { name, elements, .. }
+                if elements.is_some() || elsewhere::system(name).is_some() =>
+            {
+                None
+            }
             NameProblem::UnknownSystem { near, .. } => near.as_ref().map(|near| format!("${near}")),
             NameProblem::Renamed { now, .. } => Some(now.clone()),
             _ => None,

@@ -10,6 +10,8 @@ use arl_robot::robot::{Axis, Robot};
 pub(crate) struct TargetProblem {
     robot: String,
     kind: Kind,
+    /// Labels that the motion does not give, though the robot is not at `$FLANGE` or in `$WORLD`.
+    inherited: Vec<&'static str>,
 }
 
 problems! {
@@ -70,7 +72,14 @@ impl TargetProblem {
     }
 
     fn new(robot: &Robot, kind: Kind) -> Self {
-        Self { robot: robot.name.clone(), kind }
+        Self { robot: robot.name.clone(), kind, inherited: Vec::new() }
+    }
+
+    /// The same where the workpiece frame or the tool in force is from an earlier motion.
+    pub(crate) fn with_inherited(mut self, frame: bool, tool: bool) -> Self {
+        self.inherited.extend(frame.then_some("workpiece frame"));
+        self.inherited.extend(tool.then_some("tool"));
+        self
     }
 }
 
@@ -121,7 +130,7 @@ impl Problem for TargetProblem {
     }
 
     fn help(&self) -> Option<String> {
-        Some(match &self.kind {
+        let words = match &self.kind {
             Kind::Joint { axis, .. } => format!("its range is {}; {ALARM}", range(axis)),
             Kind::Pose { axis, others, .. } => format!("its range is {}; {}{ALARM}", range(axis), reaching(others)),
             Kind::OutOfReach { .. } => {
@@ -139,6 +148,18 @@ impl Problem for TargetProblem {
             Kind::Singular { .. } => format!(
                 "an axis would have to turn at once, and {ALARM}; let the line keep away from it, or go there with ptp or movej"
             ),
+        };
+        let by_name = |what: &&str| if *what == "tool" { "`t:`" } else { "`w:`" };
+        let labels: Vec<&str> = self.inherited.iter().map(by_name).collect();
+        Some(match labels.as_slice() {
+            [] => words,
+            labels => {
+                let (held, labels) = (self.inherited.join(" and "), labels.join(" and "));
+                format!(
+                    "{words}; this motion gives no {labels}: the {held} of an earlier one still holds. \
+                     Give {labels} here"
+                )
+            }
         })
     }
 }

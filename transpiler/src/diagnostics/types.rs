@@ -122,6 +122,10 @@ problems! {
             /// A result type that is an array or handle.
             ResultType { ty: String },
         }
+        error 329 "A structure in a structure without its braces" => {
+            /// Numbers where a component that is a structure has braces of its own. `right`: the whole with them.
+            FlatStructure { ty: String, component: String, inner: String, right: String },
+        }
     }
 }
 
@@ -177,6 +181,9 @@ impl Problem for TypeProblem {
             TypeProblem::Dimensions { found, wanted } => format!("this must be {wanted}, but it is {found}"),
             TypeProblem::TooManyRows { rows } => format!("too many rows: the array has {rows}"),
             TypeProblem::NotARow { .. } => "the first values are rows in braces, but this one is not".into(),
+            TypeProblem::FlatStructure { ty, component, inner, .. } => {
+                format!("the `{component}` of a `{ty}` is a {inner} and has braces of its own")
+            }
             TypeProblem::ResultType { ty } => format!("a function cannot return a value of type {ty}"),
         }
     }
@@ -219,9 +226,17 @@ impl Problem for TypeProblem {
             TypeProblem::Dimensions { wanted, .. } if !wanted.ends_with(']') => {
                 Some("take one element of the array with an index".into())
             }
+            TypeProblem::FlatStructure { right, .. } => Some(format!("write `{right}`")),
             TypeProblem::NotARow { .. } => Some("give all rows their braces, or none".into()),
             TypeProblem::VoidVariable => Some("void is for functions that return nothing".into()),
             TypeProblem::OtherFamily { .. } => Some("name the robot that the program is for with `--robot`".into()),
+            _ => None,
+        }
+    }
+
+    fn fix(&self) -> Option<String> {
+        match self {
+            TypeProblem::FlatStructure { right, .. } => Some(right.clone()),
             _ => None,
         }
     }

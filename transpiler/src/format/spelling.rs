@@ -167,7 +167,9 @@ fn type_name(written: &str) -> Option<&'static str> {
 static SYSTEM: LazyLock<HashMap<String, String>> = LazyLock::new(|| {
     let types = catalog::type_names().filter(|(_, base)| base.is_system()).map(|(name, _)| name);
     let variables = catalog::system_variables().flat_map(|found| names(found.name, found.aliases));
-    types.chain(variables).map(|name| (name.to_ascii_lowercase(), format!("${name}"))).collect()
+    let elements = catalog::system_variables().flat_map(catalog::SystemVariable::element_names);
+    let names = types.chain(variables).map(String::from).chain(elements);
+    names.map(|name| (name.to_ascii_lowercase(), format!("${name}"))).collect()
 });
 
 fn system(written: &str) -> Option<&'static str> {

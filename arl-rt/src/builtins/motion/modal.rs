@@ -5,7 +5,8 @@ use crate::context::cx::Cx;
 use crate::context::system::{self, System};
 use crate::fault::Fault;
 use crate::motion;
-use crate::values::{Slip, SmallArray, Speed, Tool, Wobj, is_set};
+use crate::unit::{Inherited, Mounts};
+use crate::values::{Frame, Slip, SmallArray, Speed, Tool, Wobj, is_set};
 
 /// Which components of a speed a motion uses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -58,6 +59,8 @@ pub(super) struct Resolved {
     pub(super) setting: Setting,
     pub(super) duration: Option<f64>,
     pub(super) zone: motion::Zone,
+    /// What holds of tool and workpiece though the instruction does not say it.
+    pub(super) mounts: Mounts,
 }
 
 impl Modal {
@@ -75,10 +78,14 @@ impl Modal {
         if let Some(blend) = self.blend {
             system.dfslip.set(slip(self.kind, blend, system.dfslip.get()));
         }
+        let known = &cx.channel_state().mounts;
+        let given = |frame: &Frame| Some(Inherited { frame: frame.components(), from: Some(cx.place()) });
         if let Some(tool) = self.tool {
+            known.set(Mounts { tool: given(&tool.t_frame), ..known.get() });
             system.dftool.set(tool);
         }
         if let Some(wobj) = &self.wobj {
+            known.set(Mounts { wobj: given(&wobj.w_frame), ..known.get() });
             system.dfwobj.set(wobj.clone());
         }
         Ok(Resolved {
@@ -87,7 +94,19 @@ impl Modal {
             setting: setting(system)?,
             duration: self.duration,
             zone: zone(&system.dfslip.get())?,
+            mounts: self.inherited(system, known.get()),
         })
+    }
+
+    /// What holds of tool and workpiece though the instruction does not give it; `known`: where it may be from.
+    fn inherited(&self, system: &System, known: Mounts) -> Mounts {
+        let held = |frame: [f64; 6], known: Option<Inherited>| {
+            let known = known.filter(|known| known.frame == frame).and_then(|known| known.from);
+            (frame != [0.0; 6]).then_some(Inherited { frame, from: known })
+        };
+        let tool = || held(system.dftool.get().t_frame.components(), known.tool);
+        let wobj = || held(system.dfwobj.get().w_frame.components(), known.wobj);
+        Mounts { tool: self.tool.is_none().then(tool).flatten(), wobj: self.wobj.is_none().then(wobj).flatten() }
     }
 
     /// A label that is given one number must be given one that is set.

@@ -5,7 +5,7 @@ use crate::context::cx::Cx;
 use crate::context::standstill::WaitsFor;
 use crate::fault::Fault;
 use crate::motion::{Command, Joints, Settings, Target, UNSET, Zone, is_unset};
-use crate::unit::{Unit, joint};
+use crate::unit::{Mounts, Unit, joint};
 use crate::values::{Joint, Pose, VelProfile, is_set};
 use arl_robot::kinematics::{CONFIGURATIONS, Wanted};
 use arl_robot::robot::{EXTERNAL_AXES, VelocityProfile};
@@ -152,11 +152,11 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     };
     let circle_steps = if steps { channel_state.unit(MOTION)?.circle_steps(&command, &settings) } else { None };
     if let Some([first, second]) = circle_steps {
-        add(cx, &first, &settings).await?;
+        add(cx, &first, &settings, modal.mounts).await?;
         cx.next_step().await;
-        add(cx, &second, &settings).await?;
+        add(cx, &second, &settings, modal.mounts).await?;
     } else {
-        add(cx, &command, &settings).await?;
+        add(cx, &command, &settings, modal.mounts).await?;
     }
     if steps && kind == 0 {
         cx.motion_end().await;
@@ -165,10 +165,10 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
 }
 
 /// Adds a motion to those that are planned.
-async fn add(cx: &Cx, command: &Command, settings: &Settings) -> Result<(), Fault> {
+async fn add(cx: &Cx, command: &Command, settings: &Settings, mounts: Mounts) -> Result<(), Fault> {
     let channel_state = cx.channel_state();
     let (file, line) = cx.place();
-    let planned = channel_state.unit_mut(MOTION)?.plan(command, settings, file);
+    let planned = channel_state.unit_mut(MOTION)?.plan(command, settings, mounts, file);
     if let Err(alarm) = planned {
         if (alarm.file, alarm.line) == (file, line) {
             return Err(alarm.fault);

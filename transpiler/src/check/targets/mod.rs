@@ -10,7 +10,7 @@ mod judge;
 mod state;
 mod walk;
 
-use crate::diagnostics::{Diagnostic, Location, Problem};
+use crate::diagnostics::{Diagnostic, Label, Location, Problem};
 use crate::hir::{ModuleId, Program};
 use arl_lang::span::Span;
 use arl_robot::Robot;
@@ -39,8 +39,11 @@ pub(crate) fn check(
     facts.teaches |= !around.alone;
     facts.plain_frames &= around.in_origin;
     let mut found = Vec::new();
-    walk::each_function(program, robot, &facts, &mut |module, span, problem| {
-        found.push(problem.at(locate(module, span)));
+    walk::each_function(program, robot, &facts, &mut |module, span, problem, also| {
+        let mut diagnostic = problem.at(locate(module, span));
+        let labels = also.into_iter().map(|(module, span, text)| Label { at: locate(module, span), text: text.into() });
+        diagnostic.labels.extend(labels);
+        found.push(diagnostic);
     });
     found
 }

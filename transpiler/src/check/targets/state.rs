@@ -1,5 +1,6 @@
 //! What is known of tool, workpiece and robot at a place of a program, and what statements may change of it.
 
+use arl_lang::span::Span;
 use arl_robot::frames::Mount;
 use arl_robot::kinematics::{Axes, Frame};
 
@@ -20,6 +21,10 @@ pub(super) struct State {
     pub(super) tool: Option<Mount>,
     /// `$DFWOBJ`
     pub(super) wobj: Option<Mount>,
+    /// The argument of an earlier motion, or the assignment, that `$DFTOOL` is from.
+    pub(super) tool_from: Option<Span>,
+    /// The same of `$DFWOBJ`.
+    pub(super) wobj_from: Option<Span>,
     /// The robot's configuration.
     pub(super) cfg: Option<u8>,
     /// Where its axes stand, up to whole turns.
@@ -29,7 +34,8 @@ pub(super) struct State {
 }
 
 impl State {
-    pub(super) const UNKNOWN: State = State { tool: None, wobj: None, cfg: None, axes: None, dead: false };
+    pub(super) const UNKNOWN: State =
+        State { tool: None, wobj: None, tool_from: None, wobj_from: None, cfg: None, axes: None, dead: false };
 
     /// What holds where control comes from here or from there.
     pub(super) fn or(self, other: State) -> State {
@@ -42,6 +48,8 @@ impl State {
         State {
             tool: self.tool.filter(|tool| other.tool == Some(*tool)),
             wobj: self.wobj.filter(|wobj| other.wobj == Some(*wobj)),
+            tool_from: self.tool_from.filter(|from| other.tool_from == Some(*from)),
+            wobj_from: self.wobj_from.filter(|from| other.wobj_from == Some(*from)),
             cfg: self.cfg.filter(|cfg| other.cfg == Some(*cfg)),
             axes: self.axes.filter(|axes| other.axes == Some(*axes)),
             dead: false,

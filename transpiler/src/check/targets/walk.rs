@@ -11,7 +11,7 @@ use crate::visit;
 use arl_lang::catalog::{Effect, Motion, Role};
 use arl_lang::span::Span;
 use arl_robot::Robot;
-use arl_robot::frames::Setting;
+use arl_robot::frames::{Mount, Setting};
 use arl_robot::kinematics::Frame;
 
 /// How a motion gets to its target.
@@ -24,7 +24,10 @@ enum Way {
 }
 
 /// Tells what is wrong with a target in a module.
-type Tell<'a> = dyn FnMut(ModuleId, Span, TargetProblem) + 'a;
+type Tell<'a> = dyn FnMut(ModuleId, Span, TargetProblem, Vec<Also>) + 'a;
+
+/// Another place that has to do with it.
+pub(super) type Also = (ModuleId, Span, &'static str);
 
 /// Looks at the motions of all functions.
 pub(super) fn each_function(program: &Program, robot: &Robot, facts: &Facts, tell: &mut Tell<'_>) {
@@ -57,7 +60,28 @@ struct Walk<'a, 't> {
 
 impl<'a> Walk<'a, '_> {
     fn report(&mut self, span: Span, problem: TargetProblem) {
-        (self.tell)(self.scope.func.module, span, problem);
+        (self.tell)(self.scope.func.module, span, problem, Vec::new());
+    }
+
+    /// Reports a target with the place where it is given, and what of tool and workpiece earlier motions left.
+    fn report_target(&mut self, motion: &Builtin, target: &Expr, problem: TargetProblem) {
+        let module = self.scope.func.module;
+        let mut also = Vec::new();
+        if let ExprKind::Place(place) = &target.kind
+            && let Root::Global(id) = place.root
+            && let Some(global) = self.scope.program.globals.get(id.0 as usize)
+        {
+            also.push((global.module, global.span, "the target is given here"));
+        }
+        let held = |label: &str, from: Option<Span>, mount: Option<Mount>, start: Mount| {
+            from.filter(|_| argument(motion, label).is_none() && mount.is_some_and(|mount| mount != start))
+        };
+        let frame = held("w", self.state.wobj_from, self.state.wobj, world());
+        let tool = held("t", self.state.tool_from, self.state.tool, flange());
+        also.extend(frame.map(|from| (module, from, "the workpiece frame in force is from here")));
+        also.extend(tool.map(|from| (module, from, "the tool in force is from here")));
+        let problem = problem.with_inherited(frame.is_some(), tool.is_some());
+        (self.tell)(module, target.span, problem, also);
     }
 
     fn block(&mut self, block: &'a Block) {
@@ -175,8 +199,14 @@ impl<'a> Walk<'a, '_> {
         let Root::System(variable) = place.root else { return };
         let mount = |state: &State| self.scope.mount(value, state);
         match variable.role {
-            Some(Role::DefaultTool) => self.state.tool = mount(&self.state),
-            Some(Role::DefaultWorkpiece) => self.state.wobj = mount(&self.state),
+            Some(Role::DefaultTool) => {
+                self.state.tool = mount(&self.state);
+                self.state.tool_from = Some(place.span);
+            }
+            Some(Role::DefaultWorkpiece) => {
+                self.state.wobj = mount(&self.state);
+                self.state.wobj_from = Some(place.span);
+            }
             _ => {}
         }
     }
@@ -186,9 +216,11 @@ impl<'a> Walk<'a, '_> {
         let Some(kind) = motion.entry.motion else { return };
         if let Some(tool) = argument(motion, "t") {
             self.state.tool = self.scope.mount(tool, &self.state);
+            self.state.tool_from = Some(tool.span);
         }
         if let Some(wobj) = argument(motion, "w") {
             self.state.wobj = self.scope.mount(wobj, &self.state);
+            self.state.wobj_from = Some(wobj.span);
         }
         self.state.may(&self.facts.anytime);
         let before = (self.state.cfg, self.state.axes);
@@ -210,7 +242,7 @@ impl<'a> Walk<'a, '_> {
         let Some(target) = argument(motion, "j") else { return };
         let Some(joints) = self.scope.joints(target) else { return };
         if let Some(problem) = judge::joints(self.robot, &joints) {
-            self.report(target.span, problem);
+            self.report_target(motion, target, problem);
         }
         let mut axes = [0.0; 6];
         for (place, axis) in axes.iter_mut().zip(self.robot.own_axes()) {
@@ -242,7 +274,7 @@ impl<'a> Walk<'a, '_> {
             },
         };
         match judge::pose(self.robot, &flange, cfg) {
-            Verdict::Refused(problem) => self.report(target.span, problem),
+            Verdict::Refused(problem) => self.report_target(motion, target, problem),
             Verdict::Open => {}
             Verdict::Reached(axes) => {
                 let Some(cfg) = cfg else { return };
@@ -254,7 +286,7 @@ impl<'a> Walk<'a, '_> {
                         cfg,
                     };
                     if let Some(problem) = judge::line(self.robot, &line) {
-                        self.report(target.span, problem);
+                        self.report_target(motion, target, problem);
                     }
                 }
                 if (way == Way::Axes || self.is_plain_line()) && argument(motion, "sig").is_none() {

@@ -4,7 +4,7 @@
 
 use super::literal::{Literal, Part};
 use arl_lang::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
-use arl_lang::catalog::{Base, Family, base_type, enum_constant};
+use arl_lang::catalog::{Base, Family, base_type, enum_constant, system_element};
 use arl_lang::symbol::Interner;
 use arl_lang::written;
 
@@ -311,7 +311,12 @@ impl Evaluator<'_> {
         match &expr.kind {
             ExprKind::Name(symbol) => Ok(Place { root: named(self.names.name(*symbol)), path: Vec::new() }),
             ExprKind::System(symbol) => {
-                Ok(Place { root: Root::System(self.names.name(*symbol).to_owned()), path: Vec::new() })
+                let name = self.names.name(*symbol);
+                let whole = || Place { root: Root::System(name.to_owned()), path: Vec::new() };
+                Ok(system_element(name).map_or_else(whole, |(variable, number)| Place {
+                    root: Root::System(variable.name.to_owned()),
+                    path: vec![Part::At(number as usize)],
+                }))
             }
             ExprKind::Path { scope, name, .. } => {
                 let (scope, name) = (self.names.name(scope.symbol).to_owned(), self.names.name(name.symbol).to_owned());

@@ -20,7 +20,9 @@ fn judge(case: &Case, outcome: &Outcome) -> Verdict {
         problems.push("nothing is expected of it yet".to_string());
     }
     if outcome.late {
-        problems.push("it ran too long and was ended".to_string());
+        let said = outcome.said.trim();
+        let separator = if said.is_empty() { "" } else { ": " };
+        problems.push(format!("it ran too long and was ended{separator}{said}"));
     }
     if let Some(expected) = &case.out
         && *expected != outcome.out
@@ -98,6 +100,9 @@ mod tests {
         assert!(judge(&case(), &other).unwrap_err().ends_with("-1\n+2\n"));
         let late = Outcome { code: None, late: true, ..outcome(0) };
         assert_eq!(judge(&case(), &late), Err("it ran too long and was ended".into()));
+        let told = Outcome { said: "the program has been at a.arl:2\n".into(), ..late };
+        let wanted = "it ran too long and was ended: the program has been at a.arl:2";
+        assert_eq!(judge(&case(), &told), Err(wanted.into()));
     }
 
     #[test]

@@ -126,6 +126,17 @@ pub(super) fn system_variables(fits: &Fits, items: &mut Items) {
         let name = format!("${}", variable.name);
         let doc = reference::system_variable(variable);
         items.documented(&name, CompletionItemKind::Variable, rank, variable.ty.name().into(), &doc);
+        let rank = if fits.takes(ty.element()) { Rank::Global } else { Rank::Part };
+        for (at, element) in variable.element_names().enumerate() {
+            let doc = format!("`{name}[{at}]` by its default name.");
+            items.documented(
+                &format!("${element}"),
+                CompletionItemKind::Variable,
+                rank,
+                ty.element().base.name().into(),
+                &doc,
+            );
+        }
     }
 }
 
