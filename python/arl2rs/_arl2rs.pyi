@@ -7,6 +7,8 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from .choices import Family
+
 class Mistakes(Exception): ...
 class Refused(Exception): ...
 class Failed(Exception): ...
@@ -42,7 +44,7 @@ Frames = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...], bool, bo
 class Robot:
     def __new__(cls, name_or_path: str) -> Robot: ...
     name: str
-    family: str
+    family: Family
     axes_facts: list[tuple[str, bool, float, float, float, float, float]]
     own_count: int
     home: list[float]

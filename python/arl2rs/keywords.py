@@ -8,6 +8,7 @@ import inspect
 from collections.abc import Callable, Iterable, Sequence
 from typing import ParamSpec, TypedDict, TypeVar, get_type_hints
 
+from .choices import Engine, Mode
 from .problems import StrPath
 from .values import Parameters
 
@@ -34,7 +35,7 @@ class _AnyRun(TypedDict, total=False):
     points: Parameters | None
     set: Parameters | None
     override: float | None
-    mode: str | None
+    mode: Mode | None
     seed: int | None
     max_time: float | None
 
@@ -64,7 +65,7 @@ class EpisodeArguments(TypedDict, total=False):
     points: Parameters | None
     set: Parameters | None
     override: float | None
-    mode: str | None
+    mode: Mode | None
     seed: int | None
     start_time: str | None
     state_dir: StrPath | None
@@ -79,7 +80,7 @@ class SweepArguments(TypedDict, total=False):
     timeout: float | None
     collisions: bool
     clearance: float | None
-    engine: str
+    engine: Engine
     processes: int
     cache: bool
     progress: bool | None

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .choices import PointType
 from .keywords import named
 from .problems import RefusedError
 
@@ -24,7 +25,7 @@ def points(
     name: str,
     array: ArrayLike,
     *,
-    type: str = "pose",
+    type: PointType = "pose",
     components: Sequence[str] | None = None,
     separate: bool = False,
 ) -> str:

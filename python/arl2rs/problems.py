@@ -11,6 +11,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 from . import _arl2rs
+from .choices import Severity
 
 if TYPE_CHECKING:
     from .result import Alarm
@@ -27,7 +28,7 @@ class Diagnostic:
 
     code: str
     """Its code, which `arl2rs explain` knows: `ARL0203`."""
-    severity: str
+    severity: Severity
     """`error` or `warning`."""
     message: str
     file: str

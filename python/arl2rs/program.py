@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
 from . import _arl2rs
+from .choices import Mode
 from .keywords import CompileArguments, RecordArguments, RunArguments, SweepArguments, named
 from .notice import notice
 from .problems import ArlError, CompileError, Diagnostic, RefusedError, StrPath, there, told
@@ -236,7 +237,7 @@ class Program:
         points: Parameters | None = None,
         set: Parameters | None = None,
         override: float | None = None,
-        mode: str | None = None,
+        mode: Mode | None = None,
         seed: int | None = None,
         max_time: float | None = MAX_TIME,
         start_time: str | None = None,
@@ -275,7 +276,7 @@ class Program:
         points: Parameters | None = None,
         set: Parameters | None = None,
         override: float | None = None,
-        mode: str | None = None,
+        mode: Mode | None = None,
         seed: int | None = None,
         max_time: float | None = None,
         start_time: str | None = None,

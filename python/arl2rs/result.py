@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .choices import Outcome
 from .problems import AlarmError, RefusedError, UnfinishedError
 from .trace import Trace
 
@@ -53,8 +54,8 @@ class Message:
 class Result:
     """What came of a run."""
 
-    outcome: str
-    """`ended`, `alarm`, `time_over`, `stuck` (nothing could change any more), `stopped`; in a sweep also `refused`, `crashed`, `hung`."""
+    outcome: Outcome
+    """`ended`, `alarm`, `time_over`, `stuck` (nothing could change any more), `stopped`; `runs` while it is not over."""
     code: int | None
     """The exit code of `arl2rs run`: 0 ended, 3 alarm, 4 out of time, 130 stopped."""
     cycle_time: float | None

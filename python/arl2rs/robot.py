@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arl2rs
+from .choices import Family
 from .keywords import named
 from .problems import RefusedError, StrPath, told
 
@@ -57,7 +58,7 @@ class Robot:
         with told:
             self._robot = _arl2rs.Robot(os.fspath(name))
         self.name = self._robot.name
-        self.family = self._robot.family
+        self.family: Family = self._robot.family
         """`six-axis` or `scara`."""
         all_axes = tuple(Axis(*facts) for facts in self._robot.axes_facts)
         self._own = self._robot.own_count

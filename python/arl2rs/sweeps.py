@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any, Protocol, Self, overload
 import tqdm as _tqdm
 
 from . import _arl2rs
+from .choices import Engine
+from .choices import Figure as Choice
 from .keywords import named
 from .notice import notice, say
 from .problems import ArlError, RefusedError, StrPath, there, told
@@ -85,7 +87,7 @@ class Results(Sequence[dict[str, Any]]):
         told = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
         return f"Results({len(self)} runs: {told})" if told else "Results(no runs)"
 
-    def best(self, figure: str = "cycle_time") -> dict[str, Any]:
+    def best(self, figure: Choice = "cycle_time") -> dict[str, Any]:
         """The run that ended with the smallest value of a figure."""
         ended = [row for row in self if row["outcome"] == "ended"]
         if not ended:
@@ -110,7 +112,7 @@ class Results(Sequence[dict[str, Any]]):
 
         return polars.DataFrame(self.flat(), infer_schema_length=None)
 
-    def plot(self, parameter: str, figure: str = "cycle_time") -> Figure:
+    def plot(self, parameter: str, figure: Choice = "cycle_time") -> Figure:
         """A picture of a figure over a parameter; runs that did not end are crosses at the bottom. matplotlib has to be installed."""
         from .plots import plot_sweep
 
@@ -194,7 +196,7 @@ def sweep(
     timeout: float | None = None,
     collisions: bool = False,
     clearance: float | None = None,
-    engine: str = "local",
+    engine: Engine = "local",
     processes: int = 0,
     cache: bool = True,
     progress: bool | None = None,

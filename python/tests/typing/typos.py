@@ -19,6 +19,11 @@ session.stepp(10)  # typo
 session.step(cycle=10)  # typo
 session.set(di_1="on")  # typo
 print(session.result().cycletime)  # typo
+arl2rs.sweep("pick.arl", [{}], engine="rey")  # typo
+program.run(mode="automatic")  # typo
+print(session.result().outcome == "endet")  # typo
+print(program.sweep([]).best("cycletime"))  # typo
+arl2rs.points("weld", [[0] * 6], type="poses")  # typo
 robot = arl2rs.Robot("kr10-r1420")
 robot.inverse([0] * 6, neer=None)  # typo
 robot.forwards([0] * 6)  # typo
