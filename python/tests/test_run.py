@@ -74,6 +74,10 @@ def test_a_scenario_that_is_not_there_is_told_when_compiling(short, tmp_path):
     ):
         with pytest.raises(arl2rs.RefusedError, match=r"there is no file no\.toml: expected a scenario"):
             act("no.toml")
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text("[[event]]\nat = \n")
+    with pytest.raises(arl2rs.RefusedError, match=r"wrong\.toml:2: "):
+        arl2rs.compile(short, scenario=wrong)
     # An arl.toml names it.
     (tmp_path / "a.arl").write_text("func void main()\nendfunc\n")
     (tmp_path / "arl.toml").write_text('io = "no.toml"\n')

@@ -15,6 +15,7 @@ use super::variables;
 pub use super::variables::Variable;
 use crate::compile::{guard, on_large_stack};
 use arl_robot::cell::{Cell, Signal, SignalKind};
+use arl_robot::settings::Source;
 use arl_robot::{Robot, regular_file};
 use std::fmt;
 use std::path::{Component, Path, PathBuf};
@@ -89,10 +90,7 @@ pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
     safely(|| {
         let program = &settings.program;
         let options = options(settings).of_program(program)?;
-        if let Some(io) = &options.io {
-            let read = regular_file::read_text(io);
-            read.map_err(|error| Failure::Usage(format!("cannot read the scenario {}: {error}", io.display())))?;
-        }
+        options.io.as_deref().map_or(Ok(()), scenario)?;
         let ready = prepare_checked(Kind::Library, program, options.cell.as_deref(), &options.checking())?;
         let folder = options.script_dir.clone().map_or_else(|| folder_of(program), Ok)?;
         let named = [
@@ -250,6 +248,18 @@ fn found(
 fn options(settings: &Settings) -> RunOptions {
     let Settings { robot, cell, io, script_dir, .. } = settings.clone();
     RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }
+}
+
+/// Looks whether a scenario is there, and is TOML; whether it fits the cell is found out when a run begins.
+fn scenario(path: &Path) -> Result<(), Failure> {
+    let shown = path.display();
+    let text = regular_file::read_text(path)
+        .map_err(|error| Failure::Usage(format!("cannot read the scenario {shown}: {error}")))?;
+    let wrong = |error: toml::de::Error| {
+        let line = Source { file: "", text: &text }.line(error.span().map_or(0, |span| span.start));
+        Failure::Usage(format!("{shown}:{line}: {}", error.message().trim_end()))
+    };
+    toml::from_str::<toml::Table>(&text).map(drop).map_err(wrong)
 }
 
 fn folder_of(program: &Path) -> Result<PathBuf, Failure> {

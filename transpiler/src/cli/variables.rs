@@ -80,14 +80,15 @@ fn push_numbers(base: Base, options: &CheckOptions, place: String, all: &mut Vec
         Base::Int | Base::Uint | Base::Byte | Base::Double | Base::Bool => all.push(place),
         Base::Struct(id) => {
             for component in id.def(options.family).components {
-                push_numbers(component.ty, options, format!("{place}.{}", component.name), all);
+                push_numbers(component.ty, options, format!("{place}.{}", component.name.to_ascii_lowercase()), all);
             }
         }
         Base::Void | Base::String | Base::Enum(_) | Base::Handle(_) => {}
     }
 }
 
-/// The names of all variables that parameters of runs can be for: those of the program, and of what its cell has beside it.
+/// The names of all variables that parameters of runs can be for: those of the program, and of what its cell has beside
+/// it.
 fn settable(main: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Vec<(String, String)>, Failure> {
     let named = |variable: Variable| (stem(&variable.file), variable.name);
     let mut all: Vec<_> = of_program(main, checking)?.into_iter().map(named).collect();
@@ -101,7 +102,8 @@ fn stem(file: &str) -> String {
     Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Refuses a table of which every row has a global variable that there is not: that is a slip in a name, which would cost all runs.
+/// Refuses a table of which every row has a global variable that there is not: a slip in a name, which would cost all
+/// runs.
 ///
 /// # Errors
 /// That is so; the error names what is like the first of them.
@@ -154,7 +156,8 @@ mod tests {
 
     fn pick(name: &str) -> Files {
         let files = Files::new(name);
-        let main = "import \"pick_grip.arl\"\nconst int MANY = 3\npose place[2] = {{x 1}, {x 2}}\nfunc void main()\n    print MANY, place[0].x, feeder.x\nendfunc\n";
+        let main = "import \"pick_grip.arl\"\nconst int MANY = 3\npose place[2] = {{x 1}, {x 2}}\n\
+                    func void main()\n    print MANY, place[0].x, feeder.x\nendfunc\n";
         files.write("pick.arl", main);
         files.write("pick_data.arl", "pose feeder = {x 900, y -500, z 400, a 0, b 180, c 0}\nstring name = \"a\"\n");
         files.write("pick_grip.arl", "bool held\n");
