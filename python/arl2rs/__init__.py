@@ -1,27 +1,33 @@
 """Robot programs in ARL: checked, compiled to native code, run a thousand times, stepped.
 
 >>> import arl2rs
->>> from pathlib import Path
->>> _ = Path("hello.arl").write_text('int parts = 3\\nfunc void main()\\n    print parts, " parts"\\nendfunc\\n')
->>> program = arl2rs.compile("hello.arl")
+>>> program = arl2rs.compile(source='int parts = 3\\nfunc void main()\\n    print parts, " parts"\\nendfunc\\n')
 >>> program.run(globals={"parts": 5}).output
 '5 parts\\n'
 """
 
 from importlib.metadata import version as _version
+from typing import TYPE_CHECKING
 
+from .points import points
 from .problems import AlarmError, ArlError, CompileError, Diagnostic, RefusedError, SessionError, UnfinishedError
 from .program import Program, check, compile, run
 from .result import Alarm, Message, Result
-from .session import Session
+from .robot import Axis, Robot, robots
+from .session import Session, Snapshot
 from .sweeps import Results, grid, load_sweep, sweep
 from .trace import Trace
 from .values import Literal
+from .variables import Signal, Variable
+
+if TYPE_CHECKING:
+    from .environment import Environment as Environment
 
 __all__ = [
     "Alarm",
     "AlarmError",
     "ArlError",
+    "Axis",
     "CompileError",
     "Diagnostic",
     "Literal",
@@ -30,14 +36,20 @@ __all__ = [
     "RefusedError",
     "Result",
     "Results",
+    "Robot",
     "Session",
     "SessionError",
+    "Signal",
+    "Snapshot",
     "Trace",
     "UnfinishedError",
+    "Variable",
     "check",
     "compile",
     "grid",
     "load_sweep",
+    "points",
+    "robots",
     "run",
     "sweep",
 ]

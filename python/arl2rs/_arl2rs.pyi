@@ -7,6 +7,8 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from .choices import Family
+
 class Mistakes(Exception): ...
 class Refused(Exception): ...
 class Failed(Exception): ...
@@ -31,6 +33,35 @@ def sweep(
     take: Callable[[str], None],
     warn: Callable[[str], None],
 ) -> None: ...
+def value(literal: str, ty: str, family: str) -> str: ...
+def variables(given: dict[str, Any]) -> list[str]: ...
+def signals(given: dict[str, Any]) -> list[tuple[str, str | None]]: ...
+def robots() -> list[str]: ...
+
+Frames = tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...], bool, bool]
+
+@final
+class Robot:
+    def __new__(cls, name_or_path: str) -> Robot: ...
+    name: str
+    family: Family
+    axes_facts: list[tuple[str, bool, float, float, float, float, float]]
+    own_count: int
+    home: list[float]
+    configurations: bytes
+    def forward(self, joints: NDArray[np.float64], frames: Frames) -> tuple[bytes, bytes]: ...
+    def inverse(
+        self,
+        poses: NDArray[np.float64],
+        near: NDArray[np.float64],
+        how: tuple[int | None, int, bool],
+        frames: Frames,
+    ) -> tuple[bytes, list[str | None]]: ...
+
+@final
+class Text:
+    def __new__(cls, files: list[tuple[str, str]]) -> Text: ...
+    path: Path
 
 @final
 class Library:

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import difflib
 import json
-from dataclasses import dataclass
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
 
 from . import _arl2rs
+from .choices import Severity
 
 if TYPE_CHECKING:
     from .result import Alarm
 
 __all__ = ["AlarmError", "ArlError", "CompileError", "Diagnostic", "RefusedError", "SessionError", "UnfinishedError"]
+
+
+StrPath = str | os.PathLike[str]
 
 
 @dataclass(frozen=True)
@@ -21,7 +28,7 @@ class Diagnostic:
 
     code: str
     """Its code, which `arl2rs explain` knows: `ARL0203`."""
-    severity: str
+    severity: Severity
     """`error` or `warning`."""
     message: str
     file: str
@@ -38,6 +45,11 @@ class Diagnostic:
     def of_json(cls, text: str) -> Diagnostic:
         """Of the object that `arl2rs check --format json` writes."""
         return cls(**{name: value for name, value in json.loads(text).items() if name in cls.__dataclass_fields__})
+
+    def below(self, folder: Path) -> Diagnostic:
+        """The same, its file counted from this folder where it is below."""
+        path = Path(os.path.abspath(self.file))
+        return replace(self, file=path.relative_to(folder).as_posix()) if path.is_relative_to(folder) else self
 
     @property
     def is_error(self) -> bool:
@@ -72,12 +84,13 @@ class RefusedError(ArlError, ValueError):
 
 
 class AlarmError(ArlError):
-    """A run ended with an alarm."""
+    """A run ended with an alarm: `number`, `text`, `file`, `line` and `channel` are those of the alarm."""
 
     def __init__(self, alarm: Alarm) -> None:
         self.alarm = alarm
         super().__init__(alarm.text)
-        self.number, self.file, self.line = alarm.number, alarm.file, alarm.line
+        self.number, self.text, self.channel = alarm.number, alarm.text, alarm.channel
+        self.file, self.line = alarm.file, alarm.line
 
     def __reduce__(self) -> tuple[type[AlarmError], tuple[Alarm]]:
         return type(self), (self.alarm,)
@@ -111,3 +124,21 @@ class _Told:
 
 told = _Told()
 """Within it the exceptions are those of the package. There is one for all: a step of a session takes microseconds."""
+
+
+def there(path: StrPath, what: str) -> Path:
+    """The path of a file that is there.
+
+    Raises `RefusedError` where there is none, with the name of a file that is probably meant.
+    """
+    path = Path(path)
+    if path.is_file():
+        return path
+    if path.is_dir():
+        raise RefusedError(f"{path} is a folder: expected {what}")
+    files = sorted(path.parent.iterdir()) if path.parent.is_dir() else []
+    # A name that lacks its ending is near to all that have it.
+    beside = [file.name for file in files if not path.suffix or file.suffix == path.suffix]
+    near = difflib.get_close_matches(path.name, beside, 1)
+    meant = f"; did you mean {path.parent / near[0]}?" if near else ""
+    raise RefusedError(f"there is no file {path}: expected {what}{meant}")

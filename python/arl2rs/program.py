@@ -2,28 +2,35 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from . import _arl2rs
-from .problems import ArlError, Diagnostic, RefusedError, told
+from .choices import Mode
+from .keywords import CompileArguments, RecordArguments, RunArguments, SweepArguments, named
+from .notice import notice
+from .problems import ArlError, CompileError, Diagnostic, RefusedError, StrPath, there, told
 from .result import Result
-from .session import Session
+from .session import Beginning, Session
 from .values import Parameters, as_json, gathered
+from .variables import Signal, Variable, Watch, of_told
 
 if TYPE_CHECKING:
-    from .sweeps import Results
+    from .sweeps import Results, Rows
 
 __all__ = ["Program", "check", "compile", "run"]
 
-StrPath = str | os.PathLike[str]
 MAX_TIME = _arl2rs.MAX_TIME
 """A run that takes longer in the robot's time is ended, where nobody says otherwise; s."""
+NAME = "program.arl"
+"""How the main file of a program is called that is given as text."""
 
 
 def given(
@@ -54,8 +61,16 @@ def given(
     }
 
 
+def _text(source: str, beside: Mapping[str, str] | None) -> _arl2rs.Text:
+    with told:
+        return _arl2rs.Text([(NAME, source), *(beside or {}).items()])
+
+
+@named
 def check(
     *files: StrPath,
+    source: str | None = None,
+    beside: Mapping[str, str] | None = None,
     robot: StrPath | None = None,
     cell: StrPath | None = None,
     script_dir: StrPath | None = None,
@@ -64,27 +79,37 @@ def check(
 ) -> list[Diagnostic]:
     """Finds the mistakes in programs without running them, as `arl2rs check` does.
 
-    `robot` is the name of a built-in robot or a robot file, `cell` a cell file, `script_dir` the folder that `/home/ae/script/` means in an
-    import. `strict` also warns where more is accepted than the controller would take; `background`: the programs have no robot.
+    Instead of files it takes the text of a program, `source`, and the texts of the files `beside` it, by their names. `robot` is the name of a
+    built-in robot or a robot file, `cell` a cell file, `script_dir` the folder that `/home/ae/script/` means in an import. `strict` also warns
+    where more is accepted than the controller would take; `background`: the programs have no robot.
 
-    >>> from pathlib import Path
-    >>> wrong = Path("wrong.arl")
-    >>> _ = wrong.write_text("func void main()\\n    movej 5\\nendfunc\\n")
-    >>> [diagnostic] = check(wrong)
-    >>> diagnostic.line, diagnostic.severity
-    (2, 'error')
+    Raises `RefusedError` where a file, the robot or the cell is not there.
+
+    >>> [diagnostic] = check(source="func void main()\\n    movej 5\\nendfunc\\n")
+    >>> diagnostic.file, diagnostic.line, diagnostic.severity
+    ('program.arl', 2, 'error')
     """
-    if not files:
-        raise RefusedError("check() needs a file")
-    settings = given(files[0], robot=robot, cell=cell, script_dir=script_dir)
+    if (source is None) == (not files):
+        raise RefusedError("check() needs files, or the text of a program as `source`")
+    text = None if source is None else _text(source, beside)
+    paths = [there(file, "a program") for file in files] if text is None else [text.path]
+    settings = given(paths[0], robot=robot, cell=cell, script_dir=script_dir)
     with told:
-        found = _arl2rs.check([Path(file) for file in files], settings, strict, background)
-    return [Diagnostic.of_json(text) for text in found]
+        found = _arl2rs.check(paths, settings, strict, background)
+    return [_shown(Diagnostic.of_json(line), text) for line in found]
 
 
+def _shown(diagnostic: Diagnostic, text: _arl2rs.Text | None) -> Diagnostic:
+    """Of a program that was given as text, files have the names that were given."""
+    return diagnostic if text is None else diagnostic.below(text.path.parent)
+
+
+@named
 def compile(
-    program: StrPath,
+    program: StrPath | None = None,
     *,
+    source: str | None = None,
+    beside: Mapping[str, str] | None = None,
     robot: StrPath | None = None,
     cell: StrPath | None = None,
     scenario: StrPath | None = None,
@@ -92,27 +117,34 @@ def compile(
 ) -> Program:
     """Compiles a program into this process, unless that was done before: then it is loaded at once.
 
-    An `arl.toml` beside the program, or above it, says what is not said here. Compiling needs Rust (cargo); what is compiled does not.
+    Instead of a file it takes the text of a program, `source`, and the texts of the files `beside` it, by their names: data files, modules. An
+    `arl.toml` beside the program's file, or above it, says what is not said here. Compiling needs Rust (cargo); what is compiled does not.
 
-    Raises `CompileError` where the program has mistakes, `RefusedError` where robot, cell or files are none.
+    Raises `CompileError` where the program has mistakes, `RefusedError` where it, the robot, the cell or the scenario is not there.
+
+    >>> compile(source="func void main()\\n    print 6 * 7\\nendfunc\\n").run().output
+    '42\\n'
     """
-    return Program(program, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
+    return Program(program, source=source, beside=beside, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
 
 
+@named
 def run(
-    program: StrPath,
+    program: StrPath | None = None,
     *,
-    robot: StrPath | None = None,
+    source: str | None = None,
+    beside: Mapping[str, str] | None = None,
     cell: StrPath | None = None,
     script_dir: StrPath | None = None,
-    **arguments: Any,
+    **arguments: Unpack[RunArguments],
 ) -> Result:
     """Compiles a program where needed, and runs it: `compile(..).run(..)`."""
-    return compile(program, robot=robot, cell=cell, script_dir=script_dir).run(**arguments)
+    compiled = Program(program, source=source, beside=beside, robot=arguments.get("robot"), cell=cell, script_dir=script_dir)
+    return compiled.run(**arguments)
 
 
-def _compiled(program: Path, arguments: dict[str, Any]) -> Program:
-    return Program(program, **arguments)
+def _compiled(arguments: dict[str, Any]) -> Program:
+    return Program(**arguments)
 
 
 def _full(path: StrPath | None) -> StrPath | None:
@@ -120,42 +152,82 @@ def _full(path: StrPath | None) -> StrPath | None:
     return Path(path).absolute() if path is not None and Path(path).exists() else path
 
 
+def _scenario(path: StrPath | None) -> StrPath | None:
+    """A scenario that is there."""
+    return path if path is None else there(path, "a scenario")
+
+
 class Program:
     """A compiled program in this process: `compile` makes it."""
 
+    @named
     def __init__(
         self,
-        program: StrPath,
+        program: StrPath | None = None,
         *,
+        source: str | None = None,
+        beside: Mapping[str, str] | None = None,
         robot: StrPath | None = None,
         cell: StrPath | None = None,
         scenario: StrPath | None = None,
         script_dir: StrPath | None = None,
     ) -> None:
-        self.path = Path(program)
-        self._given = given(program, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
-        self._arguments = {"robot": robot, "cell": cell, "scenario": scenario, "script_dir": script_dir}
-        with told:
-            self._library = _arl2rs.Library(self._given)
+        if (source is None) == (program is None):
+            raise RefusedError("a program is a file, or its text as `source`")
+        if beside is not None and source is None:
+            raise RefusedError("`beside` goes with `source`: a program of a file has what lies in its folder")
+        self._text = None if source is None else _text(source, beside)
+        self._source: dict[str, Any] = {} if source is None else {"source": source, "beside": beside}
+        self.path = there(program, "a program") if program is not None else Path() if self._text is None else self._text.path
+        self._arguments: CompileArguments = {"robot": robot, "cell": cell, "scenario": _scenario(scenario), "script_dir": script_dir}
+        self._given = given(self.path, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
+        with told, notice(f"compiling {self.path.name}: the first time that takes minutes, after a change seconds"):
+            try:
+                self._library = _arl2rs.Library(self._given)
+            except _arl2rs.Mistakes as problem:
+                raise CompileError([_shown(Diagnostic.of_json(text), self._text) for text in problem.args[0]]) from None
 
     def __repr__(self) -> str:
-        return f"Program({str(self.path)!r})"
+        return f"Program({str(self.path)!r})" if self._text is None else "Program(source=..)"
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Another process loads it again, from where it is compiled."""
-        return _compiled, (self.path.absolute(), {name: _full(path) for name, path in self._arguments.items()})
+        program = self._source or {"program": self.path.absolute()}
+        files = {"robot": self._arguments["robot"], "cell": self._arguments["cell"]}
+        files |= {"scenario": self._arguments["scenario"], "script_dir": self._arguments["script_dir"]}
+        return _compiled, ({**program, **{name: _full(path) for name, path in files.items()}},)
 
-    def sweep(self, rows: Iterable[Parameters], **arguments: Any) -> Results:
+    @named
+    def sweep(self, rows: Rows, **arguments: Unpack[SweepArguments]) -> Results:
         """Runs it once for each row of parameters: `arl2rs.sweep` with the robot, the cell and the scenario that it was compiled with."""
         from .sweeps import sweep
 
-        return sweep(self.path, rows, **{**self._arguments, **arguments})
+        return sweep(self.path, rows, **self._arguments, **arguments)
+
+    @cached_property
+    def variables(self) -> Mapping[str, Variable]:
+        """The global variables, points among them, in the order of their files and declarations. Where several files have one of a name, each has
+        its file in front: `grip::held`."""
+        with told:
+            return of_told([json.loads(text) for text in _arl2rs.variables(self._given)])
+
+    @property
+    def points(self) -> Mapping[str, Variable]:
+        """The global variables that are targets: poses and joints, and arrays of them."""
+        return {name: variable for name, variable in self.variables.items() if variable.is_point}
+
+    @cached_property
+    def signals(self) -> tuple[Signal, ...]:
+        """The signals of the cell: inputs and outputs, each with what the cell calls it."""
+        with told:
+            return tuple(Signal(signal, name) for signal, name in _arl2rs.signals(self._given))
 
     @property
     def columns(self) -> tuple[str, ...]:
         """The names of the columns of a trace."""
         return tuple(self._library.columns)
 
+    @named
     def run(
         self,
         *,
@@ -165,32 +237,36 @@ class Program:
         points: Parameters | None = None,
         set: Parameters | None = None,
         override: float | None = None,
-        mode: str | None = None,
+        mode: Mode | None = None,
         seed: int | None = None,
         max_time: float | None = MAX_TIME,
         start_time: str | None = None,
         state_dir: StrPath | None = None,
+        watch: Sequence[str] = (),
         trace: bool = True,
     ) -> Result:
         """Runs the program to its end on the virtual clock; the same arguments give the same result, to the last bit.
 
         - `scenario`: what the outside does to the inputs, a file.
         - `robot`: another robot, by name or file.
-        - `globals`, `points`: other first values of global variables: numbers, truth values, texts, lists; for structures dictionaries, whose
-          missing components keep their values: `points={"feeder": {"z": 120}}`.
-        - `set`: other values at single places: `{"robot.axis.1.vel": 90, "io.event.2.at": 1.5, "cell.controller.cycle": 2}`.
+        - `globals`, `points`: other first values of global variables: numbers, truth values, texts, lists and arrays; for structures
+          dictionaries, whose missing components keep their values: `points={"feeder": {"z": 120}}`.
+        - `set`: other values at single places: `{"robot.axis.1.vel": 90, "scenario.event.2.at": 1.5, "cell.controller.cycle": 2}`.
         - `override` in percent; `mode`: `auto`, `manual`, `manufast`; `seed` of `rand`.
         - `max_time`: after so many seconds of the robot's time it is ended; None: never.
         - `start_time`: the date at the start, `2000-01-01T00:00:00`.
         - `state_dir`: the folder that keeps system variables between runs; without it nothing is kept.
+        - `watch`: signals (`do.1`, or what the cell calls them) and global variables (`global.placed`, `global.feeder.x`) that are columns of the
+          trace, too. A point or an array is a column for each of its numbers.
         - `trace`: whether to keep the motion; a second of it takes some 170 kB.
 
         Other threads go on meanwhile; Ctrl-C ends it. Raises `RefusedError` where something is not there or does not fit.
         """
         parameters = gathered(globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time)
-        with self._begin(self._words(scenario, robot, state_dir, parameters), trace) as session:
+        with self._begin(self._words(scenario, robot, state_dir, parameters), trace, watch, state_dir) as session:
             return session.finish()
 
+    @named
     def session(
         self,
         *,
@@ -200,7 +276,7 @@ class Program:
         points: Parameters | None = None,
         set: Parameters | None = None,
         override: float | None = None,
-        mode: str | None = None,
+        mode: Mode | None = None,
         seed: int | None = None,
         max_time: float | None = None,
         start_time: str | None = None,
@@ -208,37 +284,50 @@ class Program:
         watch: Sequence[str] = (),
         trace: bool = False,
     ) -> Session:
-        """A run that is stepped: inputs in, observations out. The arguments are those of `run`; `watch` names signals (`do.1`, or what the
-        cell calls them) and global variables (`global.placed`) that are observed."""
+        """A run that is stepped: inputs in, observations out. The arguments are those of `run`; what `watch` names is observed behind the row of the
+        trace."""
         parameters = gathered(globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time)
-        return self._begin(self._words(scenario, robot, state_dir, parameters), trace, watch)
+        return self._begin(self._words(scenario, robot, state_dir, parameters), trace, watch, state_dir)
 
-    def _begin(self, words: list[str], trace: bool, watch: Sequence[str] = ()) -> Session:
-        with told:
-            return Session(self._library.begin([*words, "--report"], trace), self.columns, tuple(watch), trace)
+    def _begin(self, words: list[str], trace: bool, watch: Sequence[str], state_dir: StrPath | None) -> Session:
+        if isinstance(watch, str):
+            raise RefusedError(f"watch is a list of names: [{watch!r}]")
+        watched = Watch.of(watch, self.variables) if any(name.startswith("global.") for name in watch) else Watch.of(watch, {})
+        return Session(Beginning(self, tuple(words), watched, trace, keeps_state=state_dir is not None))
 
-    def record(self, recording: StrPath, **arguments: Any) -> None:
+    @named
+    def record(self, recording: StrPath, **arguments: Unpack[RecordArguments]) -> None:
         """Runs the program by the command, and records the run for `arl2rs view` and viewers of robot data, as an mcap file; the description of the
         robots is written beside it, `cell.urdf`. The arguments are `scenario`, `robot`, `globals`, `points`, `set`, `override`, `mode`, `seed`, `max_time` of `run`."""
-        scenario, robot = arguments.pop("scenario", None), arguments.pop("robot", None)
-        named = [arguments.pop(name, None) for name in ("globals", "points", "set")]
+        scenario, robot = arguments.get("scenario"), arguments.get("robot")
+        parameters = gathered(
+            arguments.get("globals"),
+            arguments.get("points"),
+            arguments.get("set"),
+            override=arguments.get("override"),
+            mode=arguments.get("mode"),
+            seed=arguments.get("seed"),
+            max_time=arguments.get("max_time"),
+        )
         with tempfile.TemporaryDirectory() as nothing_kept:
-            words = self._words(scenario, robot, nothing_kept, gathered(*named, **arguments))
+            words = self._words(scenario, robot, nothing_kept, parameters)
             command = [sys.executable, "-m", "arl2rs", "run", self.path.absolute(), "--record", recording, *words]
-            ran = subprocess.run(command, capture_output=True, text=True, check=False)
+            with notice(f"compiling {self.path.name} for a recording"):
+                ran = subprocess.run(command, capture_output=True, text=True, check=False)
         if ran.returncode not in (0, 3, 4):
             raise ArlError(ran.stderr.strip())
 
     def _words(self, scenario: StrPath | None, robot: StrPath | None, state_dir: StrPath | None, parameters: Parameters) -> list[str]:
         parameters = dict(parameters)
-        named = {"--io": scenario, "--robot": robot, "--state-dir": state_dir}
-        for option, name in (("--io", "io"), ("--robot", "robot")):
-            named[option] = parameters.pop(name, named[option])
+        files = {"--io": parameters.pop("io", scenario), "--robot": parameters.pop("robot", robot), "--state-dir": state_dir}
+        _scenario(files["--io"])
         words = dict(zip(self._library.words[::2], self._library.words[1::2], strict=True))
-        words.update({option: os.fspath(value) for option, value in named.items() if value is not None})
+        words.update({option: os.fspath(value) for option, value in files.items() if value is not None})
         for what, option, argument in (("robot.", "--robot", "robot"), ("cell.", "--cell", "cell"), ("io.", "--io", "scenario")):
             places = [place for place in parameters if place.startswith(what)]
             if places and option not in words:
-                raise RefusedError(f"{places[0]}: `{argument}` says whose value this is: name it, in compile() or here")
+                raise RefusedError(
+                    f"{argument}.{places[0].removeprefix(what)}: `{argument}` says whose value this is: name it, in compile() or here"
+                )
         with told:
             return [word for pair in words.items() for word in pair] + _arl2rs.words(as_json(parameters))

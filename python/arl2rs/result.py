@@ -7,6 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from .choices import Outcome
 from .problems import AlarmError, RefusedError, UnfinishedError
 from .trace import Trace
 
@@ -50,8 +54,8 @@ class Message:
 class Result:
     """What came of a run."""
 
-    outcome: str
-    """`ended`, `alarm`, `time_over`, `stuck` (nothing could change any more), `stopped`; in a sweep also `refused`, `crashed`, `hung`."""
+    outcome: Outcome
+    """`ended`, `alarm`, `time_over`, `stuck` (nothing could change any more), `stopped`; `runs` while it is not over."""
     code: int | None
     """The exit code of `arl2rs run`: 0 ended, 3 alarm, 4 out of time, 130 stopped."""
     cycle_time: float | None
@@ -68,7 +72,9 @@ class Result:
     messages: tuple[Message, ...] = field(default=(), repr=False)
     warnings: tuple[str, ...] = ()
     report: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
-    """What each motion did, as `arl2rs run --report=FILE` writes it."""
+    """What each motion did, a row each, as `arl2rs run --report=FILE` writes it: with channel, motion, file, line, start, duration."""
+    totals: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
+    """What the motions of each channel were together: channel, cycle_time, moving, standing, motions."""
     trace: Trace | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -102,17 +108,28 @@ class Result:
         return plot(self.trace)
 
 
-def of_summary(summary: str, said: str, report: str = "", trace: Trace | None = None) -> Result:
-    """The result that the Rust side tells."""
+def alarms_of(figures: Mapping[str, Any]) -> tuple[Alarm, ...]:
+    """The alarms of a summary."""
+    return tuple(Alarm(**alarm) for alarm in figures["alarms"])
+
+
+def of_summary(summary: str, said: str, report: str = "", rows: NDArray[np.float64] | None = None, columns: tuple[str, ...] = ()) -> Result:
+    """The result that the Rust side tells; `rows` are those of the trace."""
     figures = json.loads(summary)
     figures.pop("real_time", None)
-    alarms = tuple(Alarm(**alarm) for alarm in figures.pop("alarms"))
+    alarms = alarms_of(figures)
+    del figures["alarms"]
     lines = [json.loads(line) for line in said.split("\n") if line]
+    told = [json.loads(line) for line in report.split("\n") if line]
+    motions = tuple(row for row in told if "motion" in row)
+    # The trace is that of the first robot.
+    files = {row["motion"]: row["file"] for row in motions if row["channel"] == 1 and "file" in row}
     return Result(
         **figures,
         alarms=alarms,
         messages=tuple(Message(**line["message"]) for line in lines if "message" in line),
         warnings=tuple(line["warning"] for line in lines if "warning" in line),
-        report=tuple(json.loads(line) for line in report.split("\n") if line),
-        trace=trace,
+        report=motions,
+        totals=tuple(row for row in told if "motion" not in row),
+        trace=None if rows is None else Trace(rows, columns, files),
     )

@@ -3,41 +3,103 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _arl2rs
-from .problems import RefusedError, told
-from .result import Result, of_summary
-from .trace import Trace
+from .problems import AlarmError, RefusedError, SessionError, told
+from .result import Alarm, Result, alarms_of, of_summary
 from .values import plain
+from .variables import Watch, find
 
-__all__ = ["Session"]
+if TYPE_CHECKING:
+    from .program import Program
+
+__all__ = ["Session", "Snapshot"]
+
+ALARMED = 3
+"""The exit code of a run that an alarm ended."""
+
+Done = tuple[str, tuple[Any, ...]]
+"""What was done to a session: the name of a method of the Rust side, and its arguments."""
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """What a session begins with."""
+
+    program: Program
+    words: tuple[str, ...]
+    watch: Watch
+    traced: bool
+    keeps_state: bool
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A session as it was: `Session.snapshot` makes it, and any number of sessions go on from there.
+
+    A run cannot be copied, so going on does everything again that was done until then: that takes as long as it took. A snapshot can be pickled,
+    and goes on in other processes.
+    """
+
+    beginning: Beginning
+    done: tuple[Done, ...]
+    time: float
+    """Controller time, s."""
+    observed: bytes
+
+    def resume(self) -> Session:
+        """A new session at the same place of the same run, on the thread that asks for it.
+
+        Raises `SessionError` where doing the same again came out otherwise: a file that the run reads has changed meanwhile.
+        """
+        session = Session(self.beginning)
+        session._repeat(self.done)
+        if session.time != self.time or session.observe().tobytes() != self.observed:
+            session.close()
+            raise SessionError(f"the same steps led to another place than at {self.time:.3f} s: a file that the run reads has changed")
+        return session
+
+    def __repr__(self) -> str:
+        return f"Snapshot({self.time:.3f} s)"
 
 
 class Session:
     """A run that goes on as far as it is told, on the thread that began it: `Program.session` makes it.
 
-    It may be used in a `with` statement; at its end the run ends.
+    It may be used in a `with` statement; at its end the run ends. An alarm that ends the run is raised as an `AlarmError`: by the step that met it,
+    and by whatever is asked of the run after that but to tell how it stands.
     """
 
-    def __init__(self, run: _arl2rs.Session, columns: tuple[str, ...], watched: tuple[str, ...], traced: bool) -> None:
-        self._run, self.columns, self.watched, self._traced = run, columns, watched, traced
-        self._numbers = np.full(len(columns) + len(watched), np.nan)
-        if watched:
-            run.watch(list(watched))
-        run.observe(self._numbers)
+    def __init__(self, beginning: Beginning) -> None:
+        self._beginning, self._program = beginning, beginning.program
+        self.columns = self._program.columns
+        """The columns of the trace: time in s, line, motion, axes in deg, TCP in mm and deg."""
+        self.watched = beginning.watch.names
+        """What is observed besides."""
+        self._names = {name: at for at, name in reversed(list(enumerate((*self.columns, *self.watched))))}
+        self._numbers = np.full(len(self.columns) + len(self.watched), np.nan)
+        with told:
+            self._run = self._program._library.begin([*beginning.words, "--report"], beginning.traced)
+            if self.watched:
+                self._run.watch(list(beginning.watch.places))
+            self._run.observe(self._numbers)
         # Variables have their first values in the first cycle.
-        for at, name in enumerate(watched):
+        for at, name in enumerate(self.watched):
             if name.startswith("global."):
-                self._numbers[len(columns) + at] = np.nan
+                self._numbers[len(self.columns) + at] = np.nan
         self.code: int | None = None
-        """The exit code, once the run is over."""
+        """The exit code, once the run is over: 0 ended, 3 alarm, 4 out of time, 130 stopped."""
+        self._closed = False
         self._said = ""
         self._rows: list[NDArray[np.float64]] = []
+        self._done: list[Done] = []
 
     def __enter__(self) -> Self:
         return self
@@ -46,29 +108,35 @@ class Session:
         self.close()
 
     def step(self, cycles: int = 1, *, alone: bool = False) -> NDArray[np.float64]:
-        """Goes on for so many control cycles, or to the end of the run; gives what is observed then.
+        """Goes on for so many control cycles, or to the end of the run; gives what is observed then: an array of its own, `columns` of the trace, then
+        what is `watched`. Once the run is over it stays as it is.
 
-        The array is that of the last call: `columns` of the trace (time in s, line, motion, axes in deg, TCP in mm and deg), then what is
-        `watched`. `alone`: nobody changes anything any more, so that a program that waits in vain ends the run.
+        `alone`: nobody changes anything any more, so that a program that waits in vain ends the run. Raises `AlarmError` where an alarm ends the run,
+        or has ended it; `observe` gives what is observed then.
         """
         if cycles < 0:
-            raise RefusedError(f"a session does not step back: {cycles} cycles")
+            raise RefusedError(f"a session does not step back: {cycles} cycles; resume() of an earlier snapshot() does")
+        was_over = self.is_over
         with told:
             self.code = self._run.step(cycles, alone, self._numbers)
-        return self._numbers
+        if not was_over:
+            self._note_cycles(cycles, alone)
+        if self.code == ALARMED:
+            raise AlarmError(self.alarms[0])
+        return self._numbers.copy()
 
     def observe(self) -> NDArray[np.float64]:
-        """What `step` gave last, as it is now."""
+        """What is observed now, an array of its own: `columns` of the trace, then what is `watched`."""
         with told:
             self._run.observe(self._numbers)
-        return self._numbers
+        return self._numbers.copy()
 
     def __getitem__(self, name: str) -> float:
         """One of the numbers that are observed, by the name of its column or of what is watched."""
-        names = (*self.columns, *self.watched)
-        if name not in names:
-            raise KeyError(f"{name!r} is not observed: {', '.join(names)} are")
-        return float(self._numbers[names.index(name)])
+        at = self._names.get(name)
+        if at is None:
+            raise KeyError(f"{name!r} is not observed: {', '.join(self._names)} are")
+        return float(self._numbers[at])
 
     @property
     def is_over(self) -> bool:
@@ -76,15 +144,25 @@ class Session:
         return self.code is not None
 
     @property
+    def is_closed(self) -> bool:
+        """Whether `close` ended it."""
+        return self._closed
+
+    @property
     def time(self) -> float:
         """Controller time, s."""
         with told:
             return self._run.time
 
+    @property
+    def alarms(self) -> tuple[Alarm, ...]:
+        """The alarms so far; that of one channel ends its program only."""
+        with told:
+            return alarms_of(json.loads(self._run.summary()))
+
     def order(self, order: str) -> None:
         """Does what an event of a scenario does: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`."""
-        with told:
-            self._run.order(order)
+        self._do("order", order)
 
     def set(self, **signals: bool | float) -> None:
         """Sets inputs, by what the cell calls them or as `di_5`, `ai_2`. Digital ones take truth values, 0 and 1."""
@@ -98,7 +176,14 @@ class Session:
             self.order(f"{f'{kind}.{channel}' if is_numbered else name} = {json.dumps(given)}")
         self.observe()
 
-    def global_value(self, name: str) -> str:
+    def global_value(self, name: str) -> Any:
+        """The value of a global variable: int, float, bool or str; lists for arrays; for structures dictionaries of the components that are set
+        (`{"x": 900.0, "y": -500.0}`), which `set_global` and `points` take; a `Literal` for what Python has no value for."""
+        literal = self.global_literal(name)
+        variable = find(name, self._program.variables)
+        return literal if variable is None else variable.value(literal)
+
+    def global_literal(self, name: str) -> str:
         """The value of a global variable, as a literal of ARL."""
         self._has_values()
         with told:
@@ -108,12 +193,9 @@ class Session:
         """Gives a global variable a value; components that a dictionary leaves out keep theirs."""
         self._has_values()
         with told:
-            self._run.set_global(name, _arl2rs.literal(json.dumps(plain(value, name))))
+            literal = _arl2rs.literal(json.dumps(plain(value, name)))
+        self._do("set_global", name, literal)
         self.observe()
-
-    def _has_values(self) -> None:
-        if self.time == 0:
-            raise RefusedError("global variables get their first values in the first cycle: step first, or give `globals` to the session")
 
     def state(self) -> dict[str, Any]:
         """How everything stands: channels, axes, TCP, inputs and outputs."""
@@ -125,27 +207,84 @@ class Session:
         """Ends the programs: the robots stop on their paths within the steps that follow."""
         with told:
             self._run.stop()
+        self._done.append(("stop", ()))
 
     def result(self) -> Result:
         """What came of the run, or how far it is."""
         with told:
             self._said += self._run.take_said()
-            self._rows.append(np.frombuffer(self._run.take_rows()).reshape(-1, len(self.columns)))
-            if len(self._rows) > 1:
-                self._rows = [np.concatenate(self._rows)]
-            trace = Trace(self._rows[0], self.columns) if self._traced else None
-            return of_summary(self._run.summary(), self._said, self._run.report(), trace)
+            names = (*self.columns, *self.watched)
+            self._rows.append(np.frombuffer(self._run.take_rows()).reshape(-1, len(names)))
+            self._rows = [np.concatenate(self._rows)]
+            # Rows are handed out, and kept for the next result.
+            rows = self._rows[0].copy() if self._beginning.traced else None
+            return of_summary(self._run.summary(), self._said, self._run.report(), rows, names)
 
     def finish(self) -> Result:
-        """Goes on to the end of the run, where nobody changes anything any more; gives what came of it."""
+        """Goes on to the end of the run, where nobody changes anything any more; gives what came of it: `Result.check` raises an alarm."""
         with told:
             self.code = self._run.go_on(2**63, True)
+        self._done.append(("go_on", (2**63, True)))
         return self.result()
 
+    def snapshot(self) -> Snapshot:
+        """The session as it is now, to go on from again and again: for a search of a tree, or learning that branches.
+
+        It is what was done until now, and `Snapshot.resume` does it again: see there what that costs. Raises `RefusedError` for a run that is not the
+        same every time: in real time, with connections, or with a `state_dir`.
+        """
+        if self._beginning.keeps_state:
+            raise RefusedError("a run with a state_dir keeps what it wrote there, and would begin with that: no snapshot of it")
+        with told:
+            is_real = json.loads(self._run.summary())["real_time"]
+        if is_real:
+            raise RefusedError("a run in real time, or with connections, is not the same twice: no snapshot of it")
+        return Snapshot(self._beginning, tuple(self._done), self.time, self.observe().tobytes())
+
     def close(self) -> None:
-        """Ends the run."""
+        """Ends the run. What was closed stays so."""
         with told:
             self._run.close()
+        self._closed = True
 
     def __repr__(self) -> str:
-        return f"Session({self.time:.3f} s, {'over' if self.is_over else 'runs'})"
+        if self._closed:
+            return "Session(closed)"
+        try:
+            time = f"{self.time:.3f} s"
+        except SessionError as problem:
+            return f"Session({problem})"
+        return f"Session({time}, {'over' if self.is_over else 'runs'})"
+
+    def _has_values(self) -> None:
+        if self.time == 0:
+            raise RefusedError("global variables get their first values in the first cycle: step first, or give `globals` to the session")
+
+    def _do(self, what: str, *arguments: str) -> None:
+        """Does something to a run that is not over."""
+        if self.code == ALARMED:
+            raise AlarmError(self.alarms[0])
+        if self.code is not None:
+            with told:
+                outcome = json.loads(self._run.summary())["outcome"]
+            raise RefusedError(f"{' = '.join(arguments)}: the run is over since {self.time:.3f} s ({outcome})")
+        act: Callable[..., None] = getattr(self._run, what)
+        with told:
+            act(*arguments)
+        self._done.append((what, arguments))
+
+    def _note_cycles(self, cycles: int, alone: bool) -> None:
+        """Cycles that follow each other are one thing that was done."""
+        what, arguments = self._done[-1] if self._done else ("", ())
+        if what == "go_on" and arguments[1] == alone:
+            self._done[-1] = ("go_on", (arguments[0] + cycles, alone))
+        else:
+            self._done.append(("go_on", (cycles, alone)))
+
+    def _repeat(self, done: tuple[Done, ...]) -> None:
+        for what, arguments in done:
+            act: Callable[..., Any] = getattr(self._run, what)
+            with told:
+                code = act(*arguments)
+            self.code = code if what == "go_on" else self.code
+        self._done = list(done)

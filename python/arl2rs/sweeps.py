@@ -4,24 +4,49 @@ from __future__ import annotations
 
 import itertools
 import json
+import time
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, overload
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Protocol, Self, overload
 
-from tqdm.auto import tqdm
+import tqdm as _tqdm
 
 from . import _arl2rs
-from .problems import ArlError, RefusedError, told
-from .program import StrPath, given
-from .values import Parameters, as_json
+from .choices import Engine
+from .choices import Figure as Choice
+from .keywords import named
+from .notice import notice, say
+from .problems import ArlError, RefusedError, StrPath, there, told
+from .program import given
+from .values import Parameters, as_json, of_python
+
+with warnings.catch_warnings():
+    # A notebook without ipywidgets has a bar of letters, which is no reason for a warning.
+    warnings.simplefilter("ignore", _tqdm.TqdmWarning)
+    from tqdm.auto import tqdm
 
 if TYPE_CHECKING:
     import pandas
     import polars
     from matplotlib.figure import Figure
 
-__all__ = ["Results", "grid", "load_sweep", "sweep"]
+__all__ = ["Results", "Rows", "grid", "load_sweep", "sweep"]
+
+SAID_S = 30.0
+"""So often a sweep says how far it is where nobody sees a bar; s."""
+
+
+class Frame(Protocol):
+    """A table with columns: a frame of pandas or polars."""
+
+    @property
+    def columns(self) -> Any: ...
+
+
+Rows = Iterable[Parameters] | Frame
+"""Parameters of runs: a dictionary for each run, or a frame with a row for each."""
 
 
 def grid(values: Mapping[str, Iterable[Any]]) -> list[dict[str, Any]]:
@@ -37,10 +62,13 @@ class Results(Sequence[dict[str, Any]]):
     """What came of runs, a row each: `run`, `parameters`, `outcome`, `code`, `cycle_time` (s), `moving`, `standing` (s), `motions`, `way` (mm),
     `alarms`, `output`, `collisions` where they were looked for, and `problem` where a run could not begin or was lost."""
 
-    def __init__(self, lines: Iterable[str]) -> None:
+    def __init__(self, lines: Iterable[str], names: Sequence[Iterable[str]] = ()) -> None:
         self.lines = list(lines)
         """The rows as JSON, as `arl2rs sweep` writes them."""
         self._rows: list[dict[str, Any]] = [json.loads(line) for line in self.lines]
+        # Parameters come back with the names that they were given by.
+        for row, own in zip(self._rows, names, strict=False):
+            row["parameters"] = dict(zip(own, row["parameters"].values(), strict=True))
 
     @overload
     def __getitem__(self, index: int) -> dict[str, Any]: ...
@@ -59,7 +87,7 @@ class Results(Sequence[dict[str, Any]]):
         told = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
         return f"Results({len(self)} runs: {told})" if told else "Results(no runs)"
 
-    def best(self, figure: str = "cycle_time") -> dict[str, Any]:
+    def best(self, figure: Choice = "cycle_time") -> dict[str, Any]:
         """The run that ended with the smallest value of a figure."""
         ended = [row for row in self if row["outcome"] == "ended"]
         if not ended:
@@ -84,7 +112,7 @@ class Results(Sequence[dict[str, Any]]):
 
         return polars.DataFrame(self.flat(), infer_schema_length=None)
 
-    def plot(self, parameter: str, figure: str = "cycle_time") -> Figure:
+    def plot(self, parameter: str, figure: Choice = "cycle_time") -> Figure:
         """A picture of a figure over a parameter; runs that did not end are crosses at the bottom. matplotlib has to be installed."""
         from .plots import plot_sweep
 
@@ -116,16 +144,48 @@ def _flat(row: Mapping[str, Any], looked: bool) -> Iterator[tuple[str, Any]]:
 
 
 def load_sweep(file: StrPath) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    """The file of `arl2rs sweep`: the arguments of `sweep` but for its rows, and the rows."""
+    """The file of `arl2rs sweep`: the arguments of `sweep` but for its rows, and the rows, with the names of Python (`scenario`, `max_time`)."""
     with told:
-        settings, rows = _arl2rs.table(Path(file))
+        settings, rows = _arl2rs.table(there(file, "the file of a sweep"))
     settings["scenario"] = settings.pop("io")
-    return settings, [json.loads(row) for row in rows]
+    return settings, [{of_python(name): value for name, value in json.loads(row).items()} for row in rows]
 
 
+def rows_of(rows: Rows) -> list[Parameters]:
+    """The rows of a table. What a frame leaves empty is left out."""
+    if hasattr(rows, "columns"):
+        to_rows = getattr(rows, "to_dicts", None)
+        told_rows: list[dict[str, Any]] = to_rows() if to_rows else rows.to_dict("records")  # type: ignore[union-attr]
+        return [{str(name): value for name, value in row.items() if not _is_empty(value)} for row in _whole(told_rows)]
+    if isinstance(rows, Mapping):
+        raise RefusedError("rows are a list of dictionaries, a run each: [{..}, {..}], or a frame")
+    return list(rows)
+
+
+def _is_empty(value: Any) -> bool:
+    """None, or one of the many things that are not even themselves."""
+    try:
+        return value is None or bool(value != value)
+    except (TypeError, ValueError):
+        # pandas.NA has no truth value, an array has many.
+        return type(value).__name__ in ("NAType", "NaTType")
+
+
+def _whole(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """A column of whole numbers with gaps became one of floats: then they are whole again."""
+    for name in rows[0] if rows else ():
+        values = [row[name] for row in rows]
+        there = [value for value in values if not _is_empty(value)]
+        if len(there) < len(values) and all(isinstance(value, float) and value.is_integer() for value in there):
+            for row in rows:
+                row[name] = row[name] if _is_empty(row[name]) else int(row[name])
+    return rows
+
+
+@named
 def sweep(
     program: StrPath,
-    rows: Iterable[Parameters],
+    rows: Rows,
     *,
     robot: StrPath | None = None,
     cell: StrPath | None = None,
@@ -136,28 +196,32 @@ def sweep(
     timeout: float | None = None,
     collisions: bool = False,
     clearance: float | None = None,
-    engine: str = "local",
+    engine: Engine = "local",
     processes: int = 0,
     cache: bool = True,
     progress: bool | None = None,
 ) -> Results:
     """Runs a program once for each row of parameters; gives what came of it, in the order of the rows.
 
-    - `rows`: tables of parameters, as `grid` makes them: `global.NAME`, `robot.KEYS`, `cell.KEYS`, `io.KEYS`, `robot`, `io`, `override`, `mode`,
-      `seed`, `max-time`, `start-time`.
+    - `rows`: tables of parameters, as `grid` makes them, or a frame of pandas or polars: `global.NAME`, `robot.KEYS`, `cell.KEYS`,
+      `scenario.KEYS`, `robot`, `scenario`, `override`, `mode`, `seed`, `max_time`, `start_time`. The command's names are taken, too.
     - `files`: what the program reads beside programs, data files and texts of its folder.
     - `max_time`: after so many seconds of the robot's time a run ends (3600); `timeout`: after so many on the clock it is given up (600).
     - `collisions`: whether each run looks for what its robots touch; with `clearance`, also for what comes nearer than so many mm.
     - `engine`: `local` makes the runs on `processes` of this computer (0: one for each core), `ray` on the nodes of a cluster of Ray
       (`arl2rs.farm`). The results are the same to the last bit.
     - `cache`: whether results that are known from earlier are taken, and new ones kept.
-    - `progress`: whether a bar is shown; without it, where somebody looks.
+    - `progress`: whether it is shown how far it is: by a bar on a terminal and in a notebook, else by a line now and then.
 
     Raises `CompileError` or `RefusedError` before anything runs. A run that cannot begin, or is lost, has a row that says so.
     """
-    texts = [as_json(row) for row in rows]
+    table = rows_of(rows)
+    texts = [as_json(row) for row in table]
+    path = there(program, "a program")
+    if scenario is not None:
+        there(scenario, "a scenario")
     settings = given(
-        program,
+        path,
         robot=robot,
         cell=cell,
         scenario=scenario,
@@ -172,22 +236,42 @@ def sweep(
         raise RefusedError(f"{processes} processes: expected 0 or more")
     if engine not in ("local", "ray"):
         raise RefusedError(f"engine {engine!r}: expected 'local' or 'ray'")
-    with told:
+    with told, notice(f"compiling {path.name} for {len(texts)} runs: the first time that takes minutes, after a change seconds"):
         bundle = _arl2rs.Bundle(settings, texts)
     lines: list[str] = []
-    with tqdm(total=len(texts), unit="run", disable=None if progress is None else not progress) as bar, told:
-
-        def came(count: int) -> None:
-            bar.update(count - bar.n)
+    with _Progress(len(texts), progress) as bar, told:
 
         def take(line: str) -> None:
             lines.append(line)
-            came(len(lines))
+            bar.came(len(lines))
 
         if engine == "ray":
             from . import farm
 
-            lines.extend(farm.run(bundle, texts, timeout=timeout, cache=cache, came=came))
+            lines.extend(farm.run(bundle, texts, timeout=timeout, cache=cache, came=bar.came))
         else:
             _arl2rs.sweep(bundle, texts, processes, cache, take, lambda text: warnings.warn(text, stacklevel=4))
-    return Results(lines)
+    return Results(lines, [row.keys() for row in table])
+
+
+class _Progress:
+    """How far a sweep is: a bar where somebody looks, else a line now and then."""
+
+    def __init__(self, total: int, shown: bool | None) -> None:
+        self._total, self._came, self._last = total, 0, time.monotonic()
+        self._bar = tqdm(total=total, unit="run", disable=None if shown is None else not shown)
+        self._speaks = bool(self._bar.disable) and shown is not False
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        self._bar.close()
+
+    def came(self, count: int) -> None:
+        """So many runs are done."""
+        self._bar.update(count - self._came)
+        self._came = count
+        if self._speaks and time.monotonic() - self._last > SAID_S:
+            self._last = time.monotonic()
+            say(f"{count} of {self._total} runs")

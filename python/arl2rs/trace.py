@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,9 @@ class Trace:
     array: NDArray[np.float64]
     """All of it: a row a cycle, a column for each of `columns`. Axes that the robot does not have are NaN."""
     columns: tuple[str, ...]
+    """The columns of the command's trace, then what was watched."""
+    files: Mapping[int, str] = field(default_factory=dict, repr=False)
+    """The file of each motion, by its running number."""
 
     def __len__(self) -> int:
         return len(self.array)
@@ -44,6 +48,12 @@ class Trace:
         return self["line"].astype(np.int64)
 
     @property
+    def file(self) -> NDArray[np.object_]:
+        """The file that `line` is of, counted from the folder of the main file; empty where no motion is executed."""
+        motions, where = np.unique(self.motion, return_inverse=True)
+        return np.array([self.files.get(int(motion), "") for motion in motions], dtype=object)[where]
+
+    @property
     def motion(self) -> NDArray[np.int64]:
         """Its running number; 0: none."""
         return self["motion"].astype(np.int64)
@@ -61,7 +71,13 @@ class Trace:
     @property
     def tcp(self) -> NDArray[np.float64]:
         """The TCP in the world: x, y, z in mm, a, b, c in deg."""
-        return self.array[:, self.columns.index("x") :]
+        first = self.columns.index("x")
+        return self.array[:, first : first + 6]
+
+    @property
+    def watched(self) -> tuple[str, ...]:
+        """The columns of what was watched besides."""
+        return self.columns[self.columns.index("x") + 6 :]
 
     @cached_property
     def velocities(self) -> NDArray[np.float64]:
@@ -74,13 +90,14 @@ class Trace:
         return np.asarray(np.linalg.norm(_rate(self.tcp[:, :3], self.t), axis=1))
 
     def _frame(self) -> dict[str, NDArray[Any]]:
-        """The columns that the robot has; line and motion are whole numbers."""
+        """The columns that the robot has, then the file; line and motion are whole numbers."""
         whole = {"line": self.line, "motion": self.motion}
-        there = (name for name in self.columns if not (len(self) and np.isnan(self[name]).all()))
-        return {name: whole.get(name, self[name]) for name in there}
+        there = (name for name in self.columns if name in self.watched or not (len(self) and np.isnan(self[name]).all()))
+        return {**{name: whole.get(name, self[name]) for name in there}, "file": self.file}
 
     def _there(self, kind: str) -> NDArray[np.float64]:
-        at = [index for index, name in enumerate(self.columns) if name.rstrip("123456") == kind]
+        own = self.columns[: self.columns.index("x")]
+        at = [index for index, name in enumerate(own) if name.rstrip("123456") == kind]
         axes = self.array[:, at]
         return axes[:, ~np.isnan(axes).all(axis=0)] if len(axes) else axes[:, :0]
 

@@ -18,7 +18,27 @@ from .problems import RefusedError
 __all__ = ["Literal", "Parameters"]
 
 Parameters = Mapping[str, Any]
-"""Places and their values: `{"global.pitch": 80, "io.event.1.at": 2.5, "override": 50}`."""
+"""Places and their values: `{"global.pitch": 80, "scenario.event.1.at": 2.5, "override": 50}`."""
+
+COMMAND_NAMES = {"scenario": "io", "max_time": "max-time", "start_time": "start-time"}
+"""How the command calls what has another name in Python."""
+PYTHON_NAMES = {theirs: ours for ours, theirs in COMMAND_NAMES.items()}
+
+
+def _renamed(name: str, names: Mapping[str, str]) -> str:
+    first, point, rest = name.partition(".")
+    # `scenario.event.1.at` is a place in it; only a file's name has places.
+    return names.get(first, first) + point + rest if not point or first in ("scenario", "io") else name
+
+
+def of_command(name: str) -> str:
+    """The command's name of a parameter; that itself is taken, too."""
+    return _renamed(name, COMMAND_NAMES)
+
+
+def of_python(name: str) -> str:
+    """The name of one of the command's parameters in Python."""
+    return _renamed(name, PYTHON_NAMES)
 
 
 @dataclass(frozen=True)
@@ -57,7 +77,21 @@ def as_json(parameters: Parameters) -> str:
     """Parameters as the Rust side reads them, in their order."""
     if not isinstance(parameters, Mapping):
         raise RefusedError(f"parameters are a dictionary of names and values, not {parameters!r}")
-    return json.dumps({name: plain(value, name) for name, value in parameters.items()})
+    named: dict[str, Any] = {}
+    for name, value in parameters.items():
+        _join(named, {of_command(str(name)): plain(value, str(name))})
+    return json.dumps(named)
+
+
+def of_json(value: Any) -> Any:
+    """A value of ARL, as the Rust side tells it, for Python."""
+    if isinstance(value, list):
+        return [of_json(inner) for inner in value]
+    if isinstance(value, dict):
+        if value.keys() == {"arl"}:
+            return Literal(value["arl"])
+        return {name: of_json(inner) for name, inner in value.items()}
+    return value
 
 
 def gathered(globals: Parameters | None, points: Parameters | None, set: Parameters | None, **options: Any) -> dict[str, Any]:
@@ -67,8 +101,9 @@ def gathered(globals: Parameters | None, points: Parameters | None, set: Paramet
         if named is not None and not isinstance(named, Mapping):
             raise RefusedError(f"globals and points are dictionaries of names and values, not {named!r}")
         _join(parameters, {f"global.{name}": value for name, value in (named or {}).items()})
-    _join(parameters, set or {})
-    parameters.update({name.replace("_", "-"): value for name, value in options.items() if value is not None})
+    for name, value in (set or {}).items():
+        _join(parameters, {of_command(str(name)): value})
+    _join(parameters, {of_command(name): value for name, value in options.items() if value is not None})
     return parameters
 
 

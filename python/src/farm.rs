@@ -31,7 +31,7 @@ pub(crate) fn parameters(row: &str) -> PyResult<Parameters> {
     read(row)
 }
 
-fn written(value: &impl Serialize) -> PyResult<String> {
+pub(crate) fn written(value: &impl Serialize) -> PyResult<String> {
     serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 

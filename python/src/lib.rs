@@ -2,7 +2,9 @@
 
 mod farm;
 mod problem;
+mod robot;
 mod session;
+mod value;
 
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -18,9 +20,13 @@ mod _arl2rs {
     #[pymodule_export]
     use super::problem::{Failed, Gone, Mistakes, Refused};
     #[pymodule_export]
+    use super::robot::{Robot, robots};
+    #[pymodule_export]
     use super::session::{Library, Session};
     #[pymodule_export]
-    use super::{check, command, literal, words};
+    use super::value::value;
+    #[pymodule_export]
+    use super::{Text, check, command, literal, signals, variables, words};
     use pyo3::prelude::*;
 
     #[pymodule_export]
@@ -76,6 +82,43 @@ impl From<Given> for Settings {
 fn check(py: Python<'_>, files: Vec<PathBuf>, given: Given, strict: bool, background: bool) -> PyResult<Vec<String>> {
     let settings = given.into();
     interruptible(py, move || host::check(&files, &settings, (strict, background)))?.map_err(problem::of_host)
+}
+
+/// The global variables of a program, a JSON object each.
+#[pyfunction]
+fn variables(py: Python<'_>, given: Given) -> PyResult<Vec<String>> {
+    let settings = given.into();
+    let all = interruptible(py, move || host::variables(&settings))?.map_err(problem::of_host)?;
+    all.iter().map(farm::written).collect()
+}
+
+/// The signals of a program's cell, each with its name there.
+#[pyfunction]
+fn signals(given: Given) -> PyResult<Vec<(String, Option<String>)>> {
+    let all = host::signals(&given.into()).map_err(problem::of_host)?;
+    Ok(all.into_iter().map(|(signal, name)| (signal.to_string(), name)).collect())
+}
+
+/// A program that was given as text, in the cache as long as this lives.
+#[pyclass(frozen)]
+struct Text {
+    program: host::TextProgram,
+}
+
+#[pymethods]
+impl Text {
+    /// Of its files, the main one first: names and texts.
+    #[new]
+    fn new(py: Python<'_>, files: Vec<(String, String)>) -> PyResult<Self> {
+        let program = interruptible(py, move || host::text_program(&files))?.map_err(problem::of_host)?;
+        Ok(Self { program })
+    }
+
+    /// Its main file.
+    #[getter]
+    fn path(&self) -> PathBuf {
+        self.program.path.clone()
+    }
 }
 
 /// The words of parameters, which are JSON.

@@ -9,7 +9,8 @@ use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::problem::{Gone, of_host, of_library};
+use crate::problem::{Gone, Refused, of_host, of_library};
+use crate::value::{Place, of_literal};
 use crate::{Given, interruptible};
 
 /// So many cycles may go by before somebody looks whether Ctrl-C was pressed; some 50 ms.
@@ -51,7 +52,104 @@ impl Library {
     fn begin(&self, words: Vec<String>, traced: bool) -> PyResult<Session> {
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
         let run = self.loaded.begin(&words, traced).map_err(of_library)?;
-        Ok(Session { thread: thread::current().id(), run: Mutex::new(Some(run)), numbers: Mutex::default() })
+        let columns = self.loaded.columns().len();
+        let going = Going { run, columns, traced, watched: Vec::new(), numbers: Vec::new(), rows: Vec::new() };
+        Ok(Session { thread: thread::current().id(), going: Mutex::new(Some(going)) })
+    }
+}
+
+/// What is watched behind the row of a trace.
+enum Watched {
+    /// What the library itself looks at: which one of those.
+    ByLibrary(usize),
+    /// A number in a structure or an array.
+    Part(Place),
+}
+
+/// A run, and what is kept of it for who asks.
+struct Going {
+    run: Run,
+    /// How many columns a row of the trace has.
+    columns: usize,
+    traced: bool,
+    watched: Vec<Watched>,
+    /// What the library observes.
+    numbers: Vec<f64>,
+    /// Rows that nobody has taken yet, where something is watched besides.
+    rows: Vec<f64>,
+}
+
+impl Going {
+    /// Looks at these from now on.
+    fn watch(&mut self, names: &[String]) -> PyResult<()> {
+        let (mut by_library, mut watched) = (Vec::new(), Vec::new());
+        for name in names {
+            let place = name.strip_prefix("global.").map(Place::parse).transpose()?;
+            watched.push(match place.filter(|place| !place.is_whole()) {
+                Some(place) => {
+                    self.run.global(&place.variable).map_err(of_library)?;
+                    Watched::Part(place)
+                }
+                None => {
+                    by_library.push(name.as_str());
+                    Watched::ByLibrary(by_library.len() - 1)
+                }
+            });
+        }
+        self.run.watch(&by_library).map_err(of_library)?;
+        self.watched = watched;
+        Ok(())
+    }
+
+    /// Fills in the row of the trace and what is watched; how many numbers there are.
+    fn observe(&mut self, into: &mut [f64]) -> usize {
+        let by_library = self.watched.iter().filter(|it| matches!(it, Watched::ByLibrary(_))).count();
+        self.numbers.resize(self.columns + by_library, f64::NAN);
+        self.run.observe(&mut self.numbers);
+        let (row, values) = self.numbers.split_at(self.columns.min(self.numbers.len()));
+        into.iter_mut().zip(row).for_each(|(to, number)| *to = *number);
+        // Parts of one variable mostly come together.
+        let mut last: Option<(&str, serde_json::Value)> = None;
+        for (to, watched) in into.iter_mut().skip(self.columns).zip(&self.watched) {
+            *to = match watched {
+                Watched::ByLibrary(at) => values.get(*at).copied().unwrap_or(f64::NAN),
+                Watched::Part(place) => {
+                    if last.as_ref().is_none_or(|(name, _)| *name != place.variable) {
+                        let value = self.run.global(&place.variable).ok();
+                        let value = value.and_then(|literal| of_literal(&literal, "", "").ok());
+                        last = Some((&place.variable, value.unwrap_or_default()));
+                    }
+                    last.as_ref().map_or(f64::NAN, |(_, value)| place.number(value))
+                }
+            };
+        }
+        self.columns + self.watched.len()
+    }
+
+    /// Goes on. Where something is watched in a traced run, its values stand behind each row.
+    fn go_on(&mut self, cycles: u64, alone: bool) -> Result<Option<u8>, LoadError> {
+        if !self.traced || self.watched.is_empty() {
+            return self.run.go_on(cycles, alone);
+        }
+        let mut row = vec![f64::NAN; self.columns + self.watched.len()];
+        for _ in 0..cycles.max(1) {
+            let code = self.run.go_on(cycles.min(1), alone)?;
+            // One or none: none where no program runs.
+            let traced = self.run.take_rows();
+            if !traced.is_empty() {
+                self.observe(&mut row);
+                row.iter_mut().zip(&traced).for_each(|(to, number)| *to = *number);
+                self.rows.extend_from_slice(&row);
+            }
+            if code.is_some() {
+                return Ok(code);
+            }
+        }
+        Ok(None)
+    }
+
+    fn take_rows(&mut self) -> Vec<f64> {
+        if self.watched.is_empty() { self.run.take_rows() } else { std::mem::take(&mut self.rows) }
     }
 }
 
@@ -59,35 +157,34 @@ impl Library {
 #[pyclass(frozen)]
 pub(crate) struct Session {
     thread: ThreadId,
-    run: Mutex<Option<Run>>,
-    numbers: Mutex<Vec<f64>>,
+    going: Mutex<Option<Going>>,
 }
 
 impl Session {
     /// The run. Another thread is sent away, not kept waiting.
-    fn own(&self) -> PyResult<MutexGuard<'_, Option<Run>>> {
+    fn own(&self) -> PyResult<MutexGuard<'_, Option<Going>>> {
         let wrong = || Gone::new_err(LoadError::WrongThread.to_string());
         if thread::current().id() != self.thread {
             return Err(wrong());
         }
-        self.run.try_lock().map_err(|_| wrong())
+        self.going.try_lock().map_err(|_| wrong())
     }
 
     /// A text that every run has that is not broken.
     fn told(&self, tell: impl FnOnce(&mut Run) -> String) -> PyResult<String> {
-        match self.with(tell)? {
+        match self.with(|going| tell(&mut going.run))? {
             text if text.is_empty() => Err(of_library(LoadError::Broken)),
             text => Ok(text),
         }
     }
 
-    fn with<T>(&self, act: impl FnOnce(&mut Run) -> T) -> PyResult<T> {
-        let mut run = self.own()?;
-        run.as_mut().map(act).ok_or_else(|| Gone::new_err("the session is closed"))
+    fn with<T>(&self, act: impl FnOnce(&mut Going) -> T) -> PyResult<T> {
+        let mut going = self.own()?;
+        going.as_mut().map(act).ok_or_else(|| Gone::new_err("the session is closed"))
     }
 
     fn tried<T>(&self, act: impl FnOnce(&mut Run) -> Result<T, LoadError>) -> PyResult<T> {
-        self.with(act)?.map_err(of_library)
+        self.with(|going| act(&mut going.run))?.map_err(of_library)
     }
 }
 
@@ -98,7 +195,7 @@ impl Session {
         let mut left = cycles;
         loop {
             let now = left.min(CHUNK);
-            let code = py.detach(|| self.tried(|run| run.go_on(now, alone)))?;
+            let code = py.detach(|| self.with(|going| going.go_on(now, alone)))?.map_err(of_library)?;
             left -= now;
             py.check_signals()?;
             if code.is_some() || left == 0 {
@@ -109,25 +206,29 @@ impl Session {
 
     /// A few cycles, and what is observed after them into an array of doubles; the exit code where the run is over.
     fn step(&self, py: Python<'_>, cycles: u64, alone: bool, into: PyBuffer<f64>) -> PyResult<Option<u8>> {
-        let code =
-            if cycles > CHUNK { self.go_on(py, cycles, alone)? } else { self.tried(|run| run.go_on(cycles, alone))? };
+        let code = if cycles > CHUNK {
+            self.go_on(py, cycles, alone)?
+        } else {
+            self.with(|going| going.go_on(cycles, alone))?.map_err(of_library)?
+        };
         self.observe(py, into)?;
         Ok(code)
     }
 
     /// What is observed, into an array of doubles; how many numbers there are.
     fn observe(&self, py: Python<'_>, into: PyBuffer<f64>) -> PyResult<usize> {
-        let mut numbers = self.numbers.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        numbers.resize(into.item_count(), f64::NAN);
-        let count = self.with(|run| run.observe(&mut numbers))?;
+        let mut numbers = vec![f64::NAN; into.item_count()];
+        let count = self.with(|going| going.observe(&mut numbers))?;
         into.copy_from_slice(py, &numbers)?;
         Ok(count)
     }
 
-    /// Which signals and global variables are observed behind the row of the trace.
+    /// Which signals, global variables and parts of them are observed behind the row of the trace.
     fn watch(&self, names: Vec<String>) -> PyResult<()> {
-        let names: Vec<&str> = names.iter().map(String::as_str).collect();
-        self.tried(|run| run.watch(&names))
+        if names.iter().any(|name| name.contains('\n')) {
+            return Err(Refused::new_err("a name has no line break in it"));
+        }
+        self.with(|going| going.watch(&names))?
     }
 
     /// Does what an event of a scenario does.
@@ -147,12 +248,12 @@ impl Session {
 
     /// What was said since the last call, a JSON object a line.
     fn take_said(&self) -> PyResult<String> {
-        self.with(Run::take_said)
+        self.with(|going| going.run.take_said())
     }
 
     /// The rows of the trace since the last call, as the bytes of doubles.
     fn take_rows<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let rows = self.with(Run::take_rows)?;
+        let rows = self.with(Going::take_rows)?;
         PyBytes::new_with(py, rows.len() * 8, |bytes| {
             bytes.chunks_exact_mut(8).zip(&rows).for_each(|(to, number)| to.copy_from_slice(&number.to_ne_bytes()));
             Ok(())
@@ -171,18 +272,18 @@ impl Session {
 
     /// What each motion did, a JSON object a line.
     fn report(&self) -> PyResult<String> {
-        self.with(Run::report)
+        self.with(|going| going.run.report())
     }
 
     /// Controller time in s.
     #[getter]
     fn time(&self) -> PyResult<f64> {
-        self.with(|run| run.time())
+        self.with(|going| going.run.time())
     }
 
     /// Ends the programs: the robots stop on their paths within the cycles that follow.
     fn stop(&self) -> PyResult<()> {
-        self.with(|run| run.stop())
+        self.with(|going| going.run.stop())
     }
 
     /// Ends the run.

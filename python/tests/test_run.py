@@ -45,15 +45,155 @@ def test_programs_and_exceptions_go_to_other_processes(short, tmp_path):
     for raised in (alarmed.value, refused.value):
         again = pickle.loads(pickle.dumps(raised))
         assert (type(again), str(again), again.line) == (type(raised), str(raised), raised.line)
-    with pytest.raises(arl2rs.RefusedError, match="a file"):
+    with pytest.raises(arl2rs.RefusedError, match="needs files"):
         arl2rs.check()
 
 
 def test_what_is_not_there_is_told(tmp_path):
-    with pytest.raises(arl2rs.ArlError, match=r"none\.arl"):
-        arl2rs.compile(tmp_path / "none.arl")
+    (tmp_path / "nine.arl").write_text("func void main()\nendfunc\n")
+    for act in (arl2rs.compile, arl2rs.check, arl2rs.run, lambda program: arl2rs.sweep(program, [{}])):
+        with pytest.raises(arl2rs.RefusedError, match=r"none\.arl: expected a program; did you mean .*nine\.arl"):
+            act(tmp_path / "none.arl")
+    with pytest.raises(arl2rs.RefusedError, match="is a folder"):
+        arl2rs.compile(tmp_path)
     with pytest.raises(arl2rs.RefusedError, match="nobody"):
-        arl2rs.check(tmp_path / "none.arl", robot="nobody")
+        arl2rs.check(tmp_path / "nine.arl", robot="nobody")
+    with pytest.raises(arl2rs.RefusedError, match=r"no\.toml"):
+        arl2rs.check(tmp_path / "nine.arl", cell="no.toml")
+
+
+def test_a_scenario_that_is_not_there_is_told_when_compiling(short, tmp_path):
+    program = arl2rs.compile(short)
+    for act in (
+        lambda io: arl2rs.compile(short, scenario=io),
+        lambda io: program.run(scenario=io),
+        lambda io: program.session(scenario=io),
+        lambda io: program.record("r.mcap", scenario=io),
+        lambda io: arl2rs.sweep(short, [{}], scenario=io),
+        lambda io: arl2rs.run(short, scenario=io),
+    ):
+        with pytest.raises(arl2rs.RefusedError, match=r"there is no file no\.toml: expected a scenario"):
+            act("no.toml")
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text("[[event]]\nat = \n")
+    with pytest.raises(arl2rs.RefusedError, match=r"wrong\.toml:2: "):
+        arl2rs.compile(short, scenario=wrong)
+    # An arl.toml names it.
+    (tmp_path / "a.arl").write_text("func void main()\nendfunc\n")
+    (tmp_path / "arl.toml").write_text('io = "no.toml"\n')
+    with pytest.raises(arl2rs.RefusedError, match=r"no\.toml"):
+        arl2rs.compile(tmp_path / "a.arl")
+
+
+def test_slips_in_names_of_arguments_are_told(short):
+    program = arl2rs.compile(short)
+    for act, words in [
+        (lambda: arl2rs.sweep(short, [], procesess=3), "no argument `procesess`: did you mean `processes`"),
+        (lambda: program.sweep([], procesess=3), "did you mean `processes`"),
+        (lambda: program.run(overide=50), "did you mean `override`"),
+        (lambda: arl2rs.run(short, overide=50), "did you mean `override`"),
+        (lambda: program.record("r.mcap", overide=50), "did you mean `override`"),
+        (lambda: arl2rs.compile(short, io="s.toml"), "it is called `scenario` here"),
+        (lambda: program.run(**{"max-time": 3}), "did you mean `max_time`"),
+        (lambda: arl2rs.check(short, sript_dir="a"), "did you mean `script_dir`"),
+        (lambda: arl2rs.Program(short, robott="a"), "did you mean `robot`"),
+        (lambda: arl2rs.Robot("kr10-r1420").inverse([0] * 6, nearr=3), "did you mean `near`"),
+        (lambda: arl2rs.points("a", [[0] * 6], tipe="joint"), "did you mean `type`"),
+    ]:
+        with pytest.raises(TypeError, match=words):
+            act()
+
+
+def test_a_program_is_a_text(tmp_path):
+    text = 'import "grip.arl"\nfunc void main()\n    grip::take()\n    print 3, offset[1].x\nendfunc\n'
+    beside = {"grip.arl": "func void take()\n    movej j:{0, -90, 90, 0, 90, 0}\n    movej j:{5, -90, 90, 0, 90, 0}\nendfunc\n"}
+    beside["program_data.arl"] = "pose offset[2] = {{x 1}, {x 2}}\n"
+    program = arl2rs.compile(source=text, beside=beside)
+    result = program.run()
+    assert result.output == "32\n" and repr(program) == "Program(source=..)"
+    assert pickle.loads(pickle.dumps(program)).run() == result
+    assert arl2rs.run(source=text, beside=beside) == result
+    assert program.sweep([{}])[0]["outcome"] == "ended"
+    [wrong] = arl2rs.check(source=text, beside={**beside, "grip.arl": "func void take()\n    movej 5\nendfunc\n"})
+    assert (wrong.file, wrong.line) == ("grip.arl", 2)
+    with pytest.raises(arl2rs.CompileError) as raised:
+        arl2rs.compile(source="func void main()\n    movej 5\nendfunc\n")
+    assert (raised.value.file, raised.value.line) == ("program.arl", 2)
+    for arguments, words in [
+        ({}, "a file, or its text"),
+        ({"program": "a.arl", "source": text}, "a file, or its text"),
+        ({"program": "a.arl", "beside": beside}, "goes with `source`"),
+        ({"source": text, "beside": {"../a.arl": ""}}, "expected the name of a file"),
+    ]:
+        with pytest.raises(arl2rs.RefusedError, match=words):
+            arl2rs.compile(**arguments)
+
+
+def test_files_of_a_trace_are_those_of_the_first_robot_s_motions(program):
+    columns = program.columns
+    rows = np.zeros((4, len(columns)))
+    rows[:, columns.index("motion")] = [0, 1, 2, 1]
+    report = '{"channel":1,"motion":1,"file":"a.arl"}\n{"channel":1,"motion":2,"file":"b.arl"}\n'
+    report += '{"channel":2,"motion":1,"file":"c.arl"}\n{"channel":1,"cycle_time":1,"motions":2}\n'
+    summary = '{"outcome":"ended","code":0,"cycle_time":1,"alarms":[]}'
+    result = arl2rs.result.of_summary(summary, "", report, rows, columns)
+    assert list(result.trace.file) == ["", "a.arl", "b.arl", "a.arl"]
+    assert [row["file"] for row in result.report] == ["a.arl", "b.arl", "c.arl"] and result.totals[0]["motions"] == 2
+
+
+def test_lines_have_their_file():
+    text = 'import "grip.arl"\nfunc void main()\n    movej j:{0, -90, 90, 0, 90, 0}\n    grip::take()\nendfunc\n'
+    beside = {"grip.arl": "func void take()\n    movej j:{5, -90, 90, 0, 90, 0}\nendfunc\n"}
+    result = arl2rs.run(source=text, beside=beside)
+    if "file" not in result.report[0]:
+        pytest.skip("this runtime's report does not name files")
+    assert [(row["file"], row["line"]) for row in result.report] == [("program.arl", 3), ("grip.arl", 2)]
+    trace = result.trace
+    assert {(file, int(line)) for file, line in zip(trace.file, trace.line, strict=True)} >= {("program.arl", 3), ("grip.arl", 2)}
+    assert set(trace.file[trace.motion == 0]) <= {""} and list(trace.to_pandas()["file"]) == list(trace.file)
+
+
+def test_the_report_has_a_row_for_each_motion(program):
+    result = program.run()
+    assert len(result.report) == result.motions and all("motion" in row for row in result.report)
+    [totals] = result.totals
+    assert totals["motions"] == result.motions and totals["cycle_time"] == pytest.approx(result.cycle_time, abs=1e-6)
+
+
+def test_500_points_come_from_an_array():
+    turn = np.linspace(0, 2 * np.pi, 500)
+    fixed = np.ones_like(turn)
+    circle = np.column_stack([850 + 60 * np.cos(turn), 60 * np.sin(turn), 900 * fixed, 0 * fixed, 180 * fixed, 0 * fixed])
+    text = "func void main()\n    movej j:{0, -90, 90, 0, 90, 0}\n    ptp p:weld[0]\n"
+    text += "    for(int i=1;i<500;i++)\n        lin p:weld[i], vl:100mm/s, sl:1mm\n    endfor\nendfunc\n"
+    program = arl2rs.compile(source=text, beside={"program_data.arl": arl2rs.points("weld", circle)})
+    assert program.points["weld"].sizes == (500,)
+    result = program.run().check()
+    assert result.motions == 501 and np.abs(result.trace.tcp[-1, :3] - circle[-1, :3]).max() < 1e-6
+    # The same program with other points.
+    higher = program.run(points={"weld": circle + np.array([0, 0, 50, 0, 0, 0])}).check()
+    assert abs(higher.trace.tcp[-1, 2] - 950) < 1e-6
+
+
+def test_arrays_become_points_to_the_last_bit():
+    numbers = np.random.default_rng(1).uniform(-1e3, 1e3, (20, 6)) * 10.0 ** np.arange(-9, 3, 2)
+    text = arl2rs.points("p", numbers) + arl2rs.points("q", numbers, type="joint", separate=True)
+    text += arl2rs.points("r", numbers[:, :3]) + arl2rs.points("s", [[1, 2, 3]], components=["x", "cfg", "turn"])
+    with arl2rs.compile(source=text + "func void main()\n    print 1\nendfunc\n").session() as session:
+        session.step()
+        assert [[row[name] for name in "xyzabc"] for row in session.global_value("p")] == numbers.tolist()
+        assert [session.global_value("q20")[f"j{axis}"] for axis in range(1, 7)] == numbers[19].tolist()
+        assert "a" not in session.global_value("r")[0] and session.global_value("s")[0]["cfg"] == 2
+    for arguments, words in [
+        (("1p", numbers), "no name of a variable"),
+        (("p", numbers[0]), "found an array of shape"),
+        (("p", [[1, np.nan, 3]]), "row 0 has a number that is none"),
+        (("p", numbers, "place"), None),
+    ]:
+        with pytest.raises(arl2rs.RefusedError if words else TypeError, match=words):
+            arl2rs.points(*arguments)
+    with pytest.raises(arl2rs.RefusedError, match="'w' is none of x"):
+        arl2rs.points("p", [[1]], components=["w"])
 
 
 def test_a_run_is_that_of_the_command_to_the_last_bit(program, example, tmp_path):
@@ -62,7 +202,7 @@ def test_a_run_is_that_of_the_command_to_the_last_bit(program, example, tmp_path
     command += ["--trace", tmp_path / "t.csv", f"--report={tmp_path / 'r.jsonl'}", "--state-dir", tmp_path / "state"]
     ran = subprocess.run(command, cwd=example, check=True, capture_output=True, text=True)
     assert result.output == ran.stdout and result.ended and result.code == 0
-    assert list(result.report) == [json.loads(line) for line in (tmp_path / "r.jsonl").read_text().splitlines()]
+    assert [*result.report, *result.totals] == [json.loads(line) for line in (tmp_path / "r.jsonl").read_text().splitlines()]
     written = np.genfromtxt(tmp_path / "t.csv", delimiter=",", names=True)
     assert len(written) == len(result.trace)
     for column in result.trace.columns:
@@ -77,7 +217,7 @@ def test_the_trace_has_views(program):
     assert trace.tcp.shape == trace.velocities.shape == (len(trace), 6)
     assert trace.t[1] == 0.001 and trace.line.max() == 56 and trace.motion.max() == 38
     assert 500 < trace.speed.max() < 5000
-    assert list(trace.to_pandas().columns) == list(trace.to_polars().columns) == [it for it in trace.columns if it[:2] != "ej"]
+    assert list(trace.to_pandas().columns) == list(trace.to_polars().columns) == [*(it for it in trace.columns if it[:2] != "ej"), "file"]
     assert trace.to_pandas()["line"].dtype == np.int64 and trace.to_pandas().notna().all().all()
     with pytest.raises(KeyError, match="nope"):
         trace["nope"]
@@ -137,7 +277,7 @@ def test_numbers_arrive_to_the_last_bit(short):
         session.step()
         for number in random.uniform(0, 1000, 200):
             session.set_global("angle", number)
-            assert float(session.global_value("angle")) == number
+            assert session.global_value("angle") == number
     [row] = arl2rs.sweep(short, [{"global.angle": 449.49106478873813, "max-time": 1}])
     assert row["parameters"]["global.angle"] == 449.49106478873813
 

@@ -1,6 +1,8 @@
 """Sweeps on this computer."""
 
 import _thread
+import subprocess
+import sys
 import threading
 
 import pandas
@@ -93,6 +95,70 @@ def test_what_cannot_begin_has_a_row(example):
         results.plot("speed2")
     assert [row["outcome"] for row in results] == ["refused"] * 3
     assert ["pich" in results[0]["problem"], "nobody" in results[1]["problem"], "speed" in results[2]["problem"]] == [True] * 3
+
+
+def test_a_slip_in_all_rows_is_refused_at_once(example):
+    for rows in ([{"global.pich": 1}, {"global.pich": 2}], arl2rs.grid({"global.pich": [1, 2], "override": [50, 100]})):
+        with pytest.raises(arl2rs.RefusedError, match="there is no global variable `pich`: did you mean `pitch`"):
+            arl2rs.sweep(example / "pick_and_place.arl", rows)
+    results = arl2rs.sweep(example / "pick_and_place.arl", [{"global.pich": 1}, {"global.pitch": 80, "max_time": 1}])
+    assert [row["outcome"] for row in results] == ["refused", "time_over"]
+
+
+def test_rows_are_frames(short):
+    rows = [{"global.parts": 2, "override": 50}, {"global.parts": 3}]
+    expected = arl2rs.sweep(short, rows)
+    for frame in (pandas.DataFrame(rows), polars.DataFrame(rows)):
+        results = arl2rs.sweep(short, frame)
+        assert results.lines == expected.lines
+    # Whole numbers with gaps are floats in pandas.
+    gaps = arl2rs.sweep(short, pandas.DataFrame([{"global.parts": 2}, {"override": 50}]))
+    assert [row["outcome"] for row in gaps] == ["ended", "ended"] and gaps[0]["parameters"] == {"global.parts": 2}
+    with pytest.raises(arl2rs.RefusedError, match="a list of dictionaries"):
+        arl2rs.sweep(short, {"override": 50})
+
+
+def test_names_are_those_of_python_and_the_command_s_are_taken(example):
+    file, scenario = example / "pick_and_place.arl", example / "scenario.toml"
+    ours = {"max_time": 2, "scenario": scenario, "scenario.event.1.at": 0.5, "start_time": "2026-11-28T12:00:00"}
+    theirs = {"max-time": 2, "io": scenario, "io.event.1.at": 0.5, "start-time": "2026-11-28T12:00:00"}
+    one, other = (arl2rs.sweep(file, [row]) for row in (ours, theirs))
+    assert one.lines == other.lines and one[0]["outcome"] == "time_over"
+    assert list(one[0]["parameters"]) == list(ours) and list(other[0]["parameters"]) == list(theirs)
+    with pytest.raises(arl2rs.RefusedError, match="max-time is given twice"):
+        arl2rs.sweep(file, [{"max_time": 2, "max-time": 3}])
+    program = arl2rs.compile(file, scenario=scenario)
+    runs = [program.run(set={place: 0.5}, max_time=2, trace=False) for place in ("scenario.event.1.at", "io.event.1.at")]
+    assert runs[0] == runs[1]
+    (example / "names.toml").write_text('program = "pick_and_place.arl"\n[[run]]\nio = "scenario.toml"\nmax-time = 2\n')
+    _, rows = arl2rs.load_sweep(example / "names.toml")
+    assert list(rows[0]) == ["scenario", "max_time"]
+
+
+def test_who_sees_no_bar_is_told_what_takes_long(tmp_path):
+    code = """
+import time, arl2rs
+from arl2rs import notice, sweeps
+notice.PATIENCE_S = 0.05
+sweeps.SAID_S = 0.0
+arl2rs.sweep("new.arl", [{"seed": 1}, {"seed": 2}], cache=False)
+"""
+    (tmp_path / "new.arl").write_text("func void main()\n    print rand()\nendfunc\n")
+    said = subprocess.run([sys.executable, "-P", "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True).stderr
+    assert "arl2rs: compiling new.arl for 2 runs" in said and "arl2rs: 2 of 2 runs" in said
+
+
+def test_a_notebook_without_widgets_is_no_warning():
+    # What tqdm looks at to find out whether it is in a notebook.
+    code = """
+import sys, types, warnings
+warnings.simplefilter("error")
+shell = types.SimpleNamespace(config={"IPKernelApp": {}})
+sys.modules["IPython"] = types.SimpleNamespace(get_ipython=lambda: shell)
+sys.modules["ipywidgets"] = None
+import tqdm, arl2rs.sweeps
+"""
+    subprocess.run([sys.executable, "-P", "-c", code], check=True)
 
 
 def test_mistakes_are_told_before_anything_runs(tmp_path, example):

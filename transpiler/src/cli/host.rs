@@ -3,7 +3,7 @@
 //! Everything here is as the command does it, with the same `arl.toml`, cache and words.
 
 use super::args::{Checking, RunOptions};
-use super::cache::{Cache, Kind, Lock};
+use super::cache::{Cache, Kind, Lock, write_if_changed};
 use super::check;
 use super::failure::Failure;
 use super::program::{self, prepare_checked};
@@ -11,10 +11,15 @@ use super::sweep;
 pub use super::sweep::{
     Bundle, Kept, MAX_TIME, Parameters, Row, RunResult, Settings, Spread, Sweep, TIMEOUT, Worker, as_arl,
 };
+use super::variables;
+pub use super::variables::Variable;
 use crate::compile::{guard, on_large_stack};
-use arl_robot::Robot;
+use arl_robot::cell::{Cell, Signal, SignalKind};
+use arl_robot::settings::Source;
+use arl_robot::{Robot, regular_file};
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
+use twox_hash::XxHash3_128;
 
 /// Why something could not be done.
 #[derive(Clone, PartialEq, Debug)]
@@ -85,6 +90,7 @@ pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
     safely(|| {
         let program = &settings.program;
         let options = options(settings).of_program(program)?;
+        options.io.as_deref().map_or(Ok(()), scenario)?;
         let ready = prepare_checked(Kind::Library, program, options.cell.as_deref(), &options.checking())?;
         let folder = options.script_dir.clone().map_or_else(|| folder_of(program), Ok)?;
         let named = [
@@ -96,6 +102,81 @@ pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
         ];
         let words = named.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?])).flatten().collect();
         Ok(CompiledLibrary { path: ready.program, words, _lock: ready.lock })
+    })
+}
+
+/// The global variables of a program, in the order of their files and declarations.
+///
+/// # Errors
+/// It cannot be read, or the robot or the cell is not there.
+pub fn variables(settings: &Settings) -> Result<Vec<Variable>, HostError> {
+    safely(|| {
+        let checking = options(settings).of_program(&settings.program)?.checking();
+        variables::of_program(&settings.program, &checking)
+    })
+}
+
+/// The signals of a program's cell, each with what the cell calls it, where it has a name.
+///
+/// # Errors
+/// The cell cannot be read.
+pub fn signals(settings: &Settings) -> Result<Vec<(Signal, Option<String>)>, HostError> {
+    const KINDS: [SignalKind; 6] = [
+        SignalKind::DigitalInput,
+        SignalKind::DigitalOutput,
+        SignalKind::AnalogInput,
+        SignalKind::AnalogOutput,
+        SignalKind::InternalInput,
+        SignalKind::InternalOutput,
+    ];
+    safely(|| {
+        let options = options(settings).of_program(&settings.program)?;
+        let cell = options.cell.as_deref().map(Cell::load).transpose();
+        let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?;
+        let (channels, names) = cell.map(|cell| (cell.channels, cell.names)).unwrap_or_default();
+        let of_kind = |kind: SignalKind| {
+            let signals = (1..=kind.count(&channels)).map(move |channel| Signal { kind, channel });
+            signals.map(|signal| (signal, names.of(signal).map(str::to_owned))).collect::<Vec<_>>()
+        };
+        Ok(KINDS.into_iter().flat_map(of_kind).collect())
+    })
+}
+
+/// A program that was given as text, in a folder of the cache. As long as this lives nobody removes it.
+#[derive(Debug)]
+pub struct TextProgram {
+    /// Its main file.
+    pub path: PathBuf,
+    _lock: Lock,
+}
+
+/// Puts a program that is given as text into the cache: its main file first, and what lies beside it, by their names. The same texts
+/// have the same folder, so that they are compiled once.
+///
+/// # Errors
+/// A name leads out of the folder, or it cannot be written.
+pub fn text_program(files: &[(String, String)]) -> Result<TextProgram, HostError> {
+    safely(|| {
+        let mut hasher = XxHash3_128::new();
+        for (name, text) in files {
+            if !Path::new(name).components().all(|part| matches!(part, Component::Normal(_))) || name.is_empty() {
+                return Err(Failure::Usage(format!("{name:?}: expected the name of a file, like \"points.arl\"")));
+            }
+            for part in [name, text] {
+                hasher.write(&(part.len() as u64).to_le_bytes());
+                hasher.write(part.as_bytes());
+            }
+        }
+        let (main, _) = files.first().ok_or_else(|| Failure::Usage("a program has a text".into()))?;
+        let folder = Cache::find()?.text(&format!("{:032x}", hasher.finish_128()));
+        let lock = Lock::take(&folder, true, "waiting for another arl2rs that removes this program")?;
+        for (name, text) in files {
+            let path = folder.join(name);
+            let parent = path.parent().unwrap_or(&folder);
+            std::fs::create_dir_all(parent).map_err(|error| Failure::io("make the folder", parent, &error))?;
+            write_if_changed(&path, text.as_bytes())?;
+        }
+        Ok(TextProgram { path: folder.join(main), _lock: lock })
     })
 }
 
@@ -167,6 +248,18 @@ fn found(
 fn options(settings: &Settings) -> RunOptions {
     let Settings { robot, cell, io, script_dir, .. } = settings.clone();
     RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }
+}
+
+/// Looks whether a scenario is there, and is TOML; whether it fits the cell is found out when a run begins.
+fn scenario(path: &Path) -> Result<(), Failure> {
+    let shown = path.display();
+    let text = regular_file::read_text(path)
+        .map_err(|error| Failure::Usage(format!("cannot read the scenario {shown}: {error}")))?;
+    let wrong = |error: toml::de::Error| {
+        let line = Source { file: "", text: &text }.line(error.span().map_or(0, |span| span.start));
+        Failure::Usage(format!("{shown}:{line}: {}", error.message().trim_end()))
+    };
+    toml::from_str::<toml::Table>(&text).map(drop).map_err(wrong)
 }
 
 fn folder_of(program: &Path) -> Result<PathBuf, Failure> {

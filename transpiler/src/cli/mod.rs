@@ -51,6 +51,7 @@ mod test;
 mod texts;
 mod trouble;
 mod urdf;
+mod variables;
 mod view;
 
 use crate::compile::{guard, on_large_stack, remember_panics};

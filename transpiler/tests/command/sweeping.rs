@@ -288,7 +288,7 @@ fn a_slip_in_the_name_of_a_variable_is_told_before_anything_runs() {
         folder.write("s.toml", &format!("program = \"p.arl\"\n{table}"));
         folder.arl2rs(&["sweep", "s.toml"])
     };
-    sweep("[grid]\n\"global.pich\" = [1, 2]\n").is(2, "").says("no global variable `pich`; did you mean `pitch`?");
+    sweep("[grid]\n\"global.pich\" = [1, 2]\n").is(2, "").says("no global variable `pich`: did you mean `pitch`?");
     sweep("[[run]]\n\"global.pitch\" = 1\n\"global.a\\nb\" = 1\n").is(2, "").says("no global variable");
     // Names fold, and may have the name of a file in front.
     let outcomes = |table: &str| rows(&sweep(table)).iter().map(|row| row["outcome"].clone()).collect::<Vec<_>>();

@@ -65,6 +65,11 @@ impl Cache {
         self.root.join(RESULTS).join(key).with_extension(RESULTS_END)
     }
 
+    /// The folder of a program that was given as text, by the hash of that. It goes with the programs.
+    pub(super) fn text(&self, hash: &str) -> PathBuf {
+        self.root.join(PROGRAMS).join(format!("text-{hash}"))
+    }
+
     /// The folder of a runtime.
     pub(super) fn runtime(&self, name: &str) -> PathBuf {
         self.root.join(RUNTIMES).join(name)

@@ -6,7 +6,6 @@
 mod bundle;
 mod cell_files;
 mod folder;
-mod globals;
 mod kept;
 mod looking;
 mod parameter;

@@ -1,0 +1,120 @@
+"""Names of arguments: a slip is told with what is near, before anything is done."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import inspect
+from collections.abc import Callable, Iterable, Sequence
+from typing import ParamSpec, TypedDict, TypeVar, get_type_hints
+
+from .choices import Engine, Mode
+from .problems import StrPath
+from .values import Parameters
+
+__all__ = ["CompileArguments", "EpisodeArguments", "RecordArguments", "RunArguments", "SweepArguments", "named"]
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_COMMAND_WORDS = {"io": "scenario", "jobs": "processes", "no_cache": "cache"}
+"""How Python calls what the command calls otherwise."""
+
+
+class CompileArguments(TypedDict, total=False):
+    """What `compile` takes beside the program."""
+
+    robot: StrPath | None
+    cell: StrPath | None
+    scenario: StrPath | None
+    script_dir: StrPath | None
+
+
+class _AnyRun(TypedDict, total=False):
+    globals: Parameters | None
+    points: Parameters | None
+    set: Parameters | None
+    override: float | None
+    mode: Mode | None
+    seed: int | None
+    max_time: float | None
+
+
+class RecordArguments(_AnyRun, total=False):
+    """What `Program.record` takes beside the recording."""
+
+    scenario: StrPath | None
+    robot: StrPath | None
+
+
+class RunArguments(RecordArguments, total=False):
+    """What `Program.run` takes."""
+
+    start_time: str | None
+    state_dir: StrPath | None
+    watch: Sequence[str]
+    trace: bool
+
+
+class EpisodeArguments(TypedDict, total=False):
+    """What an episode of an `Environment` takes beside the environment's own."""
+
+    scenario: StrPath | None
+    robot: StrPath | None
+    globals: Parameters | None
+    points: Parameters | None
+    set: Parameters | None
+    override: float | None
+    mode: Mode | None
+    seed: int | None
+    start_time: str | None
+    state_dir: StrPath | None
+    trace: bool
+
+
+class SweepArguments(TypedDict, total=False):
+    """What `sweep` takes beside the program, its rows, and what it is compiled with."""
+
+    files: Iterable[StrPath]
+    max_time: float | None
+    timeout: float | None
+    collisions: bool
+    clearance: float | None
+    engine: Engine
+    processes: int
+    cache: bool
+    progress: bool | None
+
+
+def named(function: Callable[P, R], /) -> Callable[P, R]:
+    """Tells a slip in the name of an argument with the names that are near: also where the arguments are handed on."""
+    known = _names(function)
+
+    @functools.wraps(function)
+    def called(*args: P.args, **kwargs: P.kwargs) -> R:
+        for name in kwargs:
+            if name not in known:
+                raise TypeError(f"{function.__name__}() has no argument `{name}`{_meant(name, known)}")
+        return function(*args, **kwargs)
+
+    return called
+
+
+def _names(function: Callable[..., object]) -> list[str]:
+    names: list[str] = []
+    for parameter in inspect.signature(function).parameters.values():
+        if parameter.kind is not inspect.Parameter.VAR_KEYWORD:
+            names.append(parameter.name)
+            continue
+        # `**arguments: Unpack[RunArguments]`
+        table = str(parameter.annotation).removeprefix("Unpack[").removesuffix("]")
+        names += get_type_hints(globals()[table])
+    return names
+
+
+def _meant(name: str, known: list[str]) -> str:
+    word = _COMMAND_WORDS.get(name)
+    if word in known:
+        return f": it is called `{word}` here"
+    near = difflib.get_close_matches(name.replace("-", "_"), known, 1)
+    return f": did you mean `{near[0]}`?" if near else f": there are {', '.join(it for it in known if it != 'self')}"

@@ -1,0 +1,69 @@
+"""Points from arrays, as a program has them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .choices import PointType
+from .keywords import named
+from .problems import RefusedError
+
+__all__ = ["points"]
+
+POSE = ("x", "y", "z", "a", "b", "c", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6")
+JOINT = ("j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6")
+MOST = 10_000
+"""So many elements an array of ARL has."""
+
+
+@named
+def points(
+    name: str,
+    array: ArrayLike,
+    *,
+    type: PointType = "pose",
+    components: Sequence[str] | None = None,
+    separate: bool = False,
+) -> str:
+    """The text of a declaration of points, for a data file or a program: a row of the array is a point.
+
+    - `name` is that of the variable: an array of `pose`, or of `joint` with `type="joint"`; with `separate` a variable each: `name1`, `name2`, ..
+    - `components` are what the columns are; without it x, y, z, a, b, c of a pose (three columns: x, y, z), and j1.. of a joint, then ej1.. mm and deg.
+
+    Raises `RefusedError` where the array does not have these columns, or a number that is none.
+
+    >>> points("weld", [[900, -50.5, 400, 0, 180, 0]])
+    'pose weld[1] = {{x 900.0, y -50.5, z 400.0, a 0.0, b 180.0, c 0.0}}\\n'
+    """
+    if not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII):
+        raise RefusedError(f"{name!r} is no name of a variable")
+    if type not in ("pose", "joint"):
+        raise RefusedError(f"type {type!r}: expected 'pose' or 'joint'")
+    rows = np.asarray(array, dtype=np.float64)
+    if rows.ndim != 2 or not 0 < len(rows) <= MOST:
+        raise RefusedError(f"expected 1 to {MOST} rows, a point each, found an array of shape {rows.shape}")
+    known = POSE if type == "pose" else JOINT
+    columns = tuple(components) if components is not None else known[: rows.shape[1]]
+    unknown = [column for column in columns if column not in (*known, "cfg", "turn")]
+    if unknown or len(columns) != rows.shape[1] or len(set(columns)) != len(columns):
+        what = f"{unknown[0]!r} is none of {', '.join(known)}" if unknown else f"{len(columns)} different names for {rows.shape[1]} columns"
+        raise RefusedError(f"components: {what}")
+    if not np.isfinite(rows).all():
+        row = int(np.argwhere(~np.isfinite(rows))[0][0])
+        raise RefusedError(f"row {row} has a number that is none: {rows[row]}")
+    braces = ["{" + ", ".join(_component(*one) for one in zip(columns, row, strict=True)) + "}" for row in rows.tolist()]
+    if separate:
+        return "".join(f"{type} {name}{at} = {brace}\n" for at, brace in enumerate(braces, 1))
+    return f"{type} {name}[{len(braces)}] = {{{', '.join(braces)}}}\n"
+
+
+def _component(name: str, number: float) -> str:
+    if name not in ("cfg", "turn"):
+        return f"{name} {number!r}"
+    if not number.is_integer():
+        raise RefusedError(f"{name} is a whole number, not {number!r}")
+    return f"{name} {int(number)}"

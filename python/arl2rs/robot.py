@@ -1,0 +1,241 @@
+"""Robots: axes, and the way from axes to poses and back."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arl2rs
+from .choices import Family
+from .keywords import named
+from .problems import RefusedError, StrPath, told
+
+__all__ = ["Axis", "Robot", "robots"]
+
+COMPONENTS = ("x", "y", "z", "a", "b", "c")
+NOWHERE = (0.0,) * 6
+
+Array = NDArray[np.float64]
+FrameLike = Sequence[float] | Array | Mapping[str, float] | None
+"""A frame: x, y, z in mm, a, b, c in deg, as six numbers or by their names, as `Session.global_value` gives poses; None: nothing between."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """An axis and its limits, in deg, deg/s, deg/s2, deg/s3; mm instead of deg where it is linear."""
+
+    name: str
+    """`j1`.., of external axes `ej1`.."""
+    linear: bool
+    min: float
+    max: float
+    vel: float
+    acc: float
+    jerk: float
+
+
+def robots() -> list[str]:
+    """The names of the robots that are built in; the first is the default."""
+    return _arl2rs.robots()
+
+
+class Robot:
+    """A robot by its name, or of a file: `Robot("kr10-r1420")`.
+
+    Axes are in deg (mm where they are linear), the robot's own ones only; poses are x, y, z in mm, a, b, c in deg, as in a program. A pose is the TCP
+    seen from the workpiece: `tool` is the tool's frame seen from the flange, `wobj` the workpiece's in the world, `base` where the robot stands in the
+    world. With `stationary` the tool stands in the world and with `robhold` the workpiece is on the flange, as of `tool` and `wobj` of a program; both
+    together or neither. Many rows at once are one array with a row each.
+
+    Raises `RefusedError` where there is no such robot, or something does not have the shape that it should have.
+    """
+
+    def __init__(self, name: StrPath) -> None:
+        with told:
+            self._robot = _arl2rs.Robot(os.fspath(name))
+        self.name = self._robot.name
+        self.family: Family = self._robot.family
+        """`six-axis` or `scara`."""
+        all_axes = tuple(Axis(*facts) for facts in self._robot.axes_facts)
+        self._own = self._robot.own_count
+        self.axes = all_axes[: self._own]
+        """The robot's own axes."""
+        self.external = all_axes[self._own :]
+        """Its external axes."""
+        self.home: Array = np.array(self._robot.home[: self._own])
+        """Where the simulated robot starts, its own axes."""
+        self.configurations = tuple(self._robot.configurations)
+        """The values that `cfg` can have."""
+
+    def __repr__(self) -> str:
+        return f"Robot({self.name!r})"
+
+    @named
+    def forward(
+        self,
+        joints: ArrayLike,
+        *,
+        tool: FrameLike = None,
+        wobj: FrameLike = None,
+        base: FrameLike = None,
+        stationary: bool = False,
+        robhold: bool = False,
+    ) -> Array:
+        """The pose of the TCP for axes, wherever they are: also beyond their ranges. Rows of axes give rows of poses."""
+        rows, one = _rows(joints, self._own, "joints")
+        with told:
+            poses, _ = self._robot.forward(rows, _frames(tool, wobj, base, stationary, robhold))
+        found = np.frombuffer(poses).reshape(-1, 6).copy()
+        return found[0] if one else found
+
+    def configuration(self, joints: ArrayLike) -> NDArray[np.int64]:
+        """The `cfg` of axes, as poses of a program have it; an array for rows of axes, else one number."""
+        rows, one = _rows(joints, self._own, "joints")
+        with told:
+            _, cfgs = self._robot.forward(rows, _frames(None, None, None, False, False))
+        found = np.array(list(cfgs), dtype=np.int64)
+        return found[0] if one else found
+
+    @named
+    def inverse(
+        self,
+        poses: ArrayLike | Mapping[str, float],
+        *,
+        near: ArrayLike | None = None,
+        cfg: int | None = None,
+        turn: int = -1,
+        chained: bool = False,
+        tool: FrameLike = None,
+        wobj: FrameLike = None,
+        base: FrameLike = None,
+        stationary: bool = False,
+        robhold: bool = False,
+    ) -> Array:
+        """The axes that bring the TCP to a pose, within their ranges: those nearest to `near` (without it to `home`), or of the configuration `cfg`.
+        `turn` as in a pose of a program.
+
+        Rows of poses give rows of axes, each near its row of `near`, or all near the one that there is; with `chained` each near the one before it, as
+        along a path. A row that is not reached is NaN.
+
+        Raises `RefusedError` with the reason where one pose is asked for and not reached.
+        """
+        rows, one = _pose_rows(poses)
+        found, reasons = self._inverse(rows, near, (cfg, turn, chained), _frames(tool, wobj, base, stationary, robhold))
+        if one and reasons[0] is not None:
+            shown = ", ".join(f"{name} {number:g}" for name, number in zip(COMPONENTS, rows[0], strict=True))
+            raise RefusedError(f"{self.name} does not reach {{{shown}}}: {reasons[0]}")
+        return found[0] if one else found
+
+    @named
+    def reaches(
+        self,
+        poses: ArrayLike | Mapping[str, float],
+        *,
+        tool: FrameLike = None,
+        wobj: FrameLike = None,
+        base: FrameLike = None,
+        stationary: bool = False,
+        robhold: bool = False,
+    ) -> NDArray[np.bool_]:
+        """Whether the TCP can be at a pose, with every axis within its range; an array of truth values for rows of poses, else one."""
+        rows, one = _pose_rows(poses)
+        _, reasons = self._inverse(rows, None, (None, -1, False), _frames(tool, wobj, base, stationary, robhold))
+        found = np.array([reason is None for reason in reasons], dtype=np.bool_)
+        return found[0] if one else found
+
+    @named
+    def why_not(
+        self,
+        poses: ArrayLike | Mapping[str, float],
+        *,
+        tool: FrameLike = None,
+        wobj: FrameLike = None,
+        base: FrameLike = None,
+        stationary: bool = False,
+        robhold: bool = False,
+    ) -> list[str | None]:
+        """Why each of the poses is not reached; None for one that is."""
+        rows, _ = _pose_rows(poses)
+        return self._inverse(rows, None, (None, -1, False), _frames(tool, wobj, base, stationary, robhold))[1]
+
+    @named
+    def solutions(
+        self,
+        pose: ArrayLike | Mapping[str, float],
+        *,
+        near: ArrayLike | None = None,
+        tool: FrameLike = None,
+        wobj: FrameLike = None,
+        base: FrameLike = None,
+        stationary: bool = False,
+        robhold: bool = False,
+    ) -> dict[int, Array]:
+        """The axes for one pose in each configuration that reaches it."""
+        rows, _ = _pose_rows(pose)
+        if len(rows) != 1:
+            raise RefusedError(f"expected one pose, found {len(rows)}")
+        frames = _frames(tool, wobj, base, stationary, robhold)
+        tried = {cfg: self._inverse(rows, near, (cfg, -1, False), frames) for cfg in self.configurations}
+        return {cfg: found[0] for cfg, (found, reasons) in tried.items() if reasons[0] is None}
+
+    def within(self, joints: ArrayLike) -> NDArray[np.bool_]:
+        """Whether axes are within their ranges; an array of truth values for rows of axes, else one."""
+        rows, one = _rows(joints, self._own, "joints")
+        low, high = (np.array([getattr(axis, end) for axis in self.axes]) for end in ("min", "max"))
+        found: NDArray[np.bool_] = np.all((rows >= low) & (rows <= high), axis=1)
+        return found[0] if one else found
+
+    def _inverse(
+        self, rows: Array, near: ArrayLike | None, how: tuple[int | None, int, bool], frames: _arl2rs.Frames
+    ) -> tuple[Array, list[str | None]]:
+        starts, _ = _rows(self.home if near is None else near, self._own, "near")
+        if len(starts) not in (1, len(rows)):
+            raise RefusedError(f"near has {len(starts)} rows: expected 1, or {len(rows)} as there are poses")
+        cfg = how[0]
+        if cfg is not None and cfg not in self.configurations:
+            raise RefusedError(f"{self.name} has no configuration {cfg}: {', '.join(map(str, self.configurations))} are")
+        with told:
+            found, reasons = self._robot.inverse(rows, starts, how, frames)
+        return np.frombuffer(found).reshape(-1, self._own).copy(), reasons
+
+
+def _frames(tool: FrameLike, wobj: FrameLike, base: FrameLike, stationary: bool, robhold: bool) -> _arl2rs.Frames:
+    return _frame(tool, "tool"), _frame(wobj, "wobj"), _frame(base, "base"), stationary, robhold
+
+
+def _frame(frame: FrameLike, what: str) -> tuple[float, ...]:
+    if frame is None:
+        return NOWHERE
+    if isinstance(frame, Mapping):
+        unknown = frame.keys() - set(COMPONENTS)
+        if unknown:
+            raise RefusedError(f"{what}: a frame has {', '.join(COMPONENTS)}, no {min(unknown)}")
+        frame = [frame.get(name, 0.0) for name in COMPONENTS]
+    rows, one = _rows(frame, 6, what)
+    if not one or not np.isfinite(rows).all():
+        raise RefusedError(f"{what}: expected six numbers, x, y, z in mm, a, b, c in deg")
+    return tuple(float(number) for number in rows[0])
+
+
+def _pose_rows(poses: ArrayLike | Mapping[str, float]) -> tuple[Array, bool]:
+    if isinstance(poses, Mapping):
+        missing = [name for name in COMPONENTS if name not in poses]
+        if missing:
+            raise RefusedError(f"the pose has no {missing[0]}: expected {', '.join(COMPONENTS)}")
+        poses = [poses[name] for name in COMPONENTS]
+    return _rows(poses, 6, "poses")
+
+
+def _rows(values: ArrayLike, width: int, what: str) -> tuple[Array, bool]:
+    """Rows of so many numbers, and whether it was one row without an array around it."""
+    try:
+        rows = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as problem:
+        raise RefusedError(f"{what}: {problem}") from None
+    if rows.ndim not in (1, 2) or rows.shape[-1] != width:
+        raise RefusedError(f"{what}: expected {width} numbers, or rows of {width}, found an array of shape {rows.shape}")
+    return rows.reshape(-1, width), rows.ndim == 1
