@@ -120,7 +120,7 @@ impl Unit {
         if let Err(why) = context.begin_at(start) {
             driver.switch(Power::Off);
             driver.close();
-            return Err(why);
+            return Err(why.into());
         }
         let start = own_axes_of(&robot, start, &home);
         let robot = Arc::new(robot);
