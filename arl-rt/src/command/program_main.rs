@@ -272,15 +272,16 @@ fn run(
 /// What came too late in a run in real time.
 pub(super) fn lateness(controller: &Controller) -> Vec<String> {
     let mut said = Vec::new();
-    if let Some(lateness) = controller.lateness().filter(|lateness| lateness.late() > 0) {
-        let (late, lost, longest) = (lateness.late(), lateness.lost(), lateness.longest().as_secs_f64() * 1e3);
-        said.push(format!(
-            "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
-        ));
-    }
     if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
         said.push(format!(
-            "{missing} messages of the robot that gives the beat did not arrive: so many control cycles were lost"
+            "{missing} messages of the robot did not come: it did not send them, or the network lost them; so many control cycles were lost"
+        ));
+    }
+    if let Some(lateness) = controller.lateness().filter(|lateness| lateness.late() > 0) {
+        let (late, longest) = (lateness.late(), lateness.longest().as_secs_f64() * 1e3);
+        let lost = lateness.lost() - lateness.missing();
+        said.push(format!(
+            "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
         ));
     }
     if controller.found_late() > 0 {
