@@ -286,11 +286,6 @@ pub(super) fn lateness(controller: &Controller) -> Vec<String> {
             "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
         ));
     }
-    if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
-        said.push(format!(
-            "{missing} messages of the robot that gives the beat did not arrive: so many control cycles were lost"
-        ));
-    }
     if controller.found_late() > 0 {
         let advice = if cfg!(debug_assertions) { "; `arl2rs build --release` makes a quicker program" } else { "" };
         said.push(format!(

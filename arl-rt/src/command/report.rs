@@ -110,7 +110,8 @@ pub(crate) fn clock_json(lateness: &Lateness) -> String {
         let comma = if steps.is_empty() { "" } else { "," };
         let _ = write!(steps, "{comma}[{:.6},{count}]", within.as_secs_f64());
     }
-    let (cycles, late, lost, missing) = (lateness.cycles(), lateness.late(), lateness.lost(), lateness.missing());
+    let (cycles, late, lost) = (lateness.cycles(), lateness.late(), lateness.lost());
+    let missing = lateness.missing();
     let longest = lateness.longest().as_secs_f64();
     format!(
         "{{\"clock\":{{\"cycles\":{cycles},\"late\":{late},\"lost\":{lost},\"missing\":{missing},\"longest\":{longest:.6},\"histogram\":[{steps}]}}}}\n"

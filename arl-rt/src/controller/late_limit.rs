@@ -7,57 +7,6 @@ use crate::cycle::clock_source::Lateness;
 /// Losses of a second count together, in so many parts of it.
 const PARTS: u64 = 20;
 
-/// Cycles that were lost, by what lost them.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub(super) struct Lost {
-    /// The computer did something else, or a cycle took too long.
-    late: u64,
-    /// What gives the beat was not heard.
-    missing: u64,
-}
-
-impl Lost {
-    /// All until now.
-    #[inline]
-    pub(super) fn of(lateness: &Lateness) -> Self {
-        Self { late: lateness.lost(), missing: lateness.missing() }
-    }
-
-    fn all(self) -> u64 {
-        self.late.saturating_add(self.missing)
-    }
-
-    fn plus(self, other: Self) -> Self {
-        Self { late: self.late.saturating_add(other.late), missing: self.missing.saturating_add(other.missing) }
-    }
-
-    fn since(self, before: Self) -> Self {
-        let Self { late, missing } = before;
-        Self { late: self.late.saturating_sub(late), missing: self.missing.saturating_sub(missing) }
-    }
-}
-
-/// Those of a second, and the cause.
-impl fmt::Display for Lost {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { late, missing } = self;
-        match (late, missing) {
-            (late, 0) => write!(f, "the computer was too busy: {late} control cycles were lost within a second"),
-            (0, missing) => write!(
-                f,
-                "{missing} messages of the robot did not arrive within a second: each one that is missing is a control \
-                 cycle that is lost"
-            ),
-            _ => write!(
-                f,
-                "{} control cycles were lost within a second: {missing} since messages of the robot did not arrive, \
-                 {late} since the computer was too busy",
-                self.all()
-            ),
-        }
-    }
-}
-
 /// Counts the cycles that were lost within a second.
 #[derive(Debug)]
 pub(super) struct LateLimit {
@@ -73,11 +22,59 @@ pub(super) struct LateLimit {
     seen: Lost,
 }
 
+/// How many cycles were lost.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(super) struct Lost {
+    /// All of them.
+    all: u64,
+    /// Those of which the beat never came.
+    missing: u64,
+}
+
+impl Lost {
+    fn plus(self, more: Self) -> Self {
+        Self { all: self.all.saturating_add(more.all), missing: self.missing.saturating_add(more.missing) }
+    }
+
+    /// What has been added since; of what begins to count anew, nothing.
+    fn since(self, before: Self) -> Self {
+        Self { all: self.all.saturating_sub(before.all), missing: self.missing.saturating_sub(before.missing) }
+    }
+}
+
+impl From<&Lateness> for Lost {
+    fn from(lateness: &Lateness) -> Self {
+        Self { all: lateness.lost(), missing: lateness.missing() }
+    }
+}
+
+/// Why, and how many within a second.
+impl fmt::Display for Lost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { all, missing } = *self;
+        let lost = format!("{all} control cycles were lost within a second");
+        match missing {
+            0 => write!(f, "the computer was too busy: {lost}"),
+            missing if missing == all => write!(f, "messages of the robot did not come: {lost}"),
+            missing => write!(
+                f,
+                "{lost}: {missing} as messages of the robot did not come, {} as the computer was too busy",
+                all - missing
+            ),
+        }
+    }
+}
+
 impl LateLimit {
     /// So many may be lost within a second, which has so many cycles.
     pub(super) fn new(most: Option<u32>, cycles: u64) -> Self {
-        let (parts, seen) = ([Lost::default(); PARTS as usize], Lost::default());
-        Self { most, part_cycles: (cycles / PARTS).max(1), parts, newest: 0, seen }
+        Self {
+            most,
+            part_cycles: (cycles / PARTS).max(1),
+            parts: [Lost::default(); PARTS as usize],
+            newest: 0,
+            seen: Lost::default(),
+        }
     }
 
     /// What was lost until now counts for nothing: no program ran.
@@ -91,21 +88,21 @@ impl LateLimit {
     pub(super) fn look(&mut self, lost: Lost, cycle: u64) -> Option<Lost> {
         let new = lost.since(std::mem::replace(&mut self.seen, lost));
         let most = u64::from(self.most?);
-        if new.all() == 0 {
+        if new.all == 0 {
             return None;
         }
         // Lost ones took their time, too.
-        let part = (cycle.saturating_add(lost.all()) / self.part_cycles).max(self.newest);
+        let part = (cycle.saturating_add(lost.all) / self.part_cycles).max(self.newest);
         for passed in 0..(part - self.newest).min(PARTS) {
             *self.count(part - passed) = Lost::default();
         }
         self.newest = part;
         let count = self.count(part);
         *count = count.plus(new);
-        let within_a_second = self.parts.iter().fold(Lost::default(), |all, count| all.plus(*count));
-        (within_a_second.all() > most).then(|| {
+        let together = self.parts.iter().fold(Lost::default(), |together, count| together.plus(*count));
+        (together.all > most).then(|| {
             self.parts.fill(Lost::default());
-            within_a_second
+            together
         })
     }
 
@@ -119,53 +116,59 @@ impl LateLimit {
 mod tests {
     use super::*;
 
-    fn late(late: u64) -> Lost {
-        Lost { late, missing: 0 }
+    /// Lost by a computer that is too busy.
+    fn busy(all: u64) -> Lost {
+        Lost { all, missing: 0 }
+    }
+
+    #[test]
+    fn who_is_to_blame_is_told() {
+        let mut lateness = Lateness::default();
+        lateness.note_missing(30);
+        let mut limit = LateLimit::new(Some(20), 1000);
+        let told = |lost: Option<Lost>| lost.map(|lost| lost.to_string()).unwrap_or_default();
+        let lost = limit.look(Lost::from(&lateness), 5);
+        assert_eq!(told(lost), "messages of the robot did not come: 30 control cycles were lost within a second");
+        lateness.note_missing(20);
+        lateness.note_lost(2);
+        let lost = limit.look(Lost::from(&lateness), 10);
+        assert_eq!(
+            told(lost),
+            "22 control cycles were lost within a second: 20 as messages of the robot did not come, 2 as the computer was too busy"
+        );
     }
 
     #[test]
     fn losses_of_a_second_count_together() {
         let mut limit = LateLimit::new(Some(20), 1000);
-        assert_eq!(limit.look(late(0), 0), None);
-        assert_eq!(limit.look(late(15), 100), None);
-        assert_eq!(limit.look(late(15), 101), None);
+        assert_eq!(limit.look(busy(0), 0), None);
+        assert_eq!(limit.look(busy(15), 100), None);
+        assert_eq!(limit.look(busy(15), 101), None);
         // The first ones are more than a second ago.
-        assert_eq!(limit.look(late(30), 1200), None);
-        assert_eq!(limit.look(late(36), 1300), Some(late(21)));
+        assert_eq!(limit.look(busy(30), 1200), None);
+        assert_eq!(limit.look(busy(36), 1300), Some(busy(21)));
         // It is told, and counts no more.
-        assert_eq!(limit.look(late(40), 1301), None);
-        assert_eq!(LateLimit::new(None, 1000).look(late(1000), 5), None);
+        assert_eq!(limit.look(busy(40), 1301), None);
+        assert_eq!(LateLimit::new(None, 1000).look(busy(1000), 5), None);
     }
 
     #[test]
     fn many_small_losses_do_not_add_up_for_ever() {
         // Each tenth cycle is lost: 91 a second of the world's time.
         let mut limit = LateLimit::new(Some(100), 1000);
-        let found: Vec<Lost> = (1..=2000).filter_map(|at| limit.look(late(at), 10 * at)).collect();
+        let found: Vec<Lost> = (1..=2000).filter_map(|at| limit.look(busy(at), 10 * at)).collect();
         assert_eq!(found, []);
         let mut limit = LateLimit::new(Some(80), 1000);
-        assert_eq!((1..=100).find_map(|at| limit.look(late(at), 10 * at)), Some(late(81)));
+        assert_eq!((1..=100).find_map(|at| limit.look(busy(at), 10 * at)), Some(busy(81)));
     }
 
     #[test]
     fn what_is_lost_while_no_program_runs_does_not_count() {
         let mut limit = LateLimit::new(Some(20), 1000);
-        limit.forget(late(5000));
-        assert_eq!(limit.look(late(5010), 1), None);
+        limit.forget(busy(5000));
+        assert_eq!(limit.look(busy(5010), 1), None);
         // A clock that begins to count anew has lost nothing.
-        assert_eq!(limit.look(late(0), 2), None);
-        assert_eq!(limit.look(late(u64::MAX), u64::MAX), Some(late(u64::MAX)));
-    }
-
-    #[test]
-    fn each_cause_is_named() {
-        let mut limit = LateLimit::new(Some(20), 1000);
-        assert_eq!(limit.look(Lost { late: 3, missing: 15 }, 1), None);
-        let found = limit.look(Lost { late: 6, missing: 15 }, 2).map(|lost| lost.to_string());
-        let right = "21 control cycles were lost within a second: 15 since messages of the robot did not arrive, \
-                     6 since the computer was too busy";
-        assert_eq!(found.as_deref(), Some(right));
-        assert!(Lost { late: 0, missing: 30 }.to_string().starts_with("30 messages of the robot did not arrive"));
-        assert_eq!(late(22).to_string(), "the computer was too busy: 22 control cycles were lost within a second");
+        assert_eq!(limit.look(busy(0), 2), None);
+        assert_eq!(limit.look(busy(u64::MAX), u64::MAX), Some(busy(u64::MAX)));
     }
 }

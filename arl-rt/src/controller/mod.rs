@@ -336,7 +336,7 @@ impl Controller {
 
     /// Stops robots where too many cycles were lost: between two set-points they had to do without.
     fn look_for_lost_cycles(&mut self, cycle: u64) {
-        let lost = self.clock.lateness().map_or(Lost::default(), Lost::of);
+        let lost = self.clock.lateness().map(Lost::from).unwrap_or_default();
         if self.had_ended {
             return self.late_limit.forget(lost);
         }

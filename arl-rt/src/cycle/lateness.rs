@@ -48,10 +48,10 @@ impl Lateness {
         self.lost = self.lost.saturating_add(cycles);
     }
 
-    /// So many beats of what gives them, as messages of a robot, never came: their cycles are lost, too, and not by
-    /// this computer.
+    /// So many beats never came from whom cycles follow (a robot that sends, a bus): their cycles are lost, and the computer is not to blame.
     pub fn note_missing(&mut self, beats: u64) {
         self.missing = self.missing.saturating_add(beats);
+        self.lost = self.lost.saturating_add(beats);
     }
 
     /// How many cycles began.
@@ -64,12 +64,12 @@ impl Lateness {
         self.late
     }
 
-    /// How many cycles were lost by that.
+    /// How many cycles were lost: by that, or as their beats never came.
     pub fn lost(&self) -> u64 {
         self.lost
     }
 
-    /// How many cycles were lost as their beats never came: these are not in [`lost`](Lateness::lost).
+    /// How many of the lost ones had no beat.
     pub fn missing(&self) -> u64 {
         self.missing
     }
@@ -90,9 +90,10 @@ impl Lateness {
 impl fmt::Display for Lateness {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (longest, late, lost) = (self.longest.as_secs_f64() * 1e3, self.late, self.lost);
-        writeln!(f, "cycles: {}, the latest began {longest:.3} ms late; {late} too late, {lost} lost", self.cycles())?;
-        if self.missing > 0 {
-            writeln!(f, "beats that never came: {}", self.missing)?;
+        write!(f, "cycles: {}, the latest began {longest:.3} ms late; {late} too late, {lost} lost", self.cycles())?;
+        match self.missing {
+            0 => writeln!(f)?,
+            missing => writeln!(f, ", {missing} of them without a message of the robot")?,
         }
         for (within, count) in self.histogram() {
             writeln!(f, "{:>10} us late at most: {count}", within.as_micros())?;

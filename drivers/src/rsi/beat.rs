@@ -63,12 +63,16 @@ impl Clock for RsiBeat {
             return;
         }
         self.lateness.note(if received.was_there { came.saturating_duration_since(due) } else { Duration::ZERO });
-        // Of those that came before somebody waited the newest counts; the others were lost here. The rest never came.
-        let sent = (received.step as f64 / (period * 1e3)).round() as u64;
-        if received.count > 1 {
-            self.lateness.note_lost(received.count - 1);
+        let beats = (received.step as f64 / (period * 1e3)).round() as u64;
+        // Those that waited together were sent in time, and not taken; of the others none has come.
+        let waited = received.count.clamp(1, beats.max(1)) - 1;
+        let missing = beats.saturating_sub(1 + waited);
+        if waited > 0 {
+            self.lateness.note_lost(waited);
         }
-        self.lateness.note_missing(sent.saturating_sub(received.count));
+        if missing > 0 {
+            self.lateness.note_missing(missing);
+        }
     }
 
     fn due(&self, _cycle: u64, period: f64) -> Option<Instant> {

@@ -53,7 +53,7 @@ pub(super) struct Received {
     pub(super) any: bool,
     /// By how many ms the robot's time has gone on since the message before.
     pub(super) step: u64,
-    /// How many messages have come that count.
+    /// How many messages have come.
     pub(super) count: u64,
     /// Whether it had come before somebody waited.
     pub(super) was_there: bool,
@@ -102,8 +102,8 @@ impl Link {
             match self.take_packet() {
                 Some(step) => {
                     received.any |= step > 0;
-                    received.count += u64::from(step > 0);
                     received.step = received.step.saturating_add(step);
+                    received.count += u64::from(step > 0);
                     // Whoever sends what does not count gets no more time than the robot.
                     if packet >= MOST && (received.any || Instant::now() >= until) {
                         break;
