@@ -87,7 +87,8 @@ mod limits;
 mod overlay;
 mod plan;
 mod queue;
-#[cfg(all(test, feature = "files"))]
+#[cfg(test)]
+#[cfg(feature = "files")]
 mod tests;
 pub mod time_optimal;
 
@@ -102,8 +103,8 @@ pub use plan::circle_steps::circle_steps;
 pub use plan::motion::Motion;
 pub use plan::planner::plan;
 pub use queue::{
-    Closest, Figure, LOOK_AHEAD, Limited, MotionRecord, Preview, Progress, Queue, Rate, Recorder, SmallerZone, Start, Step,
-    Stop, UnblendedTarget,
+    Closest, Figure, LOOK_AHEAD, Limited, MotionRecord, Preview, Progress, Queue, Rate, Recorder, SmallerZone, Start,
+    Step, Stop, UnblendedTarget,
 };
 
 /// The examples of the README run.

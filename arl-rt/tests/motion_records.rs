@@ -150,7 +150,7 @@ where
     let kept = Kept::default();
     let (mut controller, _) = controller(Controller::builder().record_motions().trace(kept.clone()), program);
     assert_eq!(controller.run(), arl_rt::Outcome::Ended);
-    let text = String::from_utf8(kept.0.borrow().clone()).unwrap();
+    let text = String::from_utf8_lossy(&kept.0.borrow()).into_owned();
     let number = |cell: &str| cell.parse().unwrap_or(0.0);
     let rows = text.lines().skip(1).map(|row| row.split(',').map(number).collect());
     (controller.motions(), rows.collect())
@@ -224,9 +224,13 @@ fn a_motion_that_is_cut_off_says_so_of_its_zone() {
     while !has_begun(&controller) {
         controller.step();
     }
-    (0..50).for_each(|_| controller.step());
+    (0..50).for_each(|_| {
+        controller.step();
+    });
     controller.stop();
-    (0..1000).for_each(|_| controller.step());
+    (0..1000).for_each(|_| {
+        controller.step();
+    });
     let cut = controller.motions().swap_remove(5);
     assert_eq!(cut.smaller_zone(), Some(SmallerZone::Unfinished), "{cut:?}");
 }

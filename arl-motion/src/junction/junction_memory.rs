@@ -121,9 +121,9 @@ mod tests {
         assert!(blends(meeting(&robot, 40.0), &robot).0 > 0);
         let bent = Meeting { before: Some((meeting(&robot, 50.0).from, MidCurvature::NONE)), ..meeting(&robot, 50.0) };
         assert!(memory.known.iter().all(|known| known.prepared.junction().unwrap().meeting != bent));
-        let mut slower = Robot::clone(&robot);
+        let mut slower = Robot::clone(&robot).into_description();
         slower.axes[0].vel *= 0.9;
-        let slower = Arc::new(slower);
+        let slower = Arc::new(Robot::new(slower).unwrap());
         assert!(memory.known.iter().all(|known| known.robot != slower));
     }
 

@@ -356,14 +356,13 @@ fn may_touch(section: &Section<'_>) -> Result<Vec<String>, SettingsError> {
 
 /// That there is everything that a body may touch.
 fn are_known(section: &Section<'_>, known: &HashSet<String>) -> Result<(), SettingsError> {
-    for (name, value) in names_in(section)?.into_iter().filter(|(name, _)| !known.contains(*name)) {
-        let mut all: Vec<&str> = known.iter().map(String::as_str).collect();
-        all.sort_unstable();
-        let near = nearest(name, &all).map_or_else(String::new, |near| format!(": did you mean `{near}`?"));
-        let text = format!("`may_touch`: no body and no part of a robot is called `{name}`{near}");
-        return Err(section.source.error(value.span(), text));
-    }
-    Ok(())
+    let unknown = names_in(section)?.into_iter().find(|(name, _)| !known.contains(*name));
+    let Some((name, value)) = unknown else { return Ok(()) };
+    let mut all: Vec<&str> = known.iter().map(String::as_str).collect();
+    all.sort_unstable();
+    let near = nearest(name, &all).map_or_else(String::new, |near| format!(": did you mean `{near}`?"));
+    let text = format!("`may_touch`: no body and no part of a robot is called `{name}`{near}");
+    Err(section.source.error(value.span(), text))
 }
 
 /// How the robot of a channel takes it along, if it does.

@@ -12,7 +12,8 @@ mod passing;
 pub mod random;
 mod rates;
 mod scara;
-#[cfg(all(test, feature = "files"))]
+#[cfg(test)]
+#[cfg(feature = "files")]
 mod tests;
 mod wrist;
 

@@ -219,7 +219,8 @@ fn quintic(start: [f64; 3], end: [f64; 3], length: f64) -> [f64; 6] {
     ]
 }
 
-#[cfg(all(test, feature = "files"))]
+#[cfg(test)]
+#[cfg(feature = "files")]
 mod tests {
     use super::*;
     use crate::kinematics::frame;

@@ -48,9 +48,13 @@ pub struct Description {
 impl Description {
     /// Whether it is a robot; what is wrong else, in a sentence.
     pub(super) fn check(&self) -> Result<(), RobotError> {
-        let checks: [fn(&Self) -> Result<(), String>; 5] =
-            [Self::check_geometry, Self::check_tcp, Self::check_axes, Self::check_drives, Self::check_links];
-        checks.iter().try_for_each(|check| check(self)).map_err(|message| RobotError::of_file(&self.name, message))
+        let checked = self
+            .check_geometry()
+            .and_then(|()| self.check_tcp())
+            .and_then(|()| self.check_axes())
+            .and_then(|()| self.check_drives())
+            .and_then(|()| self.check_links());
+        checked.map_err(|message| RobotError::of_file(&self.name, message))
     }
 
     fn check_geometry(&self) -> Result<(), String> {

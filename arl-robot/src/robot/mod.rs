@@ -13,7 +13,8 @@ mod load;
 mod read;
 #[cfg(feature = "files")]
 mod section;
-#[cfg(all(test, feature = "files"))]
+#[cfg(test)]
+#[cfg(feature = "files")]
 mod tests;
 
 #[cfg(feature = "files")]

@@ -38,7 +38,8 @@ pub(crate) fn rows() -> Rows {
     let queues: Vec<(Queue, Override)> = (0..TIMED)
         .map(|_| {
             walk.event()?;
-            Ok((walk.queue.clone(), [0.0, 30.0, 70.0, 100.0][(walk.random.unit() * 4.0) as usize]))
+            let percent = [0.0, 30.0, 70.0, 100.0][(walk.random.unit() * 4.0) as usize];
+            Ok((walk.queue.clone(), Override::from_percent(percent)?))
         })
         .collect::<Result<_, Box<dyn Error>>>()?;
     let each = |time: f64| time * 1e6 / TIMED as f64;

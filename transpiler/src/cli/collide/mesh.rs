@@ -24,7 +24,7 @@ impl Mesh {
         let stl = stl::read(&bytes).map_err(|why| cannot(&why))?;
         let corner = |corner: &[f32; 3]| Vector::from_array(corner.map(f64::from)) * Vector::from_array(scale);
         let corners: Vec<Vector> = stl.corners.iter().map(corner).collect();
-        let is_far = |corner: &&Vector| !(corner.abs().max_element() <= LARGEST_MM);
+        let is_far = |corner: &&Vector| corner.is_nan() || corner.abs().max_element() > LARGEST_MM;
         if let Some(far) = corners.iter().find(is_far) {
             let why =
                 format!("a corner is at {far} mm; the farthest that can be is {LARGEST_MM} mm: is its `scale` right?");

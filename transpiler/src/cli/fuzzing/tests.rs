@@ -53,7 +53,8 @@ fn changed(good: &[u8], random: &mut Random) -> Vec<u8> {
     let mut bytes = good.to_vec();
     for _ in 0..=random.below(8) {
         let at = random.below(bytes.len());
-        let length = random.below(1 + random.below(64));
+        let most = 1 + random.below(64);
+        let length = random.below(most);
         let end = (at + length).min(bytes.len());
         match random.below(6) {
             0 => bytes[at..end].iter_mut().for_each(|byte| *byte = random.next() as u8),

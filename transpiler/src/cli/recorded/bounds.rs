@@ -133,7 +133,7 @@ fn at_most(what: &str, count: usize, most: usize) -> Result<(), String> {
 }
 
 fn numbers(what: &str, values: &[f64]) -> Result<(), String> {
-    let wrong = values.iter().find(|value| !(value.abs() <= LARGEST));
+    let wrong = values.iter().find(|value| value.is_nan() || value.abs() > LARGEST);
     wrong.map_or(Ok(()), |value| Err(format!("{what}: {value} is no value that a run can have")))
 }
 

@@ -134,7 +134,7 @@ fn another_robot_is_refused_by_name() {
         ("<robot xmlns:xacro=\"\"><xacro:macro/></robot>".into(), "kr10", "this is a xacro file"),
         ("no xml".into(), "kr10", "this is no URDF"),
     ] {
-        let robot = if robot == "kr10" { kr10().name } else { robot.to_owned() };
+        let robot = if robot == "kr10" { kr10().name.clone() } else { robot.to_owned() };
         let problem = refused(&text, &robot);
         assert!(problem.contains(words), "{problem}\n{words}");
     }

@@ -2,7 +2,6 @@
 
 use super::cell_files::CellFiles;
 use super::folder::{Folder, Spread};
-use super::globals;
 use super::looking::{self, Looking};
 use super::parameter::Parameters;
 use super::result::RunResult;
