@@ -101,6 +101,7 @@ pub use command::{
 };
 pub use plan::circle_steps::circle_steps;
 pub use plan::motion::Motion;
+pub use plan::path_check::NearSingular;
 pub use plan::planner::plan;
 pub use queue::{
     Closest, Figure, LOOK_AHEAD, Limited, MotionRecord, Preview, Progress, Queue, Rate, Recorder, SmallerZone, Start,

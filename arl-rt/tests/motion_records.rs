@@ -64,7 +64,7 @@ fn every_motion_has_its_figures() {
     for (at, unit, speed) in [(0, "%", 50.0), (2, "mm/s", 100.0), (3, "mm/s", 100.0), (5, "%", 20.0)] {
         let record = &records[at];
         assert_eq!((record.programmed.value, record.programmed.unit), (speed, unit));
-        assert!(record.reached <= speed * 1.0001 && record.reached > speed * 0.99, "{record:?}");
+        assert!(record.reached <= speed * 1.001 && record.reached > speed * 0.99, "{record:?}");
     }
     assert!((records[2].way + records[3].way + records[4].way - 460.0).abs() < 60.0);
 }
@@ -192,7 +192,7 @@ fn the_speed_that_is_reached_is_that_outside_of_zones() {
     let fastest = rows.windows(2).filter(|pair| pair[1][2] == 3.0).map(speed).fold(0.0, f64::max);
     assert!(fastest > 150.0, "{fastest}");
     for (record, speed) in records[1..].iter().zip([300.0, 100.0, 300.0]) {
-        assert!(record.reached <= speed * 1.0001 && record.reached > speed * 0.99, "{record:?}");
+        assert!(record.reached <= speed * 1.001 && record.reached > speed * 0.99, "{record:?}");
     }
     // Where zones take all of it, it is the speed between them.
     assert!(records[4].reached > 50.0 && records[4].reached < 300.0, "{:?}", records[4]);
@@ -203,7 +203,8 @@ fn a_zone_that_is_not_used_as_asked_has_its_reason() {
     let (records, _) = records_and_rows(zigzag);
     let why: Vec<_> = records.iter().map(MotionRecord::smaller_zone).collect();
     assert_eq!(why, [None, None, None, None, Some(SmallerZone::Half), Some(SmallerZone::NothingBehind)]);
-    assert_eq!(records[4].blend.map(|blend| (blend.asked, blend.used)), Some((40.0, 15.0)));
+    let blend = records[4].blend.unwrap_or_else(|| panic!("no zone: {:?}", records[4]));
+    assert!(blend.asked == 40.0 && (blend.used - 15.0).abs() < 1e-9, "{blend:?}");
     let (records, _) = records_and_rows(|cx| {
         Box::pin(async move {
             motion::movej(bent(0.0)).vp(50.0).run(cx).await.at(FILE, 3)?;
@@ -224,7 +225,7 @@ fn a_motion_that_is_cut_off_says_so_of_its_zone() {
     while !has_begun(&controller) {
         controller.step();
     }
-    (0..50).for_each(|_| {
+    (0..20).for_each(|_| {
         controller.step();
     });
     controller.stop();

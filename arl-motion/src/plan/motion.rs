@@ -11,6 +11,7 @@ use crate::overlay::compensation::Shift;
 use crate::overlay::path_frame::PathFrame;
 use crate::plan::constraints::Pace;
 use crate::plan::curve::Curve;
+use crate::plan::path_check::NearSingular;
 use arl_robot::frames::Rig;
 use arl_robot::robot::VelocityProfile;
 
@@ -46,6 +47,8 @@ pub struct Motion {
     /// From which share of the instruction to which it goes.
     pub(crate) stretch: [f64; 2],
     pub(crate) line: u32,
+    /// Where it passes close to a singular point.
+    pub(crate) near_singular: Option<NearSingular>,
     /// What is laid over it.
     pub(crate) laid: Option<Box<Laid>>,
 }

@@ -51,7 +51,35 @@ const CLOSE_SHARE: f64 = 0.02;
 /// These are so far apart, as part of the length over which the axes' motion changes.
 const CLOSE_STEP_SHARE: f64 = 0.06;
 
+/// Where a motion passes close to a singular point, so that its axes slow it down.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
+pub struct NearSingular {
+    /// The axis that slows it down most: its index in [`Robot::axes`](arl_robot::robot::Description::axes).
+    pub axis: usize,
+    /// Where, as part of the path.
+    pub along: f64,
+    /// How fast the path may be gone there: mm/s of the TCP, or deg/s where the tool only turns.
+    pub speed: f64,
+    /// `mm/s` or `deg/s`.
+    pub unit: &'static str,
+}
+
 impl Survey {
+    /// The slowest of the places beside singular points, by the speeds and accelerations of the robot's own axes.
+    pub(crate) fn near_singular(&self, robot: &Robot, curve: &ToolCurve) -> Option<NearSingular> {
+        let close = |(_, rates): &&(f64, Rates)| rates.scale(&robot.axes) < CLOSE_SHARE;
+        let narrowest = |(at, rates): &(f64, Rates)| (rates.speed_margin(robot.own_axes(), 1.0), *at);
+        let ((fastest, axis), along) =
+            self.rates.iter().filter(close).map(narrowest).min_by(|a, b| a.0.0.total_cmp(&b.0.0))?;
+        let ([_, travel, ..], [turning, ..]) = (curve.moving(along), curve.rotation_rates(along));
+        let (speed, unit) = match travel.norm() {
+            way if way > 0.0 => (fastest * way, "mm/s"),
+            _ => (fastest * turning.norm().to_degrees(), "deg/s"),
+        };
+        Some(NearSingular { axis, along, speed, unit })
+    }
+
     /// The places beside singular points where the axes' motion changes so quickly that others may miss it.
     pub(crate) fn close_places(&self, robot: &Robot) -> Vec<f64> {
         let mut places: Vec<f64> = Vec::new();

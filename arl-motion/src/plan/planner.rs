@@ -261,6 +261,7 @@ impl Planner<'_> {
         self.find_passages(&mut curve);
         let found = check_path(self.robot, &curve, self.start).map_err(|error| self.at_the_wrist(error, &curve))?;
         curve.close_places = found.close_places(self.robot);
+        let near_singular = found.near_singular(self.robot, &curve);
         let end = Joints { axes: found.end, external: *external }.completed(self.start, self.robot);
         let end = self.within_ranges(end)?;
         let mut pace = self.pace(true)?;
@@ -296,6 +297,7 @@ impl Planner<'_> {
             stretch: [0.0, 1.0],
             line: self.command.line,
             curve: Curve::Tool(curve),
+            near_singular,
             laid: None,
         })
     }
@@ -329,6 +331,7 @@ impl Planner<'_> {
         let found = if goes { Some(check_path(self.robot, &curve, self.start)) } else { None };
         let found = found.transpose().map_err(|error| self.at_the_wrist(error, &curve))?;
         curve.close_places = found.as_ref().map_or(Vec::new(), |found| found.close_places(self.robot));
+        let near_singular = found.as_ref().and_then(|found| found.near_singular(self.robot, &curve));
         let axes = found.as_ref().map_or(self.start.axes, |found| found.end);
         let end = self.within_ranges(Joints { axes, ..end })?;
         let moves = goes || self.moves(&end);
@@ -350,7 +353,8 @@ impl Planner<'_> {
                 }
             }
         };
-        self.motion(&Curve::Tool(curve.clone()), end, moves, [length, angle], constraints, caps)
+        let motion = self.motion(&Curve::Tool(curve.clone()), end, moves, [length, angle], constraints, caps)?;
+        Ok(Motion { near_singular, ..motion })
     }
 
     /// A singular point that `$WRIST` would pass is told as such.
@@ -511,6 +515,7 @@ impl Planner<'_> {
             ends: true,
             stretch: [0.0, 1.0],
             line: self.command.line,
+            near_singular: None,
             laid: None,
         })
     }

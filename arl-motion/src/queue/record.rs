@@ -13,6 +13,7 @@ use crate::command::{Command, GatePart, MotionKind, Settings, Speed, Target};
 use crate::follow::segment::PlainSpeed;
 use crate::plan::constraints::MANUAL_SPEED_MM_S;
 use crate::plan::motion::Motion;
+use crate::plan::path_check::NearSingular;
 use crate::queue::elapsed::Elapsed;
 use crate::queue::path_buffer::Leaving;
 use crate::queue::{FAST_STOP_FACTOR, Laid, Queue, Step};
@@ -24,6 +25,8 @@ pub use smaller_zone::SmallerZone;
 
 /// TCP paths shorter than this, mm, have no speed: then the tool's turning is what was programmed.
 const NO_DISTANCE_MM: f64 = 1e-6;
+/// A motion that has to be slower than this part of the programmed speed somewhere beside a singular point is told of.
+const SLOWED_SHARE: f64 = 0.5;
 /// A zone of which a smaller part than this is left out is used as it was asked for.
 const NO_PART: f64 = 1e-6;
 
@@ -148,6 +151,8 @@ pub struct MotionRecord {
     pub blend: Option<Rounding>,
     /// Why the robot stops at its target though a zone was asked for.
     pub unblended: Option<NoBlend>,
+    /// Where it passes so close to a singular point that it is slowed down to less than half of what was programmed.
+    pub slowed: Option<NearSingular>,
     /// Why a smaller zone than was asked for is used.
     less: Option<NoBlend>,
     /// Whether it goes on into the next motion without a corner, and whether it came to its end.
@@ -285,6 +290,7 @@ impl Recorder {
             way: 0.0,
             blend: None,
             unblended: None,
+            slowed: None,
             less: None,
             flows: false,
             arrived: false,
@@ -311,6 +317,8 @@ impl Recorder {
             if matches!(record.measure, Measure::Tcp | Measure::Axes) {
                 (record.measure, record.programmed) = record.measured_by(&self.robot, &motion);
             }
+            let Figure { value, unit } = record.programmed;
+            record.slowed = motion.near_singular.filter(|near| near.unit == unit && near.speed < SLOWED_SHARE * value);
             if let (Some(Leaving { number: before, share, less }), Some((_, last))) = (left, &self.last) {
                 let rounding = zone::rounding(&self.robot, last, share);
                 let mixed = record_of(&mut self.records, &self.places, before).is_some_and(|record| {
@@ -377,7 +385,7 @@ impl Recorder {
             let limits = [tcp.ori_vel, tcp.ori_acc * harder, tcp.ori_jerk * harder];
             record.tool.raise(Limited::Turning, tool.turning, limits, known);
         }
-        record.arrived |= arrived(queue, number);
+        record.arrived |= step.motion == number && arrived(queue, number);
         let within = Speeds { tcp: tool.moving[0].abs(), turning: tool.turning[0].abs(), axes: axes[0] };
         record.note_speed(&self.robot, queue, number, &within);
     }

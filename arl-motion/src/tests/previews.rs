@@ -51,7 +51,7 @@ fn a_preview_ends_where_the_robot_cannot_go_on() {
     assert_eq!(queue.preview(Cycle::MS, Override::FULL).unwrap().steps().len(), 1);
     queue.add(&movej([40.0, -90.0, 90.0, 0.0, 30.0, 0.0]), &Settings::default()).unwrap();
     assert_eq!(queue.preview(Cycle::MS, Override::ZERO).unwrap().duration(), std::time::Duration::ZERO);
-    for _ in 0..200 {
+    for _ in 0..80 {
         queue.step(Cycle::MS, Override::FULL);
     }
     queue.stop_on_path(Stop::General);

@@ -101,7 +101,7 @@ fn the_axes_pass_close_by_at_a_lower_speed_within_all_limits() {
         let robot = robot(name);
         for number in 0..100 {
             let Some(way) = random_way(&robot, &mut random) else { continue };
-            let mut queue = Queue::new(robot.clone(), way.start);
+            let mut queue = Queue::repeatable(robot.clone(), way.start);
             let commands = way.cut(1 + number % 3);
             if !commands.iter().all(|command| queue.add(command, &Settings::default()).is_ok()) {
                 continue;
@@ -125,7 +125,7 @@ fn a_line_past_the_wrist_singularity_is_slow_there_in_one_piece_and_in_three() {
     let pose = |y: f64| [890.0, y, 1080.2, 0.0, 90.0, 0.0];
     let cfg = robot.kinematics.cfg(&[0.0, -90.0, 90.0, 0.0, 20.0, 0.0]);
     let rows = |targets: &[f64]| {
-        let mut queue = Queue::new(robot.clone(), axes([0.0, -90.0, 90.0, 0.0, 20.0, 0.0]));
+        let mut queue = Queue::repeatable(robot.clone(), axes([0.0, -90.0, 90.0, 0.0, 20.0, 0.0]));
         queue.add(&ptp(pose(-100.0), cfg), &Settings::default()).unwrap();
         for y in targets {
             let speed = Speed { tcp: 100.0, ..fast() };

@@ -145,7 +145,7 @@ fn targets_that_all_but_coincide_are_told_apart_from_singular_points() {
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
     let [x, y, z, ..] = frame_components(&robot.kinematics.forward(&start.axes));
     for apart in [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
-        let mut queue = Queue::new(robot.clone(), start);
+        let mut queue = Queue::repeatable(robot.clone(), start);
         for to in [[x, y + 100.0, z], [x, y + 100.0 + apart, z], [x - 100.0, y + 100.0 + apart, z]] {
             let zone = Zone { tcp: 20.0, ..Zone::NONE };
             let target = lin([to[0], to[1], to[2], UNSET, UNSET, UNSET]);

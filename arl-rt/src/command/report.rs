@@ -65,6 +65,15 @@ fn table(recorded: &Recorded, time: f64) -> String {
         }
     }
     for line in &lines {
+        if let Some(near) = line.first.slowed {
+            let place = line.place(recorded.program);
+            let axis = recorded.robot.axes.get(near.axis).map_or("", |axis| axis.name.as_str());
+            let (along, speed, unit) = (100.0 * near.along, short(near.speed), near.unit);
+            let _ = writeln!(
+                text,
+                "line {place}: {along:.1} % along it is close to a singular point: {axis} leaves the path {speed} {unit} there"
+            );
+        }
         if let Some(why) = line.blend.smaller_zone() {
             let place = line.place(recorded.program);
             let what = if why.stops() { "its target is reached with a stop" } else { "its zone" };
@@ -135,6 +144,14 @@ pub(super) fn motion_json(channel: usize, (file, record): (File, &MotionRecord),
         let why = record.smaller_zone().map(|why| format!(",\"why\":{}", quoted(&why.to_string())));
         let why = why.unwrap_or_default();
         let _ = write!(text, ",\"blend\":{{\"unit\":\"{unit}\",\"asked\":{asked:.6},\"used\":{used:.6}{why}}}");
+    }
+    if let Some(near) = record.slowed {
+        let axis = quoted(robot.axes.get(near.axis).map_or("", |axis| axis.name.as_str()));
+        let (along, speed, unit) = (near.along, near.speed, near.unit);
+        let _ = write!(
+            text,
+            ",\"slowed\":{{\"axis\":{axis},\"along\":{along:.6},\"speed\":{speed:.6},\"unit\":\"{unit}\"}}"
+        );
     }
     text.push_str(",\"closest\":{");
     for (at, closest) in record.closest().into_iter().flatten().enumerate() {

@@ -12,7 +12,10 @@ impl Controller {
     pub(crate) fn skip_quiet_cycles(&mut self, before: u64) {
         let next = self.shared.now.get();
         let Some(until) = next.checked_sub(1).and_then(|cycle| self.quiet_until(cycle)) else { return };
-        // Where everything waits for ever, somebody else says when the run is over.
+        // Where everything waits for ever, that is a standstill, which is found out first: it takes a while.
+        if until == u64::MAX && self.standstill().is_none() {
+            return;
+        }
         let until = until.min(before);
         if until != u64::MAX && until > next {
             self.shared.now.set(until);

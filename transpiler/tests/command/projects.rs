@@ -65,7 +65,7 @@ fn arl_toml_says_what_the_command_does_not() {
         ("robt = \"a\"", "arl.toml:1: unknown field `robt`"),
         ("robot = \"none\"", "no robot `none`"),
         ("robot = \"none.toml\"", "none.toml"),
-        ("\ncell = \"no.toml\"", "no.toml: cannot read the cell file"),
+        ("\ncell = \"no.toml\"", "arl.toml:2: cell: there is no no.toml"),
         ("\nrobot = 3", "arl.toml:2: "),
     ] {
         folder.write("arl.toml", text);

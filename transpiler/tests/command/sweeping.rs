@@ -315,7 +315,7 @@ fn hostile_tables_are_refused_in_words() {
     for file in ["../p.arl", "/etc/passwd", "a/../../p.arl"] {
         sweep(&format!("files = [{file:?}]\n")).is(2, "").says("expected a path in");
     }
-    sweep("io = \"a\\nb.toml\"\n").is(2, "").says("b.toml");
+    sweep("io = \"a\\nb.toml\"\n").is(1, "").says("b.toml: No such file");
     // A text is one word of a run, whatever it holds.
     let table = "[[run]]\n\"global.name\" = \"a\\r\\n\\tb\\\\\"\n[[run]]\nmode = \"\"\n[[run]]\nmode = \"auto\\r\"\n";
     let all = rows(&sweep(table));

@@ -23,6 +23,7 @@ fn a_cache_is_cleaned_and_limited() {
     let nothing = format!("nothing to remove from {}\n", folder.path.display());
     clean(&["clean"], "").is(0, &nothing);
     folder.write("programs/arl-a-00000001/stamp", "arl2rs stamp 1\n");
+    folder.write("programs/arl-a-00000001/lock", "");
     clean(&["clean", "--older", "1"], "none").is(0, &nothing);
     let removed = format!("removed 1 compiled program from {}: 15 B\n", folder.path.display());
     clean(&["clean"], "2.5").is(0, &removed);

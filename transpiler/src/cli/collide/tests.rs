@@ -230,8 +230,9 @@ fn what_lies_on_carriers_touches_rightly_until_it_comes_apart() {
         found.extend(collisions.cycle(&here));
     }
     let post: Vec<_> = found.iter().filter(|contact| contact.other == "post" && contact.one == "frame").collect();
-    let [contact] = &post[..] else { panic!("{post:?}") };
-    assert!(contact.time > 1.0 && contact.line > 0, "{contact:?}");
+    // It is told each time that it comes back, and not for how it stood at first.
+    assert_eq!(post.len(), 2, "{post:?}");
+    assert!(post.iter().all(|contact| contact.time > 1.0 && contact.line > 0), "{post:?}");
 }
 
 #[test]

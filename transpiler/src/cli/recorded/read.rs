@@ -15,6 +15,9 @@ use super::store::Store;
 /// No record of a recording is longer, in bytes; none is longer than its file either, whatever it says of itself.
 const LONGEST_RECORD: usize = 1 << 30;
 
+/// Before each record stand its kind and its length.
+const RECORD_HEAD: usize = 1 + 8;
+
 /// The run of a recording.
 ///
 /// # Errors
@@ -50,7 +53,7 @@ struct Reading<'a> {
 impl Reading<'_> {
     fn read_all(&mut self, file: &mut impl Read, size: u64) -> Result<(), String> {
         let longest = usize::try_from(size).unwrap_or(usize::MAX).min(LONGEST_RECORD);
-        let options = LinearReaderOptions::default().with_record_length_limit(longest);
+        let options = LinearReaderOptions::default().with_record_length_limit(longest).with_emit_chunks(true);
         let mut reader = LinearReader::new_with_options(options);
         while let Some(event) = reader.next_event() {
             match event.map_err(|error| error.to_string())? {
@@ -59,12 +62,29 @@ impl Reading<'_> {
                     reader.notify_read(read);
                 }
                 LinearReadEvent::Record { data, opcode } => {
-                    let record = mcap::parse_record(opcode, data).map_err(|error| error.to_string())?;
-                    self.record(record)?;
+                    match mcap::parse_record(opcode, data).map_err(|error| error.to_string())? {
+                        Record::Chunk { header, data } => self.chunk(&header.compression, &data)?,
+                        record => self.record(record)?,
+                    }
                 }
             }
         }
         Ok(())
+    }
+
+    /// The records of a chunk. None of them reaches beyond it, whatever it says of itself.
+    fn chunk(&mut self, compression: &str, mut rest: &[u8]) -> Result<(), String> {
+        if !compression.is_empty() {
+            return Err(format!("it is compressed by {compression}, which is not read here"));
+        }
+        while let Some((head, behind)) = rest.split_first_chunk::<RECORD_HEAD>() {
+            let [opcode, length @ ..] = *head;
+            let length = usize::try_from(u64::from_le_bytes(length)).unwrap_or(usize::MAX);
+            let Some((data, behind)) = behind.split_at_checked(length) else { break };
+            self.record(mcap::parse_record(opcode, data).map_err(|error| error.to_string())?)?;
+            rest = behind;
+        }
+        if rest.is_empty() { Ok(()) } else { Err("a record reaches beyond its chunk".to_owned()) }
     }
 
     fn record(&mut self, record: Record<'_>) -> Result<(), String> {

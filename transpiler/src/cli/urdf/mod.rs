@@ -67,7 +67,7 @@ pub(super) fn robot_file(text: &str, from: &str) -> Result<String, String> {
             ));
         }
     };
-    let name = format!("{:?}", chain.name);
+    let name = toml::Value::String(chain.name.clone());
     let mut out = format!(
         "# Made from {from}.\n# Assumed, because a URDF does not tell: acceleration 5 x the speed per second, jerk 60 x the \
          speed per second\n# squared, and all of [tcp].\n\nname = {name}\nfamily = \"{family}\"\nprofile = \"S\"\n\n\
@@ -109,7 +109,8 @@ fn axis(out: &mut String, at: usize, joint: &Moving) {
     let (unit, factor) = if joint.slides { ("mm", 1e3) } else { ("deg", 1f64.to_degrees()) };
     let [min, max, vel] = [joint.lower, joint.upper, joint.velocity].map(|value| value * factor);
     let (acc, jerk) = (number(5.0 * vel), number(60.0 * vel));
-    let (min, max, vel, name) = (number(min), number(max), number(vel), &joint.name);
+    // A line of a comment holds it, whatever it holds.
+    let (min, max, vel, name) = (number(min), number(max), number(vel), joint.name.escape_debug());
     let at = at + 1;
     let _ = write!(
         out,
