@@ -206,7 +206,7 @@ fn configurations_ranges_and_singular_points_are_told() {
         ptp p:{900,0,600,0,90,0,-1} // 909 no configuration cfg -1
         movej j:{0,-200,90,0,45,0} // 907 j2 at -200 deg, 15 deg beyond its range
         movej j:{10,-90,90,0,45,0}
-        lin p:{890,0,1080,0,89.9,0} // 910 99.6 % along it axes 4 and 6
+        lin p:{890,0,1080,0,89.9,0} // 910 99.7 % along it axes 4 and 6
         movej j:{10,-90,90,0,45,0}
         lin p:{890,0,1080,0,110,0}",
     );
