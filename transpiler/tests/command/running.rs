@@ -181,8 +181,8 @@ fn motions_stand_under_the_files_of_their_lines() {
         let cells: Vec<&str> = row.split(',').collect();
         places.push([cells[1], cells[21]].join(" "));
     }
-    places.dedup();
     places.retain(|place| place != "0 ");
+    places.dedup();
     assert_eq!(places, ["3 way.arl", "3 parts.arl"]);
     let report = folder.read("way.jsonl");
     for part in ["\"motion\":1,\"file\":\"way.arl\",\"line\":3,", "\"motion\":2,\"file\":\"parts.arl\",\"line\":3,"] {
