@@ -72,7 +72,7 @@ pub enum Rate {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Limited {
-    /// The axis with this index in [`Robot::axes`].
+    /// The axis with this index in [`Robot::axes`](arl_robot::robot::Description::axes).
     Axis(usize),
     /// The TCP on its path.
     Tcp,
