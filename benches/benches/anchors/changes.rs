@@ -9,7 +9,7 @@ use arl_benches::random::Random;
 use arl_benches::statistics::taking_turns;
 use arl_rt::kinematics::Axes;
 use arl_rt::motion::{Command, Cycle, Joints, Override, Queue, Settings, Zone, plan};
-use arl_rt::robot::{Robot, VelocityProfile};
+use arl_rt::robot::{Robot, RobotError, VelocityProfile};
 use rsruckig::prelude::*;
 
 use crate::Rows;
@@ -39,7 +39,7 @@ pub(crate) fn rows() -> Rows {
         }
         // Limits that are not in proportion to each other: the straight way in the axes is then bound by different axes at
         // different times, and takes longer than axes that only arrive together.
-        let uneven = uneven(&robot, &mut random);
+        let uneven = uneven(&robot, &mut random)?;
         for [from, to] in &moves {
             let planned = planned(&uneven, from, to)?;
             straight_apart = straight_apart.max((planned / straight(&uneven, from, to)? - 1.0).abs());
@@ -172,13 +172,13 @@ fn random_move(robot: &Robot, random: &mut Random) -> [Axes; 2] {
 }
 
 /// The robot with acceleration from 2 to 10 times the speed, and jerk from 20 to 200 times.
-fn uneven(robot: &Robot, random: &mut Random) -> Robot {
+fn uneven(robot: &Robot, random: &mut Random) -> Result<Robot, RobotError> {
     let mut uneven = robot.clone().into_description();
     for axis in &mut uneven.axes {
         axis.acc = axis.vel * random.between(2.0, 10.0);
         axis.jerk = axis.vel * random.between(20.0, 200.0);
     }
-    Robot::new(uneven).expect("its limits are above 0")
+    Robot::new(uneven)
 }
 
 fn without_jerk(mut input: InputParameter<6>) -> InputParameter<6> {
