@@ -46,7 +46,7 @@ test("another tool is no motion", { skip }, async (test) => {
 func void main()
   movej j:{0,-90,90,0,30,0}, vp:50%
   movej j:{20,-80,90,0,30,0}, vp:50%, t:grip
-  movej j:{0,-90,90,0,30,0}, vp:50%
+  movej j:{0,-90,90,0,30,0}, vp:50%, t:$FLANGE
 endfunc
 `;
   record(path, "tools", program);
@@ -62,7 +62,7 @@ endfunc
       fastest: Math.max(...tracks.rows.speed),
     };
   });
-  assert.ok(seen.jumps === 2, "there and back");
+  assert.equal(seen.jumps, 2, "there and back");
   assert.ok(seen.fastest < 5000, `${seen.fastest} mm/s`);
   assert.match(seen.legend ?? "", /^0 to \d{2,4} mm\/s/);
   assert.deepEqual(troubles, []);
