@@ -48,7 +48,7 @@ class Diagnostic:
 
     def below(self, folder: Path) -> Diagnostic:
         """The same, its file counted from this folder where it is below."""
-        path = Path(os.path.abspath(self.file))
+        path, folder = Path(os.path.abspath(self.file)), Path(os.path.abspath(folder))
         return replace(self, file=path.relative_to(folder).as_posix()) if path.is_relative_to(folder) else self
 
     @property
