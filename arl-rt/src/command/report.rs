@@ -71,7 +71,7 @@ fn table(recorded: &Recorded, time: f64) -> String {
             let (along, speed, unit) = (100.0 * near.along, short(near.speed), near.unit);
             let _ = writeln!(
                 text,
-                "line {place}: {along:.1} % along it is close to a singular point: {axis} leaves the path {speed} {unit} there"
+                "line {place}: {along:.1} % along it is close to a singular point: {axis} lets it go at {speed} {unit} there"
             );
         }
         if let Some(why) = line.blend.smaller_zone() {

@@ -188,7 +188,11 @@ fn motions_stand_under_the_files_of_their_lines() {
     for part in ["\"motion\":1,\"file\":\"way.arl\",\"line\":3,", "\"motion\":2,\"file\":\"parts.arl\",\"line\":3,"] {
         assert!(report.contains(part), "{part} in {report}");
     }
-    run(&["--report"]).is(0, "").says("\n            3  movej  ").says("\nparts.arl:3  lin  ");
+    run(&["--report"])
+        .is(0, "")
+        .says("\n          3  movej  ")
+        .says("\nparts.arl:3  lin  ")
+        .says("close to a singular point: j4");
     run(&["--report=way.json", "--format", "json"]).is(0, "");
     let same = folder.arl2rs(&["compare", "way.json", "way.mcap"]);
     assert!(same.code == Some(0) && same.out.starts_with("nothing differs: "), "{}", same.out);
