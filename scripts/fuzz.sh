@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Feeds random bytes to everything that reads them from outside, so many seconds each: scripts/fuzz.sh SECONDS [TARGET...]
+# Feeds random bytes to what reads programs, files and messages, so many seconds each: scripts/fuzz.sh SECONDS [TARGET...]
 # Needs a nightly Rust, a C++ compiler, and `cargo install cargo-fuzz`.
 set -euo pipefail
 cd "$(dirname "$0")/../fuzz"

@@ -73,7 +73,7 @@ pub(crate) fn is_then(name: &str) -> bool {
 }
 
 /// Whether the token opens a block or a branch.
-fn is_header(token: Token) -> bool {
+pub(crate) fn is_header(token: Token) -> bool {
     matches!(
         token,
         Token::If

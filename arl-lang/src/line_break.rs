@@ -3,13 +3,12 @@
 
 use crate::adapt::PlacedLexeme;
 use crate::explain::is_infix;
+use crate::habits::is_header;
 use crate::lexer::Lexeme;
 use crate::span::Span;
 use crate::syntax_error::{Bracket, LineBreak, SyntaxError, SyntaxErrorKind};
 use crate::token::{Placed, Token};
-
-/// Words that open a block: behind their line a `{` is a block's, as in other languages.
-const HEADERS: [&str; 8] = ["elseif", "else", "for", "func", "if", "loop", "repeat", "while"];
+use crate::words::control_token;
 
 /// Words of the language with which a value can begin.
 const VALUES: [&str; 3] = ["endl", "false", "true"];
@@ -27,10 +26,7 @@ impl Statement {
     /// The statement that begins with the lexemes of a line.
     pub(crate) fn of(lexemes: &[PlacedLexeme], source: &str) -> Self {
         let mut statement = Self::default();
-        let is_header = || lexemes.first().is_some_and(|first| is_one_of(&HEADERS, *first, source));
-        let opens_block = matches!(lexemes, [.., (_, before, _), (_, Lexeme::BraceOpen, _)]
-            if *before == Lexeme::ParenClose || is_header());
-        if lexemes.len() > 1 && !opens_block {
+        if lexemes.len() > 1 && !opens_block(lexemes, source) {
             statement.go_on(lexemes);
         }
         statement
@@ -105,16 +101,29 @@ fn writes(lexeme: Lexeme) -> bool {
         || matches!(lexeme, L::PlusPlus | L::MinusMinus)
 }
 
-fn is_one_of(words: &[&str], lexeme: PlacedLexeme, source: &str) -> bool {
-    let text = Span::new(lexeme.0, lexeme.2).text(source);
-    lexeme.1 == Lexeme::Word && words.iter().any(|word| word.eq_ignore_ascii_case(text))
+fn word(lexeme: PlacedLexeme, source: &str) -> Option<&str> {
+    (lexeme.1 == Lexeme::Word).then(|| Span::new(lexeme.0, lexeme.2).text(source))
+}
+
+/// Whether the `{` at the end of a line opens a block, as in other languages: behind a condition, the head of a block,
+/// or a word that stands alone (`try {`) and is no instruction, whose braces would hold a value.
+fn opens_block(lexemes: &[PlacedLexeme], source: &str) -> bool {
+    match lexemes {
+        [.., (_, Lexeme::ParenClose, _), (_, Lexeme::BraceOpen, _)] => true,
+        [first, between @ .., (_, Lexeme::BraceOpen, _)] => word(*first, source).is_some_and(|word| {
+            let stands_alone = || between.is_empty() && crate::catalog::instructions(word).is_empty();
+            control_token(word).is_some_and(is_header) || stands_alone()
+        }),
+        _ => false,
+    }
 }
 
 /// Whether a statement or the line of a block begins with the word.
 fn begins_statement(lexeme: PlacedLexeme, source: &str) -> bool {
-    let word = Span::new(lexeme.0, lexeme.2).text(source);
-    let is_control = || crate::control_word(word).is_some_and(|word| !VALUES.contains(&word));
-    lexeme.1 == Lexeme::Word && (is_control() || !crate::catalog::instructions(word).is_empty())
+    word(lexeme, source).is_some_and(|word| {
+        let is_control = || crate::control_word(word).is_some_and(|word| !VALUES.contains(&word));
+        is_control() || !crate::catalog::instructions(word).is_empty()
+    })
 }
 
 /// The error for a statement that goes on behind the end of its line: where its first line ends, where it goes on.

@@ -41,18 +41,19 @@ fn urscript(statement: &str) -> Option<String> {
     if named.is_empty() && !lists {
         return None;
     }
-    let value = |label: &str| {
-        let found = named.iter().find(|(name, _)| name.eq_ignore_ascii_case(label))?;
-        found.1.parse::<f64>().ok().filter(|value| value.is_finite() && *value > 0.0)
-    };
-    let speed = format!("vl:{}mm/s", value("v").map_or_else(|| "250".into(), millimetres));
-    let zone = value("r").map(|radius| format!(",sl:{}mm", millimetres(radius))).unwrap_or_default();
+    let value = |label: &str| named.iter().find(|(name, _)| name.eq_ignore_ascii_case(label)).map(|found| found.1);
+    let speed = value("v").and_then(|speed| scaled(speed, "mm/s")).unwrap_or_else(|| "250mm/s".into());
+    let speed = format!("vl:{speed}");
+    let zone = value("r").and_then(|radius| scaled(radius, "mm")).map(|zone| format!(",sl:{zone}")).unwrap_or_default();
     let target = |at: usize| plain.get(at).and_then(|target| target_name(target));
     let name = name.trim();
     let line = if is_one_of(&["movej"], name) {
-        let zone = if zone.is_empty() { "" } else { ",sp:20%" };
         let joints = plain.first().and_then(|list| degrees(list)).map(|axes| format!("j:{{{axes}}}"));
-        format!("movej {},vp:20%{zone}", joints.or(target(0)).unwrap_or_else(|| "j1".into()))
+        let (motion, example) = match plain.first() {
+            Some(pose) if pose.starts_with("p[") => ("ptp", "p1"),
+            _ => ("movej", "j1"),
+        };
+        format!("{motion} {},vp:20%{zone}", joints.or(target(0)).unwrap_or_else(|| example.into()))
     } else if is_one_of(&["movel"], name) {
         format!("lin {},{speed}{zone}", target(0).unwrap_or_else(|| "p1".into()))
     } else if is_one_of(&["movep"], name) {
@@ -86,12 +87,14 @@ fn krl(statement: &str) -> Option<String> {
         (false, false) => format!("ptp {target},vp:{number}%"),
         (false, true) => format!("ptp {target},vp:{number}%,sp:20%"),
     };
-    for (word, label) in [("tool[", "t:$tool"), ("base[", "w:$wobj")] {
+    for (word, label, list, none) in [("tool[", "t", "tool", "FLANGE"), ("base[", "w", "wobj", "WORLD")] {
         let number = split_at_word(after, word).map(|(_, rest)| rest);
         let digits: String = number.unwrap_or("").chars().take_while(char::is_ascii_digit).collect();
-        if !digits.is_empty() {
-            let _ = write!(line, ",{label}{digits}");
-        }
+        let _ = match digits.parse::<u32>() {
+            Ok(0) => write!(line, ",{label}:${none}"),
+            Ok(number) => write!(line, ",{label}:${list}{number}"),
+            Err(_) => Ok(()),
+        };
     }
     Some(line)
 }
@@ -138,6 +141,16 @@ fn degrees(list: &str) -> Option<String> {
     Some(axes.collect::<Vec<_>>().join(","))
 }
 
+/// A value in metres (and seconds), with the unit that ARL has; what is no number stays to be computed. `None` where it
+/// is not above 0.
+fn scaled(value: &str, unit: &str) -> Option<String> {
+    match value.parse::<f64>() {
+        Ok(number) if number.is_finite() => (number > 0.0).then(|| format!("{}{unit}", millimetres(number))),
+        _ if is_name(value) => Some(format!("{value}*1000")),
+        _ => Some(format!("({value})*1000")),
+    }
+}
+
 /// Metres in mm, to a thousandth.
 fn millimetres(metres: f64) -> String {
     ((metres * 1e6).round() / 1e3).to_string()
@@ -151,12 +164,16 @@ mod tests {
     fn motions_of_others() {
         for (theirs, ours) in [
             ("movej([0,-1.57,1.57,0,1.57,0], a=1.4, v=1.05)", "movej j:{0,-89.95,89.95,0,89.95,0},vp:20%"),
-            ("movej(home, v=1.05, r=0.02)", "movej home,vp:20%,sp:20%"),
+            ("movej(home, v=1.05, r=0.02)", "movej home,vp:20%,sl:20mm"),
+            ("movej(p[0.1,0.2,0.3,0,3.14,0], v=1.05)", "ptp p1,vp:20%"),
+            ("movel(p, v=speed, r=zone)", "lin p,vl:speed*1000,sl:zone*1000"),
+            ("movel(p, v=2*slow, r=0)", "lin p,vl:(2*slow)*1000"),
             ("movel(p[0.1,0.2,0.3,0,3.14,0], v=0.1, r=0.005)", "lin p1,vl:100mm/s,sl:5mm"),
             ("movep(p, a=1.2, v=0.25)", "lin p,vl:250mm/s,sl:10mm"),
             ("movec(via, to, v=0.25)", "cir m:via,p:to,vl:250mm/s"),
-            ("LIN P1 CONT Vel=0.25 m/s CPDAT1 Tool[1]:Gripper Base[0]", "lin P1,vl:250mm/s,sl:10mm,t:$tool1,w:$wobj0"),
+            ("LIN P1 CONT Vel=0.25 m/s CPDAT1 Tool[1]:Gripper Base[0]", "lin P1,vl:250mm/s,sl:10mm,t:$tool1,w:$WORLD"),
             ("PTP P3 CONT Vel = 50 % PDAT3", "ptp P3,vp:50%,sp:20%"),
+            ("LIN P2 Vel=1 m/s CPDAT2 Tool[0] Base[12]", "lin P2,vl:1000mm/s,t:$FLANGE,w:$wobj12"),
         ] {
             assert_eq!(other_motion(theirs).map(|found| found.ours).as_deref(), Some(ours), "{theirs}");
         }

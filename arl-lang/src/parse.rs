@@ -384,18 +384,7 @@ impl<'a> Parser<'a> {
         let before = self.context.errors.len();
         match self.grammar.parse(&mut self.context, tokens.iter().copied()) {
             Ok(mut line) => {
-                if let LineKind::Statement(StmtKind::CompactIf(parts)) = &mut line.kind {
-                    if quiet {
-                        // Whether a statement was meant there or not is anybody's guess.
-                        doubts.may_open = true;
-                        let unknown = error_at(parts.0.span);
-                        line.kind = LineKind::If(std::mem::replace(&mut parts.0, unknown));
-                    } else if let StmtKind::Expr(expr) = &parts.1.kind
-                        && matches!(expr.kind, ExprKind::Brace(_))
-                    {
-                        self.context.errors.push(SyntaxError::new(SyntaxErrorKind::BlockBrace, expr.span));
-                    }
-                }
+                self.doubt_compact_if(&mut line, quiet, &mut doubts);
                 self.take(line, doubts);
             }
             Err(error) => {
@@ -430,6 +419,21 @@ impl<'a> Parser<'a> {
                 }
                 self.recover(tokens.len(), doubts);
             }
+        }
+    }
+
+    /// An `if` on one line whose statement is doubtful: braces of a block, or anything on a line with other mistakes.
+    fn doubt_compact_if(&mut self, line: &mut Line, quiet: bool, doubts: &mut Doubts) {
+        let LineKind::Statement(StmtKind::CompactIf(parts)) = &mut line.kind else { return };
+        if quiet {
+            // Whether a statement was meant there or not is anybody's guess.
+            doubts.may_open = true;
+            let unknown = error_at(parts.0.span);
+            line.kind = LineKind::If(std::mem::replace(&mut parts.0, unknown));
+        } else if let StmtKind::Expr(expr) = &parts.1.kind
+            && matches!(expr.kind, ExprKind::Brace(_))
+        {
+            self.context.errors.push(SyntaxError::new(SyntaxErrorKind::BlockBrace, expr.span));
         }
     }
 

@@ -1,6 +1,6 @@
 //! The words for what can be wrong with the form of a program.
 
-use crate::syntax_error::{self, Hint, SyntaxErrorKind};
+use crate::syntax_error::{self, BlockKind, Hint, SyntaxErrorKind};
 
 impl Hint {
     const fn text(self) -> Option<&'static str> {
@@ -56,6 +56,22 @@ impl Hint {
     }
 }
 
+impl syntax_error::LineBreak {
+    const fn message(self) -> &'static str {
+        match self {
+            Self::Behind => "this statement is not complete at the end of its line",
+            Self::Before => "this line goes on with the statement of the line above",
+        }
+    }
+
+    const fn label(self) -> &'static str {
+        match self {
+            Self::Behind => "write `\\` behind this, at the end of the line",
+            Self::Before => "write `\\` at the end of the line above",
+        }
+    }
+}
+
 impl SyntaxErrorKind {
     /// What is wrong, in one line.
     pub fn message(&self) -> String {
@@ -88,10 +104,8 @@ impl SyntaxErrorKind {
             WrongClose(open, found) => format!("`{}` cannot close a `{}`", found.close(), open.open()),
             MissingComma(before) => format!("a comma is missing before {before}"),
             MissingColon => "the `:` of this case is missing".into(),
-            MissingValue(after, before) => match before.as_ref() {
-                "" => format!("a value is missing behind {after}"),
-                before => format!("a value is missing between {after} and {before}"),
-            },
+            MissingValue(after, before) if before.is_empty() => format!("a value is missing behind {after}"),
+            MissingValue(after, before) => format!("a value is missing between {after} and {before}"),
             Semicolon => "a line does not end with `;`".into(),
             SeveralStatements => "each statement stands on a line of its own".into(),
             ReservedWord(word) => format!("`{word}` is a reserved word and cannot be a name"),
@@ -104,12 +118,7 @@ impl SyntaxErrorKind {
             TooManyLevels => "this expression has too many levels".into(),
             ComponentColon(name) => format!("no `:` stands between the component `{name}` and its value"),
             CompoundStartValue => "a start value follows a plain `=`".into(),
-            UnclosedBlock(kind, name) if name.is_empty() => {
-                format!("this `{}` is never closed: its `{}` is missing", kind.opener(), kind.closer())
-            }
-            UnclosedBlock(kind, name) => {
-                format!("the function `{name}` is never closed: its `{}` is missing", kind.closer())
-            }
+            UnclosedBlock(kind, name) => unclosed(*kind, name),
             StrayEnd(kind) => format!("this `{}` closes nothing: no `{}` is open", kind.closer(), kind.opener()),
             WrongEnd(open, line, found) => {
                 format!("`{}` cannot close the `{}` of line {line}", found.closer(), open.opener())
@@ -129,12 +138,7 @@ impl SyntaxErrorKind {
             OtherOperator(found, ours) => format!("ARL writes `{ours}`, not `{found}`"),
             Misspelt(word, _) => format!("`{word}` is no word of ARL"),
             OtherMotion(motion) => format!("this is a motion as {} writes it", motion.language),
-            LineBreak(syntax_error::LineBreak::Behind) => {
-                "this statement is not complete at the end of its line".into()
-            }
-            LineBreak(syntax_error::LineBreak::Before) => {
-                "this line goes on with the statement of the line above".into()
-            }
+            LineBreak(place) => place.message().into(),
         }
     }
 
@@ -191,15 +195,36 @@ impl SyntaxErrorKind {
             OtherWord(..) => "not known".into(),
             OtherOperator(_, ours) | Misspelt(_, ours) => format!("write `{ours}`"),
             OtherMotion(motion) => format!("in ARL `{}`", motion.ours),
-            LineBreak(syntax_error::LineBreak::Behind) => "write `\\` behind this, at the end of the line".into(),
-            LineBreak(syntax_error::LineBreak::Before) => "write `\\` at the end of the line above".into(),
+            LineBreak(place) => place.label().into(),
         }
     }
 
     /// What would be right, where there is more to say.
     pub fn help(&self) -> Option<String> {
+        self.help_with_names().or_else(|| self.plain_help().map(String::from))
+    }
+
+    /// The help that names what was found or what is meant.
+    fn help_with_names(&self) -> Option<String> {
         use SyntaxErrorKind::*;
-        let text = match self {
+        match self {
+            OtherHexadecimal(value) => Some(format!("Write `{}`.", arl_hexadecimal(*value))),
+            BadNumber(text) => other_unit(text).map(|number| format!("ARL has mm, deg and s: `{number}`.")),
+            OtherMotion(motion) => Some(format!("Write `{}`: {OTHER_MOTIONS}", motion.ours)),
+            WrongEnd(open, ..) => {
+                let (opener, closer) = (open.opener(), open.closing_line());
+                Some(format!("A `{opener}` reaches to its `{closer}`. Write that, or remove this line."))
+            }
+            OtherWord(_, ours) => Some(format!("ARL has {ours}.")),
+            Misspelt(_, meant) => Some(format!("Did you mean `{meant}`?")),
+            _ => None,
+        }
+    }
+
+    /// The help that is the same for every mistake of a kind.
+    fn plain_help(&self) -> Option<&'static str> {
+        use SyntaxErrorKind::*;
+        Some(match self {
             UnknownCharacter('?') => "ARL has no `?:`. Write an `if` with an `else`.",
             LooksLike(..) => {
                 "Characters of other alphabets look alike and are not the same. Switch the input method to half-width."
@@ -215,10 +240,6 @@ impl SyntaxErrorKind {
             IntTooLarge(_) => "Ints have 32 bits. Write a double (`4294967296.0`) where it may be one.",
             BinaryDigits(_) => "A `b` behind digits makes a binary number, an `h` a hexadecimal one: `1100b`, `12bh`.",
             NoExponent(_) => "Write the exponent's digits (`12e3`), or an `h` for a hexadecimal number (`12eh`).",
-            OtherHexadecimal(value) => return Some(format!("Write `{}`.", arl_hexadecimal(*value))),
-            BadNumber(text) if other_unit(text).is_some() => {
-                return other_unit(text).map(|number| format!("ARL has mm, deg and s: `{number}`."));
-            }
             BadNumber(_) => {
                 "Names begin with a letter or `_`. Behind a number may stand `b`, `h` or a unit: %, mm, mm/s, deg, deg/s, s."
             }
@@ -226,17 +247,10 @@ impl SyntaxErrorKind {
             SingleQuotes => "Write `\"text\"`.",
             BareSplice => "Write `#name` for a Rust variable, `#(expression)` for anything else.",
             FileTooLarge => "ARL files may have up to 4 GB.",
-            Unexpected { hint, .. } | EndsEarly { hint, .. } => return hint.text().map(String::from),
-            OtherMotion(motion) => {
-                return Some(format!("Write `{}`: {OTHER_MOTIONS}", motion.ours));
-            }
+            Unexpected { hint, .. } | EndsEarly { hint, .. } => return hint.text(),
             LineBreak(_) => JOINED_LINES,
-            MissingClose(_) => {
-                "A statement ends with its line. Where it goes on on the next one, the line ends with `\\`."
-            }
-            MissingValue(_, before) if before.is_empty() => {
-                "A statement ends with its line. Where it goes on on the next one, the line ends with `\\`."
-            }
+            MissingClose(_) => ONE_LINE,
+            MissingValue(_, before) if before.is_empty() => ONE_LINE,
             MissingColon => "Write `case 1:` or `default:`, the statements on the lines below.",
             Semicolon => {
                 "The end of the line ends the statement. A `;` adds events to a motion: `lin p1;T(1),setdo(2,true)`."
@@ -258,10 +272,6 @@ impl SyntaxErrorKind {
             TooManyBlocks => "Move the inner blocks to a function of their own.",
             ReservedWord(_) => "Words of the language cannot name variables, functions or labels, in whatever case.",
             ComponentColon(_) => "In braces: `{x 1, y 2}`. With a colon are labels of arguments: `lin p:p1`.",
-            WrongEnd(open, ..) => {
-                let (opener, closer) = (open.opener(), open.closing_line());
-                return Some(format!("A `{opener}` reaches to its `{closer}`. Write that, or remove this line."));
-            }
             StrayEnd(_) => "Remove it, or look above for a line that closes too early.",
             OutsideFunction => {
                 "Outside of functions stand `import`, declarations and `func`. A program begins in `func void main()`."
@@ -270,13 +280,10 @@ impl SyntaxErrorKind {
             ImportInside => "Imports hold for the whole file.",
             BeforeFirstCase => "Between `switch` and its first `case` stands nothing.",
             SecondDefault => "A `switch` has at most one.",
-            OtherWord(_, ours) => return Some(format!("ARL has {ours}.")),
-            Misspelt(_, meant) => return Some(format!("Did you mean `{meant}`?")),
             UnknownCharacter('#') => "Comments begin with `//`.",
             BranchAfterElse(_) => "The order is `if`, any number of `elseif`, at most one `else`, `endif`.",
             _ => return None,
-        };
-        Some(text.into())
+        })
     }
 }
 
@@ -295,6 +302,15 @@ impl SyntaxErrorKind {
 pub const OTHER_MOTIONS: &str = "in ARL commas stand between the arguments and a colon behind each label, \
 poses and joints stand in braces, in mm and deg. `accset` sets accelerations; `movej` goes to a joint, \
 `ptp` and `lin` go to a pose.";
+
+/// A block, or the function of this name, that is never closed.
+fn unclosed(kind: BlockKind, name: &str) -> String {
+    let block = if name.is_empty() { format!("this `{}`", kind.opener()) } else { format!("the function `{name}`") };
+    format!("{block} is never closed: its `{}` is missing", kind.closer())
+}
+
+/// Where a statement ends.
+const ONE_LINE: &str = "A statement ends with its line. Where it goes on on the next one, the line ends with `\\`.";
 
 /// How a statement of several lines is written.
 const JOINED_LINES: &str = "The end of a line ends a statement, inside brackets, too. A `\\` as the last character joins a \

@@ -90,6 +90,11 @@ pub fn control_word(name: &str) -> Option<&'static str> {
     control_words().find(|word| word.eq_ignore_ascii_case(name))
 }
 
+/// The token of a word of a control structure or a constant, where `name` is one in any case.
+pub(crate) fn control_token(name: &str) -> Option<Token> {
+    FIXED.iter().find(|(word, _)| word.eq_ignore_ascii_case(name)).map(|(_, token)| *token)
+}
+
 /// What each interned name is, by its symbol.
 pub(crate) struct Vocabulary {
     words: Vec<Word>,

@@ -1,5 +1,6 @@
-//! Files are replaced atomically: they are there whole, old or new, at whatever moment their writer is killed. Links,
-//! modes and owners stay, and what others have written meanwhile is not lost.
+//! Files are replaced atomically: they are there whole, old or new, at whatever moment their writer is killed. Symbolic
+//! links, modes and owners stay, and what others have written meanwhile is not lost. Hard links part: the other names
+//! keep the old content.
 
 use std::fmt;
 use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
@@ -10,8 +11,11 @@ use std::time::{Duration, Instant};
 
 use crate::regular_file;
 
-/// How the name of a file ends that is to take the place of another one: `NAME.PROCESS-NUMBER` and this. No user calls a file so.
+/// How the name of a file ends that is to take the place of another one: `NAME.PROCESS-NUMBER` and this. No user calls
+/// a file so.
 const BESIDE: &str = ".arl-new";
+/// What it ends with instead where it may hold the only copy of something.
+const KEPT: &str = "arl-kept";
 /// So long it is waited for others who replace files of the same directory.
 const LONGEST_WAIT: Duration = Duration::from_secs(5);
 /// So often a change is made anew for others who write the same file.
@@ -21,7 +25,7 @@ const HALF_WRITTEN: Duration = Duration::from_millis(20);
 /// A link that leads to a link, and so on, at most so often.
 const MOST_LINKS: usize = 40;
 
-/// Why a file was not changed: the old content is there.
+/// Why a file was not changed; the old content is there, but for [`ChangeError::Aside`].
 #[derive(Debug)]
 pub enum ChangeError<E> {
     /// It cannot be read.
@@ -30,6 +34,8 @@ pub enum ChangeError<E> {
     Refused(E),
     /// It cannot be written.
     Write(io::Error),
+    /// It was replaced, but what others may have written in that moment cannot be put back: it is kept in this file.
+    Aside(PathBuf, io::Error),
 }
 
 impl<E: fmt::Display> fmt::Display for ChangeError<E> {
@@ -38,6 +44,9 @@ impl<E: fmt::Display> fmt::Display for ChangeError<E> {
             Self::Read(error) => write!(f, "cannot be read: {error}"),
             Self::Refused(why) => why.fmt(f),
             Self::Write(error) => write!(f, "cannot be written: {error}"),
+            Self::Aside(kept, error) => {
+                write!(f, "was replaced; what it held just before is kept as {}: {error}", kept.display())
+            }
         }
     }
 }
@@ -85,7 +94,7 @@ pub fn create(path: &Path, content: &[u8]) -> io::Result<()> {
 ///
 /// # Errors
 /// It cannot be read or written, `change` refuses, or somebody else goes on writing. The file is as others have left
-/// it.
+/// it, but for [`ChangeError::Aside`].
 pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E>) -> Result<(), ChangeError<E>> {
     let read = |path: &Path| regular_file::read(path).map_err(ChangeError::Read);
     let file = followed(path).map_err(ChangeError::Read)?;
@@ -94,7 +103,7 @@ pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E
         let old = read(&file)?;
         match change(&old) {
             Ok(new) if new == old => return Ok(()),
-            Ok(new) if replace(&file, &old, &new).map_err(ChangeError::Write)? => {
+            Ok(new) if replace(&file, &old, &new)? => {
                 sync_directory(&file);
                 return Ok(());
             }
@@ -112,22 +121,22 @@ pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E
 }
 
 /// Replaces content that is still the old one; whether it was.
-fn replace(file: &Path, old: &[u8], new: &[u8]) -> io::Result<bool> {
-    let metadata = writable(file)?;
-    let draft = Draft::new(file, new, metadata.as_ref())?;
-    if fs::read(file)? != old {
+fn replace<E>(file: &Path, old: &[u8], new: &[u8]) -> Result<bool, ChangeError<E>> {
+    let metadata = writable(file).map_err(ChangeError::Write)?;
+    let draft = Draft::new(file, new, metadata.as_ref()).map_err(ChangeError::Write)?;
+    if fs::read(file).map_err(ChangeError::Read)? != old {
         return Ok(false);
     }
     match exchange(&draft.path, file) {
-        Ok(()) => put_back_news(&draft.path, file, old, new),
+        Ok(()) => put_back_news(&draft.path, file, old, new).map_err(|error| ChangeError::Aside(draft.keep(), error)),
         Err(_) if !file.exists() => Ok(false),
         // Not every file system can. What is written in this very moment is lost there.
-        Err(_) => fs::rename(&draft.path, file).map(|()| true),
+        Err(_) => fs::rename(&draft.path, file).map(|()| true).map_err(ChangeError::Write),
     }
 }
 
 /// After an exchange the old content lies beside. Where that is not what was read, somebody has written in between:
-/// theirs goes back to its place. Whether the new content stayed.
+/// theirs goes back to its place. Whether the new content stayed. After an error, what lies beside may be theirs.
 fn put_back_news(beside: &Path, file: &Path, old: &[u8], new: &[u8]) -> io::Result<bool> {
     let (mut expected, mut placed) = (old.to_vec(), new.to_vec());
     let mut stays = true;
@@ -219,6 +228,7 @@ fn lock(directory: &Path) -> io::Result<Option<File>> {
 /// A file beside another one, whose place it is to take; gone again where it does not.
 struct Draft {
     path: PathBuf,
+    is_kept: bool,
     /// As long as it is open, nobody takes the file for abandoned.
     _held: File,
 }
@@ -243,15 +253,24 @@ impl Draft {
             old.map_or(Ok(()), |old| make_alike(&held, old))?;
             held.sync_all()
         })();
-        let draft = Self { path, _held: held };
+        let draft = Self { path, is_kept: false, _held: held };
         written.map(|()| draft)
+    }
+
+    /// Lets it stay, by a name that [`remove_leftovers`] passes over, where it can have one; which that is.
+    fn keep(mut self) -> PathBuf {
+        self.is_kept = true;
+        let kept = self.path.with_extension(KEPT);
+        if fs::rename(&self.path, &kept).is_ok() { kept } else { self.path.clone() }
     }
 }
 
 impl Drop for Draft {
     fn drop(&mut self) {
-        // Where it has taken its place, there is none any more. That it cannot be removed changes nothing.
-        let _ = fs::remove_file(&self.path);
+        if !self.is_kept {
+            // Where it has taken its place, there is none any more. That it cannot be removed changes nothing.
+            let _ = fs::remove_file(&self.path);
+        }
     }
 }
 
@@ -267,7 +286,7 @@ fn make_alike(file: &File, old: &Metadata) -> io::Result<()> {
     if own.gid() != old.gid() && fchown(file, None, Some(old.gid())).is_err() {
         let mode = old.mode();
         if (mode >> 3) & 0o7 != mode & 0o7 {
-            let words = "its group could not be kept, which may do something else than others";
+            let words = "its group cannot be kept, and the group may do something else with it than others";
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, words));
         }
     }
@@ -280,8 +299,7 @@ fn make_alike(file: &File, old: &Metadata) -> io::Result<()> {
 }
 
 /// Makes a file and holds its lock: as long as this process lives and has the file open, nobody takes it for abandoned.
-/// What is
-/// `private` nobody else may look at yet.
+/// What is `private` nobody else may look at yet.
 fn create_held(path: &Path, private: bool) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.write(true).create_new(true);
@@ -307,8 +325,9 @@ pub fn remove_leftovers(directory: &Path) {
     let Ok(entries) = fs::read_dir(directory) else { return };
     let left = entries.filter_map(Result::ok).filter(|entry| is_in_the_making(&entry.file_name().to_string_lossy()));
     let mut left = left.map(|entry| entry.path()).peekable();
-    // Somebody may just exchange two files.
-    if left.peek().is_some() && lock(directory).is_ok() {
+    if left.peek().is_some() {
+        // Somebody may just exchange two files: what lies beside then is nobody's draft.
+        let Ok(_lock) = lock(directory) else { return };
         left.for_each(|path| remove_abandoned(&path));
     }
 }
@@ -365,6 +384,39 @@ mod tests {
         assert!(!names(&path).contains("I.state.17.arl-new"));
         remove_leftovers(&path.join("nowhere"));
         fs::remove_dir_all(&path).unwrap();
+    }
+
+    /// What lies beside while two files are exchanged is held by nobody.
+    #[cfg(unix)]
+    #[test]
+    fn nothing_is_removed_while_others_replace_files() {
+        let path = folder("locked");
+        let left = path.join("I.state.1.arl-new");
+        fs::write(&left, "an editor's").unwrap();
+        let held = lock(&path).unwrap().unwrap();
+        std::thread::scope(|scope| {
+            let removes = scope.spawn(|| remove_leftovers(&path));
+            std::thread::sleep(Duration::from_millis(100));
+            assert!(left.exists() && !removes.is_finished());
+            drop(held);
+        });
+        assert!(!left.exists());
+        fs::remove_dir_all(&path).unwrap();
+    }
+
+    #[test]
+    fn what_may_be_the_only_copy_stays() {
+        let folder = folder("only");
+        let path = folder.join("a.arl");
+        fs::write(&path, "new").unwrap();
+        // A directory cannot be read.
+        assert!(put_back_news(&folder, &path, b"old", b"new").is_err());
+        let kept = Draft::new(&path, b"an editor's", None).unwrap().keep();
+        remove_leftovers(&folder);
+        assert_eq!((fs::read(&path).unwrap(), fs::read(&kept).unwrap()), (b"new".into(), b"an editor's".into()));
+        let error = ChangeError::<String>::Aside(kept, io::ErrorKind::Interrupted.into()).to_string();
+        assert!(error.contains(".arl-kept: ") && !error.contains("cannot be written"), "{error}");
+        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

@@ -263,6 +263,18 @@ pub fn hint(word: &str, known: &[&str]) -> String {
     }
 }
 
+/// So many names are listed where none is like the one that was looked for.
+const LISTED: usize = 8;
+
+/// `did you mean ...?`, or how many names there are and some of them: for names that may be many.
+pub fn hint_of_many(word: &str, known: &[&str]) -> String {
+    match (nearest(word, known), known.get(..LISTED)) {
+        (Some(near), _) => format!("did you mean `{near}`?"),
+        (None, Some(first)) => format!("there are {}, like {}", known.len(), first.join(", ")),
+        (None, None) => format!("there are {}", known.join(", ")),
+    }
+}
+
 /// The known name that `word` may have meant.
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let word = word.to_ascii_lowercase();

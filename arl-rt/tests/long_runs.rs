@@ -143,6 +143,49 @@ fn a_run_without_its_quiet_cycles_is_the_run_with_them() {
     assert!(skipping.seen.get() * 3 < plain.seen.get(), "{} of {}", skipping.seen.get(), plain.seen.get());
 }
 
+/// Sets an output and waits at once, for long: somebody else sees it in the cycle behind.
+fn sets_and_waits(cx: &Cx) -> BoxFuture<'_> {
+    Box::pin(async move {
+        let told = |cx: &Cx| text::print().argtoprint(&"seen ").argtoprint(&cx.time()).run(cx).at(FILE, 9);
+        event::interrupt(async |cx: &Cx| io::getdo(cx, 1).await.at(FILE, 1), async move |cx: &Cx| told(cx))
+            .name(&"set".into())
+            .run(cx)
+            .at(FILE, 1)?;
+        // By time or by an input that is on for long, when it is looked at.
+        flow::waittime(1.0).run(cx).await.at(FILE, 2)?;
+        while !io::getdi(cx, 1).await.at(FILE, 3)? {
+            flow::waittime(0.01).run(cx).await.at(FILE, 3)?;
+        }
+        io::setdo(cx, 1, true).await.at(FILE, 4)?;
+        flow::waittime(10.0).run(cx).await.at(FILE, 5)?;
+        io::setdo(cx, 2, true).await.at(FILE, 6)?;
+        flow::waittime(100.0).run(cx).await.at(FILE, 7)
+    })
+}
+
+#[test]
+fn what_is_done_before_a_wait_is_seen_in_the_cycle_behind() {
+    let run = |may_skip: bool| {
+        let clock = Counting { may_skip, ..Counting::default() };
+        let events = "[[event]]\nat = 3.0037\ndi.1 = true\n";
+        let builder = Controller::builder().clock(clock).scenario(Scenario::parse("s.toml", events).unwrap());
+        let builder = builder.background(script(|cx| {
+            Box::pin(async move {
+                while !io::getdo(cx, 2).await.at(FILE, 11)? {
+                    cx.change().await;
+                }
+                text::print().argtoprint(&"beside ").argtoprint(&cx.time()).run(cx).at(FILE, 12)
+            })
+        }));
+        let (mut controller, messages) = controller(builder, sets_and_waits);
+        assert_eq!(controller.run(), Outcome::Ended);
+        messages.text()
+    };
+    let (short, long) = (run(true), run(false));
+    assert_eq!(short, long);
+    assert!(short.contains("seen 3.") && short.contains("beside 13."), "{short}");
+}
+
 #[test]
 fn so_many_seconds_are_so_many_seconds() {
     let clock = Counting { may_skip: true, ..Counting::default() };

@@ -156,21 +156,6 @@ where
     (controller.motions(), rows.collect())
 }
 
-/// What was written.
-#[derive(Clone, Default)]
-struct Kept(std::rc::Rc<std::cell::RefCell<Vec<u8>>>);
-
-impl std::io::Write for Kept {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.borrow_mut().extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
 /// Lines at different speeds, with zones that take a part of them, and all of one.
 fn zigzag(cx: &Cx) -> BoxFuture<'_> {
     Box::pin(async move {

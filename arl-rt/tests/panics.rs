@@ -87,3 +87,20 @@ fn distances_that_are_none_and_overrides_that_are_none_are_refused() {
     assert!(controller.take_warnings()[0].contains("an axis cannot move by"));
     assert_eq!(controller.joints(), before);
 }
+
+#[test]
+fn a_condition_that_panics_ends_its_program() {
+    let mut controller = plain(Controller::builder(), |cx| {
+        Box::pin(async move {
+            let panics = async |cx: &Cx| {
+                assert!(cx.time() < 0.01, "as it is meant to");
+                Ok(false)
+            };
+            event::interrupt(panics, async |_: &Cx| Ok(())).name(&"odd".into()).run(cx).at(FILE, 1)?;
+            flow::waittime(10.0).run(cx).await.at(FILE, 2)
+        })
+    });
+    assert!(catch_unwind(AssertUnwindSafe(|| controller.run())).is_err());
+    controller.step();
+    assert_eq!(controller.outcome(), Some(&Outcome::Stopped));
+}

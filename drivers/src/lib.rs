@@ -17,7 +17,6 @@
 
 mod connect;
 mod patience;
-mod peer;
 mod position;
 mod readable;
 pub mod rsi;

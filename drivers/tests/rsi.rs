@@ -43,6 +43,13 @@ fn free() -> String {
     UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string()
 }
 
+/// The same at all addresses of this computer: what to listen at, and what to send to.
+#[cfg(target_os = "linux")]
+fn free_everywhere() -> (String, String) {
+    let to = free();
+    (to.replace("127.0.0.1", "0.0.0.0"), to)
+}
+
 /// Sends a message, again until somebody listens; the answer, unless none comes.
 fn ask(socket: &UdpSocket, to: &str, text: &str) -> Option<Answered> {
     socket.send_to(text.as_bytes(), to).ok()?;
@@ -126,8 +133,7 @@ fn begun(driver: &mut RsiArm, listen: &str, socket: &UdpSocket) -> u64 {
 #[cfg(target_os = "linux")]
 #[test]
 fn only_the_robot_that_is_named_is_followed() {
-    let port = free().rsplit_once(':').unwrap().1.to_owned();
-    let (listen, to) = (format!("0.0.0.0:{port}"), format!("127.0.0.1:{port}"));
+    let (listen, to) = free_everywhere();
     let other = UdpSocket::bind("127.0.0.2:0").unwrap();
     let from = other.local_addr().unwrap();
     let to_both = to.clone();
@@ -167,8 +173,7 @@ fn only_the_robot_that_is_named_is_followed() {
 #[cfg(target_os = "linux")]
 #[test]
 fn nobody_takes_over_where_the_robot_falls_silent() {
-    let port = free().rsplit_once(':').unwrap().1.to_owned();
-    let (listen, to) = (format!("0.0.0.0:{port}"), format!("127.0.0.1:{port}"));
+    let (listen, to) = free_everywhere();
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
     let mut driver = RsiArm::new(&listen);
     let mut beat = driver.beat();

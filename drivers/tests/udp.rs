@@ -252,39 +252,6 @@ fn an_arm_outside_of_its_ranges_is_not_moved() {
 }
 
 #[test]
-fn states_of_others_do_not_count() {
-    // Somebody who hears all that the arm hears answers before it, from another port.
-    let other: Answers = |command, number| {
-        let answer = follows(command, 10 * number).remove(0);
-        let mut wrong = follows(command, 10 * number + 1).remove(0);
-        wrong[40..48].copy_from_slice(&9.0f64.to_le_bytes());
-        vec![wrong, answer]
-    };
-    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
-    let address = socket.local_addr().unwrap().to_string();
-    socket.set_read_timeout(Some(Duration::from_secs(1))).unwrap();
-    let thread = std::thread::spawn(move || {
-        let stranger = UdpSocket::bind("127.0.0.1:0").unwrap();
-        let (mut bytes, mut number) = ([0; 1000], 0);
-        while let Ok((length, from)) = socket.recv_from(&mut bytes) {
-            number += 1;
-            let [wrong, answer] = &other(&bytes[..length], number)[..] else { panic!("two") };
-            stranger.send_to(wrong, from).unwrap();
-            socket.send_to(answer, from).unwrap();
-        }
-    });
-    let mut driver = UdpArm::new(&address).in_its_own_time();
-    assert_eq!(start(&mut driver).unwrap(), joints(0.0));
-    for cycle in 1..50 {
-        let at = joints(f64::from(cycle) * 0.1);
-        assert_eq!(driver.exchange(&Setpoint::resting(at, 0.001)).position, Some(at));
-    }
-    driver.close();
-    drop(driver);
-    thread.join().unwrap();
-}
-
-#[test]
 fn an_arm_that_floods_without_answering_holds_nobody_up() {
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
     let address = socket.local_addr().unwrap().to_string();

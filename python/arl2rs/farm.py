@@ -170,7 +170,7 @@ def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache
     if waiting:
         _make_all(bundle, timeout, waiting, kept, results, came)
     came(len(results))
-    return (_arl2rs.row(at + 1, row, results[at]) for at, row in enumerate(rows))
+    return (bundle.row(at + 1, row, results[at]) for at, row in enumerate(rows))
 
 
 def _make_all(

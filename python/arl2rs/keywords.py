@@ -10,9 +10,9 @@ from typing import ParamSpec, TypedDict, TypeVar, get_type_hints
 
 from .choices import Engine, Mode
 from .problems import StrPath
-from .values import Parameters
+from .values import FrameLike, Parameters
 
-__all__ = ["CompileArguments", "EpisodeArguments", "RecordArguments", "RunArguments", "SweepArguments", "named"]
+__all__ = ["CompileArguments", "EpisodeArguments", "FrameArguments", "RecordArguments", "RunArguments", "SweepArguments", "named"]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -31,20 +31,20 @@ class CompileArguments(TypedDict, total=False):
 
 
 class _AnyRun(TypedDict, total=False):
+    scenario: StrPath | None
+    robot: StrPath | None
     globals: Parameters | None
     points: Parameters | None
     set: Parameters | None
     override: float | None
     mode: Mode | None
     seed: int | None
-    max_time: float | None
 
 
 class RecordArguments(_AnyRun, total=False):
     """What `Program.record` takes beside the recording."""
 
-    scenario: StrPath | None
-    robot: StrPath | None
+    max_time: float | None
 
 
 class RunArguments(RecordArguments, total=False):
@@ -56,20 +56,22 @@ class RunArguments(RecordArguments, total=False):
     trace: bool
 
 
-class EpisodeArguments(TypedDict, total=False):
+class EpisodeArguments(_AnyRun, total=False):
     """What an episode of an `Environment` takes beside the environment's own."""
 
-    scenario: StrPath | None
-    robot: StrPath | None
-    globals: Parameters | None
-    points: Parameters | None
-    set: Parameters | None
-    override: float | None
-    mode: Mode | None
-    seed: int | None
     start_time: str | None
     state_dir: StrPath | None
     trace: bool
+
+
+class FrameArguments(TypedDict, total=False):
+    """What lies between a pose and the flange of a `Robot`."""
+
+    tool: FrameLike
+    wobj: FrameLike
+    base: FrameLike
+    stationary: bool
+    robhold: bool
 
 
 class SweepArguments(TypedDict, total=False):

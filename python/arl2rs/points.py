@@ -43,7 +43,10 @@ def points(
         raise RefusedError(f"{name!r} is no name of a variable")
     if type not in ("pose", "joint"):
         raise RefusedError(f"type {type!r}: expected 'pose' or 'joint'")
-    rows = np.asarray(array, dtype=np.float64)
+    try:
+        rows = np.asarray(array, dtype=np.float64)
+    except (TypeError, ValueError) as problem:
+        raise RefusedError(f"{name}: {problem}") from None
     if rows.ndim != 2 or not 0 < len(rows) <= MOST:
         raise RefusedError(f"expected 1 to {MOST} rows, a point each, found an array of shape {rows.shape}")
     known = POSE if type == "pose" else JOINT

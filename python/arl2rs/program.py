@@ -29,6 +29,8 @@ __all__ = ["Program", "check", "compile", "run"]
 
 MAX_TIME = _arl2rs.MAX_TIME
 """A run that takes longer in the robot's time is ended, where nobody says otherwise; s."""
+NO_SCENARIO = "none"
+"""Instead of a scenario: there is none, whatever an `arl.toml` or `compile` says."""
 NAME = "program.arl"
 """How the main file of a program is called that is given as text."""
 
@@ -153,8 +155,8 @@ def _full(path: StrPath | None) -> StrPath | None:
 
 
 def _scenario(path: StrPath | None) -> StrPath | None:
-    """A scenario that is there."""
-    return path if path is None else there(path, "a scenario")
+    """A scenario that is there, or the word that there is none."""
+    return path if path is None or os.fspath(path) == NO_SCENARIO else there(path, "a scenario")
 
 
 class Program:
@@ -247,7 +249,7 @@ class Program:
     ) -> Result:
         """Runs the program to its end on the virtual clock; the same arguments give the same result, to the last bit.
 
-        - `scenario`: what the outside does to the inputs, a file.
+        - `scenario`: what the outside does to the inputs, a file; `"none"`: no scenario, also where `compile` or an `arl.toml` names one.
         - `robot`: another robot, by name or file.
         - `globals`, `points`: other first values of global variables: numbers, truth values, texts, lists and arrays; for structures
           dictionaries, whose missing components keep their values: `points={"feeder": {"z": 120}}`.
@@ -323,6 +325,8 @@ class Program:
         _scenario(files["--io"])
         words = dict(zip(self._library.words[::2], self._library.words[1::2], strict=True))
         words.update({option: os.fspath(value) for option, value in files.items() if value is not None})
+        if words.get("--io") == NO_SCENARIO:
+            del words["--io"]
         for what, option, argument in (("robot.", "--robot", "robot"), ("cell.", "--cell", "cell"), ("io.", "--io", "scenario")):
             places = [place for place in parameters if place.startswith(what)]
             if places and option not in words:

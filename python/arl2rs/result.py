@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -94,7 +94,7 @@ class Result:
         Raises `AlarmError` with file and line where an alarm ended it, `UnfinishedError` where it did not end.
         """
         if self.alarms and self.outcome == "alarm":
-            raise AlarmError(self.alarms[0])
+            raise AlarmError(ending(self.alarms))
         if not self.ended:
             raise UnfinishedError("; ".join(self.warnings) or f"the run did not come to its end: {self.outcome}")
         return self
@@ -111,6 +111,11 @@ class Result:
 def alarms_of(figures: Mapping[str, Any]) -> tuple[Alarm, ...]:
     """The alarms of a summary."""
     return tuple(Alarm(**alarm) for alarm in figures["alarms"])
+
+
+def ending(alarms: Sequence[Alarm]) -> Alarm:
+    """The alarm that ended a run: the first of the channel that ended last, whose later ones follow from it."""
+    return next(alarm for alarm in alarms if alarm.channel == alarms[-1].channel)
 
 
 def of_summary(summary: str, said: str, report: str = "", rows: NDArray[np.float64] | None = None, columns: tuple[str, ...] = ()) -> Result:

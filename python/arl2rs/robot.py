@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arl2rs
 from .choices import Family
-from .keywords import named
+from .keywords import FrameArguments, named
 from .problems import RefusedError, StrPath, told
+from .values import FrameLike
 
 __all__ = ["Axis", "Robot", "robots"]
 
@@ -20,8 +22,6 @@ COMPONENTS = ("x", "y", "z", "a", "b", "c")
 NOWHERE = (0.0,) * 6
 
 Array = NDArray[np.float64]
-FrameLike = Sequence[float] | Array | Mapping[str, float] | None
-"""A frame: x, y, z in mm, a, b, c in deg, as six numbers or by their names, as `Session.global_value` gives poses; None: nothing between."""
 
 
 @dataclass(frozen=True)
@@ -78,17 +78,12 @@ class Robot:
     def forward(
         self,
         joints: ArrayLike,
-        *,
-        tool: FrameLike = None,
-        wobj: FrameLike = None,
-        base: FrameLike = None,
-        stationary: bool = False,
-        robhold: bool = False,
+        **frames: Unpack[FrameArguments],
     ) -> Array:
         """The pose of the TCP for axes, wherever they are: also beyond their ranges. Rows of axes give rows of poses."""
         rows, one = _rows(joints, self._own, "joints")
         with told:
-            poses, _ = self._robot.forward(rows, _frames(tool, wobj, base, stationary, robhold))
+            poses, _ = self._robot.forward(rows, _frames(**frames))
         found = np.frombuffer(poses).reshape(-1, 6).copy()
         return found[0] if one else found
 
@@ -96,7 +91,7 @@ class Robot:
         """The `cfg` of axes, as poses of a program have it; an array for rows of axes, else one number."""
         rows, one = _rows(joints, self._own, "joints")
         with told:
-            _, cfgs = self._robot.forward(rows, _frames(None, None, None, False, False))
+            _, cfgs = self._robot.forward(rows, _frames())
         found = np.array(list(cfgs), dtype=np.int64)
         return found[0] if one else found
 
@@ -109,11 +104,7 @@ class Robot:
         cfg: int | None = None,
         turn: int = -1,
         chained: bool = False,
-        tool: FrameLike = None,
-        wobj: FrameLike = None,
-        base: FrameLike = None,
-        stationary: bool = False,
-        robhold: bool = False,
+        **frames: Unpack[FrameArguments],
     ) -> Array:
         """The axes that bring the TCP to a pose, within their ranges: those nearest to `near` (without it to `home`), or of the configuration `cfg`.
         `turn` as in a pose of a program.
@@ -124,7 +115,7 @@ class Robot:
         Raises `RefusedError` with the reason where one pose is asked for and not reached.
         """
         rows, one = _pose_rows(poses)
-        found, reasons = self._inverse(rows, near, (cfg, turn, chained), _frames(tool, wobj, base, stationary, robhold))
+        found, reasons = self._inverse(rows, near, (cfg, turn, chained), _frames(**frames))
         if one and reasons[0] is not None:
             shown = ", ".join(f"{name} {number:g}" for name, number in zip(COMPONENTS, rows[0], strict=True))
             raise RefusedError(f"{self.name} does not reach {{{shown}}}: {reasons[0]}")
@@ -134,16 +125,11 @@ class Robot:
     def reaches(
         self,
         poses: ArrayLike | Mapping[str, float],
-        *,
-        tool: FrameLike = None,
-        wobj: FrameLike = None,
-        base: FrameLike = None,
-        stationary: bool = False,
-        robhold: bool = False,
+        **frames: Unpack[FrameArguments],
     ) -> NDArray[np.bool_]:
         """Whether the TCP can be at a pose, with every axis within its range; an array of truth values for rows of poses, else one."""
         rows, one = _pose_rows(poses)
-        _, reasons = self._inverse(rows, None, (None, -1, False), _frames(tool, wobj, base, stationary, robhold))
+        _, reasons = self._inverse(rows, None, (None, -1, False), _frames(**frames))
         found = np.array([reason is None for reason in reasons], dtype=np.bool_)
         return found[0] if one else found
 
@@ -151,16 +137,11 @@ class Robot:
     def why_not(
         self,
         poses: ArrayLike | Mapping[str, float],
-        *,
-        tool: FrameLike = None,
-        wobj: FrameLike = None,
-        base: FrameLike = None,
-        stationary: bool = False,
-        robhold: bool = False,
+        **frames: Unpack[FrameArguments],
     ) -> list[str | None]:
         """Why each of the poses is not reached; None for one that is."""
         rows, _ = _pose_rows(poses)
-        return self._inverse(rows, None, (None, -1, False), _frames(tool, wobj, base, stationary, robhold))[1]
+        return self._inverse(rows, None, (None, -1, False), _frames(**frames))[1]
 
     @named
     def solutions(
@@ -168,18 +149,14 @@ class Robot:
         pose: ArrayLike | Mapping[str, float],
         *,
         near: ArrayLike | None = None,
-        tool: FrameLike = None,
-        wobj: FrameLike = None,
-        base: FrameLike = None,
-        stationary: bool = False,
-        robhold: bool = False,
+        **frames: Unpack[FrameArguments],
     ) -> dict[int, Array]:
         """The axes for one pose in each configuration that reaches it."""
         rows, _ = _pose_rows(pose)
         if len(rows) != 1:
             raise RefusedError(f"expected one pose, found {len(rows)}")
-        frames = _frames(tool, wobj, base, stationary, robhold)
-        tried = {cfg: self._inverse(rows, near, (cfg, -1, False), frames) for cfg in self.configurations}
+        setting = _frames(**frames)
+        tried = {cfg: self._inverse(rows, near, (cfg, -1, False), setting) for cfg in self.configurations}
         return {cfg: found[0] for cfg, (found, reasons) in tried.items() if reasons[0] is None}
 
     def within(self, joints: ArrayLike) -> NDArray[np.bool_]:
@@ -195,6 +172,8 @@ class Robot:
         starts, _ = _rows(self.home if near is None else near, self._own, "near")
         if len(starts) not in (1, len(rows)):
             raise RefusedError(f"near has {len(starts)} rows: expected 1, or {len(rows)} as there are poses")
+        if not np.isfinite(starts).all():
+            raise RefusedError("near has a number that is none")
         cfg = how[0]
         if cfg is not None and cfg not in self.configurations:
             raise RefusedError(f"{self.name} has no configuration {cfg}: {', '.join(map(str, self.configurations))} are")
@@ -203,7 +182,9 @@ class Robot:
         return np.frombuffer(found).reshape(-1, self._own).copy(), reasons
 
 
-def _frames(tool: FrameLike, wobj: FrameLike, base: FrameLike, stationary: bool, robhold: bool) -> _arl2rs.Frames:
+def _frames(
+    tool: FrameLike = None, wobj: FrameLike = None, base: FrameLike = None, stationary: bool = False, robhold: bool = False
+) -> _arl2rs.Frames:
     return _frame(tool, "tool"), _frame(wobj, "wobj"), _frame(base, "base"), stationary, robhold
 
 

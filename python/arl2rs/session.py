@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _arl2rs
 from .problems import AlarmError, RefusedError, SessionError, told
-from .result import Alarm, Result, alarms_of, of_summary
+from .result import Alarm, Result, alarms_of, ending, of_summary
 from .values import plain
 from .variables import Watch, find
 
@@ -45,7 +45,7 @@ class Snapshot:
     """A session as it was: `Session.snapshot` makes it, and any number of sessions go on from there.
 
     A run cannot be copied, so going on does everything again that was done until then: that takes as long as it took. A snapshot can be pickled,
-    and goes on in other processes.
+    and goes on in other processes. The run that goes on writes the files that its program writes, once more and where it wrote them.
     """
 
     beginning: Beginning
@@ -100,6 +100,7 @@ class Session:
         self._said = ""
         self._rows: list[NDArray[np.float64]] = []
         self._done: list[Done] = []
+        self._known: dict[Done, Done] = {}
 
     def __enter__(self) -> Self:
         return self
@@ -117,12 +118,16 @@ class Session:
         if cycles < 0:
             raise RefusedError(f"a session does not step back: {cycles} cycles; resume() of an earlier snapshot() does")
         was_over = self.is_over
-        with told:
-            self.code = self._run.step(cycles, alone, self._numbers)
-        if not was_over:
-            self._note_cycles(cycles, alone)
+        before = self._run.gone
+        try:
+            with told:
+                self.code = self._run.step(cycles, alone, self._numbers)
+        finally:
+            # Ctrl-C comes between cycles: those before it are gone.
+            if not was_over:
+                self._note_cycles(self._run.gone - before, alone)
         if self.code == ALARMED:
-            raise AlarmError(self.alarms[0])
+            raise AlarmError(ending(self.alarms))
         return self._numbers.copy()
 
     def observe(self) -> NDArray[np.float64]:
@@ -166,12 +171,14 @@ class Session:
 
     def set(self, **signals: bool | float) -> None:
         """Sets inputs, by what the cell calls them or as `di_5`, `ai_2`. Digital ones take truth values, 0 and 1."""
+        called = {signal.name: signal.signal for signal in self._program.signals if signal.name is not None}
         for name, value in signals.items():
             kind, _, channel = name.partition("_")
             is_numbered = kind in ("di", "ai", "internal") and channel.isdigit()
+            signal = f"{kind}.{channel}" if is_numbered else called.get(name, name)
             given = plain(value, name)
             # What is observed is a number.
-            if given in (0, 1) and is_numbered and kind != "ai":
+            if given in (0, 1) and signal.startswith(("di.", "internal.")):
                 given = bool(given)
             self.order(f"{f'{kind}.{channel}' if is_numbered else name} = {json.dumps(given)}")
         self.observe()
@@ -207,7 +214,7 @@ class Session:
         """Ends the programs: the robots stop on their paths within the steps that follow."""
         with told:
             self._run.stop()
-        self._done.append(("stop", ()))
+        self._note("stop")
 
     def result(self) -> Result:
         """What came of the run, or how far it is."""
@@ -222,9 +229,12 @@ class Session:
 
     def finish(self) -> Result:
         """Goes on to the end of the run, where nobody changes anything any more; gives what came of it: `Result.check` raises an alarm."""
-        with told:
-            self.code = self._run.go_on(2**63, True)
-        self._done.append(("go_on", (2**63, True)))
+        before = self._run.gone
+        try:
+            with told:
+                self.code = self._run.go_on(2**63, True)
+        finally:
+            self._note_cycles(self._run.gone - before, True)
         return self.result()
 
     def snapshot(self) -> Snapshot:
@@ -263,7 +273,7 @@ class Session:
     def _do(self, what: str, *arguments: str) -> None:
         """Does something to a run that is not over."""
         if self.code == ALARMED:
-            raise AlarmError(self.alarms[0])
+            raise AlarmError(ending(self.alarms))
         if self.code is not None:
             with told:
                 outcome = json.loads(self._run.summary())["outcome"]
@@ -271,15 +281,19 @@ class Session:
         act: Callable[..., None] = getattr(self._run, what)
         with told:
             act(*arguments)
-        self._done.append((what, arguments))
+        self._note(what, *arguments)
 
     def _note_cycles(self, cycles: int, alone: bool) -> None:
         """Cycles that follow each other are one thing that was done."""
         what, arguments = self._done[-1] if self._done else ("", ())
         if what == "go_on" and arguments[1] == alone:
-            self._done[-1] = ("go_on", (arguments[0] + cycles, alone))
-        else:
-            self._done.append(("go_on", (cycles, alone)))
+            cycles += self._done.pop()[1][0]
+        self._note("go_on", cycles, alone)
+
+    def _note(self, what: str, *arguments: Any) -> None:
+        """What is done again and again is kept once: an episode of an agent has many steps."""
+        done = (what, arguments)
+        self._done.append(self._known.setdefault(done, done))
 
     def _repeat(self, done: tuple[Done, ...]) -> None:
         for what, arguments in done:

@@ -12,13 +12,17 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .problems import RefusedError
 
-__all__ = ["Literal", "Parameters"]
+__all__ = ["FrameLike", "Literal", "Parameters"]
 
 Parameters = Mapping[str, Any]
 """Places and their values: `{"global.pitch": 80, "scenario.event.1.at": 2.5, "override": 50}`."""
+
+FrameLike = Sequence[float] | NDArray[np.float64] | Mapping[str, float] | None
+"""A frame: x, y, z in mm, a, b, c in deg, as six numbers or by their names, as `Session.global_value` gives poses; None: nothing between."""
 
 COMMAND_NAMES = {"scenario": "io", "max_time": "max-time", "start_time": "start-time"}
 """How the command calls what has another name in Python."""

@@ -62,7 +62,7 @@ class Variable:
 
     def value(self, literal: str) -> Any:
         """A literal of its type as a value: int, float, bool, str, lists for arrays, dictionaries for structures, `Literal` for what is left."""
-        value = of_json(json.loads(_arl2rs.value(literal, self.type, "")))
+        value = of_json(json.loads(_arl2rs.value(literal, self.type)))
         for size in reversed(self.sizes[1:]):
             value = _rows(value, size)
         return value

@@ -35,12 +35,6 @@ pub(crate) fn written(value: &impl Serialize) -> PyResult<String> {
     serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// The row of a run, as a sweep writes it, of its number, its parameters and its result.
-#[pyfunction]
-pub(crate) fn row(run: usize, parameters: &str, result: &str) -> PyResult<String> {
-    written(&Row { run, parameters: read(parameters)?, result: read(result)? })
-}
-
 /// The result of a run that could not begin, or was lost.
 #[pyfunction]
 pub(crate) fn lost(outcome: &str, problem: String) -> PyResult<String> {
@@ -114,6 +108,12 @@ impl Bundle {
     /// The words of a run.
     fn words(&self, row: &str) -> PyResult<Vec<String>> {
         self.bundle.words(&parameters(row)?).map_err(Refused::new_err)
+    }
+
+    /// The row of a run, as a sweep writes it, of its number, its parameters and its result.
+    fn row(&self, run: usize, parameters: &str, result: &str) -> PyResult<String> {
+        let result = self.bundle.in_own_names(read(result)?);
+        written(&Row { run, parameters: read(parameters)?, result })
     }
 }
 

@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _arl2rs {
     #[pymodule_export]
-    use super::farm::{Bundle, Kept, Worker, lost, row, sweep, table};
+    use super::farm::{Bundle, Kept, Worker, lost, sweep, table};
     #[pymodule_export]
     use super::problem::{Failed, Gone, Mistakes, Refused};
     #[pymodule_export]

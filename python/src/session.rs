@@ -1,5 +1,6 @@
 //! Programs as libraries in this process, and their runs.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, ThreadId};
 
@@ -54,7 +55,7 @@ impl Library {
         let run = self.loaded.begin(&words, traced).map_err(of_library)?;
         let columns = self.loaded.columns().len();
         let going = Going { run, columns, traced, watched: Vec::new(), numbers: Vec::new(), rows: Vec::new() };
-        Ok(Session { thread: thread::current().id(), going: Mutex::new(Some(going)) })
+        Ok(Session { thread: thread::current().id(), going: Mutex::new(Some(going)), gone: AtomicU64::new(0) })
     }
 }
 
@@ -116,7 +117,7 @@ impl Going {
                 Watched::Part(place) => {
                     if last.as_ref().is_none_or(|(name, _)| *name != place.variable) {
                         let value = self.run.global(&place.variable).ok();
-                        let value = value.and_then(|literal| of_literal(&literal, "", "").ok());
+                        let value = value.and_then(|literal| of_literal(&literal, "").ok());
                         last = Some((&place.variable, value.unwrap_or_default()));
                     }
                     last.as_ref().map_or(f64::NAN, |(_, value)| place.number(value))
@@ -158,6 +159,8 @@ impl Going {
 pub(crate) struct Session {
     thread: ThreadId,
     going: Mutex<Option<Going>>,
+    /// So many cycles were asked of the run, and not interrupted by Ctrl-C.
+    gone: AtomicU64,
 }
 
 impl Session {
@@ -183,6 +186,12 @@ impl Session {
         going.as_mut().map(act).ok_or_else(|| Gone::new_err("the session is closed"))
     }
 
+    fn chunk(&self, cycles: u64, alone: bool) -> PyResult<Option<u8>> {
+        let code = self.with(|going| going.go_on(cycles, alone))?.map_err(of_library)?;
+        self.gone.fetch_add(cycles, Ordering::Relaxed);
+        Ok(code)
+    }
+
     fn tried<T>(&self, act: impl FnOnce(&mut Run) -> Result<T, LoadError>) -> PyResult<T> {
         self.with(|going| act(&mut going.run))?.map_err(of_library)
     }
@@ -195,7 +204,7 @@ impl Session {
         let mut left = cycles;
         loop {
             let now = left.min(CHUNK);
-            let code = py.detach(|| self.with(|going| going.go_on(now, alone)))?.map_err(of_library)?;
+            let code = py.detach(|| self.chunk(now, alone))?;
             left -= now;
             py.check_signals()?;
             if code.is_some() || left == 0 {
@@ -209,7 +218,7 @@ impl Session {
         let code = if cycles > CHUNK {
             self.go_on(py, cycles, alone)?
         } else {
-            self.with(|going| going.go_on(cycles, alone))?.map_err(of_library)?
+            self.chunk(cycles, alone)?
         };
         self.observe(py, into)?;
         Ok(code)
@@ -279,6 +288,12 @@ impl Session {
     #[getter]
     fn time(&self) -> PyResult<f64> {
         self.with(|going| going.run.time())
+    }
+
+    /// So many cycles were asked of it so far; Ctrl-C may have come before all of a call were gone.
+    #[getter]
+    fn gone(&self) -> u64 {
+        self.gone.load(Ordering::Relaxed)
     }
 
     /// Ends the programs: the robots stop on their paths within the cycles that follow.

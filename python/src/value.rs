@@ -71,21 +71,19 @@ impl Place {
 
 /// A literal of a type as JSON: structures are objects whose names are in small letters, arrays are lists, and numbers of
 /// type double have a point. What JSON has no value for, like constants of enumerations, is `{"arl": ".."}`.
-pub(crate) fn of_literal(literal: &str, ty: &str, family: &str) -> PyResult<Value> {
+pub(crate) fn of_literal(literal: &str, ty: &str) -> PyResult<Value> {
     let mut names = Interner::default();
     let parsed = parse_expression(literal, &mut names, ParseOptions::default());
     if let Some(error) = parsed.errors.first() {
         return Err(Refused::new_err(format!("{literal}: {}", error.kind.message())));
     }
-    let family = if family == "scara" { Family::Scara } else { Family::SixAxis };
-    let reader = Reader { literal, names: &names, family };
+    let reader = Reader { literal, names: &names };
     Ok(reader.value(&parsed.expr, catalog::base_type(&ty.to_ascii_lowercase())))
 }
 
 struct Reader<'a> {
     literal: &'a str,
     names: &'a Interner,
-    family: Family,
 }
 
 impl Reader<'_> {
@@ -107,7 +105,8 @@ impl Reader<'_> {
 
     fn brace(&self, items: &[BraceItem], ty: Option<Base>) -> Value {
         let components = match ty {
-            Some(Base::Struct(id)) => id.def(self.family).components,
+            // Literals of the runtime name their components: those of SCARA robots are among these, of the same types.
+            Some(Base::Struct(id)) => id.def(Family::SixAxis).components,
             _ => &[],
         };
         let is_nameless = items.iter().all(|item| item.name.is_none());
@@ -148,6 +147,6 @@ fn of_number(number: f64, ty: Option<Base>) -> Value {
 
 /// A literal of a type as JSON.
 #[pyfunction]
-pub(crate) fn value(literal: &str, ty: &str, family: &str) -> PyResult<String> {
-    Ok(of_literal(literal, ty, family)?.to_string())
+pub(crate) fn value(literal: &str, ty: &str) -> PyResult<String> {
+    Ok(of_literal(literal, ty)?.to_string())
 }

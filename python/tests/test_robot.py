@@ -1,5 +1,8 @@
 """Robots: axes to poses and back."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -93,6 +96,7 @@ def test_wrong_shapes_are_told():
         (lambda: robot.forward("abc"), "joints"),
         (lambda: robot.inverse([[1, 2], [3, 4]]), r"poses: expected 6 numbers"),
         (lambda: robot.inverse(np.zeros((3, 6)), near=np.zeros((2, 6))), "near has 2 rows: expected 1, or 3"),
+        (lambda: robot.inverse([0] * 6, near=[0, -90, np.nan, 0, 0, 0]), "near has a number that is none"),
         (lambda: robot.inverse([0] * 6, cfg=9), "no configuration 9"),
         (lambda: robot.inverse({"x": 1}), "the pose has no y"),
         (lambda: robot.forward(robot.home, tool=[1, 2, 3]), "tool: expected 6 numbers"),
@@ -105,7 +109,12 @@ def test_wrong_shapes_are_told():
 
 
 def test_a_robot_is_one_of_a_file(tmp_path):
-    file = tmp_path / "robot.toml"
     assert repr(arl2rs.Robot("KR10-R1420")) == "Robot('kr10-r1420')"
-    with pytest.raises(arl2rs.RefusedError, match=r"robot\.toml"):
-        arl2rs.Robot(file)
+    with pytest.raises(arl2rs.RefusedError, match=r"nowhere\.toml"):
+        arl2rs.Robot(tmp_path / "nowhere.toml")
+    file = tmp_path / "longer.toml"
+    file.write_text(subprocess.run([sys.executable, "-m", "arl2rs", "robots", "six-10"], capture_output=True, text=True, check=True).stdout)
+    file.write_text(file.read_text().replace('name = "six-10"', 'name = "longer"'))
+    longer, known = arl2rs.Robot(file), arl2rs.Robot("six-10")
+    assert longer.name == "longer" and longer.axes == known.axes
+    np.testing.assert_array_equal(longer.forward(known.home), known.forward(known.home))

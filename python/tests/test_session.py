@@ -1,5 +1,6 @@
 """Runs that are stepped."""
 
+import _thread
 import pickle
 import threading
 
@@ -213,6 +214,30 @@ def test_a_session_goes_on_from_a_snapshot(program):
         assert session.step(1000).tobytes() != ahead.tobytes()
     with pytest.raises(arl2rs.RefusedError, match="state_dir"), program.session(state_dir="state") as session:
         session.snapshot()
+
+
+def test_cycles_before_ctrl_c_are_in_a_snapshot(tmp_path):
+    source = tmp_path / "endless.arl"
+    source.write_text("func void main()\n    while(true)\n        waittime 0.1\n    endwhile\nendfunc\n")
+    with arl2rs.compile(source).session() as session:
+        session.step(3)
+        threading.Timer(0.3, _thread.interrupt_main).start()
+        with pytest.raises(KeyboardInterrupt):
+            session.step(2**40)
+        session.step(4)
+        assert session.time > 1
+        with session.snapshot().resume() as again:
+            assert again.time == session.time
+
+
+def test_inputs_by_name_take_what_is_observed(tmp_path):
+    (tmp_path / "cell.toml").write_text('[names]\n"di.5" = "ready"\n"ai.1" = "force"\n')
+    source = tmp_path / "waits.arl"
+    source.write_text("func void main()\n    waituntil getdi(5)\n    print getai(1)\nendfunc\n")
+    with arl2rs.compile(source, cell=tmp_path / "cell.toml").session() as session:
+        session.set(force=1, ready=np.float64(1.0))
+        session.step(10)
+        assert session.is_over and session.result().output == "1\n"
 
 
 def test_a_snapshot_that_leads_elsewhere_is_refused(example):

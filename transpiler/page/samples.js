@@ -12,8 +12,7 @@ const STEP_S = 0.004;
 /**
  * Rows of a run, in columns.
  * @typedef {{count: number, width: number, times: Float64Array, axes: Float32Array, tcp: Float32Array, speed: Float32Array, pointers: Uint32Array, jumps: Uint8Array}} Rows
- * `jumps`: another tool took over since the row before, or the recording does not say where the robot was: no
- * motion led there.
+ * `jumps`: another tool took over since the row before: no motion led there.
  * A moment: axes in deg (mm), TCP in mm and as a quaternion, speed in mm/s.
  * @typedef {{axes: number[], tcp: number[], speed: number, line: number, motionLine: number, motion: number, file: number, motionFile: number}} Moment
  */
@@ -32,7 +31,7 @@ export function decode(buffer) {
     at += column.byteLength;
     return column;
   };
-  return withoutHoles({
+  return {
     count,
     width,
     times: next(Float64Array, count),
@@ -41,32 +40,7 @@ export function decode(buffer) {
     speed: next(Float32Array, count),
     pointers: next(Uint32Array, count * 4),
     jumps: next(Uint8Array, count),
-  });
-}
-
-/**
- * Rows in which numbers that are none are those of the row before; no motion leads from or to such rows.
- * @param {Rows} rows
- */
-function withoutHoles(rows) {
-  const { count, width, jumps } = rows;
-  let hole = false;
-  for (let row = 0; row < count; row++) {
-    let here = false;
-    for (const [column, length] of /** @type {[Float32Array, number][]} */ ([
-      [rows.axes, width],
-      [rows.tcp, 7],
-      [rows.speed, 1],
-    ]))
-      for (let at = row * length; at < (row + 1) * length; at++) {
-        if (Number.isFinite(column[at])) continue;
-        here = true;
-        column[at] = row > 0 ? column[at - length] : 0;
-      }
-    if (here || hole) jumps[row] = 1;
-    hole = here;
-  }
-  return rows;
+  };
 }
 
 /**

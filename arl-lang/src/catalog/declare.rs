@@ -190,6 +190,7 @@ impl Param {
             family: None,
             units: &[],
             range: None,
+            doubted: false,
             set: false,
             keeps: false,
             counts: None,
@@ -245,6 +246,8 @@ setters! { Param:
     at_least(low: f64) { range = Some(Range::AtLeast(low)) }
     /// The greatest constant.
     at_most(high: f64) { range = Some(Range::AtMost(high)) }
+    /// A bare number far below what is usual is most often meant in another unit.
+    doubted() { doubted = true }
     /// Not 9e+09, which stands for what is not set.
     set() { set = true }
     /// The name of a system variable that can be saved.

@@ -104,6 +104,8 @@ pub struct Param {
     pub units: &'static [Unit],
     /// The constants that make sense; others are an error where known.
     pub range: Option<Range>,
+    /// Whether a bare number far below what is usual is most often meant in another unit.
+    pub doubted: bool,
     /// Whether 9e+09, which stands for what is not set, is an error where known.
     pub set: bool,
     /// Whether it names a system variable that can be saved; other constants are an error.

@@ -18,7 +18,7 @@ entries! { pub(super) TRIGGER =
         { "5.10.3", event::left_distance, acts, looks, foreground;
           "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\npose p = getpose(j,$FLANGE,$WORLD)\np.z = p.z - 200\nlin p,vl:100mm/s\nwhile(!StoEnd(100))\nendwhile\nprint \"100 mm to go\"" }
     /// Whether a part of the motion has been run; on every kind of motion.
-    fn P(p: double [units(&[Unit::Percent])] "the part, %, 0 to 100") -> bool
+    fn P(p: double [units(&[Unit::Percent]), doubted()] "the part, %, 0 to 100") -> bool
         { "7.2", event::elapsed_percent, acts, looks, foreground;
           "joint j = {30,-90,90,0,45,0}\nmovej j,vp:20%\nwhile(!P(50))\nendwhile\nprint \"half of it is done\"" }
 }

@@ -5,17 +5,23 @@ use super::{Command, Compensation, Gate, PlanError, Settings, Target, Weave};
 use arl_robot::frames::Carried;
 use arl_robot::kinematics::Frame;
 
-/// A number that has to be in a range: what it is, the number, and the range.
-type Ranged = (&'static str, f64, [f64; 2]);
+/// The numbers that something can be, and how they are called.
+#[derive(Clone, Copy)]
+struct Range {
+    low: f64,
+    high: f64,
+    expected: &'static str,
+}
 
-/// Above 0.
-const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, f64::MAX];
-/// 0 or more.
-const NOT_NEGATIVE: [f64; 2] = [0.0, f64::MAX];
-/// Any number.
-const FINITE: [f64; 2] = [-f64::MAX, f64::MAX];
-/// Any number, or none at all: infinite.
-const NUMBER: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+/// A number that has to be in a range, and what it is.
+type Ranged = (&'static str, f64, Range);
+
+const POSITIVE: Range = Range { low: f64::MIN_POSITIVE, high: f64::MAX, expected: "a number above 0" };
+const NOT_NEGATIVE: Range = Range { low: 0.0, high: f64::MAX, expected: "0 or a number above it" };
+const FINITE: Range = Range { low: -f64::MAX, high: f64::MAX, expected: "a finite number" };
+/// An infinite one, too, where that means that nothing is limited.
+const NUMBER: Range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, expected: "a number" };
+const HALF_TURN: Range = Range { low: 0.0, high: 180.0, expected: "0 to 180" };
 
 /// Whether a command can be planned with such numbers.
 ///
@@ -57,7 +63,7 @@ fn check_weave(weave: &Weave) -> Result<(), PlanError> {
         ("the frequency of the weave in 1/s", weave.frequency, POSITIVE),
         ("the amplitude of the weave in mm", weave.amplitude, NOT_NEGATIVE),
         ("the radius of the weave in mm", weave.radius, NOT_NEGATIVE),
-        ("the angle of the weave in deg", weave.angle, [0.0, 180.0]),
+        ("the angle of the weave in deg", weave.angle, HALF_TURN),
     ])?;
     weave.dwells.iter().try_for_each(|stay| within(("a stay of the weave in s", *stay, NOT_NEGATIVE)))?;
     weave.turned.iter().try_for_each(|turn| within(("the turn of the weave in rad", *turn, FINITE)))
@@ -89,6 +95,6 @@ fn all_within(values: &[Ranged]) -> Result<(), PlanError> {
     values.iter().try_for_each(|value| within(*value))
 }
 
-fn within((what, value, [low, high]): Ranged) -> Result<(), PlanError> {
-    if (low..=high).contains(&value) { Ok(()) } else { Err(PlanError::OutOfRange { what, value }) }
+fn within((what, value, Range { low, high, expected }): Ranged) -> Result<(), PlanError> {
+    if (low..=high).contains(&value) { Ok(()) } else { Err(PlanError::OutOfRange { what, value, expected }) }
 }

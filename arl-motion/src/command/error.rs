@@ -121,11 +121,18 @@ pub enum PlanError {
         what: &'static str,
         /// Its value.
         value: f64,
+        /// What it can be, in words.
+        expected: &'static str,
     },
     /// The tool points along the path, so that nothing is beside it.
     ToolAlongPath,
     /// The robot holds the workpiece, so that the world turns against it.
     WorldTurns,
+    /// What is ahead takes more cycles than are looked at.
+    TooLong {
+        /// So many.
+        most: usize,
+    },
     /// This kind of motion is not there for this robot.
     NotForThisRobot,
     /// The robot stands in another configuration, or another turn of an axis, than where it was stopped.
@@ -170,8 +177,9 @@ impl fmt::Display for PlanError {
                 write!(f, ": take a lower frequency, less amplitude or shift, or a longer motion")
             }
             PlanError::TooSharp { along } => {
-                write!(f, "the path turns too sharply there to be followed without a stop; ")?;
-                place(f, *along)
+                write!(f, "the path turns too sharply to be followed without a stop; ")?;
+                place(f, *along)?;
+                write!(f, ": stop there, or give it more room to turn")
             }
             PlanError::NoCircle => write!(
                 f,
@@ -201,7 +209,7 @@ impl fmt::Display for PlanError {
                 write!(f, "{what} is {value:e}, which is too much")
             }
             PlanError::NoSpeed { what, value } => write!(f, "{what} is {value}: it must be a number above 0"),
-            PlanError::OutOfRange { what, value } => write!(f, "{what} cannot be {value}"),
+            PlanError::OutOfRange { what, value, expected } => write!(f, "{what} is {value}: expected {expected}"),
             PlanError::NotANumber => write!(f, "the target holds a value that is not a number"),
             PlanError::ToolAlongPath => write!(
                 f,
@@ -210,6 +218,10 @@ impl fmt::Display for PlanError {
             PlanError::WorldTurns => write!(
                 f,
                 "a compensation along the axes of the world has no direction on a workpiece that the robot holds: take WOBJ"
+            ),
+            PlanError::TooLong { most } => write!(
+                f,
+                "the motion ahead takes more than {most} cycles: look at it at a higher override, or in longer cycles"
             ),
             PlanError::NotForThisRobot => write!(f, "this robot knows no such motion"),
             PlanError::NoWayBack => write!(

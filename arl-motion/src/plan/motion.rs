@@ -15,8 +15,8 @@ use crate::plan::path_check::NearSingular;
 use arl_robot::frames::Rig;
 use arl_robot::robot::VelocityProfile;
 
-/// What is less than this comes from rounding.
-const NO_WAY_MM_OR_DEG: f64 = 1e-6;
+/// Ways of the TCP that are shorter, in mm and deg, are none: targets that differ by so little are the same.
+pub(crate) const NO_WAY_MM_OR_DEG: f64 = 1e-5;
 
 /// A motion that is ready to run, from the target before it to its own.
 #[derive(Clone, PartialEq, Debug)]

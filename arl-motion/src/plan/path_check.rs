@@ -4,9 +4,10 @@
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
 use crate::geometry::parametrization::Parametrization;
-use crate::plan::curve::SINGULAR_CLEARANCE;
-use crate::plan::curve::ToolCurve;
-use arl_robot::kinematics::{Axes, RANGE_SLACK, Rates, Refusal, SHORTEST_STEP_S, Twist, lowest_pace, outruns};
+use crate::plan::curve::{SINGULAR_CLEARANCE, ToolCurve};
+use arl_robot::kinematics::{
+    Axes, CLEAR_OF_SINGULAR, RANGE_SLACK, Rates, Refusal, SHORTEST_STEP_S, Twist, lowest_pace, outruns,
+};
 use arl_robot::robot::{ROBOT_AXES, Robot};
 use nalgebra::Vector3;
 
@@ -16,6 +17,8 @@ pub(crate) struct Survey {
     pub(crate) end: Axes,
     /// The derivatives of the axes by the parameter, at places close enough to see every change.
     pub(crate) rates: Vec<(f64, Rates)>,
+    /// Where it passes closest by a singular point, if it comes near one.
+    pub(crate) near_singular: Option<NearSingular>,
 }
 
 /// The longest step, as part of the path.
@@ -32,8 +35,6 @@ const BLIND_STEP_SHARE: f64 = 1e-3;
 const DENSEST_SHARE: f64 = 1e-3;
 /// An axis that is so far (deg) from where it was bound to be has jumped to another solution, or the step was too long.
 const JUMP_DEG: f64 = 10.0;
-/// Farther from singular points than this (see [`arl_robot::kinematics::Kinematics::clearance`]) no place is one.
-const CLEAR: f64 = 0.15;
 /// So far ahead (s at the lowest speed that makes sense) of a singular place the end of the arm's reach is looked for.
 const ENDS_AHEAD_S: [f64; 5] = [0.01, 0.1, 1.0, 3.0, 10.0];
 /// Steps through a passage of the wrist singularity.
@@ -59,27 +60,24 @@ pub struct NearSingular {
     pub axis: usize,
     /// Where, as part of the path.
     pub along: f64,
-    /// How fast the path may be gone there: mm/s of the TCP, or deg/s where the tool only turns.
+    /// How fast the path may be gone straight on there, by the limits of the robot's own axes: mm/s of the TCP, or deg/s where
+    /// the tool only turns.
     pub speed: f64,
     /// `mm/s` or `deg/s`.
     pub unit: &'static str,
 }
 
-impl Survey {
-    /// The slowest of the places beside singular points, by the speeds and accelerations of the robot's own axes.
-    pub(crate) fn near_singular(&self, robot: &Robot, curve: &ToolCurve) -> Option<NearSingular> {
-        let close = |(_, rates): &&(f64, Rates)| rates.scale(&robot.axes) < CLOSE_SHARE;
-        let narrowest = |(at, rates): &(f64, Rates)| (rates.speed_margin(robot.own_axes(), 1.0), *at);
-        let ((fastest, axis), along) =
-            self.rates.iter().filter(close).map(narrowest).min_by(|a, b| a.0.0.total_cmp(&b.0.0))?;
-        let ([_, travel, ..], [turning, ..]) = (curve.moving(along), curve.rotation_rates(along));
-        let (speed, unit) = match travel.norm() {
-            way if way > 0.0 => (fastest * way, "mm/s"),
-            _ => (fastest * turning.norm().to_degrees(), "deg/s"),
-        };
-        Some(NearSingular { axis, along, speed, unit })
+impl NearSingular {
+    /// The slower one of two places of one kind of motion, where there are two.
+    pub fn slower(one: Option<Self>, other: Option<Self>) -> Option<Self> {
+        match (one, other) {
+            (Some(one), Some(other)) => Some(if other.speed < one.speed { other } else { one }),
+            (one, other) => one.or(other),
+        }
     }
+}
 
+impl Survey {
     /// The places beside singular points where the axes' motion changes so quickly that others may miss it.
     pub(crate) fn close_places(&self, robot: &Robot) -> Vec<f64> {
         let mut places: Vec<f64> = Vec::new();
@@ -117,8 +115,11 @@ pub(crate) fn check_path(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Re
     let glimpse = walk.axes(BEHIND_END_SHARE, &here)?;
     walk.no_jump(&here, &glimpse, turned_beside_end(known.as_ref()), 0.0)?;
     let longest = curve.over.as_ref().map_or(longest, |over| over.longest_step().min(longest));
-    let mut strip = 0.0;
+    let (mut strip, mut near_singular) = (0.0, None);
     while at < 1.0 - BEHIND_END_SHARE {
+        if known.is_some() {
+            near_singular = NearSingular::slower(near_singular, walk.near_singular(at, &here)?);
+        }
         let next =
             walk.next(at, &here, known.as_ref(), longest)?.min(jump_ahead(curve, at)).min(1.0 - BEHIND_END_SHARE);
         let (next, found) = walk.step(at, &here, known.as_ref(), next)?;
@@ -140,13 +141,13 @@ pub(crate) fn check_path(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Re
         }
     }
     if let Some(known) = known {
-        walk.not_singular(at, &here)?;
+        near_singular = NearSingular::slower(near_singular, walk.near_singular(at, &here)?);
         rates.push((at, known));
     }
     let end = walk.axes(1.0, &here)?;
     walk.no_jump(&here, &end, turned_beside_end(known.as_ref()), 1.0)?;
     limits.at(1.0, &end);
-    limits.broken.map_or(Ok(Survey { end, rates }), Err)
+    limits.broken.map_or(Ok(Survey { end, rates, near_singular }), Err)
 }
 
 /// How far an axis may turn, in deg, between an end of the path and a glimpse beside it, where `rates` are those there.
@@ -194,7 +195,7 @@ pub(crate) fn check_gentle_path<const N: usize>(
     places: &[f64; N],
 ) -> Option<Survey> {
     let walk = Walk { robot, curve, plain: None };
-    let mut found = Survey { end: *start, rates: Vec::with_capacity(N) };
+    let mut found = Survey { end: *start, rates: Vec::with_capacity(N), near_singular: None };
     let mut limits = Ranges::new(robot);
     for at in places {
         let expected = match found.rates.last() {
@@ -237,7 +238,6 @@ impl Walk<'_> {
             (Some(passage), _) if at < passage.to => (passage.to - passage.from) / PASSAGE_STEPS,
             (_, None) => BLIND_STEP_SHARE,
             (_, Some(known)) => {
-                self.not_singular(at, axes)?;
                 let scale = self.scale_of_way(known, at, axes);
                 if scale < DENSEST_SHARE {
                     self.not_too_sharp(at, axes)?;
@@ -289,17 +289,25 @@ impl Walk<'_> {
         lowest_pace(&travel, &turning)
     }
 
-    /// A place from which the axes cannot go straight on at the lowest speed that makes sense is singular. In a passage axis 4 is
-    /// led.
-    fn not_singular(&self, at: f64, axes: &Axes) -> Result<(), PlanError> {
-        if self.curve.passage(at).is_some() || self.robot.kinematics.clearance(axes) > CLEAR {
-            return Ok(());
+    /// How fast the way can be gone straight on beside a singular point. A place from which the axes cannot go on at the lowest speed
+    /// that makes sense is singular. In a passage axis 4 is led.
+    fn near_singular(&self, at: f64, axes: &Axes) -> Result<Option<NearSingular>, PlanError> {
+        let kinematics = &self.robot.kinematics;
+        if self.curve.passage(at).is_some() || kinematics.clearance(axes) > CLEAR_OF_SINGULAR {
+            return Ok(None);
         }
-        let Some(rates) = self.robot.kinematics.rates(axes, &self.straight_on(at)) else { return Ok(()) };
-        match rates.speed_margin(&self.robot.axes, self.lowest_pace(at)) {
-            (margin, axis) if margin < 1.0 => Err(self.singular(axis, at)),
-            _ => Ok(()),
+        let Some(rates) = kinematics.rates(axes, &self.straight_on(at)) else { return Ok(None) };
+        let pace = self.lowest_pace(at);
+        let (margin, axis) = rates.speed_margin(self.robot.own_axes(), pace);
+        if margin < 1.0 {
+            return Err(self.singular(axis, at));
         }
+        let ([_, travel, ..], [turning, ..]) = (self.way().moving(at), self.way().rotation_rates(at));
+        let (way, unit) = match travel.norm() {
+            way if way > 0.0 => (way, "mm/s"),
+            _ => (turning.norm().to_degrees(), "deg/s"),
+        };
+        Ok(Some(NearSingular { axis, along: at, speed: margin * way / pace, unit }))
     }
 
     /// Where the axes' motion changes over so little of the path though they could go straight on, the path itself turns too sharply,

@@ -18,15 +18,13 @@ use crate::overlay::Led;
 use crate::plan::constraints::{Constraints, Pace};
 use crate::plan::curve::{Curve, ToolCurve};
 use crate::plan::lay_overlay::{Beginning, lay};
-use crate::plan::motion::Motion;
+use crate::plan::motion::{Motion, NO_WAY_MM_OR_DEG};
 use crate::plan::path_check::check_path;
 use arl_robot::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, Wanted, frame, frame_components};
 use arl_robot::robot::{Axis, Robot, VelocityProfile};
 
 /// Distances up to this (mm or deg) of an axis are no motion.
 const NO_DISTANCE: f64 = 1e-10;
-/// Ways of the TCP up to this (mm and deg) are none: targets that differ by so little are the same.
-const NO_WAY: f64 = 1e-5;
 
 /// The largest angle of a circle, in deg.
 const LARGEST_CIRCLE_DEG: f64 = 7200.0;
@@ -261,7 +259,7 @@ impl Planner<'_> {
         self.find_passages(&mut curve);
         let found = check_path(self.robot, &curve, self.start).map_err(|error| self.at_the_wrist(error, &curve))?;
         curve.close_places = found.close_places(self.robot);
-        let near_singular = found.near_singular(self.robot, &curve);
+        let near_singular = found.near_singular;
         let end = Joints { axes: found.end, external: *external }.completed(self.start, self.robot);
         let end = self.within_ranges(end)?;
         let mut pace = self.pace(true)?;
@@ -327,11 +325,11 @@ impl Planner<'_> {
         } else {
             angle.angle().to_degrees()
         };
-        let goes = length > NO_WAY || angle > NO_WAY;
+        let goes = length.max(angle) >= NO_WAY_MM_OR_DEG;
         let found = if goes { Some(check_path(self.robot, &curve, self.start)) } else { None };
         let found = found.transpose().map_err(|error| self.at_the_wrist(error, &curve))?;
         curve.close_places = found.as_ref().map_or(Vec::new(), |found| found.close_places(self.robot));
-        let near_singular = found.as_ref().and_then(|found| found.near_singular(self.robot, &curve));
+        let near_singular = found.as_ref().and_then(|found| found.near_singular);
         let axes = found.as_ref().map_or(self.start.axes, |found| found.end);
         let end = self.within_ranges(Joints { axes, ..end })?;
         let moves = goes || self.moves(&end);

@@ -78,6 +78,8 @@ pub struct Queue {
     /// The commanded positions, and how fast they change.
     joints: Joints,
     velocity: Joints,
+    /// Whether steps tell how fast the axes are.
+    tells_rates: bool,
     /// The running number of the motion that was added last.
     added: u64,
     /// The s that the motion being executed still takes, and for how many cycles that has been counted down.
@@ -142,6 +144,7 @@ impl Queue {
             dropping: false,
             joints: start,
             velocity: Joints::ZERO,
+            tells_rates: true,
             added: 0,
             forecast: None,
             left: Vec::with_capacity(LOOK_AHEAD),
@@ -478,7 +481,13 @@ impl Queue {
         // What is resumed brings its own tool along: from the next cycle on.
         let step = self.made_step((motion, line), &before, dt);
         self.advance_suspension();
-        step
+        Step { finished: self.layer.finished, rests: self.rests(), ..step }
+    }
+
+    /// Whether steps tell velocities and accelerations; they do unless this says otherwise. Whoever takes the positions alone saves
+    /// what finding them costs: then they are 0.
+    pub fn tell_rates(&mut self, wanted: bool) {
+        self.tells_rates = wanted;
     }
 
     /// The length of the last cycle, in s.

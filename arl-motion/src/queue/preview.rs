@@ -33,6 +33,9 @@ pub struct Preview {
 }
 
 impl Preview {
+    /// No more cycles than this are looked at: they are kept, all of them.
+    pub const MOST_CYCLES: usize = 1 << 20;
+
     /// How long it takes until the robot rests and nothing is left to do.
     pub fn duration(&self) -> Duration {
         self.cycle.length() * u32::try_from(self.steps.len().saturating_sub(1)).unwrap_or(u32::MAX)
@@ -46,12 +49,14 @@ impl Preview {
     /// The set-point at a time from now; behind the end the last one. Between two cycles positions, speeds and accelerations of the axes go
     /// on smoothly from the one to the other, the TCP evenly.
     pub fn at(&self, time: Duration) -> Step {
-        let share = time.as_secs_f64() / self.cycle.period();
-        let cycle = share.floor();
-        let from = (cycle as usize).min(self.steps.len().saturating_sub(1));
+        // Whole numbers: at the end of a cycle it is over.
+        let cycle = self.cycle.length().as_nanos();
+        let passed = usize::try_from(time.as_nanos() / cycle).unwrap_or(usize::MAX);
+        let share = (time.as_nanos() % cycle) as f64 / cycle as f64;
+        let from = passed.min(self.steps.len().saturating_sub(1));
         match (self.steps.get(from), self.steps.get(from + 1)) {
-            (Some(from), Some(to)) => between(from, to, share - cycle, self.cycle.period()),
-            (Some(last), None) => *last,
+            (Some(from), Some(to)) if share > 0.0 => between(from, to, share, self.cycle.period()),
+            (Some(step), _) => *step,
             (None, _) => Step::resting(Joints::ZERO, Default::default()),
         }
     }
@@ -63,14 +68,18 @@ impl Queue {
     /// It takes as long as those cycles take, and keeps some 0.5 kB for each of them.
     ///
     /// # Errors
-    /// A motion that waits for the next one cannot be moved without it.
+    /// A motion that waits for the next one cannot be moved without it; the motion takes more than [`Preview::MOST_CYCLES`].
     pub fn preview(&self, cycle: Cycle, speed_override: Override) -> Result<Preview, PlanError> {
         let mut copy = self.clone();
         copy.follow_real_time(false);
+        copy.tell_rates(true);
         copy.conclude()?;
         let mut steps = vec![self.now()];
         let stands = |copy: &Queue| copy.is_layer_idle() || copy.stopped() || speed_override == Override::ZERO;
         while !(copy.rests() && stands(&copy)) {
+            if steps.len() > Preview::MOST_CYCLES {
+                return Err(PlanError::TooLong { most: Preview::MOST_CYCLES });
+            }
             steps.push(copy.step(cycle, speed_override));
         }
         Ok(Preview { cycle, steps })

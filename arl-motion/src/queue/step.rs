@@ -10,7 +10,7 @@ use arl_robot::kinematics::Frame;
 pub struct Step {
     /// The commanded positions, in deg (mm of linear axes).
     pub joints: Joints,
-    /// How fast they change, in deg/s (mm/s). All 0 while the robot rests.
+    /// How fast they change, in deg/s (mm/s). All 0 while the robot rests, and where [`Queue::tell_rates`] has said so.
     pub velocity: Joints,
     /// How fast that changes, in deg/s2 (mm/s2).
     pub acceleration: Joints,
@@ -72,6 +72,10 @@ impl Queue {
 
     /// What a cycle of `dt` s did that executed this motion of this line, and began at `before`.
     pub(super) fn made_step(&mut self, (motion, line): (u64, u32), before: &Joints, dt: f64) -> Step {
+        let step = Step { motion, line, ..Step::resting(self.joints, self.tcp()) };
+        if !self.tells_rates {
+            return step;
+        }
         let was = self.velocity;
         let [velocity, acceleration] =
             self.layer.path.rates(&self.robot.kinematics, &self.joints).unwrap_or_else(|| {
@@ -80,19 +84,7 @@ impl Queue {
                 [velocity, difference(&velocity, &was, dt)]
             });
         self.velocity = velocity;
-        let tcp = self.tcp();
-        let tcp_speed = self.tcp_speed(&velocity, &tcp);
-        Step {
-            joints: self.joints,
-            velocity,
-            acceleration,
-            tcp,
-            tcp_speed,
-            motion,
-            line,
-            finished: self.layer.finished,
-            rests: self.rests(),
-        }
+        Step { velocity, acceleration, tcp_speed: self.tcp_speed(&velocity, &step.tcp), ..step }
     }
 }
 

@@ -59,3 +59,16 @@ fn a_preview_ends_where_the_robot_cannot_go_on() {
     let last = ahead.steps().last().unwrap();
     assert!(last.rests && last.joints.axes[0] > 0.0 && last.joints.axes[0] < 40.0, "{last:?}");
 }
+
+#[test]
+fn at_the_end_of_a_cycle_it_is_over() {
+    let robot = robot("kr10-r1420");
+    let mut queue = Queue::repeatable(robot, axes([0.0, -90.0, 90.0, 0.0, 30.0, 0.0]));
+    queue.add(&movej([20.0, -90.0, 90.0, 0.0, 30.0, 0.0]), &Settings::default()).unwrap();
+    let ahead = queue.preview(Cycle::MS, Override::FULL).unwrap();
+    for (number, step) in (0_u32..).zip(ahead.steps()) {
+        assert_eq!(ahead.at(Cycle::MS.length() * number), *step, "{number}");
+    }
+    let slow = queue.preview(Cycle::MS, Override::from_percent(1e-6).unwrap());
+    assert_eq!(slow.unwrap_err(), PlanError::TooLong { most: Preview::MOST_CYCLES });
+}

@@ -1,6 +1,8 @@
 //! Lines near singular points: what becomes of a way does not depend on how it is cut into motions.
 
+use crate::queue::Recorder;
 use crate::tests::*;
+use arl_robot::robot::Family;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A straight way of the TCP, on which the tool may turn, and where the axes stand at its start.
@@ -77,7 +79,7 @@ fn outcome(robot: &Robot, start: &Joints, commands: &[Command]) -> &'static str 
 #[test]
 fn a_way_has_the_same_outcome_however_it_is_cut() {
     let mut random = Random::new(49);
-    let (mut seen, mut differ) = (std::collections::BTreeMap::new(), Vec::new());
+    let (mut seen, mut differ) = (std::collections::BTreeSet::new(), Vec::new());
     for name in Robot::builtin_names() {
         let robot = robot(name);
         for number in 0..400 {
@@ -88,10 +90,15 @@ fn a_way_has_the_same_outcome_however_it_is_cut() {
                 let (travel, turning) = (way.travel.as_slice(), way.turning.as_slice());
                 differ.push(format!("{name} {number}: {outcomes:?}, {:?} {travel:?} {turning:?}", way.start.axes));
             }
-            *seen.entry((name, outcomes[0])).or_insert(0) += 1;
+            seen.insert((name, outcomes[0]));
         }
     }
     assert!(differ.is_empty(), "{} differ\n{}", differ.len(), differ.join("\n"));
+    // All robots pass singular points, and meet others: those of a SCARA are the edge of its reach.
+    for name in Robot::builtin_names() {
+        let met = if robot(name).family == Family::SixAxis { "singular" } else { "unreachable" };
+        assert!(["reached", met].iter().all(|outcome| seen.contains(&(name, *outcome))), "{name}: {seen:?}");
+    }
 }
 
 #[test]
@@ -124,17 +131,28 @@ fn a_line_past_the_wrist_singularity_is_slow_there_in_one_piece_and_in_three() {
     let robot = robot("kr10-r1420");
     let pose = |y: f64| [890.0, y, 1080.2, 0.0, 90.0, 0.0];
     let cfg = robot.kinematics.cfg(&[0.0, -90.0, 90.0, 0.0, 20.0, 0.0]);
-    let rows = |targets: &[f64]| {
+    // How long it takes, in cycles, and how slow each line has to be.
+    let moved = |targets: &[f64]| {
         let mut queue = Queue::repeatable(robot.clone(), axes([0.0, -90.0, 90.0, 0.0, 20.0, 0.0]));
-        queue.add(&ptp(pose(-100.0), cfg), &Settings::default()).unwrap();
-        for y in targets {
-            let speed = Speed { tcp: 100.0, ..fast() };
-            queue.add(&Command { speed, ..lin(pose(*y)) }, &Settings::default()).unwrap();
+        let mut recorder = Recorder::new(robot.clone(), &mut queue);
+        let speed = Speed { tcp: 100.0, ..fast() };
+        let lines = targets.iter().map(|y| Command { speed, ..lin(pose(*y)) });
+        for command in [ptp(pose(-100.0), cfg)].into_iter().chain(lines) {
+            let number = queue.add(&command, &Settings::default()).unwrap();
+            recorder.planned(&mut queue, number, &command, &Settings::default());
         }
         let rows = run(&mut queue, 100.0);
+        recorder.step(&mut queue, &rows[rows.len() - 1]);
         assert_within_limits(&robot, &rows, "past the singularity");
-        rows
+        (rows.len(), recorder.records().iter().map(|record| record.slowed).collect::<Vec<_>>())
     };
-    let [whole, cut] = [rows(&[100.0]), rows(&[-33.0, 33.0, 100.0])];
-    assert!(whole.len() < cut.len(), "{} cycles, {} in three pieces", whole.len(), cut.len());
+    let [(whole, slowed), (cut, slowed_in_three)] = [moved(&[100.0]), moved(&[-33.0, 33.0, 100.0])];
+    assert!(whole < cut, "{whole} cycles, {cut} in three pieces");
+    // It is told where, and how slow, however the way is cut.
+    let ([None, Some(one)], [None, None, Some(middle), None]) = (&slowed[..], &slowed_in_three[..]) else {
+        panic!("{slowed:?} {slowed_in_three:?}");
+    };
+    assert_eq!((one.axis, one.unit), (middle.axis, middle.unit));
+    assert!((one.along - 0.5).abs() < 1e-3 && (middle.along - 0.5).abs() < 1e-3, "{one:?} {middle:?}");
+    assert!(one.speed < 50.0 && (one.speed / middle.speed - 1.0).abs() < 0.01, "{one:?} {middle:?}");
 }

@@ -88,6 +88,9 @@ fn what_is_set_aside_goes_on_where_it_was_stopped() {
                 break;
             }
         }
+        // What holds from the next motion on is told by what has ended: never more than goes on behind it.
+        let is_told_late = |pair: &&[Step]| pair[1].motion != 0 && pair[0].finished >= pair[1].motion;
+        assert_eq!(rows.windows(2).find(is_told_late), None, "round {round}");
         if !fast {
             assert_within_limits(&robot, &rows, &format!("round {round}"));
         }

@@ -127,8 +127,10 @@ impl Body {
         let tables = super::tables(top, "body", "tables that begin with [[body]]")?;
         let mut bodies: Vec<Self> = Vec::new();
         let mut known: HashSet<String> = HashSet::new();
+        let mut sections = Vec::new();
         for value in tables {
             let section = table(top.source, value, "[[body]]", BODY)?;
+            sections.push(section);
             let body = Self::read(&section, value, (channels, names), (foreground, carriers), folder)?;
             let count = count(&section)?;
             let of_kind = count.map(|_| body.name.clone());
@@ -142,9 +144,7 @@ impl Body {
             bodies.extend(all);
         }
         known.extend(parts_of_robots(foreground));
-        for value in tables {
-            are_known(&table(top.source, value, "[[body]]", BODY)?, &known)?;
-        }
+        sections.iter().try_for_each(|section| are_known(section, &known))?;
         Ok(bodies)
     }
 

@@ -32,6 +32,11 @@ const KINDS: [(&str, SignalKind); 6] = [
 ];
 
 impl SignalKind {
+    /// All of them, in the order of files.
+    pub fn all() -> impl Iterator<Item = Self> {
+        KINDS.into_iter().map(|(_, kind)| kind)
+    }
+
     /// How files call it: `di`.
     pub fn text(self) -> &'static str {
         KINDS.iter().find(|(_, kind)| *kind == self).map_or("", |(text, _)| text)

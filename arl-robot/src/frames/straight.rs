@@ -3,12 +3,10 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::Carried;
-use crate::kinematics::{Axes, Frame, Rates, SHORTEST_STEP_S, lowest_pace, outruns, wrap_degrees};
+use crate::kinematics::{Axes, CLEAR_OF_SINGULAR, Frame, Rates, SHORTEST_STEP_S, lowest_pace, outruns, wrap_degrees};
 use crate::robot::Robot;
 
-/// Farther from singular points than this (see [`crate::kinematics::Kinematics::clearance`]) a way is not looked at closely.
-const CLEAR: f64 = 0.15;
-/// At so many places, and its start.
+/// Where a way is far from singular points at so many places, and at its start, it is not looked at closely.
 const GLANCES: u32 = 16;
 /// Close to a singular point the steps are this part of what the axes' motion changes over, so that none is stepped over.
 const STEP_OF_SCALE: f64 = 0.04;
@@ -47,7 +45,7 @@ impl StraightWay {
         let mut near = *start;
         let mut clear = |at: f64| {
             near = robot.kinematics.inverse(&self.flange(at), cfg, &near)?;
-            Some(robot.kinematics.clearance(&near) > CLEAR)
+            Some(robot.kinematics.clearance(&near) > CLEAR_OF_SINGULAR)
         };
         if (0..=GLANCES).all(|glance| clear(f64::from(glance) / f64::from(GLANCES)) == Some(true)) {
             return None;
@@ -55,7 +53,7 @@ impl StraightWay {
         let (mut at, mut near) = (0.0, *start);
         loop {
             let step = match self.rates(robot, &near, at) {
-                Some(rates) if rates.speed_margin(&robot.axes, self.pace()).0 < SURE => return Some((at, near)),
+                Some(rates) if rates.speed_margin(robot.own_axes(), self.pace()).0 < SURE => return Some((at, near)),
                 Some(rates) => (STEP_OF_SCALE * rates.scale(&robot.axes)).min(LONGEST_STEP),
                 None => BLIND_STEP,
             };

@@ -46,6 +46,7 @@ impl Kinematics {
     /// The joints of its axes, from the base on, and the flange's frame in the last link's, translation in mm.
     ///
     /// ```
+    /// # #[cfg(feature = "files")] {
     /// use arl_robot::kinematics::Frame;
     /// use arl_robot::robot::Robot;
     ///
@@ -56,6 +57,7 @@ impl Kinematics {
     /// let last = links.fold(Frame::identity(), |before, link| before * link);
     /// let away = (last * flange).translation.vector - robot.kinematics.forward(&axes).translation.vector;
     /// assert!(away.norm() < 1e-9);
+    /// # }
     /// # Ok::<(), arl_robot::robot::RobotError>(())
     /// ```
     pub fn links(&self) -> (Vec<LinkJoint>, Frame) {
@@ -92,6 +94,7 @@ impl Kinematics {
 }
 
 #[cfg(test)]
+#[cfg(feature = "files")]
 mod tests {
     use super::Frame;
     use crate::kinematics::random::Random;

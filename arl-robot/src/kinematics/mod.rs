@@ -23,7 +23,9 @@ pub use frame::{Frame, frame, frame_components};
 pub use links::LinkJoint;
 pub use opw::{Opw, OpwParameters, Singularity, Solutions};
 pub use passing::{PASSAGE, Passage};
-pub use rates::{LOWEST_TRAVEL_MM_S, LOWEST_TURNING_DEG_S, Rates, SHORTEST_STEP_S, Twist, lowest_pace, outruns};
+pub use rates::{
+    CLEAR_OF_SINGULAR, LOWEST_TRAVEL_MM_S, LOWEST_TURNING_DEG_S, Rates, SHORTEST_STEP_S, Twist, lowest_pace, outruns,
+};
 pub use scara::Scara;
 
 /// The axes of a robot in deg (mm where linear); a SCARA leaves the last two at 0.

@@ -74,6 +74,9 @@ pub struct Rates {
 pub const LOWEST_TRAVEL_MM_S: f64 = 1.0;
 /// See [`LOWEST_TRAVEL_MM_S`].
 pub const LOWEST_TURNING_DEG_S: f64 = 0.1;
+/// Farther from singular points than this (see [`Kinematics::clearance`]) every place is passed at the lowest speed that makes
+/// sense.
+pub const CLEAR_OF_SINGULAR: f64 = 0.15;
 /// Over less time than this (s) at the lowest speed that makes sense no way is looked at: an axis that has jumped by then would
 /// have to turn at once.
 pub const SHORTEST_STEP_S: f64 = 1e-3;

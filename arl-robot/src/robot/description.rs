@@ -9,6 +9,7 @@ use crate::kinematics::{Kinematics, Opw, Scara};
 /// one, changes that, and makes another robot of it:
 ///
 /// ```
+/// # #[cfg(feature = "files")] {
 /// use arl_robot::Robot;
 ///
 /// let mut slower = Robot::builtin("kr10-r1420")?.into_description();
@@ -20,7 +21,8 @@ use crate::kinematics::{Kinematics, Opw, Scara};
 ///
 /// let mut lame = slower.into_description();
 /// lame.axes[0].vel = 0.0;
-/// assert_eq!(Robot::new(lame).unwrap_err().to_string(), "kr10-r1420: `vel` of j1 is 0: expected a speed above 0");
+/// assert!(Robot::new(lame).unwrap_err().to_string().starts_with("kr10-r1420: `vel` of j1 is 0"));
+/// # }
 /// # Ok::<(), arl_robot::robot::RobotError>(())
 /// ```
 #[derive(Clone, PartialEq, Debug)]
@@ -45,6 +47,13 @@ pub struct Description {
     pub home: Vec<f64>,
 }
 
+/// No length, angle or position of a robot is larger, in mm or deg.
+pub(super) const LARGEST: f64 = 1e6;
+/// No speed, acceleration, jerk, mass or inertia is larger, in the unit of its key.
+pub(super) const LARGEST_LIMIT: f64 = 1e12;
+/// No limit and no mass is smaller: time at such a speed would never end.
+pub(super) const SMALLEST: f64 = 1e-6;
+
 impl Description {
     /// Whether it is a robot; what is wrong else, in a sentence.
     pub(super) fn check(&self) -> Result<(), RobotError> {
@@ -67,17 +76,15 @@ impl Description {
 
     fn check_tcp(&self) -> Result<(), String> {
         let TcpLimits { vel, acc, jerk, ori_vel, ori_acc, ori_jerk } = self.tcp;
-        all_positive(
-            "the TCP",
-            &[
-                ("vel", vel, "a speed"),
-                ("acc", acc, "an acceleration"),
-                ("jerk", jerk, "a jerk"),
-                ("ori_vel", ori_vel, "a speed"),
-                ("ori_acc", ori_acc, "an acceleration"),
-                ("ori_jerk", ori_jerk, "a jerk"),
-            ],
-        )
+        let limits = [
+            ("vel", vel, "a speed"),
+            ("acc", acc, "an acceleration"),
+            ("jerk", jerk, "a jerk"),
+            ("ori_vel", ori_vel, "a speed"),
+            ("ori_acc", ori_acc, "an acceleration"),
+            ("ori_jerk", ori_jerk, "a jerk"),
+        ];
+        all_positive("the TCP", &limits, LARGEST_LIMIT)
     }
 
     fn check_axes(&self) -> Result<(), String> {
@@ -111,13 +118,14 @@ impl Description {
             ));
         }
         if at < own_axes(self.family) && *linear != lifts(self.family, at) {
-            return Err(format!("`linear` of {name} is {linear}: this family of robots has it otherwise"));
+            return Err(format!("`linear` of {name} is {linear}: expected {}", !linear));
         }
-        all_finite(name, &[("min", *min), ("max", *max)])?;
+        all_within(name, &[("min", *min), ("max", *max)], LARGEST)?;
         if min >= max {
             return Err(format!("`min` of {name} is {min}: expected less than its `max`, {max}"));
         }
-        all_positive(name, &[("vel", *vel, "a speed"), ("acc", *acc, "an acceleration"), ("jerk", *jerk, "a jerk")])
+        let limits = [("vel", *vel, "a speed"), ("acc", *acc, "an acceleration"), ("jerk", *jerk, "a jerk")];
+        all_positive(name, &limits, LARGEST_LIMIT)
     }
 
     fn check_drives(&self) -> Result<(), String> {
@@ -127,16 +135,11 @@ impl Description {
             return Err(format!("`following` has {found} distances: expected {expected}, one for each axis"));
         }
         for (axis, following) in self.axes.iter().zip(following) {
-            all_positive(&axis.name, &[("following", *following, "a distance")])?;
+            all_positive(&axis.name, &[("following", *following, "a distance")], LARGEST_LIMIT)?;
         }
-        all_positive(
-            "the drives",
-            &[
-                ("feedback", *feedback, "a time"),
-                ("settling", *settling, "a time"),
-                ("settled", *settled, "a distance"),
-            ],
-        )
+        let limits =
+            [("feedback", *feedback, "a time"), ("settling", *settling, "a time"), ("settled", *settled, "a distance")];
+        all_positive("the drives", &limits, LARGEST_LIMIT)
     }
 
     fn check_links(&self) -> Result<(), String> {
@@ -147,16 +150,14 @@ impl Description {
         for (number, link) in (1..).zip(&self.links) {
             let Link { mass, com, inertia, gear, torque_constant } = link;
             let name = format!("link {number}");
-            all_positive(
-                &name,
-                &[
-                    ("mass", *mass, "a mass"),
-                    ("gear", *gear, "turns of the motor"),
-                    ("torque_constant", *torque_constant, "a torque for one ampere"),
-                ],
-            )?;
-            let placed = com.iter().map(|value| ("com", *value));
-            all_finite(&name, &placed.chain(inertia.iter().map(|value| ("inertia", *value))).collect::<Vec<_>>())?;
+            let motor = [
+                ("mass", *mass, "a mass"),
+                ("gear", *gear, "turns of the motor"),
+                ("torque_constant", *torque_constant, "a torque for one ampere"),
+            ];
+            all_positive(&name, &motor, LARGEST_LIMIT)?;
+            all_within(&name, &com.map(|value| ("com", value)), LARGEST)?;
+            all_within(&name, &inertia.map(|value| ("inertia", value)), LARGEST_LIMIT)?;
         }
         Ok(())
     }
@@ -169,29 +170,32 @@ pub(super) fn lifts(family: Family, at: usize) -> bool {
 
 fn six_axes(opw: &Opw) -> Result<(), String> {
     let p = opw.parameters();
-    all_finite("the geometry", &[("a1", p.a1), ("a2", p.a2), ("b", p.b), ("c1", p.c1), ("c4", p.c4)])?;
-    all_finite("the geometry", &p.offsets.map(|offset| ("offsets", offset)))?;
+    let lengths = [("a1", p.a1), ("a2", p.a2), ("b", p.b), ("c1", p.c1), ("c4", p.c4)];
+    all_within("the geometry", &lengths, LARGEST)?;
+    all_within("the geometry", &p.offsets.map(|offset| ("offsets", offset)), LARGEST)?;
     if let Some(sign) = p.signs.iter().find(|sign| sign.abs() != 1.0) {
         return Err(format!("`signs` of the geometry has {sign}: expected six signs, 1 or -1"));
     }
-    all_positive("the geometry", &[("c2", p.c2, "a length"), ("c3", p.c3, "a length")])
+    all_positive("the geometry", &[("c2", p.c2, "a length"), ("c3", p.c3, "a length")], LARGEST)
 }
 
 fn four_axes(scara: &Scara) -> Result<(), String> {
-    all_finite("the geometry", &[("z0", scara.z0)])?;
-    all_positive("the geometry", &[("l1", scara.l1, "a length"), ("l2", scara.l2, "a length")])
+    all_within("the geometry", &[("z0", scara.z0)], LARGEST)?;
+    all_positive("the geometry", &[("l1", scara.l1, "a length"), ("l2", scara.l2, "a length")], LARGEST)
 }
 
-fn all_finite(of: &str, values: &[(&str, f64)]) -> Result<(), String> {
-    match values.iter().find(|(_, value)| !value.is_finite()) {
-        Some((key, value)) => Err(format!("`{key}` of {of} is {value}: expected a finite number")),
+fn all_within(of: &str, values: &[(&str, f64)], most: f64) -> Result<(), String> {
+    match values.iter().find(|(_, value)| value.is_nan() || value.abs() > most) {
+        Some((key, value)) => Err(format!("`{key}` of {of} is {value:?}: expected a number from -{most} to {most}")),
         None => Ok(()),
     }
 }
 
-fn all_positive(of: &str, values: &[(&str, f64, &str)]) -> Result<(), String> {
-    match values.iter().find(|(_, value, _)| !(value.is_finite() && *value > 0.0)) {
-        Some((key, value, what)) => Err(format!("`{key}` of {of} is {value}: expected {what} above 0")),
+fn all_positive(of: &str, values: &[(&str, f64, &str)], most: f64) -> Result<(), String> {
+    match values.iter().find(|(_, value, _)| !(SMALLEST..=most).contains(value)) {
+        Some((key, value, what)) => {
+            Err(format!("`{key}` of {of} is {value:?}: expected {what} from {SMALLEST:?} to {most:?}"))
+        }
         None => Ok(()),
     }
 }
@@ -200,7 +204,8 @@ impl Robot {
     /// The robot that a description is of.
     ///
     /// # Errors
-    /// It is no robot: a number is not finite, a limit not above 0, a range empty, or there are too few or too many of something.
+    /// It is no robot: a length or an angle is beyond 1e6 mm (deg), a limit, a mass or the length of an arm is not above 1e-6 or too
+    /// large, a range is empty, or there are too few or too many of something.
     pub fn new(description: Description) -> Result<Robot, RobotError> {
         description.check()?;
         Ok(Robot(description))

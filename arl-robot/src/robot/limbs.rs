@@ -84,6 +84,7 @@ fn length(ends: [f64; 3]) -> f64 {
 }
 
 #[cfg(test)]
+#[cfg(feature = "files")]
 mod tests {
     use super::*;
 

@@ -3,8 +3,8 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::description::{Description, lifts};
-use super::section::{LARGEST, LARGEST_LIMIT, Section, Source};
+use super::description::{Description, LARGEST, LARGEST_LIMIT, lifts};
+use super::section::{Section, Source};
 use super::{
     Axis, DriveLimits, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, axis_name, own_axes,
 };
@@ -99,8 +99,8 @@ fn opw(geometry: &Section<'_>) -> Result<Opw, RobotError> {
         let message = "`signs` of [geometry]: expected six signs, 1 or -1".to_owned();
         return Err(geometry.source.error(geometry.span_of("signs"), message));
     }
-    let c2 = geometry.positive("c2", "the length of the upper arm in mm")?;
-    let c3 = geometry.positive("c3", "the length of the forearm in mm")?;
+    let c2 = geometry.positive_length("c2", "the length of the upper arm in mm")?;
+    let c3 = geometry.positive_length("c3", "the length of the forearm in mm")?;
     Ok(Opw::new(OpwParameters {
         a1: length("a1")?,
         a2: length("a2")?,
@@ -116,8 +116,8 @@ fn opw(geometry: &Section<'_>) -> Result<Opw, RobotError> {
 
 fn scara(geometry: &Section<'_>) -> Result<Scara, RobotError> {
     Ok(Scara {
-        l1: geometry.positive("l1", "the length of the first arm in mm")?,
-        l2: geometry.positive("l2", "the length of the second arm in mm")?,
+        l1: geometry.positive_length("l1", "the length of the first arm in mm")?,
+        l2: geometry.positive_length("l2", "the length of the second arm in mm")?,
         z0: geometry.number("z0", "the height of the flange at j3 = 0 in mm")?,
     })
 }

@@ -6,6 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::RobotError;
+use super::description::{LARGEST, LARGEST_LIMIT, SMALLEST};
 use crate::settings::{hint, kind, number};
 
 /// The text that spans point into.
@@ -31,13 +32,6 @@ pub(super) struct Section<'a> {
 }
 
 type Value<'a> = Spanned<DeValue<'a>>;
-
-/// No length, angle or position of a robot is larger, in mm or deg.
-pub(super) const LARGEST: f64 = 1e6;
-/// No speed, acceleration, jerk, mass or inertia is larger, in the unit of its key.
-pub(super) const LARGEST_LIMIT: f64 = 1e12;
-/// No limit and no mass is smaller: time at such a speed would never end.
-const SMALLEST: f64 = 1e-6;
 
 /// A number and its place.
 type Placed = (f64, Range<usize>);
@@ -102,24 +96,30 @@ impl<'a> Section<'a> {
 
     /// A number above zero: a limit or a mass.
     pub(super) fn positive(&self, key: &str, what: &str) -> Result<f64, RobotError> {
+        self.positive_to(key, what, LARGEST_LIMIT)
+    }
+
+    /// The length of a part, in mm, above zero.
+    pub(super) fn positive_length(&self, key: &str, what: &str) -> Result<f64, RobotError> {
+        self.positive_to(key, what, LARGEST)
+    }
+
+    fn positive_to(&self, key: &str, what: &str, most: f64) -> Result<f64, RobotError> {
         let value = self.need(key, what)?;
         let number = number(value.get_ref()).ok_or_else(|| self.wrong(key, value, what))?;
-        if number <= 0.0 {
-            let message = format!("`{key}` of {} is {number}: expected {what}, above 0", self.name);
-            return Err(self.source.error(value.span(), message));
+        if (SMALLEST..=most).contains(&number) {
+            return Ok(number);
         }
-        if number < SMALLEST {
-            let message = format!("`{key}` of {} is {number}: expected {what}, {SMALLEST} or more", self.name);
-            return Err(self.source.error(value.span(), message));
-        }
-        self.within(key, what, number, LARGEST_LIMIT)
+        let range = if number <= 0.0 { "above 0".to_owned() } else { format!("from {SMALLEST:?} to {most:?}") };
+        let message = format!("`{key}` of {} is {number:?}: expected {what}, {range}", self.name);
+        Err(self.source.error(value.span(), message))
     }
 
     fn within(&self, key: &str, what: &str, number: f64, most: f64) -> Result<f64, RobotError> {
         if number.abs() <= most {
             return Ok(number);
         }
-        let message = format!("`{key}` of {} is {number}: expected {what}, from -{most} to {most}", self.name);
+        let message = format!("`{key}` of {} is {number:?}: expected {what}, from -{most} to {most}", self.name);
         Err(self.source.error(self.span_of(key), message))
     }
 

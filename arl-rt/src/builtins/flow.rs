@@ -24,7 +24,8 @@ impl WaitTime {
     pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
         let cycles = wait_cycles(cx.shared().rate, self.time, "waittime")?;
         cx.motion_end().await;
-        let over = cx.cycle() + cycles;
+        cx.goes_on();
+        let over = cx.cycle().saturating_add(cycles);
         while cx.cycle() < over {
             cx.wait_until(over).await;
         }
@@ -63,7 +64,7 @@ impl<'a> WaitUntil<'a> {
         };
         self.cx.motion_end().await;
         self.cx.goes_on();
-        Ok(Wait { cx: self.cx, over: cycles.map(|cycles| self.cx.cycle() + cycles) })
+        Ok(Wait { cx: self.cx, over: cycles.map(|cycles| self.cx.cycle().saturating_add(cycles)) })
     }
 }
 

@@ -10,6 +10,7 @@ use arl_robot::cell::{Names, Signal, SignalKind};
 enum Part<'a> {
     Word(&'a str),
     Open,
+    Close,
     Assign,
     Number(u32),
     Other,
@@ -19,6 +20,7 @@ fn parts(text: &str) -> Vec<Part<'_>> {
     let part = |(lexeme, span): (Result<Lexeme, _>, arl_lang::span::Span)| match lexeme {
         Ok(Lexeme::Word) => Part::Word(span.text(text)),
         Ok(Lexeme::ParenOpen) => Part::Open,
+        Ok(Lexeme::ParenClose) => Part::Close,
         Ok(Lexeme::Assign) => Part::Assign,
         Ok(Lexeme::Number(number)) => match number.value {
             NumberValue::Int(value, _) => Part::Number(value),
@@ -32,8 +34,9 @@ fn parts(text: &str) -> Vec<Part<'_>> {
 /// The signals that a line of a program reads, by their numbers or by constants of its file, each once.
 pub(super) fn signals(line: &str, file: &str) -> Vec<Signal> {
     let mut found = Vec::new();
-    for three in parts(line).windows(3) {
-        let [Part::Word(function), Part::Open, number] = *three else { continue };
+    // What is calculated, or a whole range, is left out: only what is surely asked for is told.
+    for four in parts(line).windows(4) {
+        let [Part::Word(function), Part::Open, number, Part::Close] = *four else { continue };
         let Some(kind) = catalog::functions(function).first().and_then(|entry| kind(entry.space()?)) else { continue };
         let channel = match number {
             Part::Number(channel) => Some(channel),
@@ -46,10 +49,14 @@ pub(super) fn signals(line: &str, file: &str) -> Vec<Signal> {
     found
 }
 
-/// The number that a file gives to a name.
+/// The number of a constant of a file.
 fn constant(name: &str, file: &str) -> Option<u32> {
-    parts(file).windows(3).find_map(|three| match *three {
-        [Part::Word(word), Part::Assign, Part::Number(value)] if word.eq_ignore_ascii_case(name) => Some(value),
+    parts(file).windows(5).find_map(|five| match *five {
+        [Part::Word(first), Part::Word(_), Part::Word(word), Part::Assign, Part::Number(value)]
+            if first.eq_ignore_ascii_case("const") && word.eq_ignore_ascii_case(name) =>
+        {
+            Some(value)
+        }
         _ => None,
     })
 }
@@ -84,7 +91,10 @@ mod tests {
         let line = file.lines().nth(2).unwrap();
         let found: Vec<String> = signals(line, file).iter().map(ToString::to_string).collect();
         assert_eq!(found, ["di.12", "do.3", "ai.1"]);
-        assert!(signals("waituntil ready && clkread(c) > 5 || getdi(n + 1)", "").is_empty());
+        let file = "const int n = 3\nint i = 0\n";
+        assert!(
+            signals("waituntil ready && clkread(c) > 5 || getdi(n + 1) || getdi(i) || getdi(1, 4)", file).is_empty()
+        );
     }
 
     #[test]

@@ -275,8 +275,9 @@ fn run(
 pub(super) fn lateness(controller: &Controller) -> Vec<String> {
     let mut said = Vec::new();
     if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
+        let messages = if missing == 1 { "message" } else { "messages" };
         said.push(format!(
-            "{missing} messages of the robot did not come: it did not send them, or the network lost them; so many control cycles were lost"
+            "{missing} {messages} of the robot did not come: the robot did not send, or the network lost them; so many control cycles were lost"
         ));
     }
     if let Some(lateness) = controller.lateness().filter(|lateness| lateness.late() > 0) {
@@ -408,9 +409,8 @@ fn watch(
     recording.iter().for_each(|recording| recording.begin(controller));
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let mut code = None;
-    // In real time waiting for a hand is nothing special, and whoever listens sees where the program is.
-    let is_alone = between.is_none() && recording.is_none() && !controller.is_real_time();
-    let mut polling = is_alone.then(Polling::new);
+    // Whoever listens sees where the program is.
+    let mut polling = (between.is_none() && recording.is_none()).then(Polling::new);
     // Who was told to stop does not begin again.
     let is_over = |controller: &Controller, stopped: bool| match stopped {
         true => controller.outcome().is_some(),
@@ -431,7 +431,9 @@ fn watch(
         controller.step();
         recording.iter().for_each(|recording| recording.cycle_ended(controller));
         say(controller, sources, recording.as_ref());
-        if let Some(text) = polling.as_mut().and_then(|polling| polling.cycle_ended(controller)) {
+        // In real time waiting for a hand is nothing special.
+        let polling = polling.as_mut().filter(|_| !controller.is_real_time());
+        if let Some(text) = polling.and_then(|polling| polling.cycle_ended(controller)) {
             tell(format_args!("{text}"));
         }
         if code.is_none()

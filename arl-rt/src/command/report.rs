@@ -6,7 +6,7 @@ use crate::command::json::quoted;
 use crate::controller::Recorded;
 use crate::cycle::clock_source::Lateness;
 use crate::fault::File;
-use crate::motion::{Closest, MotionKind, MotionRecord, Rate};
+use crate::motion::{Closest, MotionKind, MotionRecord, NearSingular, Rate};
 use arl_robot::robot::Robot;
 
 /// Under the last three stands which limit of the kind was closest, and how much of it was used.
@@ -65,7 +65,7 @@ fn table(recorded: &Recorded, time: f64) -> String {
         }
     }
     for line in &lines {
-        if let Some(near) = line.first.slowed {
+        if let Some(near) = line.slowed {
             let place = line.place(recorded.program);
             let axis = recorded.robot.axes.get(near.axis).map_or("", |axis| axis.name.as_str());
             let (along, speed, unit) = (100.0 * near.along, short(near.speed), near.unit);
@@ -206,6 +206,8 @@ struct Line<'a> {
     reached: [f64; 2],
     /// The blend of which least was used.
     blend: &'a MotionRecord,
+    /// The slowest place beside a singular point.
+    slowed: Option<NearSingular>,
     /// What came nearest to a limit of speed, acceleration and jerk.
     closest: [Option<Closest>; 3],
 }
@@ -234,6 +236,7 @@ impl<'a> Line<'a> {
             programmed: [record.programmed.value; 2],
             reached: [record.reached; 2],
             blend: record,
+            slowed: record.slowed,
             closest: record.closest(),
         }
     }
@@ -255,6 +258,7 @@ impl<'a> Line<'a> {
         let widened = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
         self.programmed = widened(self.programmed, record.programmed.value);
         self.reached = widened(self.reached, record.reached);
+        self.slowed = NearSingular::slower(self.slowed, record.slowed);
         let used = |record: &MotionRecord| record.blend.map_or(f64::INFINITY, |blend| blend.used / blend.asked);
         if used(record) < used(self.blend) {
             self.blend = record;

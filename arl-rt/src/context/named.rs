@@ -5,7 +5,7 @@ use std::fmt;
 use crate::context::program::Program;
 use crate::storage::data::DataVar;
 use crate::values::{Onto, teach_text};
-use arl_robot::settings::nearest;
+use arl_robot::settings::hint_of_many;
 
 /// Another first value for a global variable.
 pub(crate) struct Named {
@@ -74,7 +74,7 @@ pub(crate) fn unknown(name: &str, programs: &[&dyn Program]) -> GlobalError {
     if known.is_empty() {
         return GlobalError::NoNames { name };
     }
-    GlobalError::Unknown { there: near(&name, &known), name }
+    GlobalError::Unknown { there: hint_of_many(&name, &known), name }
 }
 
 /// Why a global variable cannot be had, or cannot take a value.
@@ -138,14 +138,3 @@ impl fmt::Display for GlobalError {
 }
 
 impl std::error::Error for GlobalError {}
-
-/// So many names are listed where none is like it.
-const LISTED: usize = 8;
-
-fn near(name: &str, known: &[&str]) -> String {
-    match (nearest(name, known), known.get(..LISTED)) {
-        (Some(near), _) => format!("did you mean `{near}`?"),
-        (None, Some(first)) => format!("there are {}, like {}", known.len(), first.join(", ")),
-        (None, None) => format!("there are {}", known.join(", ")),
-    }
-}

@@ -213,7 +213,7 @@ impl Channel {
         self.running = self.outcome().is_none();
         self.seen = if self.has_statements() {
             self.cx.start_cycle(self.stack);
-            event::scan(&self.cx)
+            self.or_end(|channel| event::scan(&channel.cx))
         } else {
             Ok(())
         };
@@ -248,12 +248,12 @@ impl Channel {
             self.channel_state.begun.set(true);
             self.cx.start_cycle(self.stack);
             let seen = std::mem::replace(&mut self.seen, Ok(()));
-            let mut done = seen.map_err(Reason::Alarm).and_then(|()| self.run_or_end());
+            let mut done = seen.map_err(Reason::Alarm).and_then(|()| self.or_end(Self::run));
             while let Err(reason) = done {
                 self.leave(reason);
                 // After `exit` the motion that is left may have triggers.
                 let concludes = matches!(self.phase, Phase::Concluding);
-                done = if concludes { self.run_or_end() } else { Ok(()) };
+                done = if concludes { self.or_end(Self::run) } else { Ok(()) };
             }
         }
         if let Phase::RunningOut(next) = &self.phase {
@@ -368,10 +368,10 @@ impl Channel {
         }
     }
 
-    /// The same as [`run`](Self::run); what panics, in a program in Rust, ends the program before the panic goes on to whoever steps
+    /// Does something of the program. What panics, in a program in Rust, ends the program before the panic goes on to whoever steps
     /// the controller: it would panic in every cycle.
-    fn run_or_end(&mut self) -> Result<(), Reason> {
-        catch_unwind(AssertUnwindSafe(|| self.run())).unwrap_or_else(|panic| {
+    fn or_end<T>(&mut self, run: impl FnOnce(&mut Self) -> T) -> T {
+        catch_unwind(AssertUnwindSafe(|| run(self))).unwrap_or_else(|panic| {
             self.end(Outcome::Stopped);
             resume_unwind(panic)
         })

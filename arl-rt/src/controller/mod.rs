@@ -297,8 +297,6 @@ impl Controller {
                 return;
             }
         };
-        // Its time goes on while a scenario plays the PLC.
-        let played = self.scenario_starts();
         for button in pressed.into_iter().flatten() {
             // A program that has ended begins again by the start signal, not by the reset.
             let button = match (button, self.channels.state()) {
@@ -306,7 +304,8 @@ impl Controller {
                 (Pendant::Reset, State::Ended) => continue,
                 _ => button,
             };
-            if played {
+            // Its time goes on while a scenario plays the PLC.
+            if self.scenario_starts() {
                 pendant::press(&mut self.channels, button);
             } else {
                 self.press(button);

@@ -56,7 +56,7 @@ impl Controller {
         match button {
             Pendant::Pause if state == State::Paused && self.scenario.began() == now && !starts => self.scenario.wait(),
             // A robot whose servo is off does not start: a scenario may be there to bring that about.
-            Pendant::Start | Pendant::Step if self.scenario.waits() && (state == State::Running || starts) => {
+            button if button.lets_begin() && self.scenario.waits() && (state == State::Running || starts) => {
                 self.scenario.begin(now);
             }
             Pendant::Reset if had_ended && state != State::Ended => self.begin_scenario_again(),

@@ -125,7 +125,9 @@ impl Unit {
         let start = own_axes_of(&robot, start, &home);
         let robot = Arc::new(robot);
         // Each cycle says anew whether it is one in real time.
-        let queue = Queue::repeatable(Arc::clone(&robot), start);
+        let mut queue = Queue::repeatable(Arc::clone(&robot), start);
+        // Drivers get the differences of the set-points that they get.
+        queue.tell_rates(false);
         let tcp = queue.tcp();
         let effort = Effort::new(&robot);
         Ok(Self {
@@ -183,6 +185,7 @@ impl Unit {
 
     /// The file of a motion whose record is kept.
     pub(crate) fn recorded_file(&self, number: u64) -> Option<File> {
+        self.records().last().filter(|last| number <= last.number)?;
         let behind = self.recorded_files.partition_point(|(from, _)| *from <= number);
         let (_, file) = self.recorded_files.get(behind.checked_sub(1)?)?;
         Some(*file)
@@ -667,7 +670,7 @@ impl Unit {
 
     /// What the user should know of its driver, once.
     pub(crate) fn take_driver_warning(&mut self) -> Option<String> {
-        self.driver.take_warning()
+        if self.closed { None } else { self.driver.take_warning() }
     }
 
     /// Lets go of the robot, once, with its motors off: one that moves is cut off. Nothing is called of its driver any more.

@@ -36,7 +36,7 @@ fn is_distance(by: f64) -> Result<(), String> {
     if by.abs() <= FARTHEST {
         Ok(())
     } else {
-        Err(format!("an axis cannot move by {by}: expected a number of deg (mm)"))
+        Err(format!("an axis cannot move by {by:?}: expected -{FARTHEST} to {FARTHEST} deg (mm)"))
     }
 }
 

@@ -111,15 +111,15 @@ fn position(position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
         let text = || format!("no position feedback for {:.0} ms", lasts * 1e3);
         return is_lost.then(|| Fault::NoFeedback(text().into()));
     };
-    let outside = range::first_outside(position, now.robot);
+    let outside = || range::first_outside(position, now.robot);
     if now.silent > 0
-        && let Some(outside) = outside
+        && let Some(outside) = outside()
     {
         return Some(Fault::NoFeedback(outside.to_string().into()));
     }
     if now.coming_on {
         // Its set-point is where it reports to be, which has to be a place for it.
-        return outside.map(|outside| Fault::NotFollowing(outside.to_string().into()));
+        return outside().map(|outside| Fault::NotFollowing(outside.to_string().into()));
     }
     let off = axes_off(position, now).zip(&now.robot.drives.following).map(|((off, axis), limit)| {
         // What it says is of some cycles ago.

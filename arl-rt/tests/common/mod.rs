@@ -79,6 +79,21 @@ pub fn say(cx: &Cx, value: &dyn arl_rt::values::text::Print) -> Done<()> {
     text::print().argtoprint(value).run(cx).at(FILE, 99)
 }
 
+/// What was written, as a trace is.
+#[derive(Clone, Default)]
+pub struct Kept(pub std::rc::Rc<std::cell::RefCell<Vec<u8>>>);
+
+impl std::io::Write for Kept {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.borrow_mut().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
 /// A joint target that every six-axis robot reaches.
 pub fn bent(j1: f64) -> Joint {
     Joint::of_axes([j1, -90.0, 90.0, 0.0, 45.0, 0.0])

@@ -164,30 +164,27 @@ fn a_slave_is_opened_and_closed_a_thousand_times() {
 #[test]
 fn a_slave_that_is_unplugged_is_an_alarm_and_opens_again_when_it_is_back() {
     watched(|| {
-        let outlet = Rc::new(Outlet::new());
-        let plug = Rc::new(Cell::new(Some(outlet.plug())));
-        let mut robot = Robot::new(Controller::builder(), {
-            let (outlet, plug) = (Rc::clone(&outlet), Rc::clone(&plug));
-            move |cx: &Cx| {
-                let (plug, name) = (Rc::clone(&plug), outlet.name());
-                Box::pin(async move {
-                    let dev = ModbusDev::default();
-                    say(cx, &open(cx, &dev, &name).await?)?;
-                    if plug.take().is_some() {
-                        loop {
-                            modbus_rtu::write_bytes(cx, &dev, &[5, 6], 8, 2).await.at(FILE, 2)?;
-                            cx.next_cycle().await;
-                        }
+        let outlet = Outlet::new();
+        let (name, plug) = (outlet.name(), Rc::new(Cell::new(Some(outlet.plug()))));
+        let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
+            let (name, plug) = (name.clone(), Rc::clone(&plug));
+            Box::pin(async move {
+                let dev = ModbusDev::default();
+                say(cx, &open(cx, &dev, &name).await?)?;
+                if plug.take().is_some() {
+                    loop {
+                        modbus_rtu::write_bytes(cx, &dev, &[5, 6], 8, 2).await.at(FILE, 2)?;
+                        cx.next_cycle().await;
                     }
-                    // The second run.
-                    let mut data = [0; 2];
-                    modbus_rtu::write_bytes(cx, &dev, &[5, 6], 8, 2).await.at(FILE, 3)?;
-                    say(cx, &modbus_rtu::clearbuff(cx, &dev).await.at(FILE, 4)?)?;
-                    modbus_rtu::read_bytes(cx, &dev, &mut data, 8, 2).await.at(FILE, 5)?;
-                    say(cx, &(data == [0, 0]))?;
-                    Ok(())
-                })
-            }
+                }
+                // The second run.
+                let mut data = [0; 2];
+                modbus_rtu::write_bytes(cx, &dev, &[5, 6], 8, 2).await.at(FILE, 3)?;
+                say(cx, &modbus_rtu::clearbuff(cx, &dev).await.at(FILE, 4)?)?;
+                modbus_rtu::read_bytes(cx, &dev, &mut data, 8, 2).await.at(FILE, 5)?;
+                say(cx, &(data == [0, 0]))?;
+                Ok(())
+            })
         });
         let told = robot.run().told();
         let (start, end) = ("true\nalarm 20050: write: the line is lost: ", " (t.arl:2)");

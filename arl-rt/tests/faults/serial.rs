@@ -195,26 +195,23 @@ fn a_line_that_is_unplugged_is_opened_again_when_it_is_back() {
     watched(|| {
         let outlet = Rc::new(Outlet::new());
         let plug = Rc::new(Cell::new(Some(outlet.plug())));
-        let mut robot = Robot::new(Controller::builder(), {
-            let (outlet, plug) = (Rc::clone(&outlet), Rc::clone(&plug));
-            move |cx: &Cx| {
-                let (outlet, plug, name) = (Rc::clone(&outlet), Rc::clone(&plug), outlet.name());
-                Box::pin(async move {
-                    let line = Iodev::default();
-                    say(cx, &open(cx, &line, &name).await?)?;
-                    say(cx, &serial::clearbuff(cx, &line).await.at(FILE, 4)?)?;
-                    drop(plug.take());
-                    while serial::clearbuff(cx, &line).await.at(FILE, 4)? {
-                        cx.next_cycle().await;
-                    }
-                    serial::close(cx, &line).await;
-                    say(cx, &open(cx, &line, &name).await?)?;
-                    let new = outlet.plug();
-                    std::thread::spawn(move || behave(new));
-                    say(cx, &open(cx, &line, &name).await?)?;
-                    ask(cx, &line, Manner::ByteByByte.patience()).await
-                })
-            }
+        let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
+            let (outlet, plug, name) = (Rc::clone(&outlet), Rc::clone(&plug), outlet.name());
+            Box::pin(async move {
+                let line = Iodev::default();
+                say(cx, &open(cx, &line, &name).await?)?;
+                say(cx, &serial::clearbuff(cx, &line).await.at(FILE, 4)?)?;
+                drop(plug.take());
+                while serial::clearbuff(cx, &line).await.at(FILE, 4)? {
+                    cx.next_cycle().await;
+                }
+                serial::close(cx, &line).await;
+                say(cx, &open(cx, &line, &name).await?)?;
+                let new = outlet.plug();
+                std::thread::spawn(move || behave(new));
+                say(cx, &open(cx, &line, &name).await?)?;
+                ask(cx, &line, Manner::ByteByByte.patience()).await
+            })
         });
         assert_eq!(robot.run().told(), "true\ntrue\nfalse\ntrue\nthe whole message\n");
     });
@@ -224,25 +221,22 @@ fn a_line_that_is_unplugged_is_opened_again_when_it_is_back() {
 #[test]
 fn a_line_that_vanishes_while_the_program_writes_is_an_alarm() {
     watched(|| {
-        let outlet = Rc::new(Outlet::new());
-        let plug = Rc::new(Cell::new(Some(outlet.plug())));
-        let mut robot = Robot::new(Controller::builder(), {
-            let (outlet, plug) = (Rc::clone(&outlet), Rc::clone(&plug));
-            move |cx: &Cx| {
-                let (plug, name) = (Rc::clone(&plug), outlet.name());
-                Box::pin(async move {
-                    let line = Iodev::default();
-                    say(cx, &open(cx, &line, &name).await?)?;
-                    let much = Str::from("x".repeat(1 << 16));
-                    // As much as there is room for, here and in the system.
-                    while serial::write_string(cx, &line, &much).await.at(FILE, 2)? {}
-                    drop(plug.take());
-                    loop {
-                        serial::write_string(cx, &line, &much).await.at(FILE, 3)?;
-                        cx.next_cycle().await;
-                    }
-                })
-            }
+        let outlet = Outlet::new();
+        let (name, plug) = (outlet.name(), Rc::new(Cell::new(Some(outlet.plug()))));
+        let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
+            let (name, plug) = (name.clone(), Rc::clone(&plug));
+            Box::pin(async move {
+                let line = Iodev::default();
+                say(cx, &open(cx, &line, &name).await?)?;
+                let much = Str::from("x".repeat(1 << 16));
+                // As much as there is room for, here and in the system.
+                while serial::write_string(cx, &line, &much).await.at(FILE, 2)? {}
+                drop(plug.take());
+                loop {
+                    serial::write_string(cx, &line, &much).await.at(FILE, 3)?;
+                    cx.next_cycle().await;
+                }
+            })
         });
         let told = robot.run().told();
         assert!(told.starts_with("true\nalarm 20050: write: the line is lost: "), "{told}");

@@ -1,8 +1,6 @@
 //! Whose packets count.
 
-use std::net::{SocketAddr, ToSocketAddrs};
-
-use crate::peer::is_same;
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
 
 /// The robot that the cell names, or whoever sent first. Nobody else is heard.
 #[derive(Debug)]
@@ -32,7 +30,7 @@ impl Sender {
     /// There is no such host.
     pub(super) fn resolve(&mut self) -> Result<(), String> {
         let Some(address) = &self.address else { return Ok(()) };
-        let is_host = address.parse::<std::net::IpAddr>().is_ok() || !address.contains(':');
+        let is_host = address.parse::<IpAddr>().is_ok() || !address.contains(':');
         let found = if is_host { (address.as_str(), 0).to_socket_addrs() } else { address.to_socket_addrs() };
         self.named = found.map_err(|error| format!("{address}: {error}"))?.collect();
         if self.named.is_empty() { Err(format!("{address}: no address")) } else { Ok(()) }
@@ -41,7 +39,7 @@ impl Sender {
     /// Whether what came from there counts. Another port of the robot followed is for the link to judge: RSI that
     /// begins anew has one.
     pub(super) fn is_robot(&self, from: SocketAddr) -> bool {
-        let is_host = |robot: &SocketAddr| is_same(*robot, SocketAddr::new(from.ip(), robot.port()));
+        let is_host = |robot: &SocketAddr| is_same_host(robot.ip(), from.ip());
         let is_named = |robot: &SocketAddr| is_host(robot) && (robot.port() == 0 || robot.port() == from.port());
         (self.address.is_none() || self.named.iter().any(is_named)) && self.followed.as_ref().is_none_or(is_host)
     }
@@ -72,6 +70,9 @@ impl Sender {
 
     /// Why nothing that counts has come to `listen` for `seconds`, where anything has come at all.
     pub(super) fn missing(&self, listen: &str, seconds: u64) -> String {
+        if let Some(robot) = self.followed {
+            return format!("nothing more has come from {robot} to {listen} within {seconds} s");
+        }
         match (&self.address, self.other) {
             (Some(address), Some(other)) => format!(
                 "nothing has come from {address} to {listen} within {seconds} s, only from {other}: \
@@ -85,6 +86,11 @@ impl Sender {
             (None, _) => format!("nothing has come to {listen} within {seconds} s: start RSI on the robot's pendant"),
         }
     }
+}
+
+/// Whether two are the same, an IPv4 address that is written as one of IPv6 included.
+fn is_same_host(one: IpAddr, other: IpAddr) -> bool {
+    one.to_canonical() == other.to_canonical()
 }
 
 #[cfg(test)]
@@ -141,5 +147,10 @@ mod tests {
         sender.note_other(at("10.0.0.2:7"));
         let why = "nothing has come from 10.0.0.1 to *:1 within 30 s, only from 10.0.0.2:7";
         assert!(sender.missing("*:1", 30).starts_with(why));
+        let mut first = Sender::new(None);
+        assert!(first.missing("*:1", 30).starts_with("nothing has come to *:1 within 30 s: start RSI"));
+        first.follow(at("10.0.0.1:5"));
+        first.note_other(at("10.0.0.2:7"));
+        assert_eq!(first.missing("*:1", 30), "nothing more has come from 10.0.0.1:5 to *:1 within 30 s");
     }
 }

@@ -4,14 +4,13 @@ pub mod packet;
 
 use std::hash::{BuildHasher, Hasher};
 use std::io::ErrorKind;
-use std::net::{SocketAddr, ToSocketAddrs, UdpSocket};
+use std::net::{ToSocketAddrs, UdpSocket};
 use std::time::{Duration, Instant};
 
 use arl_rt::motion::Joints;
 use arl_rt::robot_driver::{DriverError, Drives, Feedback, Power, RobotDriver, Setpoint, Start};
 
 use crate::patience::Patience;
-use crate::peer::is_same;
 use crate::readable;
 use packet::{Command, STATE_LENGTH, State};
 
@@ -117,9 +116,8 @@ impl RobotDriver for UdpArm {
 /// What is between us and the arm.
 #[derive(Debug)]
 struct Link {
+    /// Connected to the arm: the system drops what others send. What they sent before that is of no session of ours.
     socket: UdpSocket,
-    /// The arm: what others have sent before the socket was connected to it does not count.
-    arm: SocketAddr,
     session: u32,
     axes: (u8, u8),
     power: Power,
@@ -143,7 +141,7 @@ impl Link {
         let count = |axes: usize| u8::try_from(axes).unwrap_or(u8::MAX);
         let axes = (count(start.robot.own_axes().len()), count(start.robot.external_axes().len()));
         let last = Setpoint::resting(*start.home, start.period);
-        Ok(Self { socket, arm: to, session: session(), axes, power: Power::Off, powered: 0, sent: 0, heard: 0, last })
+        Ok(Self { socket, session: session(), axes, power: Power::Off, powered: 0, sent: 0, heard: 0, last })
     }
 
     /// Says hello until the arm answers.
@@ -257,9 +255,8 @@ impl Link {
     /// Takes a packet: a state that is newer than all before it, or something that does not count.
     fn receive(&mut self) -> Result<Option<State>, Empty> {
         let mut bytes = [0; STATE_LENGTH + 1];
-        match self.socket.recv_from(&mut bytes) {
-            Ok((_, from)) if !is_same(from, self.arm) => Ok(None),
-            Ok((length, _)) => {
+        match self.socket.recv(&mut bytes) {
+            Ok(length) => {
                 let state = bytes.get(..length).and_then(State::from_bytes);
                 let state = state.filter(|state| state.session == self.session && state.sequence > self.heard);
                 self.heard = state.as_ref().map_or(self.heard, |state| state.sequence);

@@ -31,10 +31,3 @@ test("another tool is there at once", () => {
   assert.equal(x(0.006), 1, "it stays until then");
   assert.equal(x(0.008), 46);
 });
-
-test("numbers that are none leave a gap", () => {
-  const found = rows([0, Number.NaN, Number.POSITIVE_INFINITY, 3, 4]);
-  assert.ok([found.axes, found.tcp, found.speed].every((column) => column.every(Number.isFinite)));
-  assert.deepEqual([...found.jumps], [0, 1, 1, 1, 0]);
-  assert.equal(momentAt(found, 0.006)?.tcp[0], 0);
-});

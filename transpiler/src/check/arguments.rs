@@ -44,6 +44,7 @@ struct Parameter<'a> {
     bare: bool,
     units: &'static [Unit],
     range: Option<Range>,
+    doubted: bool,
     set: bool,
     keeps: bool,
     /// The only family whose robots have it, where the program is for another one: then it takes nothing.
@@ -248,6 +249,7 @@ impl<'a> Checker<'a> {
                     bare: param.bare || entry.kind == Kind::Function,
                     units: param.units,
                     range: param.range,
+                    doubted: param.doubted,
                     set: param.set,
                     keeps: param.keeps,
                     foreign: param.family.filter(|_| !param.is_of(self.family())),
@@ -267,6 +269,7 @@ impl<'a> Checker<'a> {
                         bare: true,
                         units: &[],
                         range: None,
+                        doubted: false,
                         set: false,
                         keeps: false,
                         foreign: None,
@@ -536,7 +539,7 @@ impl<'a> Checker<'a> {
         };
         self.check_range(body, param, &value)?;
         self.check_kept(body, param, &value)?;
-        if arg.unit.is_none() {
+        if param.doubted && arg.unit.is_none() {
             self.doubt_scale(body, param.name, param.units, &value);
         }
         unit?;

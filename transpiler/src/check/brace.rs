@@ -1,6 +1,6 @@
 //! Values in braces: structures by position or by name, arrays flat or nested.
 
-use super::context::{Body, Checker};
+use super::context::{Body, Checker, State};
 use super::convert::number;
 use crate::diagnostics::components::ComponentRange;
 use crate::diagnostics::doubts::Doubt;
@@ -208,6 +208,7 @@ impl Checker<'_> {
                     out.push(start_value(want.base, span));
                 }
             }
+            self.doubt_few(body, items.len(), rows, want.base, ("rows", span));
             return Some(());
         }
         let mut good = true;
@@ -230,12 +231,18 @@ impl Checker<'_> {
                 None => good = false,
             }
         }
-        let given = out.len() - begin;
-        if good && (2..total).contains(&given) {
-            let rest = start_words(want.base);
-            self.report::<()>(body, span, Doubt::TooFewValues { given, size: total, rest });
+        if good {
+            self.doubt_few(body, out.len() - begin, total, want.base, ("elements", span));
         }
         good.then_some(())
+    }
+
+    /// Warns of braces that give some elements of an array, or some of its rows, a value and the others none.
+    fn doubt_few(&mut self, body: &Body, given: usize, size: usize, base: Base, (of, span): (&'static str, Span)) {
+        if (2..size).contains(&given) {
+            let rest = start_words(base);
+            self.report::<()>(body, span, Doubt::TooFewValues { given, size, of, rest });
+        }
     }
 
     /// Whether the braces of an array of several dimensions are rows of braces, not elements one after the other.
@@ -275,9 +282,12 @@ impl Checker<'_> {
         ty.is_some_and(|ty| ty.base == base)
     }
 
-    fn global_type(&mut self, id: GlobalId) -> Option<Type> {
-        self.check_global(id);
-        self.globals.get(id.0 as usize)?.ty
+    /// The type of a global variable; none while that is being checked, which looks at its own value then.
+    pub(crate) fn global_type(&mut self, id: GlobalId) -> Option<Type> {
+        if self.globals.get(id.0 as usize)?.state != State::Busy {
+            self.check_global(id);
+        }
+        self.globals.get(id.0 as usize).filter(|slot| slot.state == State::Done)?.ty
     }
 
     /// What a call gives, where that does not depend on its arguments.

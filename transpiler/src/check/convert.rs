@@ -232,11 +232,7 @@ impl Checker<'_> {
         let symbol = self.names.find(&text.to_ascii_lowercase());
         let local = symbol.and_then(|symbol| body.find(symbol)).and_then(|local| body.local_type(local));
         let global = symbol.and_then(|symbol| self.find_global(body, symbol));
-        let found = local.or_else(|| {
-            let (id, _) = global?;
-            self.check_global(id);
-            self.globals.get(id.0 as usize)?.ty
-        });
+        let found = local.or_else(|| self.global_type(global?.0));
         if found.is_some_and(|found| !found.is_array() && conversion(found.base, to.base).is_some()) {
             return Some(format!("a name stands without quotes: `{text}`"));
         }

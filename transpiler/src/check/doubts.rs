@@ -8,7 +8,7 @@ use crate::diagnostics::{Diagnostic, Label, Location, Problem};
 use crate::hir::{Block, Builtin, Expr, ExprKind, Func, FuncId, ModuleId, Passed, Program, Stmt, StmtKind};
 use crate::visit;
 use arl_lang::ast::{self, BinaryOp, UnaryOp};
-use arl_lang::catalog::{self, Base, Effect, Family, Form, Mode, Struct};
+use arl_lang::catalog::{Base, Effect, Family, Form, Mode, Struct};
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 use std::collections::HashSet;
@@ -57,86 +57,13 @@ impl Checker<'_> {
         global.is_some_and(|slot| self.text(slot.module, slot.var.name.span) == self.text(body.module, span))
     }
 
-    /// Warns of a bare number that is much too small in the parameter's unit, and right in another one.
+    /// Warns of a bare number that is much too small in the unit of a parameter where others are often meant.
     pub(crate) fn doubt_scale(&mut self, body: &Body, parameter: &str, units: &[ast::Unit], value: &Expr) {
         let Some(scale) = SCALES.iter().find(|scale| units.contains(&scale.unit)) else { return };
         let Some(number) = number(value) else { return };
         if let Some(doubt) = scale.doubt(parameter, number) {
             self.report::<()>(body, value.span, doubt);
         }
-    }
-
-    /// Warns of a loop that only looks at inputs until they are as it wants them. `until`: whether its condition ends
-    /// it.
-    pub(crate) fn doubt_polling(&mut self, body: &Body, condition: &ast::Expr, until: bool, block: &ast::Block) {
-        if !self.reads_input(body, condition) || !block.iter().all(|stmt| self.only_asks(body, stmt)) {
-            return;
-        }
-        let wanted = match &condition.kind {
-            _ if until => self.text(body.module, condition.span).to_string(),
-            ast::ExprKind::Unary(UnaryOp::Not, inner) => self.text(body.module, inner.span).to_string(),
-            _ => format!("!({})", self.text(body.module, condition.span)),
-        };
-        self.report::<()>(body, condition.span, Doubt::Polls { condition: wanted });
-    }
-
-    /// Whether an expression reads an input or another signal, which makes the robot stand.
-    fn reads_input(&self, body: &Body, expr: &ast::Expr) -> bool {
-        let mut found = false;
-        ast_calls(expr, &mut |call| found |= self.input_read(body, call) == Some(true));
-        found
-    }
-
-    /// Whether a call reads a signal (`Some(true)`) or does nothing at all (`Some(false)`); `None`: it does something.
-    fn input_read(&self, body: &Body, call: &ast::Call) -> Option<bool> {
-        if call.module.is_some() || self.scopes.get(body.module.0 as usize)?.funcs.contains_key(&call.name.symbol) {
-            return None;
-        }
-        let entry = catalog::functions(self.names.name(call.name.symbol)).first()?;
-        match entry.effect {
-            Effect::Pure => Some(false),
-            Effect::Waits if entry.space().is_some() && entry.result != Base::Void => Some(true),
-            _ => None,
-        }
-    }
-
-    /// Whether a statement only asks and counts.
-    fn only_asks(&self, body: &Body, stmt: &ast::Stmt) -> bool {
-        let quiet = |expr: &ast::Expr| {
-            let mut quiet = true;
-            ast_calls(expr, &mut |call| quiet &= self.input_read(body, call).is_some());
-            quiet
-        };
-        match &stmt.kind {
-            ast::StmtKind::Expr(expr) => quiet(expr),
-            ast::StmtKind::CompactIf(both) => quiet(&both.0) && self.only_asks(body, &both.1),
-            ast::StmtKind::If(branches) => {
-                let blocks = branches.arms.iter().map(|(_, block)| block).chain(&branches.otherwise);
-                branches.arms.iter().all(|(condition, _)| quiet(condition))
-                    && blocks.flatten().all(|stmt| self.only_asks(body, stmt))
-            }
-            ast::StmtKind::Break | ast::StmtKind::Continue => true,
-            _ => false,
-        }
-    }
-}
-
-/// Calls `see` with every call in an expression.
-fn ast_calls(expr: &ast::Expr, see: &mut dyn FnMut(&ast::Call)) {
-    match &expr.kind {
-        ast::ExprKind::Call(call) => {
-            see(call);
-            call.args.iter().for_each(|arg| ast_calls(&arg.value, see));
-        }
-        ast::ExprKind::Field(inner, _) | ast::ExprKind::Unary(_, inner) | ast::ExprKind::Step(_, inner) => {
-            ast_calls(inner, see);
-        }
-        ast::ExprKind::Index(both) | ast::ExprKind::Binary(_, both) | ast::ExprKind::Assign(_, both) => {
-            ast_calls(&both.0, see);
-            ast_calls(&both.1, see);
-        }
-        ast::ExprKind::Brace(items) => items.iter().for_each(|item| ast_calls(&item.value, see)),
-        _ => {}
     }
 }
 
@@ -242,7 +169,7 @@ fn fractions_below(numbers: &[f64], most: f64, least: f64, count: usize) -> Opti
     (fractions >= count && !others && largest.abs() >= least).then_some(largest)
 }
 
-/// Reports zones that never act, and handlers that may wait for ever.
+/// Reports what the finished functions show: zones that never act, loops that only ask, handlers that may wait for ever.
 pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Location) -> Vec<Diagnostic> {
     let mut out = Vec::new();
     for (at, func) in program.funcs.iter().enumerate() {
@@ -257,6 +184,12 @@ pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Locati
         breaks_of_cases(&func.body, &mut |span| out.push(Doubt::BreakOfCase.at(locate(func.module, span))));
     }
     other_units(program, &mut |func, span, doubt| out.push(doubt.at(locate(func.module, span))));
+    for func in &program.funcs {
+        let source = program.modules.get(func.module.0 as usize).map_or("", |module| module.source.as_str());
+        polls(source, &func.body, &mut |span, condition| {
+            out.push(Doubt::Polls { condition }.at(locate(func.module, span)));
+        });
+    }
     endless_handlers(program, &mut |func, span, handler| {
         out.push(Doubt::EndlessHandler { handler }.at(locate(func.module, span)));
     });
@@ -357,6 +290,67 @@ fn breaks_of_cases(block: &Block, tell: &mut dyn FnMut(Span)) {
         }
         inner_blocks(stmt).for_each(|inner| breaks_of_cases(inner, tell));
     }
+}
+
+/// Tells each loop that only looks at inputs until they are as it wants them, and what it waits for.
+fn polls(source: &str, block: &Block, tell: &mut dyn FnMut(Span, String)) {
+    for stmt in block {
+        let found = match &stmt.kind {
+            StmtKind::While(condition, body, _) => Some((condition, body, false)),
+            StmtKind::Repeat(body, condition, _) => Some((condition, body, true)),
+            _ => None,
+        };
+        if let Some((condition, body, ends_it)) = found
+            && reads_input(condition)
+            && is_quiet(stmt)
+            && goes_round(body)
+        {
+            let wanted = match &condition.kind {
+                _ if ends_it => condition.span.text(source).to_string(),
+                ExprKind::Unary(UnaryOp::Not, inner) => inner.span.text(source).to_string(),
+                _ => format!("!({})", condition.span.text(source)),
+            };
+            tell(condition.span, wanted);
+        }
+        inner_blocks(stmt).for_each(|inner| polls(source, inner, tell));
+    }
+}
+
+/// Whether an expression looks at an input or another signal, for which the robot stands.
+fn reads_input(expr: &Expr) -> bool {
+    let mut found = false;
+    visit::exprs(expr, &mut |expr| {
+        found |= matches!(&expr.kind, ExprKind::Builtin(builtin)
+            if builtin.entry.looks && builtin.entry.effect == Effect::Waits);
+    });
+    found
+}
+
+/// Whether nothing in a statement does more than compute and look. What gives no value is there for what it does.
+fn is_quiet(stmt: &Stmt) -> bool {
+    let mut quiet = true;
+    visit::exprs_in_stmt(stmt, &mut |expr| {
+        quiet &= match &expr.kind {
+            ExprKind::Builtin(builtin) => {
+                let entry = builtin.entry;
+                let writes = builtin.args.iter().any(|bound| matches!(bound.value, Passed::Out(_)));
+                (entry.looks || entry.effect == Effect::Pure) && entry.result != Base::Void && !writes
+            }
+            ExprKind::Assign(_) | ExprKind::AssignOp(..) | ExprKind::Step(..) => false,
+            ExprKind::Call(..) | ExprKind::Splice(_) => false,
+            _ => true,
+        };
+    });
+    quiet
+}
+
+/// Whether the statements of a round lead nowhere but to the next round.
+fn goes_round(block: &Block) -> bool {
+    block.iter().all(|stmt| match &stmt.kind {
+        StmtKind::Eval(_) | StmtKind::Continue => true,
+        StmtKind::If(..) => inner_blocks(stmt).all(goes_round),
+        _ => false,
+    })
 }
 
 fn inner_blocks(stmt: &Stmt) -> impl Iterator<Item = &Block> {

@@ -26,7 +26,7 @@ impl Checker<'_> {
             let found = body.locals.get(local.0 as usize);
             let value = found.and_then(|local| local.value.clone());
             if let Some(declared) = found.map(|local| local.span) {
-                if !self.means_hidden(body, symbol, span) {
+                if self.options.strict && !self.means_hidden(body, symbol, span) {
                     self.strict_case(body, span, self.text(body.module, declared));
                 }
                 let declared = self.location(body.module, declared);

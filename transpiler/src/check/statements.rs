@@ -129,13 +129,11 @@ impl Checker<'_> {
                 condition.map(|condition| StmtKind::If(vec![(condition, inner)], None))
             }
             ast::StmtKind::While(condition, block) => {
-                self.doubt_polling(body, condition, false, block);
                 let condition = self.condition(body, condition);
                 let block = self.looped(body, block);
                 condition.map(|condition| StmtKind::While(condition, block, LoopInfo::default()))
             }
             ast::StmtKind::Repeat(block, until) => {
-                until.iter().for_each(|until| self.doubt_polling(body, until, true, block));
                 let block = self.looped(body, block);
                 let until = until.as_ref().and_then(|until| self.condition(body, until));
                 until.map(|until| StmtKind::Repeat(block, until, LoopInfo::default()))

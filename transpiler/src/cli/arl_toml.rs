@@ -36,29 +36,7 @@ pub(super) struct ArlToml {
     pub(super) path: PathBuf,
     /// The lines of its keys.
     #[serde(skip)]
-    lines: Vec<(String, usize)>,
-}
-
-impl ArlToml {
-    /// That what a key names is there, for who takes it from here.
-    ///
-    /// # Errors
-    /// It is not: the error names this file.
-    pub(super) fn expect(&self, key: &str) -> Result<(), Failure> {
-        let absent = |path: &Option<PathBuf>| {
-            let path = path.as_ref().filter(|path| !path.exists())?;
-            Some(format!("there is no {}", show::path(path).display()))
-        };
-        let problem = match key {
-            "robot" => self.robot.as_deref().and_then(|robot| Some(robots::text(Some(robot)).err()?.to_string())),
-            "cell" => absent(&self.cell),
-            "io" => absent(&self.io),
-            _ => absent(&self.script_dir),
-        };
-        let Some(problem) = problem else { return Ok(()) };
-        let line = self.lines.iter().find(|(known, _)| known == key).map_or(1, |(_, line)| *line);
-        Err(Failure::Usage(format!("{}:{line}: {key}: {problem}", show::path(&self.path).display())))
-    }
+    lines: Vec<(String, u32)>,
 }
 
 /// The file that holds for a program; none where there is none.
@@ -87,9 +65,9 @@ fn is_there(path: &Path) -> bool {
 /// Reads the file, which is given in full; so are then the paths in it.
 pub(super) fn read(path: &Path) -> Result<ArlToml, Failure> {
     let text = regular_file::read_text(path).map_err(|error| Failure::io("read", path, &error))?;
+    let source = Source { file: NAME, text: &text };
     let mut file: ArlToml = toml::from_str(&text).map_err(|error| {
-        let start = error.span().map_or(0, |span| span.start);
-        let line = Source { file: NAME, text: &text }.line(start);
+        let line = source.line(error.span().map_or(0, |span| span.start));
         Failure::Usage(format!("{}:{line}: {}", show::path(path).display(), error.message().trim_end()))
     })?;
     // In full: who runs the program may do it in another folder.
@@ -106,8 +84,8 @@ pub(super) fn read(path: &Path) -> Result<ArlToml, Failure> {
         }
     }
     file.path = path.to_path_buf();
-    let key = |(at, line): (usize, &str)| Some((line.split_once('=')?.0.trim().to_owned(), at + 1));
-    file.lines = text.lines().enumerate().filter_map(key).collect();
+    let table = source.parse().map_err(|error| Failure::Usage(error.to_string()))?;
+    file.lines = table.get_ref().keys().map(|key| (key.get_ref().to_string(), source.line(key.span().start))).collect();
     Ok(file)
 }
 
@@ -115,24 +93,38 @@ pub(super) fn read(path: &Path) -> Result<ArlToml, Failure> {
 type Entry<'a> = (&'a str, Slot<'a>);
 
 enum Slot<'a> {
-    Text(&'a mut Option<String>, Option<String>),
-    Path(&'a mut Option<PathBuf>, Option<PathBuf>),
+    Robot(&'a mut Option<String>, &'a Option<String>),
+    Path(&'a mut Option<PathBuf>, &'a Option<PathBuf>),
+}
+
+impl Slot<'_> {
+    /// What is wrong with what is taken from the file: it is not there.
+    fn problem(&self) -> Option<String> {
+        match self {
+            Slot::Robot(None, Some(robot)) => Some(robots::text(Some(robot)).err()?.to_string()),
+            Slot::Path(None, Some(path)) if !path.exists() => {
+                Some(format!("there is no {}", show::path(path).display()))
+            }
+            _ => None,
+        }
+    }
 }
 
 /// Takes from `file` what was not said; where that is wanted, it is told what came from where.
 ///
 /// # Errors
-/// What the file says is not there.
+/// What the file says is not there: the error names it, and the line.
 fn fill<'a>(file: &ArlToml, tells: bool, entries: impl IntoIterator<Item = Entry<'a>>) -> Result<(), Failure> {
     let mut said = String::new();
     for (name, slot) in entries {
+        if let Some(problem) = slot.problem() {
+            let line = file.lines.iter().find(|(key, _)| key == name).map_or(1, |(_, line)| *line);
+            return Err(Failure::Usage(format!("{}:{line}: {name}: {problem}", show::path(&file.path).display())));
+        }
         let (was_said, value) = match slot {
-            Slot::Text(own, other) => (own.is_some(), take(own, other).map(PathBuf::from)),
+            Slot::Robot(own, other) => (own.is_some(), take(own, other).map(PathBuf::from)),
             Slot::Path(own, other) => (own.is_some(), take(own, other)),
         };
-        if !was_said {
-            file.expect(name)?;
-        }
         if let Some(value) = value {
             let from = if was_said { "the command line".into() } else { show::path(&file.path).display().to_string() };
             said += &format!("{name}: {} ({from})\n", show::path(&value).display());
@@ -144,9 +136,9 @@ fn fill<'a>(file: &ArlToml, tells: bool, entries: impl IntoIterator<Item = Entry
     Ok(())
 }
 
-fn take<T: Clone>(own: &mut Option<T>, other: Option<T>) -> Option<T> {
+fn take<T: Clone>(own: &mut Option<T>, other: &Option<T>) -> Option<T> {
     if own.is_none() {
-        *own = other;
+        own.clone_from(other);
     }
     own.clone()
 }
@@ -155,14 +147,21 @@ impl Checking {
     /// The same, with what the `arl.toml` of a program says besides. With `--verbose` it is told what came from where.
     pub(super) fn of_program(&self, program: &Path) -> Result<Self, Failure> {
         program_path::check(program)?;
-        let file = of_program(program)?.unwrap_or_default();
+        self.with(&of_program(program)?.unwrap_or_default())
+    }
+
+    /// The same, with what a file says besides.
+    ///
+    /// # Errors
+    /// It is not there.
+    pub(super) fn with(&self, file: &ArlToml) -> Result<Self, Failure> {
         let mut all = self.clone();
         let entries = [
-            ("robot", Slot::Text(&mut all.robot, file.robot.clone())),
-            ("cell", Slot::Path(&mut all.cell, file.cell.clone())),
-            ("script-dir", Slot::Path(&mut all.script_dir, file.script_dir.clone())),
+            ("robot", Slot::Robot(&mut all.robot, &file.robot)),
+            ("cell", Slot::Path(&mut all.cell, &file.cell)),
+            ("script-dir", Slot::Path(&mut all.script_dir, &file.script_dir)),
         ];
-        fill(&file, self.verbose, entries)?;
+        fill(file, self.verbose, entries)?;
         Ok(all)
     }
 }
@@ -174,10 +173,10 @@ impl RunOptions {
         let file = of_program(program)?.unwrap_or_default();
         let mut all = self.clone();
         let entries = [
-            ("robot", Slot::Text(&mut all.robot, file.robot.clone())),
-            ("cell", Slot::Path(&mut all.cell, file.cell.clone())),
-            ("io", Slot::Path(&mut all.io, file.io.clone())),
-            ("script-dir", Slot::Path(&mut all.script_dir, file.script_dir.clone())),
+            ("robot", Slot::Robot(&mut all.robot, &file.robot)),
+            ("cell", Slot::Path(&mut all.cell, &file.cell)),
+            ("io", Slot::Path(&mut all.io, &file.io)),
+            ("script-dir", Slot::Path(&mut all.script_dir, &file.script_dir)),
         ];
         fill(&file, self.verbose, entries)?;
         all.io = all.io.filter(|io| !is_no_scenario(io));

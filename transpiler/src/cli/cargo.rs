@@ -76,10 +76,11 @@ pub(super) fn build(folder: &Path, target: &Path, release: bool, progress: &Prog
     let _alone = Lock::take(&shared.join("compiling"), false, "waiting for another arl2rs that compiles")?;
     let (mut own, mut others) = (Made::read(folder), Made::read(shared));
     // Who looks at a terminal sees what is done; others would take it for a standstill.
-    let is_first = others.is_empty() && !show::is_watched();
+    let profile = target.join(if release { "release" } else { "debug" });
+    let is_first = !profile.join("deps").is_dir() && !show::is_watched();
     let begun = Instant::now();
     if is_first {
-        show::say("compiling the runtime, once for all programs: this takes some minutes\n");
+        show::say("compiling the runtime, once for all programs: this takes a minute or so\n");
     }
     let damaged = own.take_damaged();
     if !damaged.is_empty() {

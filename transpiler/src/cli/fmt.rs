@@ -88,6 +88,7 @@ fn in_place(file: &Path, check: bool) -> Result<Option<PathBuf>, Failure> {
         ChangeError::Read(error) => Failure::io("read", file, &error),
         ChangeError::Refused(failure) => failure,
         ChangeError::Write(error) => Failure::io("write", file, &error),
+        aside @ ChangeError::Aside(..) => Failure::Other(format!("{} {aside}", file.display())),
     })
 }
 

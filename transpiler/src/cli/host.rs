@@ -3,7 +3,7 @@
 //! Everything here is as the command does it, with the same `arl.toml`, cache and words.
 
 use super::args::{Checking, RunOptions};
-use super::cache::{Cache, Kind, Lock, write_if_changed};
+use super::cache::{Cache, Kind, Lock};
 use super::check;
 use super::failure::Failure;
 use super::program::{self, prepare_checked};
@@ -16,7 +16,7 @@ pub use super::variables::Variable;
 use crate::compile::{guard, on_large_stack};
 use arl_robot::cell::{Cell, Signal, SignalKind};
 use arl_robot::settings::Source;
-use arl_robot::{Robot, regular_file};
+use arl_robot::{Robot, atomic_file, regular_file};
 use std::fmt;
 use std::path::{Component, Path, PathBuf};
 use twox_hash::XxHash3_128;
@@ -121,14 +121,6 @@ pub fn variables(settings: &Settings) -> Result<Vec<Variable>, HostError> {
 /// # Errors
 /// The cell cannot be read.
 pub fn signals(settings: &Settings) -> Result<Vec<(Signal, Option<String>)>, HostError> {
-    const KINDS: [SignalKind; 6] = [
-        SignalKind::DigitalInput,
-        SignalKind::DigitalOutput,
-        SignalKind::AnalogInput,
-        SignalKind::AnalogOutput,
-        SignalKind::InternalInput,
-        SignalKind::InternalOutput,
-    ];
     safely(|| {
         let options = options(settings).of_program(&settings.program)?;
         let cell = options.cell.as_deref().map(Cell::load).transpose();
@@ -138,9 +130,12 @@ pub fn signals(settings: &Settings) -> Result<Vec<(Signal, Option<String>)>, Hos
             let signals = (1..=kind.count(&channels)).map(move |channel| Signal { kind, channel });
             signals.map(|signal| (signal, names.of(signal).map(str::to_owned))).collect::<Vec<_>>()
         };
-        Ok(KINDS.into_iter().flat_map(of_kind).collect())
+        Ok(SignalKind::all().flat_map(of_kind).collect())
     })
 }
+
+/// The folder of the texts in that of a program that was given as text.
+const TEXTS: &str = "texts";
 
 /// A program that was given as text, in a folder of the cache. As long as this lives nobody removes it.
 #[derive(Debug)]
@@ -170,11 +165,18 @@ pub fn text_program(files: &[(String, String)]) -> Result<TextProgram, HostError
         let (main, _) = files.first().ok_or_else(|| Failure::Usage("a program has a text".into()))?;
         let folder = Cache::find()?.text(&format!("{:032x}", hasher.finish_128()));
         let lock = Lock::take(&folder, true, "waiting for another arl2rs that removes this program")?;
+        // Not where the lock is: a text may have its name.
+        let folder = folder.join(TEXTS);
         for (name, text) in files {
             let path = folder.join(name);
             let parent = path.parent().unwrap_or(&folder);
             std::fs::create_dir_all(parent).map_err(|error| Failure::io("make the folder", parent, &error))?;
-            write_if_changed(&path, text.as_bytes())?;
+            // Others may read it, and write the same.
+            if std::fs::read(&path).is_ok_and(|there| there == text.as_bytes()) {
+                continue;
+            }
+            let written = atomic_file::write(&path, text.as_bytes());
+            written.map_err(|error| Failure::io("write", &path, &error))?;
         }
         Ok(TextProgram { path: folder.join(main), _lock: lock })
     })
@@ -252,14 +254,11 @@ fn options(settings: &Settings) -> RunOptions {
 
 /// Looks whether a scenario is there, and is TOML; whether it fits the cell is found out when a run begins.
 fn scenario(path: &Path) -> Result<(), Failure> {
-    let shown = path.display();
+    let shown = path.display().to_string();
     let text = regular_file::read_text(path)
         .map_err(|error| Failure::Usage(format!("cannot read the scenario {shown}: {error}")))?;
-    let wrong = |error: toml::de::Error| {
-        let line = Source { file: "", text: &text }.line(error.span().map_or(0, |span| span.start));
-        Failure::Usage(format!("{shown}:{line}: {}", error.message().trim_end()))
-    };
-    toml::from_str::<toml::Table>(&text).map(drop).map_err(wrong)
+    let source = Source { file: &shown, text: &text };
+    source.parse().map(drop).map_err(|error| Failure::Usage(error.to_string()))
 }
 
 fn folder_of(program: &Path) -> Result<PathBuf, Failure> {

@@ -16,7 +16,8 @@ const SECRET: &str = "ARL2RS_SECRET";
 const BYTES: usize = 16;
 /// How often it is looked whether the program has connected, or has ended before it did.
 const LOOK_INTERVAL: Duration = Duration::from_millis(2);
-/// So many connections may be open that have not said who they are; then the first one has to go.
+/// So many connections may be open that have not said who they are, then the first one has to go; and so many are taken
+/// in at a time.
 const MOST_UNKNOWN: usize = 128;
 
 /// What a run says when it connects, and what it is answered.
@@ -94,8 +95,7 @@ impl Port {
         loop {
             // Asked first: a connection that was made before the end is there to be accepted then.
             let ended = ended()?;
-            self.take_in(&mut unknown)?;
-            if let Some(mut stream) = self.known(&mut unknown) {
+            if let Some(mut stream) = self.look(&mut unknown)? {
                 stream.set_nonblocking(false)?;
                 stream.write_all(format!("{}\n", self.secret.answer).as_bytes())?;
                 return Ok(Ok(stream));
@@ -107,37 +107,42 @@ impl Port {
         }
     }
 
-    /// Takes in all connections that wait.
-    fn take_in(&self, unknown: &mut Vec<Unknown>) -> Result<()> {
-        loop {
-            match self.listener.accept() {
-                Ok((stream, _)) => {
-                    stream.set_nonblocking(true)?;
-                    if unknown.len() >= MOST_UNKNOWN {
-                        unknown.remove(0);
-                    }
-                    unknown.push(Unknown { stream, said: Vec::new() });
-                }
-                Err(error) if error.kind() == ErrorKind::WouldBlock => return Ok(()),
-                // Who has left again is nobody.
-                Err(error) if error.kind() == ErrorKind::ConnectionAborted => {}
-                Err(error) => return Err(error),
-            }
-        }
-    }
-
-    /// The one that has said the word; those that have said another one are closed.
-    fn known(&self, unknown: &mut Vec<Unknown>) -> Option<TcpStream> {
+    /// The connection that has said the word, among those that are there and those that wait. Those that have said
+    /// another one are closed.
+    fn look(&self, unknown: &mut Vec<Unknown>) -> Result<Option<TcpStream>> {
         let word = format!("{}\n", self.secret.said).into_bytes();
         let mut at = 0;
         while let Some(one) = unknown.get_mut(at) {
             match one.says(&word) {
                 Says::Nothing => at += 1,
                 Says::Another => drop(unknown.remove(at)),
-                Says::TheWord => return Some(unknown.remove(at).stream),
+                Says::TheWord => return Ok(Some(unknown.remove(at).stream)),
             }
         }
-        None
+        // Not all that wait: somebody may connect again and again, and faster.
+        for _ in 0..MOST_UNKNOWN {
+            let stream = match self.listener.accept() {
+                Ok((stream, _)) => stream,
+                Err(error) if error.kind() == ErrorKind::WouldBlock => break,
+                // Who has left again is nobody.
+                Err(error) if error.kind() == ErrorKind::ConnectionAborted => continue,
+                Err(error) => return Err(error),
+            };
+            stream.set_nonblocking(true)?;
+            let mut one = Unknown { stream, said: Vec::new() };
+            match one.says(&word) {
+                // Only who was asked before has to go.
+                Says::Nothing => {
+                    if unknown.len() >= MOST_UNKNOWN {
+                        unknown.remove(0);
+                    }
+                    unknown.push(one);
+                }
+                Says::Another => {}
+                Says::TheWord => return Ok(Some(one.stream)),
+            }
+        }
+        Ok(None)
     }
 }
 
@@ -166,9 +171,10 @@ impl Unknown {
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => {}
             Err(_) => return Says::Another,
         }
+        // A part is not judged: who learned that it is wrong could guess the word byte by byte.
         match self.said.as_slice() {
+            said if said.len() < word.len() => Says::Nothing,
             said if said == word => Says::TheWord,
-            said if word.starts_with(said) => Says::Nothing,
             _ => Says::Another,
         }
     }
@@ -216,6 +222,45 @@ pub(super) mod tests {
         // It was closed, and told nothing.
         assert!(stranger.read_to_end(&mut left).is_err() || left.is_empty());
         drop(silent);
+    }
+
+    #[test]
+    fn a_part_of_the_word_is_as_good_as_any_other_words() {
+        let secret = Secret::new().expect("random numbers");
+        let port = Port::open(secret.clone()).expect("a port");
+        let says = |words: &str| {
+            let mut stream = TcpStream::connect(port.address()).expect("a port");
+            stream.write_all(words.as_bytes()).expect("it is open");
+            stream
+        };
+        let part = secret.said.get(..8).expect("a word");
+        let _kept = [says(part), says("?"), says(&"?".repeat(8))];
+        let mut unknown = Vec::new();
+        assert!(port.look(&mut unknown).expect("no error").is_none());
+        assert_eq!(unknown.len(), 3);
+        let mut whole = says(&"?".repeat(secret.said.len() + 1));
+        whole.set_nonblocking(true).expect("it is open");
+        let waits =
+            |stream: &mut TcpStream| stream.read(&mut [0]).is_err_and(|error| error.kind() == ErrorKind::WouldBlock);
+        while waits(&mut whole) {
+            assert!(port.look(&mut unknown).expect("no error").is_none());
+        }
+        assert_eq!(unknown.len(), 3);
+    }
+
+    #[test]
+    fn a_crowd_does_not_push_the_run_out() {
+        let secret = Secret::new().expect("random numbers");
+        let port = Port::open(secret.clone()).expect("a port");
+        let (mut unknown, mut crowd) = (Vec::new(), Vec::new());
+        for _ in 0..2 {
+            crowd.extend((0..70).map(|_| TcpStream::connect(port.address()).expect("a port")));
+            assert!(port.look(&mut unknown).expect("no error").is_none());
+            assert!(unknown.len() <= MOST_UNKNOWN);
+        }
+        let mut run = TcpStream::connect(port.address()).expect("a port");
+        run.write_all(format!("{}\n", secret.said).as_bytes()).expect("it is open");
+        while port.look(&mut unknown).expect("no error").is_none() {}
     }
 
     #[test]

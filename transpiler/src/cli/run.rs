@@ -112,14 +112,17 @@ fn run_and_plot(
 ) -> Result<Exit, Failure> {
     // Better now than after a long run.
     std::fs::write(picture, "").map_err(|error| Failure::io("write", picture, &error))?;
-    // Without a wish for the trace it goes with the plot.
-    let passing = PrivateFolder::new("arl2rs-plot-");
-    let passing = passing.map_err(|error| Failure::Other(format!("there is no place for a trace: {error}")))?;
-    let trace = options.trace.clone().unwrap_or_else(|| {
-        let path = passing.path().join("trace.csv");
-        command.arg("--trace").arg(&path).args(["--trace-columns", "file"]);
-        path
-    });
+    let (trace, _passing) = match options.trace.clone() {
+        Some(trace) => (trace, None),
+        // Without a wish for the trace it goes with the plot.
+        None => {
+            let folder = PrivateFolder::new("arl2rs-plot-");
+            let folder = folder.map_err(|error| Failure::Other(format!("there is no place for a trace: {error}")))?;
+            let trace = folder.path().join("trace.csv");
+            command.arg("--trace").arg(&trace).args(["--trace-columns", "file"]);
+            (trace, Some(folder))
+        }
+    };
     // What lies there from another run is not to be drawn.
     let _ = std::fs::remove_file(&trace);
     let ran = ran(file, &ready.sources);

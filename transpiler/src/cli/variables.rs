@@ -10,7 +10,7 @@ use crate::compile::check_program;
 use crate::sources::FileSystem;
 use crate::{CheckOptions, Sources};
 use arl_lang::catalog::Base;
-use arl_robot::settings::nearest;
+use arl_robot::settings::hint_of_many;
 use serde::Serialize;
 use std::path::Path;
 
@@ -36,9 +36,6 @@ pub struct Variable {
     /// What of one element is a number or a truth value, by where it is: `.x`; the empty text is the element itself.
     pub numbers: Vec<String>,
 }
-
-/// So many global variables are listed where none has a name like the one that was looked for.
-const LISTED: usize = 8;
 
 /// The global variables of a program, in the order of their files and declarations.
 ///
@@ -112,21 +109,16 @@ pub(super) fn refuse_unknown<'p>(
     (main, cell): (&Path, Option<&Path>),
     checking: &Checking,
 ) -> Result<(), Failure> {
-    if rows.clone().next().is_none() || rows.clone().any(|row| globals(row).next().is_none()) {
+    if rows.clone().next().is_none() || rows.clone().any(|row| row.globals().next().is_none()) {
         return Ok(());
     }
     let known = settable(main, cell, checking)?;
-    let unknown = |row: &'p Parameters| globals(row).find(|name| !is_known(name, &known));
-    let first = rows.clone().find_map(unknown);
-    match first {
-        Some(name) if rows.clone().all(|row| unknown(row).is_some()) => Err(Failure::Usage(told(name, &known))),
-        _ => Ok(()),
+    let unknown = |row: &'p Parameters| row.globals().find(|name| !is_known(name, &known));
+    // The first good row is enough to know better.
+    if !rows.clone().all(|row| unknown(row).is_some()) {
+        return Ok(());
     }
-}
-
-/// The names behind `global.`.
-fn globals(row: &Parameters) -> impl Iterator<Item = &str> {
-    row.0.iter().filter_map(|(place, _)| place.strip_prefix("global."))
+    rows.clone().find_map(unknown).map_or(Ok(()), |name| Err(Failure::Usage(told(name, &known))))
 }
 
 fn is_known(name: &str, known: &[(String, String)]) -> bool {
@@ -136,12 +128,7 @@ fn is_known(name: &str, known: &[(String, String)]) -> bool {
 
 fn told(name: &str, known: &[(String, String)]) -> String {
     let names: Vec<&str> = known.iter().map(|(_, name)| name.as_str()).collect();
-    let near = match (nearest(name, &names), names.get(..LISTED)) {
-        (Some(near), _) => format!("did you mean `{near}`?"),
-        (None, _) if names.is_empty() => "the program has none".to_owned(),
-        (None, Some(first)) => format!("there are {}, like {}", names.len(), first.join(", ")),
-        (None, None) => format!("there are {}", names.join(", ")),
-    };
+    let near = if names.is_empty() { "the program has none".to_owned() } else { hint_of_many(name, &names) };
     format!("there is no global variable `{name}`: {near}")
 }
 

@@ -10,8 +10,10 @@ use arl_robot::robot::{Axis, Robot};
 pub(crate) struct TargetProblem {
     robot: String,
     kind: Kind,
-    /// Labels that the motion does not give, though the robot is not at `$FLANGE` or in `$WORLD`.
-    inherited: Vec<&'static str>,
+    /// Whether the motion gives no workpiece frame, and one that is not `$WORLD` holds.
+    frame_above: bool,
+    /// Whether it gives no tool, and one that is not `$FLANGE` holds.
+    tool_above: bool,
 }
 
 problems! {
@@ -72,14 +74,12 @@ impl TargetProblem {
     }
 
     fn new(robot: &Robot, kind: Kind) -> Self {
-        Self { robot: robot.name.clone(), kind, inherited: Vec::new() }
+        Self { robot: robot.name.clone(), kind, frame_above: false, tool_above: false }
     }
 
-    /// The same where the workpiece frame or the tool in force is from an earlier motion.
-    pub(crate) fn with_inherited(mut self, frame: bool, tool: bool) -> Self {
-        self.inherited.extend(frame.then_some("workpiece frame"));
-        self.inherited.extend(tool.then_some("tool"));
-        self
+    /// The same where the workpiece frame or the tool in force is from above.
+    pub(crate) fn with_inherited(self, frame_above: bool, tool_above: bool) -> Self {
+        Self { frame_above, tool_above, ..self }
     }
 }
 
@@ -149,18 +149,13 @@ impl Problem for TargetProblem {
                 "an axis would have to turn at once, and {ALARM}; let the line keep away from it, or go there with ptp or movej"
             ),
         };
-        let by_name = |what: &&str| if *what == "tool" { "`t:`" } else { "`w:`" };
-        let labels: Vec<&str> = self.inherited.iter().map(by_name).collect();
-        Some(match labels.as_slice() {
-            [] => words,
-            labels => {
-                let (held, labels) = (self.inherited.join(" and "), labels.join(" and "));
-                format!(
-                    "{words}; this motion gives no {labels}: the {held} of an earlier one still holds. \
-                     Give {labels} here"
-                )
-            }
-        })
+        let (labels, above) = match (self.frame_above, self.tool_above) {
+            (false, false) => return Some(words),
+            (true, false) => ("`w:`", "the workpiece frame from above still holds"),
+            (false, true) => ("`t:`", "the tool from above still holds"),
+            (true, true) => ("`w:` and `t:`", "workpiece frame and tool from above still hold"),
+        };
+        Some(format!("{words}; this motion gives no {labels}: {above}. Give {labels} here"))
     }
 }
 

@@ -75,7 +75,7 @@ pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), 
     let rate = cx.shared().rate;
     let cycles = wait_cycles(rate, width, "pulsedo")?.max(rate.cycles(SHORTEST_PULSE_S));
     cx.motion_end().await;
-    cx.shared().io.borrow_mut().pulse(cx.channel_state().index, chan, value, cx.cycle() + cycles)
+    cx.shared().io.borrow_mut().pulse(cx.channel_state().index, chan, value, cx.cycle().saturating_add(cycles))
 }
 
 /// The level of a digital output.

@@ -69,6 +69,13 @@ pub enum Pendant {
     Override(Override),
 }
 
+impl Pendant {
+    /// Whether programs that wait for their start begin by it.
+    pub(crate) fn lets_begin(self) -> bool {
+        matches!(self, Pendant::Start | Pendant::Step)
+    }
+}
+
 /// What an event does besides setting inputs.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Effect {

@@ -24,6 +24,8 @@ pub(crate) struct Playing {
     /// Whether time does not count yet: the programs wait for their start.
     waits: bool,
     resets: bool,
+    /// Whether it lets programs begin at the pendant.
+    begins: bool,
     rate: Rate,
     due: Due,
     /// The cycle of the last event.
@@ -49,7 +51,8 @@ impl Playing {
         let due = Due::with_room(events.len() * 4 + 16);
         let (before_in, before_out) = (image.inputs().clone(), image.outputs().clone());
         let mut playing = Self {
-            resets: presses(&events, Pendant::Reset),
+            resets: presses(&events, |button| button == Pendant::Reset),
+            begins: presses(&events, Pendant::lets_begin),
             events,
             watching,
             timed,
@@ -104,7 +107,7 @@ impl Playing {
     pub(crate) fn starts(&self, input: Option<i32>) -> bool {
         let sets =
             |action: &Action| matches!(action, Action::Digital(Digital::Di, channel, _) if Some(*channel) == input);
-        presses(&self.events, Pendant::Start) || self.events.iter().any(|event| event.actions.iter().any(sets))
+        self.begins || input.is_some() && self.events.iter().any(|event| event.actions.iter().any(sets))
     }
 
     /// How many effects a cycle may have at most, if no event comes twice in it.
@@ -181,8 +184,9 @@ impl Playing {
 }
 
 /// Whether a button is pressed.
-fn presses(events: &[Event], button: Pendant) -> bool {
-    events.iter().any(|event| event.actions.contains(&Action::Effect(Effect::Pendant(button))))
+fn presses(events: &[Event], is_meant: impl Fn(Pendant) -> bool) -> bool {
+    let mut actions = events.iter().flat_map(|event| &event.actions);
+    actions.any(|action| matches!(action, Action::Effect(Effect::Pendant(button)) if is_meant(*button)))
 }
 
 impl Action {

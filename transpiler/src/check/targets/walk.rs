@@ -63,7 +63,7 @@ impl<'a> Walk<'a, '_> {
         (self.tell)(self.scope.func.module, span, problem, Vec::new());
     }
 
-    /// Reports a target with the place where it is given, and what of tool and workpiece earlier motions left.
+    /// Reports a target with the place where it is given, and where tool and workpiece are from.
     fn report_target(&mut self, motion: &Builtin, target: &Expr, problem: TargetProblem) {
         let module = self.scope.func.module;
         let mut also = Vec::new();

@@ -67,8 +67,8 @@ fn of(words: &str) -> Option<Option<u64>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::lock::{Lock, used_at};
     use super::*;
-    use crate::cli::cache::Lock;
     use std::time::{Duration, SystemTime};
 
     #[test]
@@ -88,8 +88,7 @@ mod tests {
             let folder = root.join(name);
             drop(Lock::take(&folder, true, "").expect("a lock"));
             std::fs::write(folder.join("data"), [0; 100]).expect("written");
-            let lock = std::fs::File::options().write(true).open(folder.join("lock")).expect("the lock");
-            lock.set_modified(SystemTime::now() - Duration::from_secs(age)).expect("the time is set");
+            used_at(&folder, SystemTime::now() - Duration::from_secs(age));
             folder
         };
         let made = Place { folder: add("programs/made", 90), name: "made".into() };

@@ -98,3 +98,29 @@ pub(super) fn last_use(path: &Path) -> Option<SystemTime> {
 }
 
 const NAME: &str = "lock";
+
+/// Has a folder of the cache be one that was used then.
+#[cfg(test)]
+pub(super) fn used_at(folder: &Path, when: SystemTime) {
+    let lock = File::options().write(true).open(folder.join(NAME)).expect("the lock");
+    lock.set_modified(when).expect("the time is set");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn what_cannot_be_used_is_told_with_what_to_do() {
+        for (code, help) in [
+            (13, "set ARL2RS_CACHE to a folder that can be written"),
+            (30, "set ARL2RS_CACHE to a folder that can be written"),
+            (28, "make room; `arl2rs clean` removes what was compiled"),
+        ] {
+            let error = std::io::Error::from_raw_os_error(code);
+            let told = unusable("lock", Path::new("/cache/lock"), &error).to_string();
+            assert!(told.contains("cannot lock /cache/lock") && told.ends_with(&format!("help: {help}")), "{told}");
+        }
+    }
+}

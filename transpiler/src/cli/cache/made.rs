@@ -27,11 +27,6 @@ impl Made {
         Self { record, files: text.lines().filter_map(entry).collect(), is_changed: false }
     }
 
-    /// Whether nothing is known.
-    pub(in crate::cli) fn is_empty(&self) -> bool {
-        self.files.is_empty()
-    }
-
     /// The files that are not as they were made, which are not known any more. Those that are gone cargo makes again by
     /// itself.
     pub(in crate::cli) fn take_damaged(&mut self) -> Vec<PathBuf> {

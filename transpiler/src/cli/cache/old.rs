@@ -169,6 +169,7 @@ fn folders(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::lock::used_at;
     use super::*;
 
     #[test]
@@ -206,8 +207,7 @@ mod tests {
         let program = |name: &str, age: u32| {
             let folder = root.join("programs").join(name);
             drop(Lock::take(&folder, true, "").expect("a lock"));
-            let lock = std::fs::File::options().write(true).open(folder.join("lock")).expect("the lock");
-            lock.set_modified(SystemTime::now() - day * age).expect("the time is set");
+            used_at(&folder, SystemTime::now() - day * age);
             std::fs::write(folder.join("stamp"), "four").expect("written");
             let deps = root.join("runtime/r/target/debug/deps");
             std::fs::create_dir_all(&deps).expect("a folder");
@@ -230,11 +230,7 @@ mod tests {
         let old = std::fs::File::options().write(true).open(&results).expect("the file");
         old.set_modified(SystemTime::now() - day * 3).expect("the time is set");
         let used = Lock::take(&root.join("programs/arl-c-00000003"), true, "").expect("a lock");
-        std::fs::File::options()
-            .write(true)
-            .open(root.join("programs/arl-c-00000003/lock"))
-            .and_then(|lock| lock.set_modified(SystemTime::now() - day * 3))
-            .expect("the time is set");
+        used_at(&root.join("programs/arl-c-00000003"), SystemTime::now() - day * 3);
 
         let removed = cache.clean(day * 2);
         let kept = vec![root.join("programs/arl-c-00000003")];
@@ -262,8 +258,7 @@ mod tests {
         let stamped = |name: &str, when: SystemTime| {
             let folder = root.join("programs").join(name);
             drop(Lock::take(&folder, true, "").expect("a lock"));
-            let lock = std::fs::File::options().write(true).open(folder.join("lock")).expect("the lock");
-            lock.set_modified(when).expect("the time is set");
+            used_at(&folder, when);
             folder
         };
         let future = stamped("arl-a-00000001", SystemTime::now() + day * 3650);

@@ -10,6 +10,7 @@ use super::super::args::{Checking, Format, RunOptions};
 use super::super::cache::Kind;
 use super::super::failure::Failure;
 use super::super::listen::{Heard, Listener};
+use super::super::private_folder::PrivateFolder;
 use super::super::program::{Ready, prepare_checked};
 use super::super::said::Contact;
 use super::super::scenery::Scenery;
@@ -45,8 +46,9 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
         max_time: Some(MOST_SECONDS),
         ..RunOptions::default()
     };
-    let state = std::env::temp_dir().join(format!("arl2rs-state-{}", std::process::id()));
-    let options = RunOptions { state_dir: Some(state.clone()), ..asked.of_program(file)? };
+    let state = PrivateFolder::new("arl2rs-state-");
+    let state = state.map_err(|error| Failure::Other(format!("there is no place for a state: {error}")))?;
+    let options = RunOptions { state_dir: Some(state.path().to_path_buf()), ..asked.of_program(file)? };
     let cell = super::super::run::cell(&options)?;
     if !cell.islands.is_empty() || cell.buses.modbus_tcp.is_some() {
         let text = "a check runs no program whose cell has [[island]] or [modbus_tcp]; `run` tells of collisions, too";
@@ -55,11 +57,7 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
     let scenery = Scenery::of(&cell, options.robot.as_deref())?;
     let (watchers, found) = Scene::of(&scenery, &show::warning)?.watch(look.clearance, false);
     let ready = prepare_checked(Kind::Program, file, options.cell.as_deref(), &options.checking())?;
-    // What another process of that number left there.
-    let _ = std::fs::remove_dir_all(&state);
-    let ended = run(ready, &options, Listener::of(watchers)?);
-    let _ = std::fs::remove_dir_all(&state);
-    let Ran { code, why, heard } = ended?;
+    let Ran { code, why, heard } = run(ready, &options, Listener::of(watchers)?)?;
     let found = found.borrow();
     if found.begun && heard != Heard::All {
         let text = "not all of its run could be heard: what it touched besides is not known";

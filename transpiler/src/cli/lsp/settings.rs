@@ -46,19 +46,18 @@ impl Settings {
             let file = below(&PathBuf::from(robot));
             if file.is_file() { file.display().to_string() } else { robot.clone() }
         });
-        for (key, is_said) in [("robot", robot.is_some()), ("cell", self.cell.is_some())] {
-            if let (false, Some(beside)) = (is_said, beside) {
-                beside.expect(key).map_err(|failure| failure.to_string())?;
-            }
-        }
         let path = |path: &Option<PathBuf>| path.as_ref().filter(|path| !path.as_os_str().is_empty()).map(below);
         let checking = Checking {
             strict: self.strict,
-            robot: robot.or_else(|| beside?.robot.clone()),
+            robot,
             background: false,
-            cell: path(&self.cell).or_else(|| beside?.cell.clone()),
-            script_dir: path(&self.script_dir).or_else(|| beside?.script_dir.clone()),
+            cell: path(&self.cell),
+            script_dir: path(&self.script_dir),
             verbose: false,
+        };
+        let checking = match beside {
+            Some(file) => checking.with(file).map_err(|failure| failure.to_string())?,
+            None => checking,
         };
         let mut options = check_options(&checking).map_err(|failure| failure.to_string())?;
         if let Some(name) = &checking.robot {

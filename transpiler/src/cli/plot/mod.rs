@@ -14,6 +14,7 @@ mod views;
 use super::failure::Failure;
 use super::robot::Robot;
 use super::texts::Text;
+use crate::check::is_data;
 pub(super) use lanes::Lane;
 use outline::Outline;
 
@@ -48,9 +49,7 @@ impl Ran {
     /// The text of a line of a file. Where the trace does not name the file, there is none but where the whole program is one file; data
     /// files do not count.
     fn text(&self, file: Option<&str>, line: u32) -> Option<&str> {
-        let is_data =
-            |one: &&Text| one.name.rsplit_once('.').is_some_and(|(stem, _)| stem.to_lowercase().ends_with("_data"));
-        let mut programs = self.sources.iter().filter(|one| !is_data(one));
+        let mut programs = self.sources.iter().filter(|one| !is_data(Path::new(&one.name)));
         let source = match file {
             Some(file) => self.sources.iter().find(|one| one.name == file),
             None => programs.next().filter(|_| programs.next().is_none()),

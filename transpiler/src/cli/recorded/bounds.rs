@@ -1,13 +1,14 @@
 //! What a message of a recording may say: numbers that a run can have, and no more of anything than a cell has. A recording comes from
 //! anywhere; what is kept of it is shown in pages, which know no other numbers.
 
-use arl_robot::channels::MOST_CHANNELS;
+use arl_robot::channels::MOST_CHANNELS as MOST_SIGNALS;
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
 use super::super::record::messages::{
     Cell, Channel, Closest, Color, Contact, Controller, Cylinder, Io, Link, Model, Motion, Pose, SceneUpdate, Solid,
     Vector3,
 };
+use super::store::MOST_PROGRAMS;
 
 /// No time, place, angle or speed of a run is larger, in s, mm, deg, and per s.
 const LARGEST: f64 = 1e9;
@@ -15,6 +16,8 @@ const LARGEST: f64 = 1e9;
 const MOST_AXES: usize = ROBOT_AXES + EXTERNAL_AXES;
 /// So many kinds of signals have names.
 const KINDS_OF_SIGNALS: usize = 6;
+/// No cell has more bodies, and no body more solids.
+const MOST_SOLIDS: usize = 100_000;
 
 /// A message that can be held against what a run can say.
 pub(super) trait Bounded {
@@ -27,7 +30,8 @@ pub(super) trait Bounded {
 
 impl Bounded for Cell {
     fn check(&self) -> Result<(), String> {
-        at_most("names of signals", self.names.len(), KINDS_OF_SIGNALS * MOST_CHANNELS as usize)?;
+        at_most("names of signals", self.names.len(), KINDS_OF_SIGNALS * MOST_SIGNALS as usize)?;
+        at_most("channels", self.channels.len(), MOST_PROGRAMS)?;
         for runs in &self.channels {
             at_most("axes", runs.axes.len(), MOST_AXES)?;
             runs.axes.iter().try_for_each(|axis| numbers("the range of an axis", &[axis.min, axis.max]))?;
@@ -59,7 +63,7 @@ impl Bounded for Controller {
 impl Bounded for Io {
     fn check(&self) -> Result<(), String> {
         let all = [self.di.len(), self.r#do.len(), self.ai.len(), self.ao.len()];
-        all.into_iter().try_for_each(|count| at_most("signals of a kind", count, MOST_CHANNELS as usize))?;
+        all.into_iter().try_for_each(|count| at_most("signals of a kind", count, MOST_SIGNALS as usize))?;
         numbers("the time", &[self.time])?;
         numbers("analog signals", &self.ai)?;
         numbers("analog signals", &self.ao)
@@ -85,7 +89,11 @@ impl Bounded for Contact {
 
 impl Bounded for SceneUpdate {
     fn check(&self) -> Result<(), String> {
+        at_most("entities", self.entities.len(), MOST_SOLIDS)?;
+        at_most("deletions", self.deletions.len(), MOST_SOLIDS)?;
         for entity in &self.entities {
+            let solids = [entity.cubes.len(), entity.spheres.len(), entity.cylinders.len(), entity.models.len()];
+            solids.into_iter().try_for_each(|count| at_most("solids of a form", count, MOST_SOLIDS))?;
             entity.cubes.iter().chain(&entity.spheres).try_for_each(solid)?;
             entity.cylinders.iter().try_for_each(cylinder)?;
             entity.models.iter().try_for_each(model)?;
@@ -134,7 +142,7 @@ fn at_most(what: &str, count: usize, most: usize) -> Result<(), String> {
 
 fn numbers(what: &str, values: &[f64]) -> Result<(), String> {
     let wrong = values.iter().find(|value| value.is_nan() || value.abs() > LARGEST);
-    wrong.map_or(Ok(()), |value| Err(format!("{what}: {value} is no value that a run can have")))
+    wrong.map_or(Ok(()), |value| Err(format!("{what}: {value:?} is no value that a run can have")))
 }
 
 #[cfg(test)]
@@ -163,7 +171,7 @@ mod tests {
         refused(topic, &channel(|of| of.axes = vec![0.0; 200_000]), "it has 200000 axes, and a run has 12 at most");
         refused(topic, &channel(|of| of.axes[3] = f64::NAN), "the axes: NaN is no value that a run can have");
         refused(topic, &channel(|of| of.tcp[0] = f64::INFINITY), "the TCP: inf");
-        refused(topic, &channel(|of| of.base = vec![1e300; 6]), "the base: 1");
+        refused(topic, &channel(|of| of.base = vec![1e300; 6]), "the base: 1e300 is no value");
         refused(topic, &channel(|of| of.time = f64::NAN), "the time: NaN");
         refused(topic, &channel(|of| of.tcp = vec![0.0; 7]), "7 numbers of a place");
         let io = Io { di: vec![false; 3_000_000], ..Io::default() };
@@ -180,11 +188,16 @@ mod tests {
 
     #[test]
     fn scenes_and_cells_have_numbers_too() {
-        use super::super::super::record::messages::{Axis, Runs, SceneEntity};
+        use super::super::super::record::messages::{Axis, Runs, SceneEntity, SceneEntityDeletion};
         let size = Some(Vector3 { x: 1.0, y: f64::NAN, z: 1.0 });
         let entity = SceneEntity { cubes: vec![Solid { size, ..Solid::default() }], ..SceneEntity::default() };
         let scene = SceneUpdate { entities: vec![entity], deletions: Vec::new() };
         assert!(taken("/scene", &scene).unwrap_err().contains("a form: NaN"));
+        let deletions = vec![SceneEntityDeletion::default(); MOST_SOLIDS + 1];
+        let scene = SceneUpdate { entities: Vec::new(), deletions };
+        assert!(taken("/scene", &scene).unwrap_err().contains("it has 100001 deletions"));
+        let cell = Cell { channels: vec![Runs::default(); 300], names: Vec::new() };
+        assert!(taken("/arl/cell", &cell).unwrap_err().contains("it has 300 channels, and a run has 261 at most"));
         let axis = Axis { max: f64::INFINITY, ..Axis::default() };
         let runs = Runs { axes: vec![axis], ..Runs::default() };
         let cell = Cell { channels: vec![runs], names: Vec::new() };
@@ -201,6 +214,6 @@ mod tests {
         }
         assert_eq!(store.tracks[0].files.len(), usize::from(u16::MAX) + 1);
         let problem = store.take("/arl/channel_1", 0, &said(usize::from(u16::MAX))).unwrap_err();
-        assert!(problem.contains("programs of more than 65535 files"), "{problem}");
+        assert!(problem.contains("the program has more than 65536 files"), "{problem}");
     }
 }

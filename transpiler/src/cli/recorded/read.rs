@@ -75,7 +75,7 @@ impl Reading<'_> {
     /// The records of a chunk. None of them reaches beyond it, whatever it says of itself.
     fn chunk(&mut self, compression: &str, mut rest: &[u8]) -> Result<(), String> {
         if !compression.is_empty() {
-            return Err(format!("it is compressed by {compression}, which is not read here"));
+            return Err(format!("it is compressed by {compression}, which is not read: save it without compression"));
         }
         while let Some((head, behind)) = rest.split_first_chunk::<RECORD_HEAD>() {
             let [opcode, length @ ..] = *head;

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 
+use arl_robot::cell::MOST_FOREGROUND;
 use arl_robot::kinematics::frame;
 use mcap::McapResult;
 use nalgebra::Vector3;
@@ -17,8 +18,8 @@ use super::bounds::Bounded;
 
 /// The topics of channels: `/arl/channel_1`.
 const CHANNEL: &str = "/arl/channel_";
-/// No controller has more channels.
-const MOST_CHANNELS: usize = 64;
+/// No controller runs more programs: those of robots, and those in the background.
+pub(super) const MOST_PROGRAMS: usize = MOST_FOREGROUND + u8::MAX as usize;
 /// What is farther apart in time was at rest between, in s: a robot that moves says so more often.
 const GAP_S: f64 = 0.06;
 /// A motion may be told again that is so far behind the last one.
@@ -144,7 +145,7 @@ impl Store {
             "/arl/contacts" => self.contacts.push(decoded(message)?),
             "/log" => self.log.push((time, Log::decode(message).map_err(|error| error.to_string())?)),
             _ => match topic.strip_prefix(CHANNEL).and_then(|number| number.parse::<usize>().ok()) {
-                Some(number @ 1..=MOST_CHANNELS) => self.channel(number - 1, &decoded(message)?)?,
+                Some(number @ 1..=MOST_PROGRAMS) => self.channel(number - 1, decoded(message)?)?,
                 _ => return Ok(()),
             },
         }
@@ -183,8 +184,8 @@ impl Store {
         ];
         for (kind, before, now) in kinds {
             for (at, value) in now.into_iter().enumerate() {
-                // All begin at 0: a signal that never leaves it has no changes. What is no number changes nothing.
-                if before.get(at).copied().unwrap_or_default() != value && value.is_finite() {
+                // All begin at 0: a signal that never leaves it has no changes.
+                if before.get(at).copied().unwrap_or_default() != value {
                     let signal = Signal { kind, number: at + 1 };
                     self.signals.entry(signal).or_default().push((io.time, value));
                     self.changes.push((signal, io.time, value));
@@ -204,7 +205,7 @@ impl Store {
         }
     }
 
-    fn channel(&mut self, at: usize, said: &Channel) -> Result<(), String> {
+    fn channel(&mut self, at: usize, said: Channel) -> Result<(), String> {
         if self.tracks.len() <= at {
             self.tracks.resize_with(at + 1, Track::default);
         }
@@ -214,7 +215,7 @@ impl Store {
 }
 
 impl Track {
-    fn take(&mut self, said: &Channel, links: &[Link]) -> Result<(), String> {
+    fn take(&mut self, said: Channel, links: &[Link]) -> Result<(), String> {
         let (file, motion_file) = (self.file(&said.file)?, self.file(&said.motion_file)?);
         if self.times.is_empty() {
             self.width = said.axes.len();
@@ -229,18 +230,16 @@ impl Track {
         let tcp = placed(&said.tcp);
         let (speed, before) = (self.speed_to(said.time, &tcp), self.speed.last().copied().unwrap_or_default());
         let jumps = self.last.as_ref().is_some_and(|last| {
-            let moved_mm = way(&last.tcp, &said.tcp);
-            let by_flange = flange_tool(last, links).zip(flange_tool(said, links));
-            last.motion != said.motion
-                && moved_mm > OTHER_TOOL_MM
-                && by_flange.map_or_else(
+            // The kinematics are asked last: a motion seldom begins.
+            let may_jump = last.motion != said.motion && way(&last.tcp, &said.tcp) > OTHER_TOOL_MM;
+            may_jump
+                && flange_tool(last, links).zip(flange_tool(&said, links)).map_or_else(
                     || f64::from(speed - before) > OTHER_TOOL_ACC * STEP_S,
                     |(one, other)| (one - other).norm() > OTHER_TOOL_MM,
                 )
         });
         self.jumps.push(jumps);
         self.speed.push(if jumps { before } else { speed });
-        self.last = Some(said.clone());
         self.axes.extend((0..self.width).map(|axis| said.axes.get(axis).copied().unwrap_or_default() as f32));
         self.tcp.push(tcp);
         let pointers = Pointers {
@@ -256,6 +255,7 @@ impl Track {
         }
         self.times.push(said.time);
         self.pointers.push(pointers);
+        self.last = Some(said);
         Ok(())
     }
 
@@ -292,7 +292,7 @@ impl Track {
             return Ok(*number);
         }
         let number = u16::try_from(self.files.len());
-        let number = number.map_err(|_| format!("it is one of programs of more than {} files", u16::MAX))?;
+        let number = number.map_err(|_| format!("the program has more than {} files", u32::from(u16::MAX) + 1))?;
         self.files.push(name.to_owned());
         self.numbers.insert(name.to_owned(), number);
         Ok(number)

@@ -104,7 +104,7 @@ fn signals(one: &Summary, other: &Summary) -> Vec<String> {
     };
     let differ = |name: &String| {
         let (before, after) = (changes(one, name), changes(other, name));
-        (before != after).then(|| format!("{name} changed {before} times, now {after} times"))
+        (before != after).then(|| format!("{name} changed {}, now {}", times(before), times(after)))
     };
     names.into_iter().filter_map(differ).collect()
 }
@@ -124,11 +124,16 @@ fn contacts(one: &Summary, other: &Summary) -> Vec<String> {
         let (one, other) = pair;
         match before.get(pair) {
             None => Some(format!("{one} now comes near {other}")),
-            Some(times) if times != now => Some(format!("{one} came near {other} {times} times, now {now} times")),
+            Some(was) if was != now => Some(format!("{one} came near {other} {}, now {}", times(*was), times(*now))),
             Some(_) => None,
         }
     });
     gone.chain(new).collect()
+}
+
+/// `once`, `3 times`
+fn times(count: usize) -> String {
+    if count == 1 { "once".to_owned() } else { format!("{count} times") }
 }
 
 impl fmt::Display for Differences {

@@ -16,7 +16,10 @@ const TRIANGLE: usize = 50;
 const CORNERS: usize = 12;
 const CORNER: usize = 12;
 
-/// Triangles by the numbers of their corners, in the file's own unit. Corners are finite; equal ones are one.
+/// The corners of a triangle, finite.
+type Corners = [[f32; 3]; 3];
+
+/// Triangles by the numbers of their corners, in the file's own unit. Equal corners are one.
 #[derive(Default, Debug)]
 pub(in crate::cli) struct Triangles {
     pub(in crate::cli) corners: Vec<[f32; 3]>,
@@ -29,21 +32,56 @@ pub(in crate::cli) struct Triangles {
 /// # Errors
 /// It is none: why, with the line where it is text.
 pub(in crate::cli) fn read(bytes: &[u8]) -> Result<Triangles, String> {
-    let triangles = if text::is_text(bytes) { text::read(bytes) } else { of_bytes(bytes) }?;
-    if triangles.triangles.is_empty() { Err("it has no triangles".to_owned()) } else { Ok(triangles) }
+    let mut all = Triangles::default();
+    each(bytes, |corners| all.add(corners))?;
+    Ok(all)
 }
 
-/// The same triangles in the form that every viewer reads: as bytes. What is of this form already stays as it is.
+/// The same triangles in the form that every viewer reads: as bytes, with nothing behind them and a header that nobody
+/// takes for text. Otherwise, what is of this form already stays as it is: colours may stand in it.
 ///
 /// # Errors
 /// As for [`read`].
-pub(in crate::cli) fn for_viewers(bytes: Vec<u8>) -> Result<Vec<u8>, String> {
-    let triangles = read(&bytes)?;
-    Ok(if text::is_text(&bytes) { triangles.bytes() } else { bytes })
+pub(in crate::cli) fn for_viewers(mut bytes: Vec<u8>) -> Result<Vec<u8>, String> {
+    if text::is_text(&bytes) {
+        return written_anew(&bytes);
+    }
+    let count = each(&bytes, |_| Ok(()))?;
+    bytes.truncate(HEADER + COUNT + TRIANGLE * count);
+    if text::begins(&bytes) {
+        bytes.iter_mut().take(HEADER).for_each(|byte| *byte = 0);
+    }
+    Ok(bytes)
 }
 
-/// Triangles as bytes, little endian.
-fn of_bytes(bytes: &[u8]) -> Result<Triangles, String> {
+/// Triangles as bytes, without normals: who reads them computes these.
+fn written_anew(bytes: &[u8]) -> Result<Vec<u8>, String> {
+    let mut out = vec![0; HEADER + COUNT];
+    let count = each(bytes, |corners| {
+        out.extend([0; CORNERS]);
+        corners.as_flattened().iter().for_each(|value| out.extend(value.to_le_bytes()));
+        out.extend([0; 2]);
+        Ok(())
+    })?;
+    let count = u32::try_from(count).map_err(|_| "it has too many triangles".to_owned())?;
+    out.iter_mut().skip(HEADER).zip(count.to_le_bytes()).for_each(|(place, byte)| *place = byte);
+    Ok(out)
+}
+
+/// Shows the triangles of an STL file one by one; how many there are, at least one.
+fn each(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), String>) -> Result<usize, String> {
+    let mut count = 0;
+    let counted = |corners: Corners| {
+        count += 1;
+        take(corners)
+    };
+    let shown = if text::is_text(bytes) { text::each(bytes, counted) } else { each_of_bytes(bytes, counted) };
+    shown?;
+    if count == 0 { Err("it has no triangles".to_owned()) } else { Ok(count) }
+}
+
+/// Shows triangles that are bytes, little endian.
+fn each_of_bytes(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), String>) -> Result<(), String> {
     let body = bytes.get(HEADER..).and_then(<[u8]>::split_first_chunk::<COUNT>);
     let Some((count, body)) = body else {
         return Err(format!(
@@ -56,7 +94,6 @@ fn of_bytes(bytes: &[u8]) -> Result<Triangles, String> {
     if is_there < count {
         return Err(format!("it is cut off: it says that it has {count} triangles, and has {is_there}"));
     }
-    let mut all = Triangles::default();
     for (number, triangle) in (1..).zip(body.chunks_exact(TRIANGLE).take(count)) {
         let corners = triangle.get(CORNERS..CORNERS + 3 * CORNER).unwrap_or_default();
         let mut found = corners.chunks_exact(CORNER).map(|corner| {
@@ -68,45 +105,32 @@ fn of_bytes(bytes: &[u8]) -> Result<Triangles, String> {
         if corners.as_flattened().iter().any(|value| !value.is_finite()) {
             return Err(format!("a corner of triangle {number} is no place: {}", written(&corners)));
         }
-        all.add(corners)?;
+        take(corners)?;
     }
-    Ok(all)
+    Ok(())
 }
 
 /// Corners as a message has them.
-fn written(corners: &[[f32; 3]]) -> String {
+fn written(corners: &Corners) -> String {
     let one = |corner: &[f32; 3]| corner.map(|value| value.to_string()).join(" ");
     corners.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
 impl Triangles {
     /// Adds a triangle.
-    fn add(&mut self, corners: [[f32; 3]; 3]) -> Result<(), String> {
+    fn add(&mut self, corners: Corners) -> Result<(), String> {
         let mut triangle = [0; 3];
         for (place, corner) in triangle.iter_mut().zip(corners) {
             let next = u32::try_from(self.corners.len()).map_err(|_| "it has too many corners".to_owned())?;
-            *place = *self.numbers.entry(corner.map(f32::to_bits)).or_insert(next);
+            // 0 and -0 are equal, and their bits only once 0 was added.
+            let bits = corner.map(|value| (value + 0.0).to_bits());
+            *place = *self.numbers.entry(bits).or_insert(next);
             if *place == next {
                 self.corners.push(corner);
             }
         }
         self.triangles.push(triangle);
         Ok(())
-    }
-
-    /// As bytes, without normals: who reads them computes these.
-    fn bytes(&self) -> Vec<u8> {
-        let mut out = vec![0; HEADER];
-        out.extend((self.triangles.len() as u32).to_le_bytes());
-        for triangle in &self.triangles {
-            out.extend([0; CORNERS]);
-            for corner in triangle {
-                let corner = self.corners.get(*corner as usize).copied().unwrap_or_default();
-                corner.iter().for_each(|value| out.extend(value.to_le_bytes()));
-            }
-            out.extend([0; 2]);
-        }
-        out
     }
 }
 

@@ -42,8 +42,19 @@ pub struct Bundle {
     pub clearance: Option<f64>,
     /// The words that all runs have.
     words: Vec<String>,
-    /// Robot files and scenarios: where they are here, and in the bundle.
-    places: Vec<(PathBuf, String)>,
+    /// Robot files and scenarios.
+    named: Vec<NamedFile>,
+}
+
+/// A file that is named by settings or parameters.
+#[derive(Clone, Debug)]
+struct NamedFile {
+    /// Where it is here, from the root.
+    here: PathBuf,
+    /// How people here are told of it.
+    shown: String,
+    /// Where it is in the bundle.
+    place: String,
 }
 
 impl Bundle {
@@ -79,7 +90,7 @@ impl Bundle {
             return Err(Failure::Usage(text));
         }
         let mut bundle =
-            Self { files: vec![(PROGRAM.into(), executable)], clearance, words: Vec::new(), places: Vec::new() };
+            Self { files: vec![(PROGRAM.into(), executable)], clearance, words: Vec::new(), named: Vec::new() };
         bundle.add_folder(&folder)?;
         for file in files {
             if !file.components().all(|part| matches!(part, Component::Normal(_))) {
@@ -132,13 +143,14 @@ impl Bundle {
     }
 
     /// What is said of a run, with the files as they are called here.
-    pub(super) fn in_own_names(&self, mut result: RunResult) -> RunResult {
-        for (here, place) in &self.places {
-            let here = show::path(here).display().to_string();
-            if let Some(problem) = &mut result.problem {
-                *problem = problem.replace(place, &here);
+    pub fn in_own_names(&self, mut result: RunResult) -> RunResult {
+        let alarms = result.alarms.iter_mut().map(|alarm| &mut alarm.text);
+        for text in result.problem.iter_mut().chain(alarms) {
+            for NamedFile { shown, place, .. } in &self.named {
+                if text.contains(place) {
+                    *text = text.replace(place, shown);
+                }
             }
-            result.alarms.iter_mut().for_each(|alarm| alarm.text = alarm.text.replace(place, &here));
         }
         result
     }
@@ -165,25 +177,26 @@ impl Bundle {
         let named = ["robot", "io"].into_iter().filter_map(|name| Some((name, row.option(name)?.as_str()?)));
         let words = named.flat_map(|(name, file)| {
             let here = full(Path::new(file)).unwrap_or_default();
-            let place = self.places.iter().find(|(known, _)| *known == here).map(|(_, place)| place.clone());
-            [format!("--{name}"), place.unwrap_or_else(|| file.to_owned())]
+            let known = self.named.iter().find(|known| known.here == here);
+            [format!("--{name}"), known.map_or_else(|| file.to_owned(), |known| known.place.clone())]
         });
         words.collect()
     }
 
     /// Adds a robot file or a scenario.
     fn add(&mut self, file: &str) -> Result<(), Failure> {
-        let path = full(Path::new(file))?;
-        if self.places.iter().any(|(known, _)| *known == path) {
+        let here = full(Path::new(file))?;
+        if self.named.iter().any(|known| known.here == here) {
             return Ok(());
         }
-        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        let content = read(&path)?;
+        let name = here.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let content = read(&here)?;
         let place = format!("{NAMED}/{:032x}/{name}", XxHash3_128::oneshot(&content));
         if !self.files.iter().any(|(known, _)| *known == place) {
             self.files.push((place.clone(), content));
         }
-        self.places.push((path, place));
+        let shown = show::path(&here).display().to_string();
+        self.named.push(NamedFile { here, shown, place });
         Ok(())
     }
 

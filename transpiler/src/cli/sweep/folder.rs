@@ -2,6 +2,7 @@
 
 use super::bundle::{Bundle, PROGRAM};
 use crate::cli::cache::Content;
+use crate::cli::private_folder::PrivateFolder;
 use std::fs::File;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -22,7 +23,7 @@ pub struct Spread {
 /// next folder that is made.
 #[derive(Debug)]
 struct Root {
-    path: PathBuf,
+    folder: PrivateFolder,
     _lock: File,
 }
 
@@ -41,10 +42,10 @@ impl Root {
         if turn.is_some() {
             remove_left();
         }
-        let path = new_folder()?;
-        let lock = File::create(path.join(LOCK))?;
+        let folder = PrivateFolder::new(ROOT)?;
+        let lock = File::create(folder.path().join(LOCK))?;
         lock.lock()?;
-        Ok(Self { path, _lock: lock })
+        Ok(Self { folder, _lock: lock })
     }
 }
 
@@ -61,13 +62,6 @@ fn turn() -> Option<File> {
         std::thread::sleep(Duration::from_millis(5));
     }
     Some(file)
-}
-
-impl Drop for Root {
-    fn drop(&mut self) {
-        // It lies in the system's folder for files that go.
-        let _ = std::fs::remove_dir_all(&self.path);
-    }
 }
 
 /// Removes folders whose owners are gone.
@@ -113,24 +107,11 @@ impl Spread {
     fn write_program(&self) -> io::Result<()> {
         static NEXT: AtomicUsize = AtomicUsize::new(0);
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
-        let beside = self.root.path.join(format!("{PROGRAM}-{number}"));
+        let beside = self.root.folder.path().join(format!("{PROGRAM}-{number}"));
         std::fs::write(&beside, &**self.program)?;
         #[cfg(unix)]
         std::fs::set_permissions(&beside, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
-        std::fs::rename(&beside, self.root.path.join(PROGRAM))
-    }
-}
-
-/// Another folder in the system's folder for files that go.
-fn new_folder() -> io::Result<PathBuf> {
-    static NEXT: AtomicUsize = AtomicUsize::new(0);
-    loop {
-        let number = NEXT.fetch_add(1, Ordering::Relaxed);
-        let path = std::env::temp_dir().join(format!("{ROOT}{}-{number}", std::process::id()));
-        match std::fs::create_dir(&path) {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            made => return made.map(|()| path),
-        }
+        std::fs::rename(&beside, self.root.folder.path().join(PROGRAM))
     }
 }
 
@@ -151,7 +132,7 @@ type Seen = (PathBuf, u64, Option<SystemTime>);
 impl Folder {
     pub(super) fn new(spread: &Spread) -> io::Result<Self> {
         static NEXT: AtomicUsize = AtomicUsize::new(1);
-        let path = spread.root.path.join(NEXT.fetch_add(1, Ordering::Relaxed).to_string());
+        let path = spread.root.folder.path().join(NEXT.fetch_add(1, Ordering::Relaxed).to_string());
         let mut folder = Self { spread: spread.clone(), path, written: Vec::new() };
         folder.write()?;
         Ok(folder)
@@ -166,7 +147,7 @@ impl Folder {
     /// # Errors
     /// It is damaged, and cannot be written again.
     pub(super) fn program(&self) -> io::Result<PathBuf> {
-        let path = self.spread.root.path.join(PROGRAM);
+        let path = self.spread.root.folder.path().join(PROGRAM);
         if !Content::of(&self.spread.program).is_in(&path) {
             self.spread.write_program()?;
         }

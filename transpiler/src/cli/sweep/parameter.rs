@@ -29,6 +29,11 @@ impl Parameters {
         self.0.iter().find(|(known, _)| known == name).map(|(_, value)| value)
     }
 
+    /// The names of global variables among them.
+    pub(in crate::cli) fn globals(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().filter_map(|(place, _)| place.strip_prefix(GLOBAL))
+    }
+
     /// The words that they are, but for those that name files.
     ///
     /// # Errors

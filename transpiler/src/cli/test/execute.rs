@@ -2,6 +2,7 @@
 
 use super::batch::{CASE, Compiled};
 use super::case::Case;
+use crate::check::is_data;
 use std::ffi::OsString;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -102,8 +103,7 @@ fn copy_files(from: &Path, to: &Path) -> std::io::Result<()> {
     const OURS: [&str; 5] = ["arl", "out", "err", "alarm", "toml"];
     let files = std::fs::read_dir(from)?.filter_map(|entry| Some(entry.ok()?.path())).filter(|path: &PathBuf| {
         let ending = path.extension().map(|ending| ending.to_string_lossy().into_owned()).unwrap_or_default();
-        let data = path.file_stem().is_some_and(|stem| stem.to_string_lossy().ends_with("_data"));
-        path.is_file() && (data || !OURS.contains(&ending.as_str()))
+        path.is_file() && (is_data(path) || !OURS.contains(&ending.as_str()))
     });
     for file in files {
         if let Some(name) = file.file_name() {

@@ -15,6 +15,7 @@ pub(super) use case::EXPECTATIONS;
 use super::args::{Checking, Shard, TestOptions};
 use super::cache::{Cache, Kind};
 use super::failure::Failure;
+use super::private_folder::PrivateFolder;
 use super::program::check_options;
 use super::progress::Progress;
 use super::project::{Emitted, EmittedOther};
@@ -218,7 +219,8 @@ fn run_all(
     progress.say(&format!("compiling {} cases", runs.len()));
     let runtime = Runtime::find().unpack(&cache)?;
     let compiled = batch::compile(&place, &runtime, emitted, progress)?;
-    let scratch = std::env::temp_dir().join(format!("arl2rs-test-{}", std::process::id()));
+    let scratch = PrivateFolder::new("arl2rs-test-");
+    let scratch = scratch.map_err(|error| Failure::Other(format!("there is no place for cases: {error}")))?;
     let mut coverage = coverage::Coverage::default();
     let mut places = Vec::new();
     if options.coverage.is_some() {
@@ -236,7 +238,7 @@ fn run_all(
             let (Some((_, case)), Some(compiled)) = (runs.get(at), compiled.get(at)) else { return };
             progress.say(&format!("running {} of {}", at + 1, runs.len()));
             let ran = match compiled {
-                Ok(compiled) => match execute::execute(case, compiled, &scratch, options.coverage.is_some()) {
+                Ok(compiled) => match execute::execute(case, compiled, scratch.path(), options.coverage.is_some()) {
                     Ok(outcome) => {
                         if let Some(Some(places)) = places.get(at)
                             && let Ok(mut coverage) = coverage.lock()
@@ -264,8 +266,6 @@ fn run_all(
             scope.spawn(work);
         }
     });
-    // What stays in the system's folder for such files does no harm.
-    let _ = std::fs::remove_dir_all(&scratch);
     cache.keep_limit(&place, &runtime.give_back());
     if let Some(file) = &options.coverage {
         coverage.into_inner().unwrap_or_default().write(file)?;

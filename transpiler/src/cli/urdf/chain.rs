@@ -115,7 +115,7 @@ fn moving(joint: &Joint, origin: Place) -> Result<Option<Moving>, String> {
     let (lower, upper) = around.map_or((joint.limit.lower, joint.limit.upper), |turn| (-turn, turn));
     // A later version of the format means infinity by a limit that is not there.
     if !(lower < upper && lower.is_finite() && upper.is_finite()) {
-        return Err(format!("the joint `{name}` has no range: `lower` must be below `upper`"));
+        return Err(format!("the joint `{name}` has no range: its limit needs a finite `lower` below its `upper`"));
     }
     let velocity = Some(joint.limit.velocity).filter(|velocity| *velocity > 0.0 && velocity.is_finite());
     let Some(velocity) = velocity.or(around.map(|_| std::f64::consts::PI)) else {

@@ -7,7 +7,7 @@ mod tree;
 mod vet;
 
 use super::failure::Failure;
-use arl_robot::regular_file;
+use arl_robot::{Robot, regular_file};
 use chain::Moving;
 pub(super) use chain::{Chain, parse};
 use fit::{Scara, SixAxes};
@@ -76,7 +76,11 @@ pub(super) fn robot_file(text: &str, from: &str) -> Result<String, String> {
     for (at, joint) in joints.iter().enumerate() {
         axis(&mut out, at, joint);
     }
-    Ok(out)
+    // What a URDF may say, a robot file may not: a speed of nearly nothing.
+    match Robot::parse(from, &out) {
+        Ok(_) => Ok(out),
+        Err(error) => Err(format!("no robot file can describe it: {}", error.message)),
+    }
 }
 
 /// For each axis, its joint: that of a SCARA's axes may come in another order.

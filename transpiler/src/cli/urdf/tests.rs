@@ -140,6 +140,10 @@ fn what_does_not_fit_is_told() {
     refused(&kr10(3, ("joint_a4", "planar", "0 0 0.02", "0 0 0", "-1 0 0")), "neither turns about a line");
     refused(&urdf(&KR10).replacen("upper=\"3\"", "upper=\"-3\"", 1), "`joint_a1` has no range");
     refused(&urdf(&KR10).replacen("velocity=\"4\"", "velocity=\"0\"", 1), "`joint_a1` has no speed");
+    let limits = "lower=\"-2\" upper=\"3\"";
+    refused(&urdf(&KR10).replacen(limits, "", 1), "`joint_a1` has no range");
+    let slow = urdf(&KR10).replacen("velocity=\"4\"", "velocity=\"1e-9\"", 1);
+    refused(&slow, "no robot file can describe it: `vel`");
     let scara = |at, joint| changed(SCARA, at, joint);
     refused(&scara(1, ("b", "revolute", "0.375 0 0.1", "0 0 0", "0 0 -1")), "does not point upwards");
     refused(&scara(1, ("b", "revolute", "0.3 0.1 0.1", "0 0 0", "0 0 1")), "not stretched along x");

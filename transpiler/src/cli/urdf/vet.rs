@@ -42,7 +42,7 @@ const NUMBERS: &[(&str, &str, usize, f64)] = &[
     ("inertia", "izz", 1, LARGEST),
 ];
 
-/// That a text is XML of no unusual depth, and every number in it one that a robot can have.
+/// That a text is XML of no unusual depth, and every number that is used one that a robot can have.
 ///
 /// # Errors
 /// With the line.

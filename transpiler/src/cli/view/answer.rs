@@ -37,7 +37,7 @@ pub(super) fn run(store: &Store, about: About<'_>) -> Value {
     let mut answer = news(store, &Known::default());
     let channels = store.cell.channels.iter().map(|runs| {
         let axes = runs.axes.iter();
-        let axes = axes.map(|axis| json!({"name": axis.name, "unit": axis.unit, "min": number(axis.min), "max": number(axis.max)}));
+        let axes = axes.map(|axis| json!({"name": axis.name, "unit": axis.unit, "min": axis.min, "max": axis.max}));
         let link = |link: &Link| {
             json!({"frame": link.frame, "parent": link.parent, "origin": link.origin, "axis": link.axis, "linear": link.linear,
                    "moved_by": link.moved_by})
@@ -71,10 +71,12 @@ pub(super) fn news(store: &Store, known: &Known) -> Value {
     let scene = store.scene.iter().skip(known.scene).map(|(time, update)| scene(store, *time, update, &mut models));
     let scene: Value = scene.collect();
     let controller = store.controller.iter().skip(known.controller);
-    let controller = controller
-        .map(|one| json!({"time": number(one.time), "mode": one.mode, "override": number(one.speed_override)}));
+    let controller = controller.map(|one| json!({"time": one.time, "mode": one.mode, "override": one.speed_override}));
     let contacts = store.contacts.iter().skip(known.contacts).map(|one| {
-        json!({"time": number(one.time), "file": one.file, "line": one.line, "one": one.one, "other": one.other, "distance": number(one.distance)})
+        json!({
+            "time": one.time, "file": one.file, "line": one.line, "one": one.one, "other": one.other,
+            "distance": one.distance,
+        })
     });
     let tracks = store.tracks.iter().map(|track| {
         let states = track.states.iter().skip(known.states).map(|(time, state)| json!([time, state]));
@@ -133,13 +135,8 @@ fn scene(store: &Store, time: f64, update: &SceneUpdate, models: &mut usize) -> 
     json!({"time": time, "entities": entities, "gone": gone})
 }
 
-/// A number that JSON has, too: what a recording says of no number is 0.
-fn number(value: f64) -> f64 {
-    if value.is_finite() { value } else { 0.0 }
-}
-
 fn vector(vector: Option<Vector3>) -> [f64; 3] {
-    vector.map_or([0.0; 3], |Vector3 { x, y, z }| [x, y, z].map(number))
+    vector.map_or([0.0; 3], |Vector3 { x, y, z }| [x, y, z])
 }
 
 /// x, y, z, and a quaternion x, y, z, w.
@@ -147,11 +144,11 @@ fn pose(pose: Option<Pose>) -> [f64; 7] {
     let Some(Pose { position, orientation }) = pose else { return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0] };
     let [at_x, at_y, at_z] = vector(position);
     let Quaternion { x, y, z, w } = orientation.unwrap_or(Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 });
-    [at_x, at_y, at_z, x, y, z, w].map(number)
+    [at_x, at_y, at_z, x, y, z, w]
 }
 
 fn color(color: Option<Color>) -> [f64; 4] {
-    color.map_or([0.5, 0.5, 0.5, 1.0], |Color { r, g, b, a }| [r, g, b, a].map(number))
+    color.map_or([0.5, 0.5, 0.5, 1.0], |Color { r, g, b, a }| [r, g, b, a])
 }
 
 fn logged(time: f64, log: &Log) -> Value {
@@ -164,13 +161,12 @@ fn logged(time: f64, log: &Log) -> Value {
 }
 
 fn motion(motion: &Motion) -> Value {
-    let closest = |closest: &Option<Closest>| closest.as_ref().map(|one| json!([one.of, number(one.percent)]));
-    let blend =
-        |one: &Blend| json!({"asked": number(one.asked), "used": number(one.used), "unit": one.unit, "why": one.why});
+    let closest = |closest: &Option<Closest>| closest.as_ref().map(|one| json!([one.of, one.percent]));
+    let blend = |one: &Blend| json!({"asked": one.asked, "used": one.used, "unit": one.unit, "why": one.why});
     json!({
         "channel": motion.channel, "motion": motion.motion, "file": motion.file, "line": motion.line, "kind": motion.kind,
-        "start": number(motion.start), "duration": number(motion.duration), "way": number(motion.way),
-        "programmed": number(motion.programmed), "reached": number(motion.reached), "unit": motion.unit,
+        "start": motion.start, "duration": motion.duration, "way": motion.way,
+        "programmed": motion.programmed, "reached": motion.reached, "unit": motion.unit,
         "blend": motion.blend.as_ref().map(blend),
         "vel": closest(&motion.closest_vel), "acc": closest(&motion.closest_acc), "jerk": closest(&motion.closest_jerk),
     })

@@ -108,7 +108,8 @@ fn robots(cell: &Cell, first: Option<&str>) -> Result<Vec<Robot>, Failure> {
 fn serve(shown: &Arc<Shown>, options: &ViewOptions) -> Result<JoinHandle<()>, Failure> {
     let shown = Arc::clone(shown);
     let to_page = |address| ToPage::new(address, move |asked: &Asked<'_>| shown.answer(asked));
-    let (address, server) = http::serve(options.port, to_page).map_err(|error| http::refusal(options.port, &error))?;
+    let (address, server) =
+        http::serve(options.port, http::Limits::USUAL, to_page).map_err(|error| http::refusal(options.port, &error))?;
     let url = format!("http://{address}/");
     let mut out = std::io::stdout();
     // Nobody may read it.

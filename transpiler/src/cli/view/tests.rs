@@ -154,6 +154,7 @@ fn what_is_no_number_is_none_of_the_page() {
     let news = answer::news(&store, &Known::default());
     assert_eq!((&news["motions"], &news["signals"]), (&serde_json::json!([]), &serde_json::json!([])));
 }
+
 #[test]
 fn a_motion_that_goes_on_is_told_again() {
     let mut store = Store::default();

@@ -19,6 +19,7 @@ fn all_solids_of_a_text_are_read() {
     let all = read(two.as_bytes()).unwrap();
     assert_eq!((all.triangles.len(), all.corners.len()), (3, 9));
     assert!(all.corners.contains(&[10.0, 0.0, 6.0]));
+    assert_eq!(read(format!("solid a\n{}{}", facet(0.0), facet(-0.0)).as_bytes()).unwrap().corners.len(), 3);
     // The end of a solid may be missing, between two and at last.
     assert_eq!(count(two.replace("endsolid a\n", "").replace("endsolid b\n", "")), 3);
 }
@@ -83,15 +84,16 @@ fn what_cannot_be_read_names_its_line() {
 
 #[test]
 fn bytes_are_read_whatever_their_header_says() {
-    let bytes = read(format!("solid a\n{}{}", facet(0.0), facet(1.0)).as_bytes()).unwrap().bytes();
+    let bytes = for_viewers(format!("solid a\n{}{}", facet(0.0), facet(1.0)).into_bytes()).unwrap();
     assert_eq!(bytes.len(), HEADER + COUNT + 2 * TRIANGLE);
     let mut named = bytes.clone();
     named[..9].copy_from_slice(b"solid abc");
-    // What stands behind the last triangle is of no matter.
-    for bytes in [&bytes, &named, &[&bytes[..], b"more"].concat()] {
-        let all = read(bytes).unwrap();
+    // What stands behind the last triangle is of no matter, and viewers get none of it.
+    for odd in [&bytes, &named, &[&bytes[..], b"more"].concat()] {
+        let all = read(odd).unwrap();
         assert_eq!((all.triangles.len(), all.corners.len()), (2, 6));
         assert_eq!(all.corners[1], [10.0, 0.0, 0.0]);
+        assert_eq!(for_viewers(odd.clone()).unwrap(), bytes);
     }
     assert!(read(&bytes[..bytes.len() - 1]).unwrap_err().contains("it says that it has 2 triangles, and has 1"));
     let mut wrong = bytes.clone();

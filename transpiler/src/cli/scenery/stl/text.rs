@@ -1,6 +1,6 @@
 //! STL files as text: words, with the line of each.
 
-use super::Triangles;
+use super::Corners;
 
 /// What some programs write first.
 const MARK: &[u8] = b"\xef\xbb\xbf";
@@ -12,15 +12,18 @@ const TOLD: usize = 40;
 
 /// Whether it is text: bytes, too, may begin with the word.
 pub(super) fn is_text(bytes: &[u8]) -> bool {
-    let begins = bytes.strip_prefix(MARK).unwrap_or(bytes).trim_ascii_start();
-    let word = begins.get(..SOLID.len()).is_some_and(|word| word.eq_ignore_ascii_case(SOLID));
-    word && !bytes.get(COUNT_OF_BYTES).is_some_and(|count| count.contains(&0))
+    begins(bytes) && !bytes.get(COUNT_OF_BYTES).is_some_and(|count| count.contains(&0))
 }
 
-/// The triangles of all its solids.
-pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
+/// Whether it begins as a text does.
+pub(super) fn begins(bytes: &[u8]) -> bool {
+    let begins = bytes.strip_prefix(MARK).unwrap_or(bytes).trim_ascii_start();
+    begins.get(..SOLID.len()).is_some_and(|word| word.eq_ignore_ascii_case(SOLID))
+}
+
+/// Shows the triangles of all its solids.
+pub(super) fn each(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), String>) -> Result<(), String> {
     let mut words = Words::of(bytes.strip_prefix(MARK).unwrap_or(bytes));
-    let mut all = Triangles::default();
     let mut is_in_solid = false;
     while let Some(word) = words.next() {
         if word.is("solid") {
@@ -28,8 +31,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
             words.skip_line();
             is_in_solid = true;
         } else if is_in_solid && word.is("facet") {
-            let corners = facet(&mut words)?;
-            all.add(corners)?;
+            take(facet(&mut words)?)?;
         } else if is_in_solid && words.is_end(word, "solid") {
             words.skip_line();
             is_in_solid = false;
@@ -38,11 +40,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Triangles, String> {
             return Err(word.instead_of(wanted));
         }
     }
-    Ok(all)
+    Ok(())
 }
 
 /// The corners of a triangle, behind its `facet`.
-fn facet(words: &mut Words<'_>) -> Result<[[f32; 3]; 3], String> {
+fn facet(words: &mut Words<'_>) -> Result<Corners, String> {
     let mut word = words.need("`outer loop`")?;
     if word.is("normal") {
         for _ in 0..3 {

@@ -20,10 +20,19 @@ pub(super) use request::Request;
 use request::Requests;
 pub(super) use response::{Response, Status};
 
-/// A request is there so long after its first byte, and an answer is taken so long after its own.
-const EXCHANGE_LIMIT: Duration = Duration::from_secs(10);
-/// A connection on which nothing comes is closed.
-const IDLE: Duration = Duration::from_secs(120);
+/// How long visitors may take.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    /// A request is there so long after its first byte, and an answer is taken so long after its own.
+    exchange: Duration,
+    /// A connection on which nothing comes is closed.
+    idle: Duration,
+}
+
+impl Limits {
+    pub(super) const USUAL: Self = Self { exchange: Duration::from_secs(10), idle: Duration::from_secs(120) };
+}
+
 /// So long it is waited for the rest of what is no request.
 const PARTING: Duration = Duration::from_millis(500);
 /// Stack of a connection's thread, in bytes.
@@ -43,17 +52,18 @@ pub(super) trait Answers: Send + Sync + 'static {
 /// The port cannot be had.
 pub(super) fn serve<A: Answers>(
     port: u16,
+    limits: Limits,
     answers: impl FnOnce(SocketAddr) -> A,
 ) -> io::Result<(SocketAddr, JoinHandle<()>)> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
     let address = listener.local_addr()?;
     let answers = Arc::new(answers(address));
     let door = std::thread::Builder::new().name("http".into());
-    Ok((address, door.spawn(move || let_in(&listener, &answers))?))
+    Ok((address, door.spawn(move || let_in(&listener, limits, &answers))?))
 }
 
 /// Lets visitors in, for ever: each has a thread.
-fn let_in<A: Answers>(listener: &TcpListener, answers: &Arc<A>) {
+fn let_in<A: Answers>(listener: &TcpListener, limits: Limits, answers: &Arc<A>) {
     let places = Arc::new(Places::default());
     loop {
         let Ok((stream, _)) = listener.accept() else {
@@ -65,7 +75,7 @@ fn let_in<A: Answers>(listener: &TcpListener, answers: &Arc<A>) {
         let answers = Arc::clone(answers);
         let thread = std::thread::Builder::new().name("http-visitor".into()).stack_size(STACK);
         let visit = move || {
-            let visited = visit(&stream, &*answers, |rank| place.rises_to(rank));
+            let visited = visit(&stream, limits, &*answers, |rank| place.rises_to(rank));
             // Whoever goes in the middle of it has nobody to tell.
             drop(visited);
         };
@@ -77,21 +87,21 @@ fn let_in<A: Answers>(listener: &TcpListener, answers: &Arc<A>) {
 }
 
 /// Answers the requests of a connection until it ends.
-fn visit(stream: &TcpStream, answers: &impl Answers, rises_to: impl Fn(Rank)) -> io::Result<()> {
+fn visit(stream: &TcpStream, limits: Limits, answers: &impl Answers, rises_to: impl Fn(Rank)) -> io::Result<()> {
     stream.set_nodelay(true)?;
-    let mut requests = Requests::new(stream);
+    let mut requests = Requests::new(stream, limits);
     while let Some(request) = requests.next() {
         match request {
             Ok(request) => {
                 let (rank, response) = answers.answer(&request);
                 rises_to(rank);
-                response.write(stream, request.keeps_open)?;
+                response.write(stream, request.keeps_open, limits.exchange)?;
                 if !request.keeps_open {
                     return Ok(());
                 }
             }
             Err(problem) => {
-                Response::text(problem.status, problem.why).write(stream, false)?;
+                Response::text(problem.status, problem.why).write(stream, false, limits.exchange)?;
                 return part(stream);
             }
         }

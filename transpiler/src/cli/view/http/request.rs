@@ -4,8 +4,8 @@ use std::io::Read;
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
+use super::Limits;
 use super::response::Status;
-use super::{EXCHANGE_LIMIT, IDLE};
 
 /// The longest head of a request, in bytes.
 const LONGEST_HEAD: usize = 1 << 14;
@@ -45,6 +45,7 @@ const NO_LENGTH: Problem = Problem { status: Status::BadRequest, why: "a body ha
 /// The requests of a connection.
 pub(super) struct Requests<'a> {
     stream: &'a TcpStream,
+    limits: Limits,
     /// What has come and was not taken yet.
     buffer: Vec<u8>,
 }
@@ -57,16 +58,16 @@ enum Came {
 }
 
 impl<'a> Requests<'a> {
-    pub(super) fn new(stream: &'a TcpStream) -> Self {
-        Self { stream, buffer: Vec::new() }
+    pub(super) fn new(stream: &'a TcpStream, limits: Limits) -> Self {
+        Self { stream, limits, buffer: Vec::new() }
     }
 
     /// The next one; nothing where none comes any more.
     pub(super) fn next(&mut self) -> Option<Result<Request, Problem>> {
-        if self.buffer.is_empty() && matches!(self.read(IDLE), Came::Nothing) {
+        if self.buffer.is_empty() && matches!(self.read(self.limits.idle), Came::Nothing) {
             return None;
         }
-        let until = Instant::now() + EXCHANGE_LIMIT;
+        let until = Instant::now() + self.limits.exchange;
         Some(self.request(until))
     }
 

@@ -2,9 +2,7 @@
 
 use std::io::{self, Write};
 use std::net::TcpStream;
-use std::time::Instant;
-
-use super::EXCHANGE_LIMIT;
+use std::time::{Duration, Instant};
 
 /// The page may load nothing but what this server has.
 const POLICY: &str = "default-src 'self'; img-src 'self' data:; style-src 'self'; frame-ancestors 'none'";
@@ -60,8 +58,8 @@ impl Response {
         Self::new(status, TEXT, text.as_bytes().to_vec())
     }
 
-    /// Writes it, to somebody who has to take it in time.
-    pub(super) fn write(&self, mut stream: &TcpStream, keeps_open: bool) -> io::Result<()> {
+    /// Writes it, to somebody who has to take all of it within a time.
+    pub(super) fn write(&self, mut stream: &TcpStream, keeps_open: bool, limit: Duration) -> io::Result<()> {
         let Self { status, kind, body } = self;
         let connection = if keeps_open { "keep-alive" } else { "close" };
         let head = format!(
@@ -71,14 +69,22 @@ impl Response {
             status.line(),
             body.len()
         );
-        let until = Instant::now() + EXCHANGE_LIMIT;
-        for piece in std::iter::once(head.as_bytes()).chain(body.chunks(PIECE)) {
-            let limit = until.saturating_duration_since(Instant::now());
-            if limit.is_zero() {
-                return Err(io::ErrorKind::TimedOut.into());
+        let until = Instant::now() + limit;
+        for mut piece in std::iter::once(head.as_bytes()).chain(body.chunks(PIECE)) {
+            while !piece.is_empty() {
+                let left = until.saturating_duration_since(Instant::now());
+                if left.is_zero() {
+                    return Err(io::ErrorKind::TimedOut.into());
+                }
+                // For each write: `write_all` would begin anew with every byte that is taken.
+                stream.set_write_timeout(Some(left))?;
+                match stream.write(piece) {
+                    Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+                    Ok(count) => piece = piece.get(count..).unwrap_or_default(),
+                    Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                    Err(error) => return Err(error),
+                }
             }
-            stream.set_write_timeout(Some(limit))?;
-            stream.write_all(piece)?;
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use arl_robot::kinematics::{Axes, Frame, Refusal, Singularity, Wanted, frame, fr
 use serde::{Deserialize, Serialize};
 
 use super::super::super::said::{Placed, placed, written};
-use super::points::FARTHEST;
+use super::points::expect_sensible;
 
 /// Below that clearance of a singular point, people are told.
 const NEAR_SINGULAR: f64 = 0.08;
@@ -103,17 +103,6 @@ impl Where {
     }
 }
 
-/// That numbers are such as a cell has.
-fn expect_sensible(numbers: impl Iterator<Item = f64>) -> Result<(), String> {
-    let mut numbers = numbers;
-    match numbers.find(|number| !(-FARTHEST..=FARTHEST).contains(number)) {
-        Some(number) => {
-            Err(format!("{number:e} is out of range: expected mm and deg from {:e} to {FARTHEST:e}", -FARTHEST))
-        }
-        None => Ok(()),
-    }
-}
-
 /// That a place is turned by a quaternion that says how.
 fn expect_turned([.., i, j, k, w]: &Placed) -> Result<(), String> {
     let length = [i, j, k, w].iter().map(|part| part.powi(2)).sum::<f64>();
@@ -133,7 +122,7 @@ fn own(robot: &Robot, axes: &[f64]) -> Result<Axes, String> {
 pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
     let optional = asked.components.into_iter().chain(asked.before).flatten().chain(asked.placed.into_iter().flatten());
     let axes = asked.near.iter().chain(asked.axes.iter().flatten()).copied();
-    expect_sensible(asked.setting.numbers().chain(optional).chain(axes))?;
+    asked.setting.numbers().chain(optional).chain(axes).try_for_each(expect_sensible)?;
     asked.placed.iter().try_for_each(expect_turned)?;
     let setting = asked.setting.setting()?;
     let near = own(robot, &asked.near)?;
@@ -200,7 +189,7 @@ fn why(robot: &Robot, refusal: &Refusal) -> String {
 /// The places of a plane.
 pub(super) fn map(robot: &Robot, map: &Map) -> Result<Mapped, String> {
     let numbers = map.components.into_iter().chain([map.half, map.step]).chain(map.near.iter().copied());
-    expect_sensible(map.setting.numbers().chain(numbers))?;
+    map.setting.numbers().chain(numbers).try_for_each(expect_sensible)?;
     let side = (2.0 * map.half / map.step).floor() + 1.0;
     if !(side >= 1.0 && side * side <= MOST_PLACES as f64) {
         return Err(format!("a map has at most {MOST_PLACES} places"));

@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use arl_lang::ast::{BraceItem, Expr, ExprKind, Item, UnaryOp, Var};
+use arl_lang::catalog::UNSET;
 use arl_lang::symbol::Interner;
 use arl_robot::Family;
 use arl_robot::atomic_file::{self, ChangeError};
+use arl_robot::cell::LARGEST_MM;
 use arl_robot::kinematics::frame;
 use arl_robot::regular_file;
 use serde::{Deserialize, Serialize};
@@ -22,10 +24,6 @@ const JOINT_SCARA: &[&str] = &["j1", "j2", "j3", "j4", "ej1", "ej2", "ej3", "ej4
 const JOINT: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
 /// Those that are whole numbers, and their ranges.
 const WHOLE: &[(&str, [f64; 2])] = &[("cfg", [0.0, 7.0]), ("turn", [-1.0, 63.0])];
-/// No cell is so large, in mm; no axis turns so far, in deg.
-pub(super) const FARTHEST: f64 = 1e6;
-/// The value of a component that is not set.
-const UNSET: f64 = 9e9;
 /// So many steps can be taken back.
 const UNDONE: usize = 200;
 
@@ -157,6 +155,7 @@ fn replace(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, String>
         Err(ChangeError::Refused(why)) => Err(why),
         Err(ChangeError::Read(error)) => Err(format!("cannot read {}: {error}", path.display())),
         Err(ChangeError::Write(error)) => Err(format!("cannot write {}: {error}", path.display())),
+        Err(aside @ ChangeError::Aside(..)) => Err(format!("{} {aside}", path.display())),
     }
 }
 
@@ -210,7 +209,7 @@ fn literal(change: &Change, family: Family) -> Result<String, String> {
         if !known.contains(&name.as_str()) {
             return Err(format!("`{name}` is no component of a {}", change.r#type));
         }
-        expect_sensible(name, *value)?;
+        expect_component(name, *value)?;
     }
     let rounded = |value: f64| (value * 1000.0).round() / 1000.0 + 0.0;
     let written = known.iter().filter_map(|name| Some(format!("{name} {}", rounded(*change.values.get(*name)?))));
@@ -222,15 +221,22 @@ fn literal(change: &Change, family: Family) -> Result<String, String> {
 }
 
 /// That a component has a value that a cell may have.
-fn expect_sensible(name: &str, value: f64) -> Result<(), String> {
+fn expect_component(name: &str, value: f64) -> Result<(), String> {
     match WHOLE.iter().find(|(whole, _)| *whole == name) {
         Some((_, [least, most])) if value.fract() != 0.0 || !(*least..=*most).contains(&value) => {
             Err(format!("`{name}` is {value}: expected a whole number from {least} to {most}"))
         }
-        None if value != UNSET && !(-FARTHEST..=FARTHEST).contains(&value) => {
-            Err(format!("`{name}` is {value:e}: expected mm or deg from {:e} to {FARTHEST:e}", -FARTHEST))
-        }
+        None if value != UNSET => expect_sensible(value).map_err(|why| format!("`{name}`: {why}")),
         _ => Ok(()),
+    }
+}
+
+/// That a number of mm or deg is such as a cell has.
+pub(super) fn expect_sensible(number: f64) -> Result<(), String> {
+    if number.abs() <= LARGEST_MM {
+        Ok(())
+    } else {
+        Err(format!("{number:e} is out of range: expected mm or deg from {:e} to {LARGEST_MM:e}", -LARGEST_MM))
     }
 }
 
