@@ -277,7 +277,7 @@ fn a_motion_that_comes_too_late_to_be_blended_is_told_of() {
         Box::pin(async move {
             motion::movej(bent(30.0)).vp(100.0).sp(50.0).run(cx).await.at(FILE, 1)?;
             // It brakes for its target by now.
-            for _ in 0..620 {
+            for _ in 0..330 {
                 cx.next_cycle().await;
             }
             motion::movej(bent(60.0)).sp(-1.0).run(cx).await.at(FILE, 2)
@@ -312,17 +312,6 @@ fn a_target_that_is_not_rounded_off_is_told_of_once_with_the_cause() {
 #[test]
 fn the_virtual_clock_gives_the_same_run_every_time() {
     let trace = || {
-        #[derive(Clone, Default)]
-        struct Kept(std::rc::Rc<std::cell::RefCell<Vec<u8>>>);
-        impl std::io::Write for Kept {
-            fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-                self.0.borrow_mut().extend_from_slice(bytes);
-                Ok(bytes.len())
-            }
-            fn flush(&mut self) -> std::io::Result<()> {
-                Ok(())
-            }
-        }
         let kept = Kept::default();
         let (mut controller, _) = controller(Controller::builder().trace(kept.clone()), |cx| {
             Box::pin(async move {

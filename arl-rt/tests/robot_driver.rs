@@ -90,7 +90,7 @@ fn turning_with(script: Script, more: impl FnOnce(Builder) -> Builder) -> (Contr
 }
 
 /// The cycle in which axis 1 is at full speed.
-const AT_SPEED: u64 = 1000;
+const AT_SPEED: u64 = 750;
 
 fn outcome(controller: &mut Controller) -> (u32, u32, String) {
     match controller.run() {
@@ -310,7 +310,8 @@ fn a_robot_that_was_let_go_is_called_no_more() {
 fn motors_go_off_at_rest_and_come_on_when_they_say_so() {
     let (mut controller, heard) = turning(|cycle, feedback| {
         // After they are switched on, the drives take 0.3 s.
-        if (3001..3300).contains(&cycle) { feedback.with_drives(Drives::Off) } else { feedback }
+        let on = AT_SPEED + 2000;
+        if (on + 1..on + 300).contains(&cycle) { feedback.with_drives(Drives::Off) } else { feedback }
     });
     controller.run_for(AT_SPEED as f64 * 0.001);
     controller.press(arl_rt::io::Pendant::ServoOff);
@@ -511,15 +512,6 @@ fn a_robot_that_does_not_start_is_no_controller() {
     let outside = refused(Nowhere(Ok(500.0)));
     let why = "the robot reports j1 at 500.000 deg, outside of its range of -170 to 170 deg";
     assert!(outside.contains(why) && outside.contains("is the robot file that of this robot?"), "{outside}");
-}
-
-#[test]
-fn a_robot_that_leaves_its_range_is_an_alarm_at_once() {
-    let (mut controller, heard) = turning(|cycle, feedback| changed(cycle, feedback, 500.0));
-    let (number, line, text) = outcome(&mut controller);
-    assert_eq!((number, line), (20070, 2), "{text}");
-    assert!(text.starts_with("the robot does not follow: j3 is "), "{text}");
-    keep_limits(&heard.borrow());
 }
 
 /// Axis 3 is at 500 deg in some of the cycles in which the motors are off.

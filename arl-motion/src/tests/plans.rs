@@ -149,6 +149,7 @@ fn an_axis_range_is_watched_along_the_whole_line() {
     assert!(farthest > ends + 5.0, "axis 3 goes to {farthest} between {ends}");
     let mut narrow = Robot::clone(&robot).into_description();
     narrow.axes[2].max = ends + 4.0;
+    narrow.home = from.axes.to_vec();
     let narrow = Robot::new(narrow).unwrap();
     match plan(&narrow, &from, &command, &Settings::default()) {
         Err(PlanError::AxisLimit { axis, value, along, .. }) => {

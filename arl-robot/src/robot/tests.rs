@@ -63,7 +63,7 @@ fn robots_that_would_be_stretched_out_at_zeros_stand_bent_at_home() {
 #[test]
 fn an_unknown_key_names_its_place_and_a_near_name() {
     let found = error(&changed("ori_vel", "ori_val"));
-    assert_eq!((found.line, found.column), (22, 1), "{found}");
+    assert_eq!((found.line, found.column), (23, 1), "{found}");
     assert!(found.message.contains("did you mean `ori_vel`"), "{found}");
     let found = error(&changed("profile", "speed_profile_of_the_robot"));
     assert!(found.message.contains("known are: name, family"), "{found}");
@@ -73,22 +73,28 @@ fn an_unknown_key_names_its_place_and_a_near_name() {
 fn wrong_values_say_what_was_expected() {
     for (from, to, line, words) in [
         ("\"six-axis\"", "\"sixaxis\"", 4, "expected \"six-axis\" or \"scara\""),
-        ("acc = 8000.0", "acc = -1", 20, "above 0"),
-        ("acc = 8000.0", "acc = \"fast\"", 20, "found the text \"fast\""),
-        ("min = -170.0", "min = 171.0", 28, "less than its `max`, 170"),
-        ("signs = [1, 1,", "signs = [2, 1,", 16, "1 or -1"),
-        ("signs = [1, 1,", "signs = [1,", 16, "found 5 of them"),
-        ("\"j2\"", "\"j3\"", 35, "expected \"j2\""),
-        ("c2 = 705.0", "", 7, "lacks `c2`"),
-        ("c2 = 705.0", "c2 = nan", 12, "expected the length"),
-        ("acc = 8000.0", "acc = inf", 20, "`acc` of [tcp]: expected an acceleration in mm/s2, found the number inf"),
-        ("acc = 8000.0", "acc = 1e300", 20, "`acc` of [tcp] is 1"),
-        ("acc = 8000.0", "acc = 1e-300", 20, "expected an acceleration in mm/s2, 0.000001 or more"),
-        ("c1 = 615.0", "c1 = -1e7", 11, "expected a length in mm, from -1000000 to 1000000"),
-        ("min = -170.0", "min = -1e7", 28, "`min` of [[axis]] is -10000000: expected the lowest position, from"),
-        ("offsets = [0,", "offsets = [1e9,", 15, "six angles in deg, from -1000000"),
-        ("profile = \"S\"", "home = [0, 0, 200, 0, 0, 0]", 5, "`home` of j3 is 200"),
-        ("profile = \"S\"", "home = [0]", 5, "expected 6 positions"),
+        ("acc = 8000.0", "acc = -1", 21, "above 0"),
+        ("acc = 8000.0", "acc = \"fast\"", 21, "found the text \"fast\""),
+        ("min = -170.0", "min = 171.0", 29, "less than its `max`, 170"),
+        ("signs = [1, 1,", "signs = [2, 1,", 17, "1 or -1"),
+        ("signs = [1, 1,", "signs = [1,", 17, "found 5 of them"),
+        ("\"j2\"", "\"j3\"", 36, "expected \"j2\""),
+        ("c2 = 705.0", "", 8, "lacks `c2`"),
+        ("c2 = 705.0", "c2 = nan", 13, "expected the length"),
+        ("acc = 8000.0", "acc = inf", 21, "`acc` of [tcp]: expected an acceleration in mm/s2, found the number inf"),
+        (
+            "acc = 8000.0",
+            "acc = 1e300",
+            21,
+            "`acc` of [tcp] is 1e300: expected an acceleration in mm/s2, from 1e-6 to 1000000000000.0",
+        ),
+        ("acc = 8000.0", "acc = 1e-300", 21, "is 1e-300: expected an acceleration in mm/s2, from 1e-6 to"),
+        ("c2 = 705.0", "c2 = 2e6", 13, "expected the length of the upper arm in mm, from 1e-6 to 1000000.0"),
+        ("c1 = 615.0", "c1 = -1e7", 12, "expected a length in mm, from -1000000 to 1000000"),
+        ("min = -170.0", "min = -1e7", 29, "`min` of [[axis]] is -10000000.0: expected the lowest position, from"),
+        ("offsets = [0,", "offsets = [1e9,", 16, "six angles in deg, from -1000000"),
+        ("home = [0, 0, 0, 0, 90, 0]", "home = [0, 0, 200, 0, 0, 0]", 6, "`home` of j3 is 200"),
+        ("home = [0, 0, 0, 0, 90, 0]", "home = [0]", 6, "expected 6 positions"),
         ("profile = \"S\"", "profile = ", 5, "no TOML"),
     ] {
         let found = error(&changed(from, to));
@@ -99,7 +105,7 @@ fn wrong_values_say_what_was_expected() {
 
 #[test]
 fn home_and_external_axes_are_read() {
-    let text = changed("profile = \"S\"", "home = [1, 2, 3, 4, 5, 6, 700]")
+    let text = changed("home = [0, 0, 0, 0, 90, 0]", "home = [1, 2, 3, 4, 5, 6, 700]")
         + "[[axis]]\nname = \"ej1\"\nlinear = true\nmin = 500\nmax = 1000\nvel = 1\nacc = 1\njerk = 1\n";
     let robot = Robot::parse("arm.toml", &text).unwrap();
     assert_eq!(robot.home, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 700.0]);
@@ -154,11 +160,11 @@ fn what_is_changed_is_checked_as_a_file_is() {
         |robot, value| robot.kinematics = lengths(robot, |p| p.c2 = value),
     ];
     for (place, put) in limits.iter().enumerate() {
-        for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for value in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-300, 1e300] {
             let mut described = Robot::builtin("kr10-r1420").unwrap().into_description();
             put(&mut described, value);
             let error = Robot::new(described).unwrap_err();
-            assert!(error.message.contains(&format!("{value}")), "{place}: {value}: {error}");
+            assert!(error.message.contains(&format!("{value:?}")), "{place}: {value}: {error}");
             assert_eq!((error.file.as_str(), error.line), ("kr10-r1420", 0));
         }
     }

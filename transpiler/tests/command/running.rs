@@ -165,8 +165,8 @@ fn a_plot_shows_the_way_the_speeds_and_the_lines() {
 /// A program of two files, each with a motion in its line 3.
 fn two_files(name: &str) -> Folder {
     Folder::new(name)
-        .with("way.arl", "import \"parts.arl\"\nfunc void main()\n    movej j:{10,-90,90,0,90,0}\n    parts::aside()\nendfunc\n")
-        .with("parts.arl", "func void aside()\n    pose p = cpose($FLANGE,$WORLD)\n    lin p:offset(p,-40,0,-50,0,0,0),vl:200\nendfunc\n")
+        .with("way.arl", "import \"parts.arl\"\nfunc void main()\n    movej j:{10,-90,90,0,0.5,0}\n    parts::aside()\nendfunc\n")
+        .with("parts.arl", "func void aside()\n    pose p = getpose({10,-90,90,0,0.5,0},$FLANGE,$WORLD)\n    lin p:offset(p,0,40,0,0,0,0),vl:200\nendfunc\n")
 }
 
 #[test]

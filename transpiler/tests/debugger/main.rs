@@ -81,7 +81,7 @@ fn variables_are_shown_and_set() {
         ("strlen(name) + strlen(substr(name, 1, 2))", "6"),
         ("tostr(255, hex)", "\"ff\""),
         ("offset(feeder, 10, 0, 0, 0, 0, 0).x", "910"),
-        ("getpose(cjoint(), $FLANGE, $WORLD).b", "90"),
+        ("getpose(cjoint(), $FLANGE, $WORLD).b", "0"),
         ("log(0)", "log: 0 is not above 0"),
         ("abs(25.0) / 2", "12.5"),
         ("bitcheck(5.0, 0)", "bitcheck does not take these arguments here: see `arl2rs doc bitcheck`"),
@@ -186,7 +186,7 @@ fn it_goes_back_and_repeats_itself() {
 }
 
 const CELL: &str = "\
-joint home = {0, -90, 90, 0, 90, 0}
+joint home = {60, -90, 90, 0, 90, 0}
 int seen = 0
 func void opened(int gate)
     seen = seen + gate

@@ -246,7 +246,7 @@ other:
 endfunc
 func void main()
     int n = jumps(0)
-    movej j:{0, -90, 90, 0, 90, 0}, vp:50%
+    movej j:{60, -90, 90, 0, 90, 0}, vp:50%
     loop
 "
     .to_owned();
@@ -311,7 +311,7 @@ endfunc
 func void main()
     timer \"t\", interval:0.001, rmode:true, do:tick()
     interrupt 1, when:odd(ticks), do:tick()
-    movej j:{0, -90, 90, 0, 90, 0}, vp:50%
+    movej j:{60, -90, 90, 0, 90, 0}, vp:50%
     waittime 5
     print \"a\"
     waittime 5
