@@ -26,7 +26,7 @@ done <<<"$packages"
 grep -q "^## $version, [0-9]\{4\}-[0-9][0-9]-[0-9][0-9]$" CHANGELOG.md ||
   problem "CHANGELOG.md has no heading \`## $version, YYYY-MM-DD\`"
 ! grep -q "^## Unreleased" CHANGELOG.md || problem "CHANGELOG.md has an \`Unreleased\` part"
-for folder in arl-lang arl-robot arl-motion arl-rt drivers library arl-sources arl-macros transpiler; do
+for folder in arl-lang arl-robot arl-motion arl-rt drivers library arl-sources arl-macros transpiler wire terminal runs project editor command; do
   for file in LICENSE-MIT LICENSE-APACHE; do
     cmp -s "$file" "$folder/$file" || problem "$folder/$file is not the licence of this project"
   done

@@ -42,7 +42,8 @@ const RUNTIME: &[&str] = &[
 ];
 
 /// The files and folders of the compiler, from the ground up.
-const TRANSPILER: &[&str] = &[
+const COMPILER: &[&str] = &[
+    "alarms",
     "near",
     "format",
     "sources",
@@ -56,13 +57,42 @@ const TRANSPILER: &[&str] = &[
     "render",
     "compile",
     "build_door",
-    "cli",
-    "main",
+    "reference",
+];
+
+/// Those of what is made of a run.
+const RUNS: &[&str] = &[
+    "texts", "link", "listen", "urdf", "scenery", "plot", "collide", "record", "recorded", "signals", "report",
+    "pendant", "view", "fuzzing",
+];
+
+/// Those of what belongs to a program, and its compiling.
+const PROJECT: &[&str] = &[
+    "expectations",
+    "listing",
+    "program_path",
+    "robots",
+    "options",
+    "arl_toml",
+    "trouble",
+    "cache",
+    "runtime",
+    "package",
+    "cargo",
+    "several",
+    "stamp",
+    "program",
 ];
 
 #[test]
 fn folders_of_the_compiler_import_from_below_only() {
-    assert_layers("transpiler/src", TRANSPILER);
+    assert_layers("transpiler/src", COMPILER);
+}
+
+#[test]
+fn folders_of_the_tools_import_from_below_only() {
+    assert_layers("runs/src", RUNS);
+    assert_layers("project/src", PROJECT);
 }
 
 #[test]
@@ -76,7 +106,7 @@ fn folders_of_arl_motion_import_from_below_only() {
 }
 
 /// Where the compiler looks at what built-ins mean; all that it knows of one stands in its catalog entry.
-const COMPILER: &[&str] = &["transpiler/src/check", "transpiler/src/effects", "transpiler/src/emit"];
+const STAGES: &[&str] = &["transpiler/src/check", "transpiler/src/effects", "transpiler/src/emit"];
 
 /// Names of built-ins that are names of something else there: of Rust functions, of a kind of name.
 const OTHER_THINGS: &[&str] = &["init", "label"];
@@ -87,7 +117,7 @@ fn the_compiler_knows_no_builtin_by_its_name() {
     let known: HashSet<&str> = entries.chain(catalog::system_variables().map(|variable| variable.name)).collect();
     assert!(known.contains("waituntil") && known.contains("socket::connect") && known.contains("DFTOOL"));
     let mut faults = Vec::new();
-    for folder in COMPILER {
+    for folder in STAGES {
         let files = rust_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder));
         assert!(!files.is_empty(), "{folder} has files");
         // The words of Rust are listed in one file.

@@ -1,7 +1,7 @@
 //! A URDF becomes a robot file and a shape, or is refused.
 #![no_main]
 
-use arl2rs::cli::fuzzing::urdf;
+use arl_runs::fuzzing::urdf;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| urdf(text));

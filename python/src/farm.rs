@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use arl2rs::cli::host::{self, Parameters, Row, RunResult, Settings, Spread, Sweep};
+use arl2rs_cli::host::{self, Parameters, Row, RunResult, Settings, Spread, Sweep};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

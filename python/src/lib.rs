@@ -10,7 +10,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use arl2rs::cli::host::{self, Settings};
+use arl2rs_cli::host::{self, Settings};
 use pyo3::prelude::*;
 
 #[pymodule]
@@ -153,5 +153,5 @@ pub(crate) fn interruptible<T: Send + 'static>(
 /// Does what these words say, as the command does; gives its exit code.
 #[pyfunction]
 fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
-    py.detach(|| arl2rs::cli::command(words))
+    py.detach(|| arl2rs_cli::command(words))
 }

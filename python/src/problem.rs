@@ -1,7 +1,7 @@
 //! What goes wrong, as exceptions; the Python side makes them into those of the package.
 
 use arl_library::LoadError;
-use arl2rs::cli::host::HostError;
+use arl2rs_cli::host::HostError;
 use pyo3::create_exception;
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;

@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, ThreadId};
 
 use arl_library::{Library as Loaded, LoadError, Session as Run};
-use arl2rs::cli::host::{self, Settings};
+use arl2rs_cli::host::{self, Settings};
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -215,11 +215,7 @@ impl Session {
 
     /// A few cycles, and what is observed after them into an array of doubles; the exit code where the run is over.
     fn step(&self, py: Python<'_>, cycles: u64, alone: bool, into: PyBuffer<f64>) -> PyResult<Option<u8>> {
-        let code = if cycles > CHUNK {
-            self.go_on(py, cycles, alone)?
-        } else {
-            self.chunk(cycles, alone)?
-        };
+        let code = if cycles > CHUNK { self.go_on(py, cycles, alone)? } else { self.chunk(cycles, alone)? };
         self.observe(py, into)?;
         Ok(code)
     }

@@ -2,7 +2,7 @@
 
 pub(crate) mod captures;
 pub(crate) mod facts;
-pub(crate) mod flow;
+pub mod flow;
 pub(crate) mod graph;
 pub(crate) mod growth;
 pub(crate) mod loops;

@@ -3,10 +3,10 @@
 //! The core does no file or process work: sources come in through [`Sources`], text and diagnostics go out. The doors
 //! (the command, `build.rs`, the macro) read files and show what the core has to say.
 
+#[cfg(feature = "tools")]
+pub mod alarms;
 mod build_door;
-mod check;
-#[cfg(feature = "cli")]
-pub mod cli;
+pub mod check;
 pub mod compile;
 pub mod diagnostics;
 pub mod effects;
@@ -15,6 +15,8 @@ pub mod format;
 pub mod hir;
 pub mod index;
 mod near;
+#[cfg(feature = "tools")]
+pub mod reference;
 pub mod render;
 pub mod sources;
 mod visit;
@@ -61,10 +63,10 @@ pub struct CheckOptions {
     /// looked at.
     pub index: bool,
     /// The robot, where it is known: targets that it can never reach are warned of.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "tools")]
     pub robot: Option<arl_robot::Robot>,
     /// The cell, where it is known: channels, lines and bytes that it does not have are errors.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "tools")]
     pub cell: Option<arl_robot::outline::Outline>,
 }
 
@@ -85,18 +87,18 @@ pub struct Checked {
     pub read: Vec<std::path::PathBuf>,
 }
 
-/// What only the emitter needs.
-#[cfg(feature = "cli")]
+/// What only the emitter needs, to be freed when there is time.
+#[cfg(feature = "tools")]
 #[derive(Debug)]
-pub(crate) struct Unneeded {
+pub struct Unneeded {
     _program: Option<hir::Program>,
     _syntax: check::Syntax,
 }
 
 impl Checked {
     /// Takes out what only the emitter needs, to be freed when there is time.
-    #[cfg(feature = "cli")]
-    pub(crate) fn take_program(&mut self) -> Unneeded {
+    #[cfg(feature = "tools")]
+    pub fn take_program(&mut self) -> Unneeded {
         Unneeded { _program: self.program.take(), _syntax: std::mem::take(&mut self._syntax) }
     }
 

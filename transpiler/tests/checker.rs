@@ -43,7 +43,7 @@ impl Case {
         if self.title.contains("[scara]") {
             options.family = arl_lang::catalog::Family::Scara;
         }
-        #[cfg(feature = "cli")]
+        #[cfg(feature = "tools")]
         if let Some((name, _)) = self.title.split_once("[robot ").and_then(|(_, rest)| rest.split_once(']')) {
             let robot = arl_robot::Robot::builtin(name).unwrap();
             options.family = robot.family;
@@ -169,7 +169,7 @@ fn run(text: &str) {
     let mut failures = String::new();
     let mut cases = read(text);
     // Only the command knows robots.
-    cases.retain(|case| cfg!(feature = "cli") || !case.title.contains("[robot "));
+    cases.retain(|case| cfg!(feature = "tools") || !case.title.contains("[robot "));
     assert!(cases.len() > 3, "the cases are read");
     for case in &cases {
         let checked = case.check();

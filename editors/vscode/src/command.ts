@@ -35,7 +35,7 @@ async function wantsRetry(): Promise<boolean> {
     setting === ""
       ? "The command arl2rs was found neither in PATH nor in ~/.cargo/bin."
       : `The setting arl2rs.path names no command: ${setting}`;
-  const how = "In a checkout of arl2rs, `cargo install --locked --path transpiler` installs it.";
+  const how = "In a checkout of arl2rs, `cargo install --locked --path command` installs it.";
   const settings = "Open Settings";
   const retry = "Try Again";
   const chosen = await vscode.window.showErrorMessage(`${what} ${how}`, settings, retry);

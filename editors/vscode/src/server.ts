@@ -58,7 +58,7 @@ export class Server implements vscode.Disposable {
       return;
     }
     if (!(await knows(command, "lsp"))) {
-      const newer = "A newer one has it: `cargo install --locked --path transpiler`, in a checkout of arl2rs.";
+      const newer = "A newer one has it: `cargo install --locked --path command`, in a checkout of arl2rs.";
       void vscode.window.showWarningMessage(`${command} has no language server. ${newer}`);
       return;
     }

@@ -65,7 +65,7 @@ test("it registers its commands, and says where the command is missing", async (
   assert.deepEqual(taskTypes, manifest.contributes.taskDefinitions.map(({ type }) => type));
   await new Promise((resolve) => setTimeout(resolve, 10));
   assert.equal(messages.length, 1);
-  assert.match(messages[0], /cargo install --locked --path transpiler/);
+  assert.match(messages[0], /cargo install --locked --path command/);
   await extension.deactivate();
 });
 

@@ -295,13 +295,13 @@ impl<'a> Checker<'a> {
 }
 
 /// The name of a type in the manual's spelling, with the sizes of an array.
-pub(crate) fn type_name(ty: Type, family: Family) -> String {
+pub fn type_name(ty: Type, family: Family) -> String {
     let sizes: String = ty.dims().iter().map(|size| format!("[{size}]")).collect();
     format!("{}{sizes}", base_name(ty.base, family))
 }
 
 /// The name of a base type in the manual's spelling.
-pub(crate) fn base_name(base: Base, family: Family) -> &'static str {
+pub fn base_name(base: Base, family: Family) -> &'static str {
     match base {
         Base::Void => "void",
         Base::Int => "int",

@@ -6,6 +6,7 @@ use crate::hir::ModuleId;
 use crate::{CheckOptions, SourceError, Sources};
 use arl_lang::ast;
 use arl_lang::catalog;
+use arl_lang::files::is_data;
 use arl_lang::span::Span;
 use arl_lang::symbol::{Interner, Symbol};
 use arl_lang::{ParseOptions, Splice, parse, parse_statements};
@@ -191,7 +192,7 @@ pub(crate) fn syntax_diagnostic(error: &arl_lang::syntax_error::SyntaxError, fil
 
 /// Where a path of an `import` leads: from the folder of the file that has it, or from the script folder, which is that of
 /// the main file where no other is named.
-pub(crate) fn imported(written: &str, folder: &Path, root: &Path, script_dir: Option<&Path>) -> PathBuf {
+pub fn imported(written: &str, folder: &Path, root: &Path, script_dir: Option<&Path>) -> PathBuf {
     match written.strip_prefix(SCRIPT_DIR) {
         Some(rest) => script_dir.unwrap_or(root).join(rest),
         None => folder.join(written),
@@ -351,11 +352,6 @@ impl Follow<'_> {
     }
 }
 
-/// Whether a file holds the data of the program beside it.
-pub(crate) fn is_data(path: &Path) -> bool {
-    path.file_stem().is_some_and(|stem| stem.to_string_lossy().to_ascii_lowercase().ends_with("_data"))
-}
-
 /// Whether a file name can stand in front of `::`.
 fn is_name(stem: &str) -> bool {
     let mut chars = stem.chars();
@@ -364,7 +360,7 @@ fn is_name(stem: &str) -> bool {
 }
 
 /// The path without `.` and inner `..`, so that one file has one path.
-pub(crate) fn clean(path: &Path) -> PathBuf {
+pub fn clean(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for component in path.components() {
         match component {

@@ -7,7 +7,7 @@
 mod arguments;
 mod brace;
 mod call;
-#[cfg(feature = "cli")]
+#[cfg(feature = "tools")]
 mod cell;
 mod conditions;
 mod context;
@@ -24,7 +24,7 @@ mod name;
 mod operators;
 mod place;
 mod statements;
-#[cfg(feature = "cli")]
+#[cfg(feature = "tools")]
 mod targets;
 mod uses;
 
@@ -35,11 +35,9 @@ use crate::{CheckOptions, Checked, Sources};
 use arl_lang::catalog::Base;
 use arl_lang::span::Span;
 use context::Checker;
-#[cfg(feature = "cli")]
-pub(crate) use context::{base_name, type_name};
+pub use context::{base_name, type_name};
 use load::{Loaded, LoadedModule, Start};
-#[cfg(feature = "cli")]
-pub(crate) use load::{clean, imported, is_data};
+pub use load::{clean, imported};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -134,7 +132,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         let mut late = if has_conditions { conditions::check(&built, &locate) } else { Vec::new() };
         late.extend(first_motion::check(&built, &locate));
         diagnostics.extend(doubts::check(&built, &locate));
-        #[cfg(feature = "cli")]
+        #[cfg(feature = "tools")]
         if let Some(cell) = &options.cell {
             let (errors, warnings): (Vec<_>, Vec<_>) = cell::check(&built, cell, &locate)
                 .into_iter()
@@ -142,7 +140,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
             late.extend(errors);
             diagnostics.extend(warnings);
         }
-        #[cfg(feature = "cli")]
+        #[cfg(feature = "tools")]
         if let Some(robot) = &options.robot {
             let alone = options.cell.as_ref().is_none_or(|cell| !cell.others);
             let in_origin = options.cell.as_ref().is_none_or(|cell| !cell.based);
@@ -164,7 +162,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
 
 /// The syntax trees of a program.
 #[derive(Default)]
-pub(crate) struct Syntax {
+pub struct Syntax {
     _modules: Vec<LoadedModule>,
 }
 
@@ -175,7 +173,7 @@ impl std::fmt::Debug for Syntax {
 }
 
 /// The warnings of what is unused, or is never reached.
-pub(crate) const NOT_NEEDED: std::ops::RangeInclusive<u16> = 901..=906;
+pub const NOT_NEEDED: std::ops::RangeInclusive<u16> = 901..=906;
 
 /// Takes warnings about unused and unreachable things out of files with errors: what could not be read or understood
 /// may well be what uses them.
@@ -212,7 +210,7 @@ fn first_values_order(modules: &[LoadedModule]) -> Vec<ModuleId> {
 }
 
 /// Whether the word `main` stands in a text, outside of its comments and strings.
-pub(crate) fn names_main(text: &str) -> bool {
+pub fn names_main(text: &str) -> bool {
     arl_lang::lexer::lexemes(text).any(|(_, span)| span.text(text).eq_ignore_ascii_case("main"))
 }
 

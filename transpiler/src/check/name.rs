@@ -121,12 +121,12 @@ impl Checker<'_> {
     }
 
     /// The signal that the cell calls so, as files write it, and its channel.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "tools")]
     pub(crate) fn signal_named(&self, name: &str) -> Option<(String, u32)> {
         self.options.cell.as_ref()?.names.signal(name).map(|signal| (signal.to_string(), signal.channel))
     }
 
-    #[cfg(not(feature = "cli"))]
+    #[cfg(not(feature = "tools"))]
     pub(crate) fn signal_named(&self, _: &str) -> Option<(String, u32)> {
         None
     }

@@ -13,7 +13,7 @@ pub struct CodeInfo {
     /// A few words, the page's title.
     pub title: &'static str,
     /// The text of the page.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "tools")]
     pub page: &'static str,
 }
 
@@ -30,7 +30,7 @@ macro_rules! code_info {
             code: $crate::diagnostics::Code($number),
             severity: $crate::diagnostics::Severity::$severity,
             title: $title,
-            #[cfg(feature = "cli")]
+            #[cfg(feature = "tools")]
             page: include_str!(concat!("../../docs/diagnostics/ARL0", $number, ".md")),
         }
     };

@@ -1,10 +1,10 @@
 //! What the compiler has to say about a program: codes, places, words.
 
 pub(crate) mod arguments;
-#[cfg(feature = "cli")]
+#[cfg(feature = "tools")]
 pub(crate) mod channels;
 pub(crate) mod components;
-#[cfg(feature = "cli")]
+#[cfg(feature = "tools")]
 pub(crate) mod connections;
 pub(crate) mod constants;
 mod declare;
@@ -15,7 +15,7 @@ pub(crate) mod names;
 mod registry;
 pub(crate) mod support;
 pub(crate) mod system;
-#[cfg(feature = "cli")]
+#[cfg(feature = "tools")]
 pub(crate) mod targets;
 pub(crate) mod types;
 

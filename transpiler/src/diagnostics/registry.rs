@@ -44,11 +44,11 @@ const AREAS: &[&[CodeInfo]] = &[
     super::constants::CODES,
     super::components::CODES,
     super::system::CODES,
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "tools")]
     super::channels::CODES,
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "tools")]
     super::connections::CODES,
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "tools")]
     super::targets::CODES,
 ];
 

@@ -4,14 +4,14 @@ use crate::hir::{Arm, Block, Expr, ExprKind, Stmt, StmtKind, Value};
 use arl_lang::catalog::{Base, Effect};
 
 /// The statements of a block that can be reached, given that its start can be (or a label in it).
-pub(crate) fn reachable(block: &[Stmt]) -> Vec<&Stmt> {
+pub fn reachable(block: &[Stmt]) -> Vec<&Stmt> {
     let mut kept = Vec::with_capacity(block.len());
     run_through(block, &mut |stmt| kept.push(stmt));
     kept
 }
 
 /// Whether the end of the block is never reached.
-pub(crate) fn block_diverges(block: &[Stmt]) -> bool {
+pub fn block_diverges(block: &[Stmt]) -> bool {
     !run_through(block, &mut |_| ())
 }
 
@@ -30,7 +30,7 @@ fn run_through<'a>(block: &'a [Stmt], see: &mut dyn FnMut(&'a Stmt)) -> bool {
 }
 
 /// Whether what follows the statement is never reached from it.
-pub(crate) fn diverges(stmt: &Stmt) -> bool {
+pub fn diverges(stmt: &Stmt) -> bool {
     match &stmt.kind {
         StmtKind::Return(_) | StmtKind::Break | StmtKind::Continue | StmtKind::Goto(_) => true,
         StmtKind::Eval(expr) => ends(expr),
@@ -50,17 +50,17 @@ pub(crate) fn diverges(stmt: &Stmt) -> bool {
 }
 
 /// Whether the expression is `exit` or `restart`.
-pub(crate) fn ends(expr: &Expr) -> bool {
+pub fn ends(expr: &Expr) -> bool {
     matches!(&expr.kind, ExprKind::Builtin(builtin) if builtin.entry.effect == Effect::Ends)
 }
 
 /// Whether a condition is `true`.
-pub(crate) fn always(condition: &Expr) -> bool {
+pub fn always(condition: &Expr) -> bool {
     matches!(condition.kind, ExprKind::Const(Value::Bool(true)))
 }
 
 /// Whether a switch has an arm for each value of its subject.
-pub(crate) fn exhaustive<'a>(subject: &Expr, values: impl Iterator<Item = Option<&'a Value>>) -> bool {
+pub fn exhaustive<'a>(subject: &Expr, values: impl Iterator<Item = Option<&'a Value>>) -> bool {
     let (mut count, mut default) = (0, false);
     for value in values {
         count += 1;
@@ -75,17 +75,17 @@ pub(crate) fn exhaustive<'a>(subject: &Expr, values: impl Iterator<Item = Option
 }
 
 /// Whether what stands behind a loop's body (a step, an `until`, the next round) is ever reached.
-pub(crate) fn goes_round(body: &[Stmt]) -> bool {
+pub fn goes_round(body: &[Stmt]) -> bool {
     !block_diverges(body) || continues(body)
 }
 
 /// Whether a `break` in the statements leaves the loop whose body they are.
-pub(crate) fn breaks(block: &[Stmt]) -> bool {
+pub fn breaks(block: &[Stmt]) -> bool {
     leaves(block, &|kind| matches!(kind, StmtKind::Break))
 }
 
 /// Whether a `continue` in the statements belongs to the loop whose body they are.
-pub(crate) fn continues(block: &[Stmt]) -> bool {
+pub fn continues(block: &[Stmt]) -> bool {
     leaves(block, &|kind| matches!(kind, StmtKind::Continue))
 }
 
@@ -100,12 +100,12 @@ fn leaves(block: &[Stmt], wanted: &dyn Fn(&StmtKind) -> bool) -> bool {
 }
 
 /// Whether a label stands in the statement.
-pub(crate) fn has_label(stmt: &Stmt) -> bool {
+pub fn has_label(stmt: &Stmt) -> bool {
     matches!(stmt.kind, StmtKind::Label(_)) || blocks(stmt).any(|block| block.iter().any(has_label))
 }
 
 /// The blocks directly inside a statement (also the declarations of a `for`).
-pub(crate) fn blocks(stmt: &Stmt) -> impl Iterator<Item = &[Stmt]> {
+pub fn blocks(stmt: &Stmt) -> impl Iterator<Item = &[Stmt]> {
     let mut conditional: &[(Expr, Block)] = &[];
     let mut cases: &[Arm] = &[];
     let mut plain: [Option<&Block>; 2] = [None, None];
@@ -121,7 +121,7 @@ pub(crate) fn blocks(stmt: &Stmt) -> impl Iterator<Item = &[Stmt]> {
 }
 
 /// The expressions directly inside a statement.
-pub(crate) fn expressions(stmt: &Stmt) -> impl Iterator<Item = &Expr> {
+pub fn expressions(stmt: &Stmt) -> impl Iterator<Item = &Expr> {
     let mut conditional: &[(Expr, Block)] = &[];
     let mut plain: [Option<&Expr>; 2] = [None, None];
     match &stmt.kind {

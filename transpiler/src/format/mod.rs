@@ -20,10 +20,7 @@ mod trivia;
 use comments::{Commented, End};
 use levels::Place;
 use lines::{Line, read};
-#[cfg(feature = "cli")]
-pub(crate) use spacing::LEVEL;
-#[cfg(not(feature = "cli"))]
-use spacing::LEVEL;
+pub use spacing::LEVEL;
 use spacing::Text;
 use table::Row;
 

@@ -5,7 +5,7 @@ use arl_lang::lexer::Lexeme;
 use arl_lang::outline::Role;
 
 /// The blanks of one level of blocks.
-pub(crate) const LEVEL: usize = 4;
+pub const LEVEL: usize = 4;
 
 /// Words that take their parentheses as a call does.
 const GUARDS: [&str; 6] = ["if", "elseif", "while", "for", "switch", "until"];

@@ -1,11 +1,11 @@
 //! Diagnostics as text: like rustc's for people, one JSON object a line for tools, one plain line for build logs.
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "tools")]
 mod human;
 mod json;
 mod plain;
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "tools")]
 pub use human::human;
 pub use json::json;
 pub use plain::{plain, plain_block};

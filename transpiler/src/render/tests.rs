@@ -68,7 +68,7 @@ fn place_in_an_empty_file_is_line_one() {
     assert!(plain(&diagnostic, &files).starts_with("none.arl:1:1: "));
 }
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "tools")]
 mod for_people {
     use super::*;
 

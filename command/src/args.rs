@@ -1,0 +1,293 @@
+//! What the command understands.
+
+use arl_project::listing::MOST_SHOWN;
+use arl_project::options::{Checking, Mode, RunOptions, clearance};
+use arl_terminal::answer::Format;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Robot programs in ARL: checked, turned into Rust, compiled and run.
+#[derive(Parser, Debug)]
+#[command(name = "arl2rs", version, max_term_width = 100)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+pub(crate) enum Command {
+    /// Make a folder with a program that runs, its points, a cell, a scenario and a test.
+    New {
+        /// The folder; its name is that of the program.
+        #[arg(value_name = "NAME")]
+        folder: PathBuf,
+    },
+    /// Find the mistakes in programs without running them.
+    Check {
+        /// Programs, and modules and data files that belong to them.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// How to show what was found.
+        #[arg(long, value_enum, default_value_t = Format::Human)]
+        format: Format,
+        /// Show people at most so many errors and warnings, errors first; 0 for all. JSON always has all.
+        #[arg(long, value_name = "N", default_value_t = MOST_SHOWN)]
+        max_errors: usize,
+        /// Run programs without mistakes on the virtual clock, with the scenario of their arl.toml, and find what their robots run into.
+        #[arg(long, conflicts_with = "background")]
+        collisions: bool,
+        /// With --collisions: also what comes nearer to each other than so many mm.
+        #[arg(long, value_name = "MM", value_parser = clearance, requires = "collisions")]
+        clearance: Option<f64>,
+        #[command(flatten)]
+        checking: Checking,
+    },
+    /// Show the Rust that a program becomes.
+    Emit {
+        /// The file that has `main`.
+        file: PathBuf,
+        /// Write NAME.rs into this folder instead of to standard output.
+        #[arg(short, value_name = "DIR")]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        checking: Checking,
+    },
+    /// Make a native program.
+    Build {
+        /// The file that has `main`.
+        file: PathBuf,
+        /// Where to put the program; the file's name without `.arl`, in the working directory, if absent.
+        #[arg(short, value_name = "PROGRAM")]
+        out: Option<PathBuf>,
+        /// Compile longer for a faster program.
+        #[arg(long)]
+        release: bool,
+        /// Make a library for other programs, behind the C interface of `arl.h`.
+        #[arg(long)]
+        library: bool,
+        #[command(flatten)]
+        checking: Checking,
+    },
+    /// Compile a program where needed and run it on a simulated robot.
+    Run {
+        /// The file that has `main`.
+        file: PathBuf,
+        #[command(flatten)]
+        options: Box<RunOptions>,
+    },
+    /// Draw a trace that a run wrote.
+    Plot {
+        /// The trace.
+        #[arg(value_name = "TRACE.csv")]
+        trace: PathBuf,
+        /// The picture.
+        #[arg(value_name = "FILE.svg")]
+        plot: PathBuf,
+        /// The robot that ran: a built-in name or a robot file.
+        #[arg(long, value_name = "NAME|FILE")]
+        robot: Option<String>,
+    },
+    /// Show a run in the browser: robot, path, program and signals on one time line.
+    ///
+    /// Of a recording, or of a program that runs in real time, with the pendant's buttons in the page. The first line of the standard output
+    /// is the address of the page.
+    View {
+        /// A program, or a recording that `arl2rs run --record` made, or two recordings to be compared.
+        #[arg(required = true, num_args = 1..=2, value_name = "FILE.arl|RUN.mcap")]
+        files: Vec<PathBuf>,
+        #[command(flatten)]
+        options: ViewOptions,
+    },
+    /// Tell what differs between two runs, line by line. The exit code is 1 where anything does.
+    Compare {
+        /// A recording, or a report of `arl2rs run --report=FILE --format json`.
+        #[arg(value_name = "A")]
+        one: PathBuf,
+        /// The one that it is compared with.
+        #[arg(value_name = "B")]
+        other: PathBuf,
+        /// How to tell it.
+        #[arg(long, value_enum, default_value_t = Format::Human)]
+        format: Format,
+    },
+    /// Run a program once for each row of a table of parameters, on all cores.
+    ///
+    /// A JSON object for each run comes on the standard output, in the order of the table. What is known from an earlier sweep does not run again.
+    Sweep {
+        /// The program and the table.
+        #[arg(value_name = "S.toml")]
+        file: PathBuf,
+        #[command(flatten)]
+        options: SweepOptions,
+    },
+    /// Run the cases in folders: every NAME.arl with a sidecar that says what is expected (.out, .err, .alarm).
+    Test {
+        /// Folders with cases, searched with their subfolders.
+        #[arg(required = true, value_name = "DIR")]
+        dirs: Vec<PathBuf>,
+        #[command(flatten)]
+        options: TestOptions,
+    },
+    /// Remove compiled programs and runtimes; they are compiled again when they are needed.
+    ///
+    /// They are in `~/.cache/arl2rs`, `~/Library/Caches/arl2rs` or `%LOCALAPPDATA%\arl2rs`, or in the folder that the variable
+    /// ARL2RS_CACHE names. ARL2RS_CACHE_LIMIT is how many gigabytes they may take (4, or `none`): beyond that, what was not used
+    /// for longest goes.
+    Clean {
+        /// Only what was not used for so many days.
+        #[arg(long, value_name = "DAYS")]
+        older: Option<u32>,
+    },
+    /// Explain a diagnostic or an alarm: `arl2rs explain ARL0203`, `arl2rs explain 20003`.
+    Explain {
+        /// The code of the diagnostic, or the number of the alarm.
+        code: String,
+    },
+    /// Show the reference of a statement, type, operator, rule, or of anything built in. Without a name: what there is.
+    Doc {
+        /// Its name: `while`, `string`, `<<`, `blending`, `movej`, `$PI`.
+        name: Option<String>,
+        /// List the pages in which all of these words stand.
+        #[arg(long, value_name = "WORDS", num_args = 1.., conflicts_with = "name")]
+        search: Vec<String>,
+    },
+    /// Lay programs out: one way to indent, to space and to spell. Lines with mistakes stay as they are.
+    Fmt {
+        /// Programs, and folders with programs; `-` reads standard input and writes standard output.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// Write nothing; print the names of the files that would change, and fail where there are any.
+        #[arg(long)]
+        check: bool,
+    },
+    /// Serve an editor: the language server protocol on standard input and output.
+    Lsp,
+    /// Debug a program for an editor: the debug adapter protocol on standard input and output.
+    Dap,
+    /// List the robots that are built in, print the file of one, or make a file of a URDF.
+    Robots {
+        /// The robot to print.
+        name: Option<String>,
+        /// Print a robot file for the robot of a URDF file: six axes with a spherical wrist, or a SCARA.
+        #[arg(long, value_name = "FILE.urdf", conflicts_with = "name")]
+        import: Option<PathBuf>,
+    },
+}
+
+/// Options of the view.
+#[derive(Args, Clone, Default, Debug)]
+pub(crate) struct ViewOptions {
+    /// The port on this computer; a free one where there is none.
+    #[arg(long, value_name = "P", default_value_t = 0)]
+    pub port: u16,
+    /// Do not open the browser.
+    #[arg(long)]
+    pub no_open: bool,
+    /// Let the page write points of a program into its data files.
+    #[arg(long)]
+    pub teach: bool,
+    /// The robot of a program: a built-in name or a robot file.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub robot: Option<String>,
+    /// The cell of a program.
+    #[arg(long, value_name = "FILE")]
+    pub cell: Option<PathBuf>,
+    /// A scenario: what the outside does to the inputs of a program; `none` for none, whatever arl.toml says.
+    #[arg(long, value_name = "FILE|none")]
+    pub io: Option<PathBuf>,
+    /// The folder that the program's files are in; the program's folder if absent.
+    #[arg(long, value_name = "DIR")]
+    pub script_dir: Option<PathBuf>,
+    /// The folder that keeps state between runs.
+    #[arg(long, value_name = "DIR")]
+    pub state_dir: Option<PathBuf>,
+    /// The mode of operation of a program.
+    #[arg(long, value_enum)]
+    pub mode: Option<Mode>,
+}
+
+impl ViewOptions {
+    /// Whether there are options that only programs have.
+    pub(crate) fn is_of_program(&self) -> bool {
+        let paths = [&self.cell, &self.io, &self.script_dir, &self.state_dir];
+        self.teach || self.robot.is_some() || self.mode.is_some() || paths.iter().any(|path| path.is_some())
+    }
+
+    /// The options of a program that is shown.
+    pub(crate) fn run(&self) -> RunOptions {
+        let Self { robot, cell, io, script_dir, state_dir, mode, .. } = self.clone();
+        RunOptions { robot, cell, io, script_dir, state_dir, mode, ..RunOptions::default() }
+    }
+}
+
+/// Options of a sweep.
+#[derive(Args, Clone, Default, Debug)]
+pub(crate) struct SweepOptions {
+    /// Write the results into a Parquet file, too.
+    #[arg(short, value_name = "FILE.parquet")]
+    pub out: Option<PathBuf>,
+    /// How many processes; one for each core if absent.
+    #[arg(long, value_name = "N")]
+    pub jobs: Option<std::num::NonZeroU8>,
+    /// Make the I-th of N parts of the runs only.
+    #[arg(long, value_name = "I/N")]
+    pub shard: Option<Shard>,
+    /// Make all runs, also those whose results are known, and keep none.
+    #[arg(long)]
+    pub no_cache: bool,
+}
+
+/// Options of a test run.
+#[derive(Args, Clone, Default, Debug)]
+pub(crate) struct TestOptions {
+    /// Run the I-th of N parts of the cases only.
+    #[arg(long, value_name = "I/N")]
+    pub shard: Option<Shard>,
+    /// How to tell what came out.
+    #[arg(long, value_enum, default_value_t)]
+    pub format: TestFormat,
+    /// Write what came into the files that say what is expected, where it is something else.
+    #[arg(long)]
+    pub bless: bool,
+    /// Write which lines of the programs ran, and how often, as lcov.
+    #[arg(long, value_name = "FILE")]
+    pub coverage: Option<PathBuf>,
+    /// Emit the forms for large programs wherever they are possible, also in small ones.
+    #[arg(long, hide = true)]
+    pub all_forms: bool,
+    /// Emit programs as for a debugger.
+    #[arg(long, hide = true)]
+    pub debug: bool,
+}
+
+/// How tests are told of.
+#[derive(Clone, Copy, PartialEq, Eq, Default, ValueEnum, Debug)]
+pub(crate) enum TestFormat {
+    /// What failed, with its difference, and how many there were.
+    #[default]
+    Human,
+    /// A JSON object a case.
+    Jsonl,
+    /// The XML of JUnit.
+    Junit,
+}
+
+/// A part of the cases: parts are disjoint, and together all.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Shard {
+    /// From 0.
+    pub index: usize,
+    pub count: usize,
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(index, count)| Some((index.parse().ok()?, count.parse().ok()?)));
+        match numbers {
+            Some((index @ 1.., count)) if index <= count => Ok(Self { index: index - 1, count }),
+            _ => Err("expected the number of a part and how many there are, like 2/4".into()),
+        }
+    }
+}

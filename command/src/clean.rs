@@ -1,0 +1,41 @@
+//! `arl2rs clean`
+
+use arl_project::cache::{Cache, Removed};
+use arl_terminal::answer;
+use arl_terminal::failure::Failure;
+use arl_terminal::show;
+use indicatif::DecimalBytes;
+use std::time::Duration;
+
+/// Empties the cache of what was not used for so many days; of everything without a number.
+pub(crate) fn clean(days: Option<u32>) -> Result<(), Failure> {
+    let cache = Cache::find()?;
+    let removed = cache.clean(Duration::from_secs(u64::from(days.unwrap_or(0)) * 24 * 3600));
+    for folder in &removed.kept {
+        show::warning(&format!("{} stays: another process uses it, or it cannot be removed", folder.display()));
+    }
+    answer::write(&said(&removed, &cache.root().display().to_string()))
+}
+
+fn said(removed: &Removed, cache: &str) -> String {
+    let counts =
+        [(removed.programs, "compiled program"), (removed.runtimes, "compiled runtime"), (removed.results, "sweep")];
+    let count = |(count, word): (usize, &str)| format!("{count} {word}{}", if count == 1 { "" } else { "s" });
+    let what: Vec<String> = counts.into_iter().filter(|(count, _)| *count > 0).map(count).collect();
+    match what.is_empty() {
+        true => format!("nothing to remove from {cache}\n"),
+        false => format!("removed {} from {cache}: {}\n", what.join(" and "), DecimalBytes(removed.bytes)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_answer_counts() {
+        let removed = Removed { programs: 12, runtimes: 1, results: 0, bytes: 1_300_000_000, kept: Vec::new() };
+        assert_eq!(said(&removed, "/c"), "removed 12 compiled programs and 1 compiled runtime from /c: 1.30 GB\n");
+        assert_eq!(said(&Removed::default(), "/c"), "nothing to remove from /c\n");
+    }
+}

@@ -1,0 +1,126 @@
+//! `arl2rs check --collisions`: runs a program on the virtual clock to find what its robots run into.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use serde_json::json;
+
+use arl_project::cache::Kind;
+use arl_project::options::{Checking, RunOptions};
+use arl_project::program::{Ready, prepare_checked};
+use arl_runs::collide::Scene;
+use arl_runs::listen::{Heard, Listener};
+use arl_runs::scenery::Scenery;
+use arl_terminal::answer::{self, Format};
+use arl_terminal::failure::Failure;
+use arl_terminal::private_folder::PrivateFolder;
+use arl_terminal::show;
+use arl_wire::Contact;
+
+/// A run ends after so many controller seconds.
+const MOST_SECONDS: f64 = 600.0;
+/// Exit codes of a program with which it has run.
+const ENDED: i32 = 0;
+const ALARM: i32 = 3;
+const OUT_OF_TIME: i32 = 4;
+/// The code of what is found, where diagnostics have theirs.
+const CODE: &str = "collision";
+
+/// What to look for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    pub format: Format,
+    /// mm; 0: contacts only.
+    pub clearance: f64,
+}
+
+/// Runs a program, and tells what comes too near to each other; whether something does. The scenario is that of its `arl.toml`.
+///
+/// # Errors
+/// The program does not begin, or its cell speaks to the outside, which a check must not.
+pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool, Failure> {
+    let asked = RunOptions {
+        robot: checking.robot.clone(),
+        cell: checking.cell.clone(),
+        script_dir: checking.script_dir.clone(),
+        max_time: Some(MOST_SECONDS),
+        ..RunOptions::default()
+    };
+    let state = PrivateFolder::new("arl2rs-state-");
+    let state = state.map_err(|error| Failure::Other(format!("there is no place for a state: {error}")))?;
+    let options = RunOptions { state_dir: Some(state.path().to_path_buf()), ..asked.of_program(file)? };
+    let cell = super::run::cell(&options)?;
+    if !cell.islands.is_empty() || cell.buses.modbus_tcp.is_some() {
+        let text = "a check runs no program whose cell has [[island]] or [modbus_tcp]; `run` tells of collisions, too";
+        return Err(Failure::Usage(format!("{}: {text}", file.display())));
+    }
+    let scenery = Scenery::of(&cell, options.robot.as_deref())?;
+    let (watchers, found) = Scene::of(&scenery, &show::warning)?.watch(look.clearance, false);
+    let ready = prepare_checked(Kind::Program, file, options.cell.as_deref(), &options.checking())?;
+    let Ran { code, why, heard } = run(ready, &options, Listener::of(watchers)?)?;
+    let found = found.borrow();
+    if found.begun && heard != Heard::All {
+        let text = "not all of its run could be heard: what it touched besides is not known";
+        show::warning(&format!("{}: {text}", file.display()));
+    }
+    match code {
+        Some(ENDED) => {}
+        Some(ALARM | OUT_OF_TIME) if found.begun => {
+            let text =
+                format!("{}: its run ended with `{why}`: what would come behind that is not known", file.display());
+            show::warning(&text);
+        }
+        _ => return Err(Failure::Usage(format!("{}: its run failed: {why}", file.display()))),
+    }
+    found.contacts.iter().try_for_each(|contact| tell(file, contact, look.format))?;
+    Ok(!found.contacts.is_empty())
+}
+
+/// How a run went.
+struct Ran {
+    code: Option<i32>,
+    /// The first words of it that are no warning.
+    why: String,
+    heard: Heard,
+}
+
+/// Runs the program.
+fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result<Ran, Failure> {
+    arl_terminal::interrupt::leave_to_the_program();
+    let mut command = Command::new(&ready.program);
+    command.args(options.arguments()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
+    listener.iter().for_each(|listener| listener.ask(&mut command));
+    let mut child = command.spawn().map_err(fail)?;
+    drop(ready.lock);
+    let errors = child.stderr.take();
+    let reader = std::thread::spawn(move || errors.and_then(|errors| std::io::read_to_string(errors).ok()));
+    let ended = match listener {
+        Some(listener) => listener.hear(&mut child),
+        None => child.wait().map(|status| (status, Heard::All)),
+    };
+    let said = reader.join().ok().flatten().unwrap_or_default();
+    let words = |line: &&str| !line.starts_with("warning") && !line.trim().is_empty();
+    let why = said.lines().find(words).unwrap_or("it says no word").trim().to_owned();
+    let (status, heard) = ended.map_err(fail)?;
+    Ok(Ran { code: status.code(), why, heard })
+}
+
+fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {
+    match format {
+        Format::Human => show::error(&contact.to_string()),
+        Format::Json => {
+            let Contact { time, line, one, other, distance, .. } = contact;
+            // As diagnostics name it: from where the command runs.
+            let beside = file.with_file_name(&contact.file);
+            let of = if !contact.file.is_empty() && beside.is_file() { &beside } else { file }.display().to_string();
+            let object = json!({
+                "code": CODE, "severity": "error", "message": contact.to_string(), "file": of,
+                "line": line, "column": 1, "end_line": line, "end_column": 1, "help": null,
+                "time": time, "bodies": [one, other], "distance": distance,
+            });
+            answer::write(&format!("{object}\n"))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,97 @@
+//! The `arl2rs` command.
+
+mod args;
+mod check;
+mod clean;
+mod collisions;
+mod emit;
+mod explain;
+mod fmt;
+pub mod host;
+mod new;
+mod run;
+mod sweep;
+mod test;
+mod variables;
+mod view;
+
+use args::{Cli, Command};
+use arl_editor::{dap, lsp};
+use arl_project::{listing, robots};
+use arl_runs::{report, urdf};
+use arl_terminal::exit::Exit;
+use arl_terminal::failure::{Failure, USAGE};
+use arl_terminal::{answer, interrupt};
+use arl2rs::compile::{guard, on_large_stack, remember_panics};
+use clap::Parser;
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// Does what the command line of this process says.
+pub fn main() -> ExitCode {
+    ExitCode::from(command(std::env::args_os()))
+}
+
+/// Does what these words say, the first of which is the name of the command; gives the exit code: 0 done, 1 compile errors, 2 usage, 3 alarm,
+/// 4 out of time, 130 interrupted. On Unix a program that runs may take the place of this process.
+pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(words) {
+        Ok(cli) => cli,
+        Err(said) => {
+            // Where nobody can read it, the exit code says enough.
+            let _ = said.print();
+            return u8::try_from(said.exit_code()).unwrap_or(USAGE);
+        }
+    };
+    remember_panics();
+    interrupt::end_the_command();
+    let done = on_large_stack(|| guard(|| dispatch(cli.command)));
+    let failed = |failure: Failure| failure.report();
+    done.map_or_else(|bug| failed(Failure::Other(bug.to_string())), |done| done.unwrap_or_else(failed)).0
+}
+
+fn dispatch(command: Command) -> Result<Exit, Failure> {
+    match command {
+        Command::Check { files, format, max_errors, collisions, clearance, checking } => {
+            let look = collisions.then(|| collisions::Look { format, clearance: clearance.unwrap_or_default() });
+            check::check(&files, (format, listing::Limit::of(max_errors)), look, &checking)
+        }
+        Command::Emit { file, out, checking } => done(emit::emit(&file, out.as_deref(), &checking)),
+        Command::Build { file, out, release, library, checking } => {
+            done(emit::build(&file, out.as_deref(), (release, library), &checking))
+        }
+        Command::Run { file, options } => run::run(&file, &options),
+        Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
+        Command::Compare { one, other, format } => report::compare(&one, &other, format),
+        Command::Sweep { file, options } => sweep::sweep(&file, &options),
+        Command::Test { dirs, options } => test::test(&dirs, &options),
+        Command::Clean { older } => done(clean::clean(older)),
+        Command::Explain { code } => print(explain::explain(&code)),
+        Command::Doc { name, search } => print(explain::doc(name.as_deref(), &search)),
+        Command::New { folder } => done(new::new(&folder)),
+        Command::Fmt { files, check } => fmt::fmt(&files, check),
+        Command::View { files, options } => view::view(&files, &options),
+        Command::Lsp => lsp::lsp(),
+        Command::Dap => dap::dap(),
+        Command::Robots { import: Some(file), .. } => print(urdf::import(&file)),
+        Command::Robots { name, .. } => print(robots::robots(name.as_deref())),
+    }
+}
+
+fn done(outcome: Result<(), Failure>) -> Result<Exit, Failure> {
+    outcome.map(|()| Exit::SUCCESS)
+}
+
+/// The answer of a command that only tells something.
+fn print(text: Result<String, Failure>) -> Result<Exit, Failure> {
+    let mut text = text?;
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    done(answer::write(&text))
+}
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,187 @@
+//! `arl2rs run` and `arl2rs plot`
+
+use arl_project::arl_toml;
+use arl_project::cache::Kind;
+use arl_project::options::RunOptions;
+use arl_project::program::{Ready, prepare};
+use arl_project::robots;
+use arl_robot::Robot;
+use arl_robot::cell::Cell;
+use arl_robot::changes::Part;
+use arl_runs::collide::Scene;
+use arl_runs::listen::{Hears, Listener};
+use arl_runs::pendant;
+use arl_runs::plot::{self, Lane, Ran};
+use arl_runs::record::Recording;
+use arl_runs::report::Reporting;
+use arl_runs::scenery::Scenery;
+use arl_runs::signals::Signals;
+use arl_runs::texts;
+use arl_terminal::answer::ReportFormat;
+use arl_terminal::exit::Exit;
+use arl_terminal::failure::Failure;
+use arl_terminal::interrupt;
+use arl_terminal::private_folder::PrivateFolder;
+use arl_terminal::show;
+use std::cell::RefCell;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Compiles where needed, then lets the program take over.
+pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
+    let options = &options.of_program(file)?;
+    // The screen looks into programs.
+    let on_screen = options.pendant && options.plot.is_none() && std::io::stdout().is_terminal();
+    let kind = match on_screen {
+        true => Kind::Watched,
+        false if options.changed()?.of_part(Part::Global).next().is_some() => Kind::Named,
+        false => Kind::Program,
+    };
+    let ready = prepare(kind, file, options.cell.as_deref(), &options.checking())?;
+    let mut command = Command::new(&ready.program);
+    command.args(options.arguments());
+    let mut hearers = hearers(options, &ready.sources)?;
+    if on_screen {
+        return pendant::run(command, (&ready.sources, ready.lock), hearers);
+    }
+    if let Some(picture) = &options.plot {
+        let (signals, lanes) = Signals::new();
+        hearers.push(Box::new(signals));
+        let listener = Listener::of(hearers)?;
+        return run_and_plot((command, listener), ready, file, options, (picture, &lanes));
+    }
+    match Listener::of(hearers)? {
+        Some(listener) => wait(command, Some(listener), ready),
+        None => start(command, ready),
+    }
+}
+
+/// Who is to hear what the program does: collisions come first, so that they are recorded.
+fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hears>>, Failure> {
+    let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;
+    let scenery = Scenery::with(&cell(options)?, robot, &show::warning)?;
+    let mut hearers = watchers(&scenery, options.clearance)?;
+    if let Some(path) = &options.record {
+        hearers.push(Box::new(Recording::create(path, &scenery, sources)?));
+    }
+    if let (Some(file), Some(format @ (ReportFormat::Json | ReportFormat::Html))) = (&options.report, options.format) {
+        hearers.push(Box::new(Reporting::create(file, format, &scenery)?));
+    }
+    Ok(hearers)
+}
+
+/// The cell of a run; one with nothing in it where none is named.
+pub(crate) fn cell(options: &RunOptions) -> Result<Cell, Failure> {
+    let changes = options.changed()?;
+    let cell = options.cell.as_deref().map(|cell| Cell::load_with(cell, &changes)).transpose();
+    Ok(cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default())
+}
+
+/// Who watches what robots touch, and what they take along: where the cell has bodies, or somebody asks for a clearance.
+pub(crate) fn watchers(scenery: &Scenery, clearance: Option<f64>) -> Result<Vec<Box<dyn Hears>>, Failure> {
+    if clearance.is_none() && scenery.bodies.is_empty() {
+        return Ok(Vec::new());
+    }
+    let scene = Scene::of(scenery, &show::warning)?;
+    Ok(scene.watch(clearance.unwrap_or_default(), true).0)
+}
+
+/// Draws a trace that is there.
+pub(crate) fn plot(trace: &Path, picture: &Path, robot: Option<&str>) -> Result<(), Failure> {
+    let beside = arl_toml::of_program(trace)?.and_then(|file| file.robot);
+    let robot = robot.or(beside.as_deref());
+    let title = trace.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    draw(trace, picture, robots::load(robot)?, &Ran { title, ..Ran::default() })
+}
+
+fn draw(trace: &Path, picture: &Path, robot: Robot, ran: &Ran) -> Result<(), Failure> {
+    if !plot::plot(trace, picture, robot, ran)? {
+        // There may be an empty one, made to see whether it can be.
+        let _ = std::fs::remove_file(picture);
+        show::warning(&format!("no motion was executed, so there is no {}", picture.display()));
+    }
+    Ok(())
+}
+
+/// The program runs, then its trace is drawn, however it ended.
+fn run_and_plot(
+    (mut command, listener): (Command, Option<Listener>),
+    ready: Ready,
+    file: &Path,
+    options: &RunOptions,
+    (picture, lanes): (&Path, &RefCell<Vec<Lane>>),
+) -> Result<Exit, Failure> {
+    // Better now than after a long run.
+    std::fs::write(picture, "").map_err(|error| Failure::io("write", picture, &error))?;
+    let (trace, _passing) = match options.trace.clone() {
+        Some(trace) => (trace, None),
+        // Without a wish for the trace it goes with the plot.
+        None => {
+            let folder = PrivateFolder::new("arl2rs-plot-");
+            let folder = folder.map_err(|error| Failure::Other(format!("there is no place for a trace: {error}")))?;
+            let trace = folder.path().join("trace.csv");
+            command.arg("--trace").arg(&trace).args(["--trace-columns", "file"]);
+            (trace, Some(folder))
+        }
+    };
+    // What lies there from another run is not to be drawn.
+    let _ = std::fs::remove_file(&trace);
+    let ran = ran(file, &ready.sources);
+    let code = wait(command, listener, ready)?;
+    let ran = Ran { lanes: lanes.take(), ..ran };
+    match trace.is_file() {
+        true => {
+            let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;
+            draw(&trace, picture, robot, &ran)?;
+        }
+        // The program did not even begin, and has said why.
+        false => drop(std::fs::remove_file(picture)),
+    }
+    Ok(code)
+}
+
+/// What the plot says of the program.
+fn ran(file: &Path, sources: &[PathBuf]) -> Ran {
+    let title = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    Ran { main: Some(title.clone()), title, sources: texts::read(sources), lanes: Vec::new() }
+}
+
+/// The program takes the place of this process: signals, streams and exit code are its own.
+#[cfg(unix)]
+fn start(mut command: Command, ready: Ready) -> Result<Exit, Failure> {
+    use std::os::unix::process::CommandExt;
+    let Ready { program, lock, .. } = ready;
+    let error = command.exec();
+    drop(lock);
+    Err(Failure::io("start", &program, &error))
+}
+
+#[cfg(not(unix))]
+fn start(command: Command, ready: Ready) -> Result<Exit, Failure> {
+    wait(command, None, ready)
+}
+
+/// The program runs while this process waits, or hears what it does. Ctrl-C reaches both; only the program acts on it.
+fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<Exit, Failure> {
+    interrupt::leave_to_the_program();
+    let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
+    listener.iter().for_each(|listener| listener.ask(&mut command));
+    let mut child = command.spawn().map_err(fail)?;
+    drop(ready.lock);
+    let ended = match listener {
+        // What it could not say it tells itself.
+        Some(listener) => listener.hear(&mut child).map(|(status, _)| status),
+        None => child.wait(),
+    };
+    Ok(Exit::from(code(ended.map_err(fail)?)))
+}
+
+/// The exit code of a program, as a shell has it.
+fn code(ended: std::process::ExitStatus) -> u8 {
+    #[cfg(unix)]
+    let by_signal = std::os::unix::process::ExitStatusExt::signal(&ended).map(|signal| 128 + signal);
+    #[cfg(not(unix))]
+    let by_signal = None;
+    ended.code().or(by_signal).and_then(|code| u8::try_from(code).ok()).unwrap_or(1)
+}

@@ -1,0 +1,81 @@
+//! The files that the cells of a sweep name, which differ where rows name others: robots of channels, and shapes where runs look at them.
+//!
+//! A cell names files from its own folder, and so it does where the runs are made. So they lie there as far from the cell as here.
+
+use super::bundle::{SCRIPT, full, read, with_slashes};
+use arl_robot::Robot;
+use arl_robot::cell::Cell;
+use arl_robot::changes::Changes;
+use arl_runs::scenery;
+use arl_terminal::failure::Failure;
+use arl2rs::check::clean;
+use std::path::{Path, PathBuf};
+
+/// The folder of a cell in a bundle that does not lie in the program's.
+const CELL: &str = "cell";
+
+/// The files of a cell.
+#[derive(Clone, Copy)]
+pub(super) struct CellFiles<'a> {
+    /// The cell file.
+    pub(super) cell: &'a Path,
+    /// The folder of the program.
+    pub(super) script: &'a Path,
+    /// Whether runs look at shapes.
+    pub(super) looks: bool,
+}
+
+impl CellFiles<'_> {
+    /// The place of a file in the bundle, as far from the cell's as it is on the disk.
+    ///
+    /// # Errors
+    /// It lies outside of the folder that goes along: that of the program with a cell in it, else that of the cell.
+    pub(super) fn place(&self, file: &Path) -> Result<String, Failure> {
+        let (folder, place) = match self.cell.parent() {
+            Some(folder) if !self.cell.starts_with(self.script) => (folder, CELL),
+            _ => (self.script, SCRIPT),
+        };
+        let outside = |_| {
+            let (cell, file, folder) = (self.cell.display(), file.display(), folder.display());
+            Failure::Usage(format!(
+                "{cell} names {file}, which lies outside of {folder}, the folder that goes along with the runs"
+            ))
+        };
+        file.strip_prefix(folder).map(|below| format!("{place}/{}", with_slashes(below))).map_err(outside)
+    }
+
+    /// The files of a cell as it is.
+    fn named(&self, cell: &Cell) -> Vec<PathBuf> {
+        let robots = cell.programs.channels.iter().filter_map(|channel| channel.robot.as_deref());
+        let robots = robots.filter(|robot| Robot::text(robot).is_none()).map(PathBuf::from);
+        let shapes = self.looks.then(|| scenery::files(cell));
+        robots.chain(shapes.into_iter().flatten()).collect()
+    }
+
+    /// The files that the cell names with the changes of these words: their whole paths, and what is in them.
+    ///
+    /// # Errors
+    /// A change is none, or a file cannot be read.
+    pub(super) fn read(&self, words: &[String]) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
+        let changes = words.chunks_exact(2).filter(|pair| pair.iter().any(|word| word == "--set"));
+        let changes: Vec<&str> = changes.filter_map(|pair| pair.get(1).map(String::as_str)).collect();
+        let changes = Changes::of(&changes).map_err(Failure::Usage)?;
+        let cell = Cell::load_with(self.cell, &changes).map_err(|error| Failure::Usage(error.to_string()))?;
+        let files = self.named(&cell).into_iter();
+        files.map(|file| full(&file).and_then(|file| Ok((file.clone(), read(&file)?)))).collect()
+    }
+
+    /// That the same cell in the folder of a worker names so many files, all of that folder.
+    ///
+    /// # Errors
+    /// It does not.
+    pub(super) fn check(&self, there: &Cell, folder: &Path, count: usize) -> Result<(), Failure> {
+        let found = self.named(there);
+        if found.len() == count && found.iter().all(|file| clean(file).starts_with(folder)) {
+            return Ok(());
+        }
+        let text = "a file is named by a path from the root or by a package: where the runs are made it is found only by a path from the file that \
+                    names it";
+        Err(Failure::Usage(format!("{}: {text}", self.cell.display())))
+    }
+}

@@ -1,0 +1,148 @@
+//! `arl2rs sweep`: a program runs once for each row of a table of parameters, on all cores, and what came of it is a table again.
+//!
+//! Runs are functions of what they depend on. So each has a folder of its own with all files that it reads, its result is kept under a hash of
+//! them, and a process that is lost is asked again.
+
+mod bundle;
+mod cell_files;
+mod folder;
+mod kept;
+mod looking;
+mod parameter;
+mod parquet;
+mod pool;
+mod result;
+mod table;
+mod worker;
+
+use crate::args::SweepOptions;
+use arl_project::cache::Cache;
+use arl_terminal::exit::Exit;
+use arl_terminal::failure::{Failure, INTERRUPTED};
+use arl_terminal::interrupt;
+use arl_terminal::{answer, show};
+use bundle::not_written;
+pub use bundle::{Bundle, MAX_TIME};
+pub use folder::Spread;
+use indicatif::{ProgressBar, ProgressStyle};
+pub use kept::Kept;
+pub use parameter::{Parameters, as_arl};
+use pool::Work;
+pub use result::{Row, RunResult};
+use std::ops::ControlFlow;
+use std::path::Path;
+pub use table::{Settings, Sweep};
+pub use worker::{TIMEOUT, Worker};
+
+/// What is said where runs did not come to an end of their own.
+const LOST: u8 = 1;
+
+/// Makes all runs of a sweep: a JSON object for each on the standard output, in order, and with `-o` a Parquet file.
+pub(crate) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure> {
+    let Sweep { settings, rows } = Sweep::read(file)?;
+    if options.out.as_ref().is_some_and(|out| out.extension().is_none_or(|ending| ending != "parquet")) {
+        return Err(Failure::Usage("-o writes a Parquet file: name it FILE.parquet".into()));
+    }
+    let numbered = rows.iter().enumerate().map(|(at, row)| (at + 1, row));
+    let rows: Vec<_> = match options.shard {
+        Some(shard) => numbered.filter(|(number, _)| (number - 1) % shard.count == shard.index).collect(),
+        None => numbered.collect(),
+    };
+    let bundle = Bundle::new(&settings, rows.iter().map(|(_, row)| *row))?;
+    let kept = if options.no_cache { Kept::nothing() } else { kept(&bundle, show::warning)? };
+    let processes = options.jobs.map_or_else(cores, |jobs| usize::from(jobs.get()));
+    // Better now than after a long run.
+    if let Some(out) = &options.out {
+        let open = std::fs::OpenOptions::new().append(true).create(true).open(out);
+        open.map_err(|error| Failure::io("write", out, &error))?;
+    }
+    interrupt::leave_to_the_program();
+    let bar = bar(rows.len());
+    let (mut all, mut lost, mut failed) = (Vec::new(), 0_usize, Ok(()));
+    let work = Work {
+        bundle: &bundle,
+        rows: &rows,
+        processes,
+        timeout: settings.timeout,
+        kept,
+        is_enough: &interrupt::was_pressed,
+    };
+    let warn = |text: &str| bar.suspend(|| show::warning(text));
+    let take = |row: Row| {
+        if interrupt::was_pressed() {
+            return ControlFlow::Break(());
+        }
+        lost += usize::from(!row.result.is_whole());
+        failed = said(&row);
+        bar.inc(1);
+        if options.out.is_some() {
+            all.push(row);
+        }
+        if failed.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    pool::run(work, warn, take).map_err(not_written)?;
+    bar.finish_and_clear();
+    failed?;
+    if let Some(out) = &options.out {
+        parquet::write(out, &all)
+            .map_err(|error| Failure::Other(format!("cannot write {}: {error}", out.display())))?;
+    }
+    if interrupt::was_pressed() {
+        show::warning("interrupted: what was done is kept, and will not be done again");
+        return Ok(Exit::from(INTERRUPTED));
+    }
+    if lost > 0 {
+        let runs = if lost == 1 { "1 run".to_owned() } else { format!("{lost} runs") };
+        show::warning(&format!("{runs} did not come to an end: their rows say why"));
+        return Ok(Exit::from(LOST));
+    }
+    Ok(Exit::SUCCESS)
+}
+
+fn said(row: &Row) -> Result<(), Failure> {
+    let line = serde_json::to_string(row).map_err(|error| Failure::Other(error.to_string()))?;
+    answer::write(&(line + "\n"))
+}
+
+/// Makes runs for a host: as [`sweep`] does it.
+pub(crate) fn all(
+    bundle: &Bundle,
+    rows: &[Parameters],
+    (processes, timeout, keeps): (usize, Option<f64>, bool),
+    is_enough: &(dyn Fn() -> bool + Sync),
+    take: &mut dyn FnMut(Row),
+    warn: &mut dyn FnMut(&str),
+) -> Result<(), Failure> {
+    let rows: Vec<_> = rows.iter().enumerate().map(|(at, row)| (at + 1, row)).collect();
+    let processes = if processes == 0 { cores() } else { processes };
+    let kept = if keeps { kept(bundle, &mut *warn)? } else { Kept::nothing() };
+    let take = |row| {
+        take(row);
+        ControlFlow::Continue(())
+    };
+    pool::run(Work { bundle, rows: &rows, processes, timeout, kept, is_enough }, warn, take).map_err(not_written)
+}
+
+/// What is known of this bundle. Where that cannot be kept, the sweep goes on without.
+fn kept(bundle: &Bundle, mut warn: impl FnMut(&str)) -> Result<Kept, Failure> {
+    let path = Cache::find()?.results(&bundle.key());
+    Ok(Kept::open(&path).unwrap_or_else(|error| {
+        warn(&format!("results cannot be kept for the next time: {error}"));
+        Kept::nothing()
+    }))
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+fn bar(runs: usize) -> ProgressBar {
+    if !show::is_watched() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(runs as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos}/{len} runs, {per_sec}, {eta} to go") {
+        bar.set_style(style);
+    }
+    bar
+}

@@ -1,0 +1,273 @@
+//! `arl2rs test`: every program with a sidecar, compiled together, each run as a process of its own.
+
+mod batch;
+mod bless;
+mod case;
+mod coverage;
+mod diff;
+mod execute;
+mod expect;
+mod judge;
+mod report;
+
+use crate::args::{Shard, TestOptions};
+use arl_project::cache::{Cache, Kind};
+use arl_project::options::Checking;
+use arl_project::package::{Emitted, EmittedOther};
+use arl_project::program::check_options;
+use arl_project::runtime::Runtime;
+use arl_project::several;
+use arl_terminal::exit::Exit;
+use arl_terminal::failure::Failure;
+use arl_terminal::private_folder::PrivateFolder;
+use arl_terminal::progress::Progress;
+use arl2rs::CheckOptions;
+use arl2rs::compile::{Compiled, check_program, compile_program};
+use arl2rs::diagnostics::Files;
+use arl2rs::emit::{EmitOptions, Sizes};
+use arl2rs::render::{Position, human};
+use arl2rs::sources::FileSystem;
+use case::{Case, Found};
+use expect::FoundError;
+use judge::judged;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// What a case came to: nothing to say, or how it failed.
+type Verdict = Result<(), String>;
+
+/// A case that was looked at.
+struct Done {
+    verdict: Verdict,
+    /// How long it took, s.
+    seconds: f64,
+    /// Controller seconds, where it ran.
+    cycle_time: Option<f64>,
+}
+
+impl Done {
+    fn failed(problem: impl Into<String>) -> Self {
+        Self { verdict: Err(problem.into()), seconds: 0.0, cycle_time: None }
+    }
+}
+
+/// Runs all cases; for people the last line on standard output is `N passed, N failed`.
+pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Failure> {
+    let sizes = if options.all_forms { Sizes::LEAST } else { Sizes::default() };
+    let watched = options.debug || options.coverage.is_some();
+    let emitting = EmitOptions { sizes, watched, ..EmitOptions::default() };
+    let kept_as = match (options.all_forms, watched) {
+        (false, false) => "tests",
+        (true, false) => "tests-all-forms",
+        (false, true) => "tests-debug",
+        (true, true) => "tests-debug-all-forms",
+    };
+    let mut found = find(dirs, options.bless)?;
+    if let Some(Shard { index, count }) = options.shard {
+        let mut number = 0..;
+        found.retain(|_| number.next().is_some_and(|number: usize| number % count == index));
+    }
+    let progress = Progress::start("checking");
+    let mut done: Vec<Option<Done>> = Vec::new();
+    let mut runs: Vec<(usize, &Case)> = Vec::new();
+    let mut emitted = Vec::new();
+    for (at, found) in found.iter().enumerate() {
+        done.push(match &found.case {
+            Err(problem) => Some(Done::failed(problem.clone())),
+            Ok(case) if case.runs() => match emit(case, &emitting) {
+                Ok(rust) => {
+                    runs.push((at, case));
+                    emitted.push(batch::Case { source: found.source.clone(), rust });
+                    None
+                }
+                Err(failure) => Some(Done::failed(failure)),
+            },
+            Ok(case) => Some(check(case, options.bless)),
+        });
+    }
+    let name = name_of_run(dirs, kept_as);
+    for ((at, _), ran) in runs.iter().zip(run_all(&name, &runs, &emitted, options, &progress)?) {
+        if let Some(slot) = done.get_mut(*at) {
+            *slot = Some(ran);
+        }
+    }
+    drop(progress);
+    if let (Some(file), true) = (&options.coverage, runs.is_empty()) {
+        coverage::Coverage::default().write(file)?;
+    }
+    let done: Vec<Done> = done.into_iter().map(|done| done.unwrap_or_else(|| Done::failed("it was not run"))).collect();
+    report::report(&found, &done, options.format)
+}
+
+fn find(dirs: &[PathBuf], new: bool) -> Result<Vec<Found>, Failure> {
+    let mut all = Vec::new();
+    for dir in dirs {
+        let folder = std::path::absolute(dir).map_err(|error| Failure::io("use", dir, &error))?;
+        let found = case::find(&folder, new)
+            .map_err(|error| Failure::Usage(format!("cannot read the folder {}: {error}", dir.display())))?;
+        if found.is_empty() {
+            let sidecars = "a NAME.arl with NAME.out, NAME.err or NAME.alarm beside it";
+            return Err(Failure::Usage(format!("{} has no case: {sidecars}", dir.display())));
+        }
+        all.extend(found);
+    }
+    // Folders may lie in each other.
+    all.sort_by(|one, other| one.source.cmp(&other.source));
+    all.dedup_by(|one, other| one.source == other.source);
+    Ok(all)
+}
+
+/// How a case's program is checked.
+fn checking(case: &Case) -> Checking {
+    let (robot, script_dir) = (case.robot.clone(), case.script_dir.clone());
+    Checking { robot, script_dir, background: case.options.background, ..Checking::default() }
+}
+
+fn options(checking: &Checking) -> Result<CheckOptions, String> {
+    check_options(checking).map_err(said)
+}
+
+fn said(failure: Failure) -> String {
+    match failure {
+        Failure::Usage(text) | Failure::Other(text) => text,
+        Failure::Shown => String::new(),
+    }
+}
+
+/// The Rust of a case that is to run, with the programs that its cell names.
+fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
+    let checking = checking(case);
+    let cell = case.cell.as_deref();
+    let first = rust(&case.source, &checking, emitting)?;
+    let mut others = Vec::new();
+    for other in several::named(cell, checking.robot.as_deref()).map_err(said)? {
+        let rust = rust(&other.path, &other.checking(&checking), emitting)
+            .map_err(|problem| format!("{}: {problem}", other.file))?;
+        let folder = other.folder(&case.source).map_err(said)?;
+        others.push(EmittedOther { file: other.file, folder, rust });
+    }
+    let kind = if emitting.watched { Kind::Watched } else { Kind::Program };
+    Ok(Emitted { first, others, kind })
+}
+
+fn rust(file: &Path, checking: &Checking, emitting: &EmitOptions) -> Result<String, String> {
+    let compiled = compile_program(file, &FileSystem, &options(checking)?, emitting).map_err(|bug| bug.to_string())?;
+    match &compiled.rust {
+        Some(rust) => Ok(rust.clone()),
+        None => Err(format!("it does not compile:\n{}", shown_errors(&compiled))),
+    }
+}
+
+fn shown_errors(compiled: &Compiled) -> String {
+    compiled.errors().map(|error| human(error, &compiled.checked.files, false)).collect()
+}
+
+/// Checks a case that is to have errors.
+fn check(case: &Case, bless: bool) -> Done {
+    let start = Instant::now();
+    let look = || {
+        let checking = Checking { cell: case.cell.clone(), ..checking(case) };
+        let compiled = check_program(&case.source, &FileSystem, &options(&checking)?).map_err(|bug| bug.to_string())?;
+        let expected = case.errors.as_deref().unwrap_or_default();
+        let found = found_errors(&compiled, &compiled.checked.files);
+        let Some(lines) = expect::compare_errors(expected, &found) else { return Ok(()) };
+        let problem = format!("other errors than expected (- expected, + came):\n{lines}");
+        match bless {
+            true => bless::errors(case, &found).map_err(|why| format!("{problem}\n{why}")),
+            false => Err(problem),
+        }
+    };
+    let verdict = look();
+    Done { verdict, seconds: start.elapsed().as_secs_f64(), cycle_time: None }
+}
+
+fn found_errors(compiled: &Compiled, files: &Files) -> Vec<FoundError> {
+    let found = |error: &arl2rs::diagnostics::Diagnostic| FoundError {
+        line: Position::of(error.primary.at, files).line,
+        text: [Some(error.message.as_str()), error.help.as_deref()]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join("; "),
+    };
+    compiled.errors().map(found).collect()
+}
+
+/// What the programs of a run are kept by: another run of the same folders finds them again.
+fn name_of_run(dirs: &[PathBuf], kept_as: &str) -> PathBuf {
+    let folders: PathBuf = dirs.iter().filter_map(|dir| std::path::absolute(dir).ok()).collect();
+    folders.join(kept_as)
+}
+
+/// Compiles the cases that run, and runs them, several at once. The programs are kept by this name.
+fn run_all(
+    name: &Path,
+    runs: &[(usize, &Case)],
+    emitted: &[batch::Case],
+    options: &TestOptions,
+    progress: &Progress,
+) -> Result<Vec<Done>, Failure> {
+    if runs.is_empty() {
+        return Ok(Vec::new());
+    }
+    let cache = Cache::find()?;
+    let place = cache.program(name);
+    let _lock = place.lock(false)?;
+    progress.say(&format!("compiling {} cases", runs.len()));
+    let runtime = Runtime::find().unpack(&cache)?;
+    let compiled = batch::compile(&place, &runtime, emitted, progress)?;
+    let scratch = PrivateFolder::new("arl2rs-test-");
+    let scratch = scratch.map_err(|error| Failure::Other(format!("there is no place for cases: {error}")))?;
+    let mut coverage = coverage::Coverage::default();
+    let mut places = Vec::new();
+    if options.coverage.is_some() {
+        for (_, case) in runs {
+            // What cannot be checked was told of before.
+            places.push(coverage.add(case).ok());
+        }
+    }
+    let coverage = Mutex::new(coverage);
+    let next = AtomicUsize::new(0);
+    let done: Mutex<Vec<Done>> = Mutex::new(runs.iter().map(|_| Done::failed("it was not run")).collect());
+    let work = || {
+        loop {
+            let at = next.fetch_add(1, Ordering::Relaxed);
+            let (Some((_, case)), Some(compiled)) = (runs.get(at), compiled.get(at)) else { return };
+            progress.say(&format!("running {} of {}", at + 1, runs.len()));
+            let ran = match compiled {
+                Ok(compiled) => match execute::execute(case, compiled, scratch.path(), options.coverage.is_some()) {
+                    Ok(outcome) => {
+                        if let Some(Some(places)) = places.get(at)
+                            && let Ok(mut coverage) = coverage.lock()
+                        {
+                            coverage.count(places, &outcome.counted);
+                        }
+                        judged(case, &outcome, options.bless)
+                    }
+                    Err(error) => Done::failed(format!("cannot run it: {error}")),
+                },
+                Err(errors) => {
+                    Done::failed(format!("bug in arl2rs: the Rust that it became does not compile\n{errors}"))
+                }
+            };
+            if let Ok(mut done) = done.lock()
+                && let Some(slot) = done.get_mut(at)
+            {
+                *slot = ran;
+            }
+        }
+    };
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(work);
+        }
+    });
+    cache.keep_limit(&place, &runtime.give_back());
+    if let Some(file) = &options.coverage {
+        coverage.into_inner().unwrap_or_default().write(file)?;
+    }
+    Ok(done.into_inner().unwrap_or_default())
+}

@@ -1,0 +1,61 @@
+//! `arl2rs view`: a page in the browser that shows a run, of a recording or of a program that goes on.
+
+use crate::args::ViewOptions;
+use crate::run;
+use arl_project::cache::Kind;
+use arl_project::program::prepare;
+use arl_project::robots;
+use arl_robot::Robot;
+use arl_robot::cell::Cell;
+use arl_runs::scenery::Scenery;
+use arl_runs::view::{self, Page, Program};
+use arl_terminal::exit::Exit;
+use arl_terminal::failure::Failure;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Serves the page: that of a program until it ends, that of recordings until the command is interrupted.
+pub(crate) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<Exit, Failure> {
+    let is_program = |file: &Path| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("arl"));
+    let page = Page { port: options.port, opens: !options.no_open };
+    match files {
+        [program] if is_program(program) => live(program, options, page),
+        files => {
+            if let Some(program) = files.iter().find(|file| is_program(file)) {
+                let text = format!("{} is a program: what runs is shown alone", program.display());
+                return Err(Failure::Usage(text));
+            }
+            if options.is_of_program() {
+                let text = "a recording brings its robot, its cell and its program with it: leave these options out";
+                return Err(Failure::Usage(text.to_owned()));
+            }
+            view::recordings(files, page)
+        }
+    }
+}
+
+fn live(program: &Path, options: &ViewOptions, page: Page) -> Result<Exit, Failure> {
+    let options_of_run = options.run().of_program(program)?;
+    let cell = run::cell(&options_of_run)?;
+    let first = options_of_run.robot.as_deref();
+    let scenery = Scenery::of(&cell, first)?;
+    let ready = prepare(Kind::Program, program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
+    let mut command = Command::new(&ready.program);
+    command.args(options_of_run.arguments());
+    let program = Program {
+        name: program.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+        command,
+        sources: &ready.sources,
+        scenery: &scenery,
+        hearers: run::watchers(&scenery, None)?,
+        teaches: options.teach.then(|| robots_of(&cell, first)).transpose()?,
+    };
+    view::program(program, ready.lock, page)
+}
+
+/// The robots of the channels that have one, in the order of the channels.
+fn robots_of(cell: &Cell, first: Option<&str>) -> Result<Vec<Robot>, Failure> {
+    let beside = cell.programs.channels.iter().filter(|channel| !channel.background);
+    let named = beside.map(|channel| robots::load(channel.robot.as_deref()));
+    std::iter::once(robots::load(first)).chain(named).collect()
+}

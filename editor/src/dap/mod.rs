@@ -1,0 +1,57 @@
+//! `arl2rs dap`: a debug adapter on standard input and output.
+//!
+//! The program is compiled with hooks (`emit/hooks.rs`) and runs as a process of its own; it connects to the adapter and
+//! halts where that says (`arl-rt/src/command/debug/`). The adapter knows the editor's side: breakpoints with conditions,
+//! frames, variables and expressions. A step backward is a run from the start to one statement earlier: on the virtual clock
+//! a run repeats itself.
+
+mod breakpoints;
+mod evaluate;
+mod executable;
+mod launch;
+mod literal;
+mod process;
+mod program;
+mod protocol;
+mod remains;
+mod session;
+mod state;
+mod variables;
+
+pub use program::{FileKey, Key, Programs};
+
+use arl_terminal::exit::Exit;
+use arl_terminal::failure::Failure;
+use arl_terminal::framing::Messages;
+use session::Session;
+use std::sync::mpsc::channel;
+
+/// What the adapter hears of.
+enum Event {
+    /// A request of the editor.
+    Request(protocol::Request),
+    /// The editor is gone.
+    Gone,
+    /// Something of the program with this number: each run is one.
+    Process(u64, process::News),
+}
+
+/// Serves one editor until it is gone or has said `disconnect`.
+pub fn dap() -> Result<Exit, Failure> {
+    let (sender, events) = channel();
+    let requests = sender.clone();
+    std::thread::spawn(move || {
+        let mut input = Messages::new(std::io::stdin().lock());
+        while let Some(body) = input.next_message() {
+            // What is no request has nobody who waits for an answer.
+            if let Ok(request) = serde_json::from_slice::<protocol::Request>(&body)
+                && requests.send(Event::Request(request)).is_err()
+            {
+                return;
+            }
+        }
+        let _ = requests.send(Event::Gone);
+    });
+    Session::new(sender, events).serve();
+    Ok(Exit::SUCCESS)
+}

@@ -1,0 +1,144 @@
+//! The program that is debugged: a process that connects to the adapter.
+
+use super::Event;
+use arl_terminal::port::{Port, Secret};
+use serde_json::Value;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
+
+/// How long a program may take from its start until it connects.
+const LONGEST_START: Duration = Duration::from_secs(20);
+
+/// What is new of a program.
+pub(super) enum News {
+    /// Something that it says by itself.
+    Said(Value),
+    /// What it prints, on `stdout` or `stderr`.
+    Output(&'static str, String),
+    /// It is gone; its exit code, where it ended before it could be asked for that.
+    Ended(Option<i32>),
+}
+
+/// A program that runs.
+pub(super) struct Process {
+    child: Child,
+    stream: TcpStream,
+    answers: Receiver<Value>,
+    asked: u64,
+}
+
+impl Process {
+    /// Starts a program; what is new of it comes under this number.
+    ///
+    /// # Errors
+    /// It cannot be started, or ends before it connects: what it says then is new of it, too, and that it has ended.
+    pub(super) fn start(mut command: Command, number: u64, events: &Sender<Event>) -> Result<Self, String> {
+        let port = Secret::new().and_then(Port::open).map_err(|failure| failure.to_string())?;
+        port.ask(&mut command, "--debug");
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().map_err(|error| format!("the program cannot be started: {error}"))?;
+        let pipes: [Option<(&'static str, Box<dyn Read + Send>)>; 2] = [
+            child.stdout.take().map(|out| ("stdout", Box::new(out) as Box<dyn Read + Send>)),
+            child.stderr.take().map(|out| ("stderr", Box::new(out) as Box<dyn Read + Send>)),
+        ];
+        let readers: Vec<_> =
+            pipes.into_iter().flatten().map(|(name, pipe)| output(name, pipe, number, events)).collect();
+        let stream = match accept(port, &mut child) {
+            Ok(stream) => stream,
+            Err(why) => {
+                let _ = child.kill();
+                let code = child.wait().ok().and_then(|status| status.code());
+                readers.into_iter().for_each(|reader| drop(reader.join()));
+                let _ = events.send(Event::Process(number, News::Ended(code)));
+                return Err(why);
+            }
+        };
+        let (sender, answers) = channel();
+        let incoming = BufReader::new(stream.try_clone().map_err(|error| error.to_string())?);
+        let events = events.clone();
+        std::thread::spawn(move || {
+            for line in incoming.lines().map_while(Result::ok) {
+                let Ok(value) = serde_json::from_str::<Value>(&line) else { continue };
+                let taken = match value.get("answer") {
+                    Some(_) => sender.send(value).is_ok(),
+                    None => events.send(Event::Process(number, News::Said(value))).is_ok(),
+                };
+                if !taken {
+                    return;
+                }
+            }
+            drop(sender);
+            // What it has printed comes first.
+            readers.into_iter().for_each(|reader| drop(reader.join()));
+            let _ = events.send(Event::Process(number, News::Ended(None)));
+        });
+        Ok(Self { child, stream, answers, asked: 0 })
+    }
+
+    /// Asks for something, and waits for the answer.
+    ///
+    /// # Errors
+    /// What the program says against it, or that it is gone.
+    pub(super) fn ask(&mut self, word: &str, values: &[&str]) -> Result<Value, String> {
+        let gone = "the program has ended";
+        self.asked += 1;
+        let line: Vec<String> = values.iter().map(|value| value.replace(['\t', '\n', '\r'], " ")).collect();
+        let text = [&[self.asked.to_string(), word.to_owned()], line.as_slice()].concat().join("\t");
+        self.stream.write_all((text + "\n").as_bytes()).map_err(|_| gone)?;
+        let answer = self.answers.recv().map_err(|_| gone)?;
+        match answer.get("error").and_then(Value::as_str) {
+            Some(error) => Err(error.to_owned()),
+            None => Ok(answer),
+        }
+    }
+
+    /// Its exit code, once it has ended.
+    pub(super) fn exit_code(&mut self) -> Option<i32> {
+        self.child.wait().ok()?.code()
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Waits until the program connects.
+fn accept(port: Port, child: &mut Child) -> Result<TcpStream, String> {
+    let start = Instant::now();
+    let gone = || -> std::io::Result<Option<String>> {
+        Ok(match child.try_wait()? {
+            Some(status) => Some(format!("the program ended before it began ({status})")),
+            None => (start.elapsed() > LONGEST_START).then(|| "the program does not answer".to_owned()),
+        })
+    };
+    let stream = port.accept(gone).map_err(|error| error.to_string())??;
+    stream.set_nodelay(true).map_err(|error| error.to_string())?;
+    Ok(stream)
+}
+
+/// Passes on what a program prints.
+fn output(
+    name: &'static str,
+    pipe: Box<dyn Read + Send>,
+    number: u64,
+    events: &Sender<Event>,
+) -> std::thread::JoinHandle<()> {
+    let events = events.clone();
+    std::thread::spawn(move || {
+        let mut pipe = BufReader::new(pipe);
+        let mut line = Vec::new();
+        while matches!(pipe.read_until(b'\n', &mut line), Ok(1..)) {
+            let text = String::from_utf8_lossy(&line).into_owned();
+            line.clear();
+            if events.send(Event::Process(number, News::Output(name, text))).is_err() {
+                return;
+            }
+        }
+    })
+}

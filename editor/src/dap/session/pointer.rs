@@ -1,0 +1,86 @@
+//! The program pointer, set to another line by hand.
+
+use super::{Answer, Halt, Session};
+use crate::dap::program::same_file;
+use crate::dap::variables::Frame;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// What the program is asked for that.
+pub(super) const REQUEST: &str = "pointer";
+
+/// The lines that the editor asked for, each by its number.
+#[derive(Default, Debug)]
+pub(super) struct Targets(Vec<(PathBuf, u32)>);
+
+impl Targets {
+    fn number(&mut self, path: &Path, line: u32) -> usize {
+        let found = self.0.iter().position(|(known, at)| known == path && *at == line);
+        found.unwrap_or_else(|| {
+            self.0.push((path.to_owned(), line));
+            self.0.len() - 1
+        })
+    }
+
+    fn of(&self, number: usize) -> Option<(PathBuf, u32)> {
+        self.0.get(number).cloned()
+    }
+}
+
+impl Session {
+    /// The statement that the pointer would be set to: that of a line, or the next one below.
+    pub(super) fn goto_targets(&mut self, arguments: &Value) -> Answer {
+        let path = arguments.pointer("/source/path").and_then(Value::as_str).ok_or("the source has no path")?;
+        let from = arguments.get("line").and_then(Value::as_u64).unwrap_or_default() as u32;
+        let functions = self.launched.as_ref().map(|launched| launched.programs.functions(path.as_ref()));
+        let line = functions.iter().flatten().filter_map(|lines| lines.range(from..).next()).min().copied();
+        let targets = line.map(|line| {
+            let id = self.targets.number(path.as_ref(), line);
+            json!({"id": id, "label": format!("line {line}"), "line": line})
+        });
+        Ok(json!({"targets": Vec::from_iter(targets)}))
+    }
+
+    /// Sets the pointer of a channel. The program stands; it goes on there.
+    pub(super) fn set_pointer(&mut self, arguments: &Value) -> Answer {
+        let number = arguments.get("targetId").and_then(Value::as_u64).unwrap_or(u64::MAX) as usize;
+        let (path, line) = self.targets.of(number).ok_or("there is no such target")?;
+        let channel = arguments.get("threadId").and_then(Value::as_u64).unwrap_or(1).saturating_sub(1) as usize;
+        let halt = self.standing()?;
+        if halt.why == "alarm" {
+            return Err("the program ends with this alarm: step back first".into());
+        }
+        let frame = self.frame_with(channel, &path, line)?;
+        self.edit(REQUEST, &[&channel.to_string(), &frame.id.to_string(), &line.to_string()])?;
+        self.shown = Default::default();
+        if let Some(halt) = &mut self.halt {
+            (halt.why, halt.channel, halt.text) = ("goto".into(), channel, String::new());
+        }
+        Ok(Value::Null)
+    }
+
+    /// Where the programs stand.
+    pub(super) fn standing(&self) -> Result<&Halt, String> {
+        let why = if self.process.is_some() { "the program runs: pause it first" } else { "no program runs" };
+        self.halt.as_ref().ok_or_else(|| why.into())
+    }
+
+    /// The function that runs, has a line, and nothing but functions it has called on top.
+    fn frame_with(&mut self, channel: usize, path: &Path, line: u32) -> Result<Frame, String> {
+        for frame in self.frames(channel)? {
+            if frame.is_action {
+                return Err(format!("{} runs: the program below it cannot be moved meanwhile", frame.name));
+            }
+            let programs = &self.launched.as_ref().ok_or("nothing was launched")?.programs;
+            let file = programs.path(&frame.program, &frame.file);
+            if file.is_some_and(|file| same_file(&file, path))
+                && programs.lines_of(&frame.program, &frame.file, &frame.name).contains(&line)
+            {
+                return Ok(frame);
+            }
+        }
+        Err(format!(
+            "line {line} is in no function that runs: the program pointer stays within those on the call stack"
+        ))
+    }
+}

@@ -1,0 +1,48 @@
+//! The `arl.toml` files that hold for the files of an editor, and how their programs are checked.
+
+use arl_project::arl_toml::{self, ArlToml};
+use arl2rs::CheckOptions;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+/// What was found out since the settings, a robot, a cell or an `arl.toml` changed.
+#[derive(Debug, Default)]
+pub(super) struct Projects {
+    /// The file that holds for the programs of a folder.
+    files: RefCell<BTreeMap<PathBuf, Option<PathBuf>>>,
+    /// How programs are checked for which a file holds; nothing where it is wrong, which was told.
+    options: RefCell<BTreeMap<PathBuf, Option<Rc<CheckOptions>>>>,
+}
+
+impl Projects {
+    pub(super) fn forget(&self) {
+        self.files.borrow_mut().clear();
+        self.options.borrow_mut().clear();
+    }
+
+    /// The `arl.toml` that holds for a program.
+    pub(super) fn find(&self, program: &Path) -> Option<PathBuf> {
+        let folder = program.parent()?.to_path_buf();
+        self.files.borrow_mut().entry(folder).or_insert_with(|| arl_toml::find(program)).clone()
+    }
+
+    /// How the programs of a project are checked.
+    ///
+    /// # Errors
+    /// What is wrong with its files, the first time that it is asked for.
+    pub(super) fn options(
+        &self,
+        file: &Path,
+        make: impl FnOnce(&ArlToml) -> Result<CheckOptions, String>,
+    ) -> Result<Rc<CheckOptions>, String> {
+        if let Some(known) = self.options.borrow().get(file) {
+            return known.clone().ok_or_else(String::new);
+        }
+        let read =
+            arl_toml::read(file).map_err(|failure| failure.to_string()).and_then(|read| make(&read)).map(Rc::new);
+        self.options.borrow_mut().insert(file.to_path_buf(), read.clone().ok());
+        read
+    }
+}

@@ -1,0 +1,126 @@
+//! Folders of the cache that one process changes at a time.
+
+use crate::trouble;
+use arl_terminal::failure::Failure;
+use arl_terminal::progress::Progress;
+use std::fs::{File, TryLockError};
+use std::io::ErrorKind;
+use std::path::Path;
+use std::time::SystemTime;
+
+/// Held until dropped, or until the process becomes the program.
+#[derive(Debug)]
+pub struct Lock {
+    _file: File,
+}
+
+impl Lock {
+    /// Locks a folder, which is made where there is none, and notes that it is used now. `words` say what is waited for.
+    pub fn take(folder: &Path, shared: bool, words: &str) -> Result<Self, Failure> {
+        loop {
+            std::fs::create_dir_all(folder).map_err(|error| unusable("make the folder", folder, &error))?;
+            let path = folder.join(NAME);
+            let lock = lock(&path, shared, words).map_err(|error| unusable("lock", &path, &error))?;
+            // Who was waited for may have removed the folder.
+            if path.exists() {
+                // Where the time cannot be set it is older than it should be: the folder goes earlier, and is made again.
+                let _ = lock.set_modified(SystemTime::now());
+                return Ok(Self { _file: lock });
+            }
+        }
+    }
+
+    /// Locks a folder that nobody uses; nothing where somebody does. Notes no use.
+    pub(super) fn of_unused(folder: &Path) -> Option<Self> {
+        let file = File::options().read(true).write(true).open(folder.join(NAME)).ok()?;
+        match file.try_lock() {
+            Ok(()) => Some(Self { _file: file }),
+            Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Some(Self { _file: file }),
+            Err(_) => None,
+        }
+    }
+}
+
+/// Why a file or folder of the cache cannot be used, and what to do.
+fn unusable(doing: &str, path: &Path, error: &std::io::Error) -> Failure {
+    match Failure::io(doing, path, error) {
+        Failure::Other(said) => Failure::Other(trouble::of(&said).unwrap_or(said)),
+        other => other,
+    }
+}
+
+/// Opens the file of a lock, which is made where there is none. What is only started needs no more than to be read.
+fn open(path: &Path, shared: bool) -> std::io::Result<File> {
+    let opened = File::options().read(true).write(true).create(true).truncate(false).open(path);
+    match opened {
+        Err(error) if shared && is_read_only(&error) => File::open(path).map_err(|_| error),
+        opened => opened,
+    }
+}
+
+fn is_read_only(error: &std::io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem)
+}
+
+fn lock(path: &Path, shared: bool, words: &str) -> std::io::Result<File> {
+    let file = open(path, shared)?;
+    match if shared { file.try_lock_shared() } else { file.try_lock() } {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => {
+            let _waiting = Progress::start(words);
+            if shared { file.lock_shared() } else { file.lock() }?;
+        }
+        // A file system without locks: two runs at once are the user's business there.
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
+        Err(TryLockError::Error(error)) => return Err(error),
+    }
+    Ok(file)
+}
+
+/// Whether a folder was locked once: then it is one of the cache.
+pub(super) fn is_lockable(folder: &Path) -> bool {
+    folder.join(NAME).is_file()
+}
+
+/// When a folder or a file was used last; that of its making, where nobody locked it. A time in the future is one of a
+/// clock that was wrong, or is: it counts as now, is made so, and ages from now on. Otherwise what was used then would
+/// stay longer than all that is used since.
+pub(super) fn last_use(path: &Path) -> Option<SystemTime> {
+    let of = |path: &Path| std::fs::metadata(path).and_then(|data| data.modified()).ok();
+    let lock = path.join(NAME);
+    let (used, noted) = of(&lock).map(|used| (used, lock.as_path())).or_else(|| Some((of(path)?, path)))?;
+    let now = SystemTime::now();
+    if used > now {
+        // Where it cannot be set, it is in the future the next time, too.
+        let _ = File::options().write(true).open(noted).and_then(|file| file.set_modified(now));
+    }
+    Some(used.min(now))
+}
+
+const NAME: &str = "lock";
+
+/// Has a folder of the cache be one that was used then.
+#[cfg(test)]
+pub(super) fn used_at(folder: &Path, when: SystemTime) {
+    let lock = File::options().write(true).open(folder.join(NAME)).expect("the lock");
+    lock.set_modified(when).expect("the time is set");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn what_cannot_be_used_is_told_with_what_to_do() {
+        for (code, help) in [
+            (13, "set ARL2RS_CACHE to a folder that can be written"),
+            (30, "set ARL2RS_CACHE to a folder that can be written"),
+            (28, "make room; `arl2rs clean` removes what was compiled"),
+        ] {
+            let error = std::io::Error::from_raw_os_error(code);
+            let told = unusable("lock", Path::new("/cache/lock"), &error).to_string();
+            assert!(told.contains("cannot lock /cache/lock") && told.ends_with(&format!("help: {help}")), "{told}");
+        }
+    }
+}

@@ -1,0 +1,324 @@
+//! From a source file to a compiled program, with as little work as the changes need.
+
+use crate::cache::{Cache, Content, Kind, Lock, Place, RECORD, write_if_changed};
+use crate::cargo;
+use crate::listing;
+use crate::options::Checking;
+use crate::package;
+use crate::package::{Emitted, EmittedOther};
+use crate::robots;
+use crate::runtime::{Runtime, hash_state};
+use crate::several::{self, Other, absolute};
+use crate::stamp::{Freshness, Kept, Recording, Stamp};
+use arl_robot::cell::Cell;
+use arl_robot::outline::Outline;
+use arl_terminal::failure::Failure;
+use arl_terminal::progress::Progress;
+use arl_terminal::show;
+use arl2rs::CheckOptions;
+use arl2rs::Sources;
+use arl2rs::compile::{Bug, Compiled, compile_program};
+use arl2rs::emit::EmitOptions;
+use arl2rs::sources::FileSystem;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// A compiled program, safe from other processes that would compile it as long as the lock is held.
+#[derive(Debug)]
+pub struct Ready {
+    /// The executable, or the library.
+    pub program: PathBuf,
+    /// Nobody compiles it anew as long as this is held.
+    pub lock: Lock,
+    /// The files that were read; none where nobody wrote them down.
+    pub sources: Vec<PathBuf>,
+}
+
+/// The options of a check.
+pub fn check_options(checking: &Checking) -> Result<CheckOptions, Failure> {
+    let script_dir = match &checking.script_dir {
+        Some(folder) => Some(std::path::absolute(folder).map_err(|error| Failure::io("use", folder, &error))?),
+        None => None,
+    };
+    let family = robots::family(checking.robot.as_deref())?;
+    let cell = checking.cell.as_deref().map(outline).transpose()?;
+    let Checking { strict, background, .. } = *checking;
+    Ok(CheckOptions { family, strict, background, script_dir, cell, ..CheckOptions::default() })
+}
+
+/// What a cell file has for programs.
+fn outline(cell: &Path) -> Result<Outline, Failure> {
+    let cell = Cell::load(cell).map_err(|error| Failure::Usage(error.to_string()))?;
+    Ok(Outline::of(&cell))
+}
+
+/// The file that the compiler is in, where that is not the program of this process.
+static COMPILER: OnceLock<PathBuf> = OnceLock::new();
+
+/// Says which file the compiler is in.
+pub fn is_part_of(file: PathBuf) {
+    let _ = COMPILER.set(file);
+}
+
+/// What becomes one program: that of the command line, and those that its cell names.
+#[derive(Debug)]
+pub struct Job<'a> {
+    file: &'a Path,
+    cell: Option<&'a Path>,
+    options: CheckOptions,
+    others: Vec<(Other, CheckOptions)>,
+    kind: Kind,
+    /// Whether its warnings have been shown.
+    is_checked: bool,
+}
+
+/// A job that was done: what was found out about the programs, the first one in front, and the Rust that they became.
+pub struct Done {
+    programs: Vec<Compiled>,
+    /// What they became.
+    pub rust: Emitted,
+    /// What there was to say, rendered.
+    said: String,
+}
+
+impl<'a> Job<'a> {
+    /// A program and what the cell has beside it.
+    pub fn new(file: &'a Path, cell: Option<&'a Path>, checking: &Checking) -> Result<Self, Failure> {
+        let others = several::named(cell, checking.robot.as_deref())?;
+        let with_options = |other: Other| check_options(&other.checking(checking)).map(|options| (other, options));
+        Ok(Self {
+            file,
+            cell: cell.filter(|_| !others.is_empty()),
+            options: check_options(checking)?,
+            others: others.into_iter().map(with_options).collect::<Result<_, _>>()?,
+            kind: Kind::Program,
+            is_checked: false,
+        })
+    }
+
+    /// The same, to be compiled into this.
+    pub fn into_kind(self, kind: Kind) -> Self {
+        Self { kind, ..self }
+    }
+
+    /// The main file as an absolute path.
+    pub fn main(&self) -> Result<PathBuf, Failure> {
+        absolute(self.file)
+    }
+
+    /// Where the program is kept.
+    pub fn place(&self, cache: &Cache) -> Result<Place, Failure> {
+        let place = match self.cell {
+            Some(cell) => cache.programs(&self.main()?, &absolute(cell)?),
+            None => cache.program(&self.main()?),
+        };
+        Ok(place.of(self.kind))
+    }
+
+    /// Checks and emits all programs, and shows what there is to say of any of them.
+    ///
+    /// # Errors
+    /// [`Failure::Shown`] where one has errors.
+    pub fn compile(&self, sources: &dyn Sources) -> Result<Done, Failure> {
+        let (watched, named) = (self.kind == Kind::Watched, matches!(self.kind, Kind::Library | Kind::Named));
+        let emitting = EmitOptions { watched, named, ..EmitOptions::default() };
+        let emit = |file: &Path, options| compile_program(file, sources, options, &emitting).map_err(bug);
+        let mut programs = vec![emit(self.file, &self.options)?];
+        for (other, options) in &self.others {
+            programs.push(emit(&other.path, options)?);
+        }
+        let mut limit = listing::Limit::default();
+        let said: String = programs.iter().map(|compiled| listing::rendered(compiled, &mut limit)).collect();
+        if !self.is_checked || programs.iter().any(|compiled| compiled.rust.is_none()) {
+            show::say(&said);
+        }
+        let rust: Option<Vec<String>> = programs.iter_mut().map(|compiled| compiled.rust.take()).collect();
+        let mut rust = rust.ok_or(Failure::Shown)?.into_iter();
+        let first = rust.next().ok_or(Failure::Shown)?;
+        let main = self.main()?;
+        let beside = |((other, _), rust): (&(Other, CheckOptions), String)| {
+            Ok(EmittedOther { file: other.file.clone(), folder: other.folder(&main)?, rust })
+        };
+        let others = self.others.iter().zip(rust).map(beside).collect::<Result<_, Failure>>()?;
+        Ok(Done { programs, rust: Emitted { first, others, kind: self.kind }, said })
+    }
+
+    /// A number that changes with everything but the sources: this command, the runtime, the options, the channels.
+    fn identity(&self, runtime: Runtime) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        if let Some(compiler) = COMPILER.get().cloned().or_else(|| std::env::current_exe().ok()) {
+            hash_state(&compiler, &mut hasher);
+        }
+        runtime.state().hash(&mut hasher);
+        let of_options = |options: &CheckOptions| (options.family, options.strict, options.background);
+        (of_options(&self.options), &self.options.script_dir).hash(&mut hasher);
+        self.others.iter().for_each(|(other, options)| (other, of_options(options)).hash(&mut hasher));
+        hasher.finish()
+    }
+}
+
+/// A bug of the compiler, as the command ends with it.
+pub fn bug(bug: Bug) -> Failure {
+    Failure::Other(bug.to_string())
+}
+
+/// Compiles a program, with those that its cell names, unless that was done before.
+pub fn prepare(kind: Kind, file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
+    prepare_job(&Job::new(file, cell, checking)?.into_kind(kind), checking)
+}
+
+/// The same for one of which a check has told all warnings.
+pub fn prepare_checked(kind: Kind, file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
+    prepare_job(&Job { is_checked: true, ..Job::new(file, cell, checking)?.into_kind(kind) }, checking)
+}
+
+fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
+    let cache = Cache::find()?;
+    let place = job.place(&cache)?;
+    let runtime = Runtime::find();
+    let identity = job.identity(runtime);
+    let lock = place.lock(true)?;
+    if let (Freshness::Fresh, Some(stamp)) = state(&place, identity) {
+        return start_again(&place, &stamp, lock, job.is_checked);
+    }
+    drop(lock);
+    let lock = place.lock(false)?;
+    let (freshness, stamp) = state(&place, identity);
+    if let (Freshness::Fresh, Some(stamp)) = (freshness, &stamp) {
+        return start_again(&place, stamp, lock, job.is_checked);
+    }
+    if let (None, Some(damaged)) = (&stamp, damaged(&place)) {
+        show::warning(&format!("{} is damaged: the program is compiled anew", damaged.display()));
+    }
+
+    let read = Recording::new(&FileSystem);
+    let done = job.compile(&read)?;
+    // The runtime reads data files again below the script directory: here it must be the folder of the main file.
+    let read_again = checking.script_dir.is_none() && freshness == Freshness::DataChanged;
+    let kept = stamp.filter(|stamp| read_again && only_values(stamp, &done.programs, &read));
+    let (name, program) = match kept {
+        Some(stamp) => (stamp.kept.name, stamp.kept.program),
+        None => build(&cache, &place, runtime, &done, &job.main()?)?,
+    };
+    write_if_changed(&place.said(), done.said.as_bytes())?;
+    let path = place.folder.join(&name);
+    let kept = Kept { name, program, said: Content::of(done.said.as_bytes()) };
+    let stamp = Stamp::of(&done.programs, &read, identity, kept);
+    if let Some(stamp) = &stamp {
+        write_if_changed(&place.stamp(), stamp.text().as_bytes())?;
+    }
+    Ok(Ready { program: path, lock, sources: stamp.as_ref().map(sources).unwrap_or_default() })
+}
+
+fn only_values(stamp: &Stamp, compiled: &[Compiled], read: &Recording<'_>) -> bool {
+    Stamp::of(compiled, read, stamp.identity, stamp.kept.clone()).is_some_and(|now| stamp.same_but_values(&now))
+}
+
+/// What the stamp says. A program that is gone, or not what was compiled, is as good as changed.
+fn state(place: &Place, identity: u64) -> (Freshness, Option<Stamp>) {
+    let none = (Freshness::Stale, None);
+    let Some(stamp) = Stamp::read(&place.stamp()) else { return none };
+    let freshness = stamp.freshness(identity);
+    // Nobody asks what is in a program that is not started.
+    if freshness != Freshness::Stale && !is_whole(place, &stamp.kept) { none } else { (freshness, Some(stamp)) }
+}
+
+fn is_whole(place: &Place, kept: &Kept) -> bool {
+    kept.program.is_in(&place.folder.join(&kept.name)) && kept.said.is_in(&place.said())
+}
+
+/// The file of a program that is not what was written when it was compiled.
+fn damaged(place: &Place) -> Option<PathBuf> {
+    let Some(Stamp { kept, .. }) = Stamp::read(&place.stamp()) else {
+        return Stamp::is_damaged(&place.stamp()).then(|| place.stamp());
+    };
+    let files = [(place.folder.join(&kept.name), kept.program), (place.said(), kept.said)];
+    files.into_iter().find_map(|(path, content)| (path.exists() && !content.is_in(&path)).then_some(path))
+}
+
+/// Shows the warnings again, but for what is checked, and leaves the rest as it is.
+fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Result<Ready, Failure> {
+    if !is_checked {
+        show::say(&std::fs::read_to_string(place.said()).unwrap_or_default());
+    }
+    let (program, sources) = (place.folder.join(&stamp.kept.name), sources(stamp));
+    renew(&program, &sources);
+    Ok(Ready { program, lock, sources })
+}
+
+/// Makes a program as new as its sources, which have the text that it was compiled from, even where they were written again:
+/// alarms show the lines of files that are no newer than the program.
+fn renew(program: &Path, sources: &[PathBuf]) {
+    let time = |path: &Path| path.metadata().and_then(|about| about.modified()).ok();
+    let newest = sources.iter().filter_map(|path| time(path)).max();
+    if newest > time(program) {
+        // Where that is not allowed, alarms show their lines without text.
+        let _ = newest.map(|newest| std::fs::File::open(program).and_then(|file| file.set_modified(newest)));
+    }
+}
+
+fn sources(stamp: &Stamp) -> Vec<PathBuf> {
+    stamp.files.iter().map(|file| file.path.clone()).collect()
+}
+
+/// Compiles the Rust and puts the program into its place under a name of its own, so that older ones run on.
+fn build(
+    cache: &Cache,
+    place: &Place,
+    runtime: Runtime,
+    done: &Done,
+    main: &Path,
+) -> Result<(String, Content), Failure> {
+    let mut hasher = DefaultHasher::new();
+    (&done.rust.first, &done.rust.others, runtime.state()).hash(&mut hasher);
+    let checked = done.programs.first().and_then(|compiled| compiled.checked.program.as_ref());
+    let stem = checked.map_or("program", |program| program.name.as_str());
+    let name = format!("{stem}-{:016x}{}", hasher.finish(), std::env::consts::EXE_SUFFIX);
+    let path = place.folder.join(&name);
+    compile_rust(cache, place, runtime, &done.rust, main, false, &path)?;
+    remove_old(place, &name);
+    let content = Content::of_file(&path).map_err(|error| Failure::io("read", &path, &error))?;
+    Ok((name, content))
+}
+
+/// Compiles emitted Rust with cargo; the executable is put at `to`.
+pub fn compile_rust(
+    cache: &Cache,
+    place: &Place,
+    runtime: Runtime,
+    rust: &Emitted,
+    main: &Path,
+    release: bool,
+    to: &Path,
+) -> Result<(), Failure> {
+    let folder = main.parent().unwrap_or(Path::new("/"));
+    let runtime = runtime.unpack(cache)?;
+    package::write(place, &runtime, rust, folder)?;
+    let progress = Progress::start("compiling");
+    let built = cargo::build(&place.folder, &runtime.target(), release, &progress)?;
+    let executable = match built.programs.into_iter().next() {
+        Some((_, program)) if built.errors.is_empty() => program,
+        _ => return Err(cargo::bug(&built.errors, main)),
+    };
+    // A program that runs cannot be written over, but it can be removed.
+    if to.is_file() {
+        std::fs::remove_file(to).map_err(|error| Failure::io("replace", to, &error))?;
+    }
+    std::fs::copy(&executable, to).map_err(|error| Failure::io("write", to, &error))?;
+    cache.keep_limit(place, &runtime.give_back());
+    Ok(())
+}
+
+/// Removes programs of earlier states. One that runs goes on where the system allows it.
+fn remove_old(place: &Place, keep: &str) {
+    const OURS: [&str; 8] = ["Cargo.toml", "Cargo.lock", "base.lock", "src", "stamp", "said", "lock", RECORD];
+    let Ok(entries) = std::fs::read_dir(&place.folder) else { return };
+    for entry in entries.filter_map(Result::ok) {
+        let name = entry.file_name();
+        if name != keep && !OURS.iter().any(|ours| name == *ours) {
+            // What cannot be removed now is removed next time.
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! `arl2rs robots`, and what the compiler needs to know of a robot.
+
+use arl_lang::catalog::Family;
+use arl_lang::near::nearest;
+use arl_robot::changes::{Changes, Part};
+use arl_robot::{Robot, regular_file};
+use arl_terminal::failure::Failure;
+use std::borrow::Cow;
+use std::path::Path;
+
+/// Lists the built-in robots, or prints the file of one.
+pub fn robots(name: Option<&str>) -> Result<String, Failure> {
+    let Some(name) = name else {
+        let width = Robot::builtin_names().map(str::len).max().unwrap_or(0);
+        let line = |(at, name): (usize, &str)| {
+            let text = Robot::text(name).unwrap_or_default();
+            let about = text.lines().next().unwrap_or("").trim_start_matches(['#', ' ']).trim_end_matches('.');
+            let default = if at == 0 { " (default)" } else { "" };
+            format!("{name:width$}  {about}{default}\n")
+        };
+        return Ok(Robot::builtin_names().enumerate().map(line).collect());
+    };
+    Robot::text(name).map(ToString::to_string).ok_or_else(|| Failure::Usage(unknown(name)))
+}
+
+fn unknown(name: &str) -> String {
+    let hint = match nearest(name, Robot::builtin_names()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("built in are {}", Robot::builtin_names().collect::<Vec<_>>().join(", ")),
+    };
+    format!("no robot `{name}` is built in, and there is no such file; {hint}")
+}
+
+/// The kind of the robot that `--robot` names. The rest of a robot file is read when the program starts.
+pub fn family(robot: Option<&str>) -> Result<Family, Failure> {
+    if robot.is_none() {
+        return Ok(Family::default());
+    }
+    let (file, text) = text(robot)?;
+    family_in(&text, &file)
+}
+
+/// The name and the text of the file of the robot that `--robot` names, or of the default one.
+pub fn text(robot: Option<&str>) -> Result<(String, Cow<'static, str>), Failure> {
+    let Some(robot) = robot else {
+        let name = Robot::builtin_names().next().unwrap_or_default();
+        return Ok((name.to_owned(), Robot::text(name).unwrap_or_default().into()));
+    };
+    if let Some(text) = Robot::text(robot) {
+        return Ok((robot.to_owned(), text.into()));
+    }
+    match regular_file::read_text(Path::new(robot)) {
+        Ok(text) => Ok((robot.to_owned(), text.into())),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound && is_name(robot) => {
+            Err(Failure::Usage(unknown(robot)))
+        }
+        Err(error) => Err(Failure::Usage(format!("cannot read the robot file {robot}: {error}"))),
+    }
+}
+
+/// The robot that `--robot` names, or the default one.
+pub fn load(robot: Option<&str>) -> Result<Robot, Failure> {
+    load_with(robot, &Changes::default())
+}
+
+/// The same with other values at some places.
+pub fn load_with(robot: Option<&str>, changes: &Changes) -> Result<Robot, Failure> {
+    let (name, text) = text(robot)?;
+    let usage = |error: &dyn std::fmt::Display| Failure::Usage(error.to_string());
+    let text = changes.apply(Part::Robot, &name, text.into_owned()).map_err(|error| usage(&error))?;
+    Robot::parse(&name, &text).map_err(|error| usage(&error))
+}
+
+fn is_name(robot: &str) -> bool {
+    Path::new(robot).extension().is_none() && !robot.contains(['/', '\\'])
+}
+
+fn family_in(text: &str, file: &str) -> Result<Family, Failure> {
+    let at = |span: Option<std::ops::Range<usize>>| {
+        let start = span.map_or(0, |span| span.start);
+        text.get(..start).unwrap_or("").bytes().filter(|byte| *byte == b'\n').count() + 1
+    };
+    let table: toml::Table = toml::from_str(text).map_err(|error| {
+        Failure::Usage(format!("{file}:{}: this is not TOML: {}", at(error.span()), error.message().trim_end()))
+    })?;
+    let line = text.lines().position(|line| line.trim_start().starts_with("family")).map_or(1, |line| line + 1);
+    match table.get("family").map(|family| family.as_str().unwrap_or("")) {
+        Some("six-axis") => Ok(Family::SixAxis),
+        Some("scara") => Ok(Family::Scara),
+        Some(_) => Err(Failure::Usage(format!("{file}:{line}: `family` must be \"six-axis\" or \"scara\""))),
+        None => Err(Failure::Usage(format!("{file}: `family` is missing; it must be \"six-axis\" or \"scara\""))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn usage(result: Result<Family, Failure>) -> String {
+        match result {
+            Err(Failure::Usage(text)) => text,
+            other => format!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn families_of_built_in_robots() {
+        assert_eq!(family(None).ok(), Some(Family::SixAxis));
+        assert_eq!(family(Some("six-10")).ok(), Some(Family::SixAxis));
+        assert_eq!(family(Some("Cobra600")).ok(), Some(Family::Scara));
+    }
+
+    #[test]
+    fn mistakes_say_what_would_be_right() {
+        assert!(usage(family(Some("six10"))).contains("did you mean `six-10`?"));
+        assert!(usage(family_in("name = 1\nfamily = 3\n", "my.toml")).starts_with("my.toml:2: "));
+        assert!(usage(family_in("name = 1\nfamily = \n", "my.toml")).starts_with("my.toml:2: this is not TOML"));
+        assert!(usage(family_in("", "my.toml")).contains("`family` is missing"));
+    }
+
+    #[test]
+    fn list_and_text() {
+        let list = robots(None).expect("a list");
+        assert_eq!(list.lines().count(), Robot::builtin_names().count());
+        assert!(list.lines().next().expect("the default").ends_with("(default)"));
+        assert!(robots(Some("six-10")).expect("a text").contains("family = \"six-axis\""));
+    }
+}

@@ -1,0 +1,165 @@
+//! Several programs in one: the one of the command line, and those that its cell file names.
+
+use crate::options::Checking;
+use crate::robots;
+use arl_robot::Family;
+use arl_robot::cell::{Cell, CellChannel};
+use arl_terminal::failure::Failure;
+use std::path::{Path, PathBuf};
+
+/// A program beside the first one.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub struct Other {
+    /// As the cell file names it.
+    pub file: String,
+    /// Where it is.
+    pub path: PathBuf,
+    /// Its robot, where the cell file names one.
+    pub robot: Option<String>,
+    /// Whether it has no robot.
+    pub background: bool,
+}
+
+impl Other {
+    /// How it is checked where the first program is checked like that.
+    pub fn checking(&self, first: &Checking) -> Checking {
+        Checking { robot: self.robot.clone(), background: self.background, ..first.clone() }
+    }
+
+    /// The folder of its files, counted from that of the main file where it is below.
+    pub fn folder(&self, main: &Path) -> Result<String, Failure> {
+        let (main, file) = (absolute(main)?, absolute(&self.path)?);
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let below = main.parent().and_then(|main| folder.strip_prefix(main).ok());
+        Ok(below.unwrap_or(folder).display().to_string())
+    }
+}
+
+/// The programs that a cell file names; `robot` is that of the first program.
+///
+/// # Errors
+/// The file cannot be read, or its channels are none.
+pub fn named(cell: Option<&Path>, robot: Option<&str>) -> Result<Vec<Other>, Failure> {
+    let Some(cell) = cell else { return Ok(Vec::new()) };
+    let programs = Cell::load(cell).map_err(|error| Failure::Usage(error.to_string()))?.programs;
+    let folder = cell.parent().unwrap_or(Path::new(""));
+    let mut all = All { cell, folder, others: Vec::new() };
+    for file in programs.load {
+        all.add(file, Some(robot), None)?;
+    }
+    for CellChannel { line, program, robot, background, load, .. } in programs.channels {
+        all.add(program, (!background).then_some(robot.as_deref()), Some(line))?;
+        for file in load {
+            all.add(file, Some(robot.as_deref()), Some(line))?;
+        }
+    }
+    Ok(all.others.into_iter().map(|(other, _)| other).collect())
+}
+
+/// The programs that were named so far, each with the build of the robots that it is for, where one runs it.
+struct All<'a> {
+    cell: &'a Path,
+    folder: &'a Path,
+    others: Vec<(Other, Option<Family>)>,
+}
+
+impl All<'_> {
+    /// Adds a program that a channel runs or can load: one with this robot (none: the default one), or one in the background.
+    /// `line` is that of the channel.
+    fn add(&mut self, file: String, robot: Option<Option<&str>>, line: Option<u32>) -> Result<(), Failure> {
+        let family = robot.map(robots::family).transpose()?;
+        let Some((known, before)) = self.others.iter_mut().find(|(it, _)| it.file == file) else {
+            let path = self.folder.join(&file);
+            let (robot, background) = (robot.flatten().map(String::from), robot.is_none());
+            self.others.push((Other { file, path, robot, background }, family));
+            return Ok(());
+        };
+        // What runs in the background somewhere may do there only what it may do everywhere.
+        known.background |= robot.is_none();
+        match (*before, family) {
+            (Some(before), Some(family)) if before != family => {
+                let place = line.map_or_else(String::new, |line| format!(":{line}"));
+                let text = format!(
+                    "{}{place}: {file} is for {} here, but for {} elsewhere in this file, and a program is checked for one build of \
+                     robot: give each of them a program of its own",
+                    self.cell.display(),
+                    kind(family),
+                    kind(before),
+                );
+                return Err(Failure::Usage(text));
+            }
+            (None, Some(family)) => {
+                known.robot = robot.flatten().map(String::from);
+                *before = Some(family);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+fn kind(family: Family) -> &'static str {
+    match family {
+        Family::SixAxis => "a six-axis robot",
+        Family::Scara => "a SCARA robot",
+    }
+}
+
+/// The path from the root, with a message that names it where there is none.
+pub fn absolute(path: &Path) -> Result<PathBuf, Failure> {
+    std::path::absolute(path).map_err(|error| Failure::io("use", path, &error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_names_programs_once() {
+        let path = std::env::temp_dir().join(format!("arl2rs-several-{}.toml", std::process::id()));
+        let text = "load = [\"r.arl\"]\n[io]\ndi = 3\n[[channel]]\nprogram = \"a.arl\"\nrobot = \"hsr065\"\nload = [\"s.arl\"]\n\
+                    [[channel]]\nprogram = \"w.arl\"\nbackground = true\n[[channel]]\nprogram = \"a.arl\"\nrobot = \"cobra600\"\n";
+        std::fs::write(&path, text).expect("written");
+        let found = named(Some(&path), Some("six-10")).expect("a cell");
+        std::fs::remove_file(&path).expect("removed");
+        let short: Vec<_> = found.iter().map(|it| (it.file.as_str(), it.robot.as_deref(), it.background)).collect();
+        let expected = [
+            ("r.arl", Some("six-10"), false),
+            ("a.arl", Some("hsr065"), false),
+            ("s.arl", Some("hsr065"), false),
+            ("w.arl", None, true),
+        ];
+        assert_eq!(short, expected);
+        assert_eq!(named(None, None).expect("none"), []);
+        assert!(matches!(named(Some(Path::new("nowhere.toml")), None), Err(Failure::Usage(_))));
+    }
+
+    #[test]
+    fn a_program_is_for_one_build_of_robot() {
+        let channel = |file: &str, more: &str| format!("[[channel]]\nprogram = \"{file}\"\n{more}\n");
+        let (scara, background) = ("robot = \"hsr065\"", "background = true");
+        let named = |name: &str, text: &str| {
+            let path = std::env::temp_dir().join(format!("arl2rs-builds-{name}-{}.toml", std::process::id()));
+            std::fs::write(&path, text).expect("written");
+            let found = named(Some(&path), None);
+            std::fs::remove_file(&path).expect("removed");
+            found
+        };
+        for (name, text, line) in [
+            ("channels", channel("a.arl", scara) + &channel("a.arl", "robot = \"six-10\""), ":4: "),
+            ("default", channel("a.arl", "") + &channel("a.arl", scara), ":4: "),
+            ("load", channel("a.arl", "load = [\"b.arl\"]") + &channel("b.arl", scara), ":4: "),
+            ("first", format!("load = [\"a.arl\"]\n{}", channel("a.arl", scara)), ":2: "),
+        ] {
+            let Err(Failure::Usage(text)) = named(name, &text) else { panic!("{name} passes") };
+            assert!(text.contains(line) && text.contains("arl is for a"), "{name}: {text}");
+        }
+        // The background has no robot, so its program is checked for that of the other channel.
+        let found = named("background", &(channel("a.arl", background) + &channel("a.arl", scara))).expect("a cell");
+        let short: Vec<_> = found.iter().map(|it| (it.robot.as_deref(), it.background)).collect();
+        assert_eq!(short, [(Some("hsr065"), true)]);
+        let same =
+            channel("a.arl", "robot = \"six-10\"") + &channel("a.arl", "") + &channel("a.arl", "robot = \"kr6-r700\"");
+        assert_eq!(named("same", &same).expect("a cell").len(), 1);
+    }
+}

@@ -1,0 +1,98 @@
+//! What keeps cargo from compiling, in words of what to do about it.
+
+/// Something that is missing around the compiler.
+#[derive(Debug)]
+struct Trouble {
+    /// What cargo, rustup or rustc say of it: any of these.
+    signs: &'static [&'static str],
+    /// What it is.
+    is: &'static str,
+    /// What to do.
+    help: &'static str,
+}
+
+/// The first that fits is told.
+const KNOWN: [Trouble; 6] = [
+    Trouble {
+        signs: &["No space left on device", "os error 28", "os error 112"],
+        is: "the disk is full",
+        help: "make room; `arl2rs clean` removes what was compiled",
+    },
+    Trouble {
+        signs: &["linker `", "error: linking with"],
+        is: "compiling needs a linker, and it is not there or does not work",
+        help: "install one: `apt install gcc` or `dnf install gcc` on Linux, `xcode-select --install` on macOS, Build Tools for \
+               Visual Studio on Windows",
+    },
+    Trouble {
+        signs: &["requires rustc", "is not supported by the following package", "feature `edition"],
+        is: "this Rust is too old",
+        help: concat!("arl2rs needs Rust ", env!("CARGO_PKG_RUST_VERSION"), " or newer: `rustup update`"),
+    },
+    Trouble {
+        signs: &[
+            "rustup could not choose",
+            "no default toolchain",
+            "is not installed for the toolchain",
+            "could not execute process `rustc",
+        ],
+        is: "Rust is not installed completely",
+        help: "`rustup default stable` installs what is missing; see https://www.rust-lang.org/tools/install",
+    },
+    Trouble {
+        signs: &[
+            "Could not resolve host",
+            "Couldn't resolve host",
+            "Could not connect",
+            "Couldn't connect",
+            "failed to download",
+            "failed to fetch",
+            "failed to get `",
+            "nable to update registry",
+            "no matching package named",
+            "--offline was specified",
+            "spurious network error",
+        ],
+        is: "a package that the runtime is compiled with is missing, and cargo cannot get it",
+        help: "the first program needs the network once, for packages of https://crates.io; behind a proxy set HTTPS_PROXY",
+    },
+    Trouble {
+        signs: &["Permission denied", "Read-only file system", "os error 13", "os error 30"],
+        is: "a file or folder cannot be written",
+        help: "set ARL2RS_CACHE to a folder that can be written",
+    },
+];
+
+/// What is missing and what to do, followed by what cargo said; none where it is something else.
+pub(crate) fn of(said: &str) -> Option<String> {
+    let fits = |trouble: &&Trouble| trouble.signs.iter().any(|sign| said.contains(sign));
+    let Trouble { is, help, .. } = KNOWN.iter().find(fits)?;
+    Some(format!("{is}\n{}\nhelp: {help}", said.trim_end()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cargo_says() {
+        for (said, expected) in [
+            ("error: failed to get `nalgebra` as a dependency of package `arl-robot`", "needs the network once"),
+            (
+                "warning: spurious network error (3 tries remaining): [6] Could not resolve hostname",
+                "needs the network once",
+            ),
+            ("error: linker `cc` not found\n  |\n  = note: No such file or directory (os error 2)", "apt install gcc"),
+            (
+                "error: rustc 1.80.0 is not supported by the following packages:\n  arl-rt@0.1.0 requires rustc 1.89",
+                "rustup update",
+            ),
+            ("error: rustup could not choose a version of cargo to run", "rustup default stable"),
+            ("error: could not write output: No space left on device (os error 28)", "arl2rs clean"),
+        ] {
+            let told = of(said).unwrap_or_default();
+            assert!(told.contains(expected) && told.contains(said), "{said}: {told}");
+        }
+        assert_eq!(of("error[E0308]: mismatched types"), None);
+    }
+}

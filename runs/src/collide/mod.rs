@@ -1,0 +1,339 @@
+//! Collisions of a run: each cycle, robots with themselves, with each other, with the bodies of the cell, what they carry and what their
+//! external axes move.
+//!
+//! Each contact of a pair is told with the time and the place of the motion; once it has parted, the next one is another. With a clearance, so
+//! is the nearest that a pair that never touched comes to each other, where that is nearer.
+
+mod arm;
+mod item;
+mod mesh;
+mod pair;
+mod parts;
+#[cfg(test)]
+mod tests;
+
+use std::cell::RefCell;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+use std::error::Error;
+use std::fmt;
+use std::rc::Rc;
+
+use arl_robot::cell::{Carrier, MOST_FOREGROUND};
+use parry3d_f64::math::Pose;
+
+use crate::listen::Hears;
+use crate::scenery::Scenery;
+use arl_terminal::failure::Failure;
+use arl_terminal::show;
+use arl_wire::{Contact, Cycle, Hello, Line, Placing, Runs, name_of_link};
+use arm::Arm;
+use item::{Holder, Item};
+use pair::{Met, Pair};
+use parts::Parts;
+
+/// What was found, for who asked for it.
+#[derive(Default, Debug)]
+pub struct Found {
+    /// Whether the program began, so that there was something to look at.
+    pub begun: bool,
+    /// What came too near to each other, in the order of time.
+    pub contacts: Vec<Contact>,
+}
+
+/// What can touch and be touched, for run after run.
+#[derive(Clone)]
+pub struct Scene {
+    parts: Option<Parts>,
+    bodies: Vec<Item>,
+    /// By channels, the forms of the robot's links, where it has such.
+    links: Vec<Vec<Item>>,
+    carriers: Vec<Carrier>,
+}
+
+impl fmt::Debug for Scene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Scene").field("carriers", &self.carriers).finish_non_exhaustive()
+    }
+}
+
+impl Scene {
+    /// That of a scenery. A robot whose shape cannot be read is told of, and has capsules.
+    ///
+    /// # Errors
+    /// A mesh cannot be read.
+    pub fn of(scenery: &Scenery, tell: &dyn Fn(&str)) -> Result<Self, Failure> {
+        let (parts, bodies, links) = (Parts::of(scenery)?, bodies(scenery)?, links(scenery, tell));
+        Ok(Self { parts, bodies, links, carriers: scenery.carriers.clone() })
+    }
+
+    /// Who watches bodies that robots take along, and who looks for collisions, in this order, and what that will have found. With a clearance
+    /// above 0, in mm, what comes nearer is told, too; whether as it comes, `tells` says.
+    pub fn watch(mut self, clearance: f64, tells: bool) -> (Watchers, Rc<RefCell<Found>>) {
+        let mut watchers = Watchers::new();
+        if let Some(parts) = self.parts.take() {
+            watchers.push(Box::new(parts));
+        }
+        let (collisions, found) = Collisions::new(self, clearance, tells);
+        watchers.push(Box::new(collisions));
+        (watchers, found)
+    }
+}
+
+type Watchers = Vec<Box<dyn Hears>>;
+
+/// Watches where robots and bodies are.
+struct Collisions {
+    bodies: Vec<Item>,
+    /// By channels, the forms of the robot's links, where it has such.
+    links: Vec<Vec<Item>>,
+    carriers: Vec<Carrier>,
+    /// mm; 0: contacts only.
+    clearance: f64,
+    /// Those of the channels' robots, then what each carrier is to the bodies on it.
+    arms: Vec<Option<Arm>>,
+    items: Vec<Item>,
+    pairs: Vec<Pair>,
+    /// What has touched each other, or was told as near, by names: a body may have several forms.
+    touched: BTreeSet<[String; 2]>,
+    /// How many forms of two things touch now, by their names.
+    touching: BTreeMap<[String; 2], usize>,
+    found: Rc<RefCell<Found>>,
+    /// Whether contacts are told as they come.
+    tells: bool,
+}
+
+impl Collisions {
+    /// In a scene; what it finds can be asked for.
+    fn new(scene: Scene, clearance: f64, tells: bool) -> (Self, Rc<RefCell<Found>>) {
+        let Scene { bodies, links, carriers, .. } = scene;
+        let found = Rc::<RefCell<Found>>::default();
+        let (arms, items, pairs) = (Vec::new(), Vec::new(), Vec::new());
+        let (touched, touching) = (BTreeSet::new(), BTreeMap::new());
+        let watched = Rc::clone(&found);
+        (
+            Self { bodies, links, carriers, clearance, arms, items, pairs, touched, touching, found: watched, tells },
+            found,
+        )
+    }
+
+    fn begin(&mut self, hello: &Hello) {
+        let several = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count() > 1;
+        let robot = |(channel, runs): (usize, &Runs)| (!runs.links.is_empty()).then(|| Arm::new(channel, runs));
+        self.arms = hello.channels.iter().enumerate().map(robot).collect();
+        let carrier = |at| Arm::carrier(&self.carriers, at, &hello.channels);
+        self.arms.extend((0..self.carriers.len()).map(carrier));
+        self.items.clear();
+        for (channel, runs) in hello.channels.iter().enumerate() {
+            let links = self.links.get(channel).filter(|links| !links.is_empty());
+            let named = |item: &Item| match item.holder {
+                Holder::Link { link, .. } => {
+                    Item { name: name_of_link(link, runs.links.len(), &runs.limbs).to_owned(), ..item.clone() }
+                }
+                _ => item.clone(),
+            };
+            let limbs = links.map(|links| links.iter().map(named).collect());
+            let mut limbs: Vec<Item> = limbs.unwrap_or_else(|| item::limbs(channel, runs));
+            if several {
+                for limb in &mut limbs {
+                    let name = format!("{} of channel {}", limb.name, channel + 1);
+                    limb.kind = Some(std::mem::replace(&mut limb.name, name));
+                }
+            }
+            self.items.extend(limbs);
+        }
+        let held = |body: &Item| Item { holder: body.holder.in_arms(hello.channels.len(), &self.arms), ..body.clone() };
+        self.items.extend(self.bodies.iter().map(held));
+        self.pairs = pair::pairs(&self.items, &self.arms);
+        self.touching.clear();
+        self.found.borrow_mut().begun = true;
+    }
+
+    /// A body that robots take along is elsewhere.
+    fn place(&mut self, placing: &Placing) {
+        for item in &mut self.items {
+            let Some(part) = item.part.filter(|part| part.body == placing.body) else { continue };
+            let place = placing.place.filter(|place| place.held_by.is_none() == (item.holder == Holder::World));
+            item.absent = place.is_none();
+            if let Some(place) = place {
+                item.at = arm::of_frame(&place.at) * part.piece;
+            }
+        }
+        for pair in &mut self.pairs {
+            let [Some(one), Some(other)] = pair.items.map(|at| self.items.get(at)) else { continue };
+            let is_its = [one, other].iter().any(|item| item.part.is_some_and(|part| part.body == placing.body));
+            if is_its && pair.place([one, other], &self.arms) {
+                part(&mut self.touching, [one, other]);
+            }
+        }
+    }
+
+    /// Takes in where all robots are.
+    fn go_to(&mut self, cycle: &Cycle) {
+        for arm in self.arms.iter_mut().flatten() {
+            if let Some(moves) = cycle.channels.get(arm.channel()) {
+                arm.go_to(moves);
+            }
+        }
+    }
+
+    /// Looks at all pairs that may have come near enough to each other to matter.
+    fn cycle(&mut self, cycle: &Cycle) -> Vec<Contact> {
+        self.go_to(cycle);
+        let mut contacts = Vec::new();
+        for pair in &mut self.pairs {
+            let [Some(one), Some(other)] = pair.items.map(|at| self.items.get(at)) else { continue };
+            if !(is_there(one, cycle) && is_there(other, cycle)) {
+                if pair.leave() {
+                    part(&mut self.touching, [one, other]);
+                }
+                continue;
+            }
+            if !pair.is_due(&self.arms) {
+                continue;
+            }
+            let [Some(here), Some(there)] = [one, other].map(|item| place(item, &self.arms)) else { continue };
+            let Some(distance) = distance((&here, one), (&there, other)) else { continue };
+            let moves = pair.mover(&self.arms).and_then(|arm| cycle.channels.get(arm.channel()));
+            let contact = |distance| Contact {
+                time: cycle.time,
+                file: moves.map_or_else(String::new, |moves| moves.file.clone()),
+                line: moves.map_or(0, |moves| moves.line),
+                one: one.name.clone(),
+                other: other.name.clone(),
+                distance,
+            };
+            match pair.note(distance, self.clearance, &self.arms, contact) {
+                Some(Met::Touched(contact)) => {
+                    let forms = self.touching.entry(names([one, other])).or_default();
+                    *forms += 1;
+                    if *forms == 1 {
+                        self.touched.insert(names([one, other]));
+                        contacts.push(contact);
+                    }
+                }
+                Some(Met::Parted) => part(&mut self.touching, [one, other]),
+                None => {}
+            }
+        }
+        contacts
+    }
+
+    /// The nearest that each pair came to each other, of those nearer than the clearance that did not touch; once.
+    fn nearest(&mut self) -> Vec<Contact> {
+        let mut near: Vec<Contact> = self.pairs.iter_mut().filter_map(Pair::take_nearest).collect();
+        near.sort_by(|one, other| one.distance.total_cmp(&other.distance));
+        near.retain(|contact| self.touched.insert([contact.one.clone(), contact.other.clone()]));
+        near.sort_by(|one, other| one.time.total_cmp(&other.time));
+        near
+    }
+
+    /// Tells contacts, and has them heard by those behind.
+    fn tell(&self, contacts: Vec<Contact>) -> Vec<Line> {
+        if self.tells {
+            contacts.iter().for_each(|contact| show::warning(&contact.to_string()));
+        }
+        self.found.borrow_mut().contacts.extend(contacts.iter().cloned());
+        contacts.into_iter().map(Line::Contact).collect()
+    }
+}
+
+impl Hears for Collisions {
+    fn wants_each_cycle(&self) -> bool {
+        true
+    }
+
+    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+        let contacts = match line {
+            Line::Hello(hello) => {
+                self.begin(hello);
+                Vec::new()
+            }
+            Line::Placing(placing) => {
+                self.place(placing);
+                Vec::new()
+            }
+            Line::Cycle(cycle) => self.cycle(cycle),
+            Line::Ended(_) => self.nearest(),
+            _ => Vec::new(),
+        };
+        Ok(self.tell(contacts))
+    }
+
+    fn broken(&self) -> String {
+        "collisions are not looked for".into()
+    }
+}
+
+/// The names of two items, under which all forms of both are one pair.
+fn names(items: [&Item; 2]) -> [String; 2] {
+    items.map(|item| item.name.clone())
+}
+
+/// Takes in that two forms do not touch any more.
+fn part(touching: &mut BTreeMap<[String; 2], usize>, items: [&Item; 2]) {
+    if let Entry::Occupied(mut forms) = touching.entry(names(items)) {
+        *forms.get_mut() -= 1;
+        if *forms.get() == 0 {
+            forms.remove();
+        }
+    }
+}
+
+/// How far two items are apart, in mm; 0: they touch. `None` for forms that the library cannot measure, of which there are none.
+fn distance((here, one): (&Pose, &Item), (there, other): (&Pose, &Item)) -> Option<f64> {
+    let found = parry3d_f64::query::distance(here, &*one.shape, there, &*other.shape).ok()?.distance;
+    // Where its search does not settle, the library says 0.
+    let touches = || parry3d_f64::query::intersection_test(here, &*one.shape, there, &*other.shape);
+    if found <= 0.0 && touches().is_ok_and(|touches| !touches.intersecting) {
+        Some(f64::MIN_POSITIVE)
+    } else {
+        Some(found)
+    }
+}
+
+/// Where an item is in the world.
+fn place(item: &Item, arms: &[Option<Arm>]) -> Option<Pose> {
+    match item.holder {
+        // Of carriers nothing is left once the robots are known.
+        Holder::World | Holder::Carrier(_) => Some(item.at),
+        Holder::Link { arm, link } => Some(arms.get(arm)?.as_ref()?.link(link)? * item.at),
+        Holder::Flange { arm } => Some(arms.get(arm)?.as_ref()?.flange() * item.at),
+    }
+}
+
+/// Whether an item is there by the levels of inputs and outputs.
+fn is_there(item: &Item, cycle: &Cycle) -> bool {
+    item.when.map_or(!item.absent, |level| cycle.has(level))
+}
+
+/// The forms of the bodies of a cell.
+fn bodies(scenery: &Scenery) -> Result<Vec<Item>, Failure> {
+    let mut items = Vec::new();
+    for (number, (body, looks)) in scenery.bodies.iter().enumerate() {
+        let wrong = |problem| Failure::Usage(format!("body `{}`: {problem}", body.name));
+        items.extend(item::of_body(number, body, looks).map_err(wrong)?);
+    }
+    Ok(items)
+}
+
+/// The forms of the links of robots, by channels: none where a robot has no shape of its own, or where that cannot be read, which is told.
+fn links(scenery: &Scenery, tell: &dyn Fn(&str)) -> Vec<Vec<Item>> {
+    let of_channel = |channel: usize| {
+        let Some(shape) = scenery.shape(channel) else { return Vec::new() };
+        let mut items = Vec::new();
+        let last = shape.links().count().saturating_sub(1);
+        for (link, looks) in shape.links() {
+            match item::of_link(channel, (link, last), looks) {
+                Ok(forms) => items.extend(forms),
+                Err(problem) => {
+                    let text = format!("{problem}; the robot of channel {} touches as capsules do", channel + 1);
+                    tell(&text);
+                    return Vec::new();
+                }
+            }
+        }
+        items
+    };
+    (0..MOST_FOREGROUND).map(of_channel).collect()
+}

@@ -1,0 +1,24 @@
+//! What is made of a run: recordings, the view in the browser and the screen of the pendant, reports, plots, and what robots touch.
+//!
+//! A program says what it does, a line at a time ([`arl_wire`]); here is who hears it. Nothing here compiles or checks programs.
+
+pub mod collide;
+#[cfg(any(test, feature = "fuzzing"))]
+pub mod fuzzing;
+mod link;
+pub mod listen;
+pub mod pendant;
+pub mod plot;
+pub mod record;
+mod recorded;
+pub mod report;
+pub mod scenery;
+pub mod signals;
+pub mod texts;
+pub mod urdf;
+pub mod view;
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,55 @@
+//! What a plot tells of a robot.
+
+use arl_robot::robot;
+
+/// How many axes a trace holds: six of the robot, six external ones.
+pub(super) const AXES: usize = 12;
+
+/// An axis in a trace.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Axis {
+    pub(super) name: String,
+    /// deg/s, or mm/s for linear ones.
+    pub(super) vel: f64,
+    pub(super) linear: bool,
+    /// Its column in the trace.
+    pub(super) column: usize,
+}
+
+/// What a plot tells of a robot.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Robot {
+    pub(super) name: String,
+    pub(super) axes: Vec<Axis>,
+    /// The highest speed of the TCP on lines, mm/s.
+    pub(super) tcp: f64,
+}
+
+impl Robot {
+    /// Of a whole one.
+    pub(super) fn of(robot: robot::Robot) -> Self {
+        let own = robot.own_axes().len();
+        let columns = (0..own).chain(robot::ROBOT_AXES..AXES);
+        let axis = |(axis, column): (&robot::Axis, usize)| Axis {
+            name: axis.name.clone(),
+            vel: axis.vel,
+            linear: axis.linear,
+            column,
+        };
+        let axes = robot.axes.iter().zip(columns).map(axis).collect();
+        Self { axes, tcp: robot.tcp.vel, name: robot.into_description().name }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn built_in_robots_have_limits() {
+        let robot = Robot::of(robot::Robot::load("hsr065").unwrap());
+        assert_eq!((robot.name.as_str(), robot.axes.len(), robot.tcp), ("hsr065", 4, 2500.0));
+        assert!(robot.axes[2].linear && !robot.axes[3].linear && robot.axes[3].column == 3);
+        assert_eq!(Robot::of(robot::Robot::load("six-10").unwrap()).axes.len(), 6);
+    }
+}

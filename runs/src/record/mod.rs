@@ -1,0 +1,94 @@
+//! `arl2rs run --record FILE.mcap`: writes what the program says into a file that viewers of robot data open, and a description of the robots
+//! beside it. What the recording holds stands in `docs/recordings.md`.
+
+mod links;
+pub mod messages;
+mod parts;
+mod recorder;
+mod scene;
+mod schemas;
+mod sink;
+#[cfg(test)]
+mod tests;
+mod urdf;
+
+use std::error::Error;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use crate::listen::Hears;
+use crate::scenery::Scenery;
+use crate::texts::{self, Text};
+use arl_terminal::failure::Failure;
+use arl_terminal::show;
+use arl_wire::Line;
+pub(crate) use recorder::Recorder;
+pub(crate) use schemas::Schema;
+pub(crate) use sink::Sink;
+
+/// The description of the robots, beside a recording.
+const DESCRIPTION: &str = "cell.urdf";
+
+/// A recording that is being made.
+pub struct Recording {
+    path: PathBuf,
+    /// The texts of the program, until they are written.
+    sources: Vec<Text>,
+    recorder: Recorder<sink::File<BufWriter<std::fs::File>>>,
+}
+
+impl Recording {
+    /// Makes the file: better to fail now than after a long run.
+    pub fn create(path: &Path, scenery: &Scenery, sources: &[PathBuf]) -> Result<Self, Failure> {
+        let file = std::fs::File::create(path).map_err(|error| Failure::io("write", path, &error))?;
+        let cannot = |error| Failure::Usage(format!("cannot write {}: {error}", path.display()));
+        let recorder = Recorder::new(sink::File::new(BufWriter::new(file)).map_err(cannot)?, scenery);
+        let sources = texts::read(sources);
+        Ok(Self { path: path.to_owned(), sources, recorder })
+    }
+}
+
+impl Recording {
+    /// Writes the description of the cell. A recording is whole without it.
+    fn describe(&self) {
+        let description = self.path.with_file_name(DESCRIPTION);
+        if let Err(error) = std::fs::write(&description, urdf::urdf(self.recorder.arms(), self.recorder.scenery())) {
+            show::warning(&format!("cannot write {}: {error}", description.display()));
+        }
+    }
+}
+
+impl Hears for Recording {
+    fn wants_each_motion(&self) -> bool {
+        true
+    }
+
+    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+        for Text { name, text } in std::mem::take(&mut self.sources) {
+            self.recorder.source(&name, &text)?;
+        }
+        self.recorder.hear(line)?;
+        if matches!(line, Line::Hello(_)) {
+            self.describe();
+        }
+        Ok(Vec::new())
+    }
+
+    fn end(mut self: Box<Self>) -> Result<(), Box<dyn Error>> {
+        self.recorder.finish()?;
+        // Where robots stand is known once they have moved.
+        self.describe();
+        Ok(())
+    }
+
+    fn nothing_began(self: Box<Self>) {
+        if self.path.is_file() {
+            // There may be none any more.
+            let _ = std::fs::remove_file(&self.path);
+        }
+    }
+
+    fn broken(&self) -> String {
+        format!("the recording {} is not whole", self.path.display())
+    }
+}

@@ -1,0 +1,307 @@
+//! Writes what a program says into a recording.
+
+use mcap::McapResult;
+use serde_json::Value;
+
+use super::links::Arm;
+use super::messages::{
+    Axis, Blend, Cell, Channel, Closest, Contact, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log,
+    Motion, Name, Runs, Timestamp,
+};
+use super::parts::Parts;
+use super::scene::Scene;
+use super::schemas::{self, Schema};
+use super::sink::Sink;
+use crate::scenery::Scenery;
+use arl_wire::{Hello, Line, Placing, State};
+
+/// How often frames and joints are written for viewers, in s; our own messages have every state.
+const FRAMES_INTERVAL_S: f64 = 0.02;
+
+/// Makes messages of lines.
+pub(crate) struct Recorder<S> {
+    sink: S,
+    /// The arm of each channel, where it has one.
+    arms: Vec<Option<Arm>>,
+    /// What stands in the cell, or is carried.
+    scene: Scene,
+    /// The frames of what robots take along.
+    parts: Parts,
+    /// What was written last of each topic: what stays the same is not written again.
+    last: Last,
+    /// The time of the last state, in s.
+    time: f64,
+    /// When frames are written next, in s.
+    frames_due: f64,
+    /// The last state, if its frames were not written.
+    left_out: Option<State>,
+}
+
+/// What was written last.
+#[derive(Default)]
+struct Last {
+    channels: Vec<Channel>,
+    controller: Controller,
+    io: Option<Io>,
+    /// Of each channel axes, TCP, base and workpiece.
+    places: Vec<Vec<f64>>,
+}
+
+impl<S: Sink> Recorder<S> {
+    /// In a scenery.
+    pub(crate) fn new(sink: S, scenery: &Scenery) -> Self {
+        Self {
+            sink,
+            arms: Vec::new(),
+            scene: Scene::new(scenery),
+            parts: Parts::of(scenery),
+            last: Last::default(),
+            time: 0.0,
+            frames_due: 0.0,
+            left_out: None,
+        }
+    }
+
+    /// Takes in a text of the program.
+    pub(crate) fn source(&mut self, name: &str, text: &str) -> McapResult<()> {
+        self.sink.source(name, text)
+    }
+
+    /// Takes in what the program says.
+    pub(crate) fn hear(&mut self, line: &Line) -> McapResult<()> {
+        let log = |level: Level, text: &str| Log { level: level.into(), message: text.into(), ..Log::default() };
+        match line {
+            Line::Hello(hello) => self.begin(hello),
+            Line::State(state) => self.state(state),
+            Line::Message(arl_wire::Message { time, channel, text }) => {
+                let said = log(Level::Info, text.trim_end_matches('\n'));
+                self.log(*time, Log { name: channel.clone(), ..said })
+            }
+            Line::Warning(text) => self.log(self.time, log(Level::Warning, text)),
+            Line::Alarm(arl_wire::Alarm { text, file, line, .. }) => {
+                self.log(self.time, Log { file: file.clone(), line: *line, ..log(Level::Error, text) })
+            }
+            Line::Report(object) => self.motion(object),
+            Line::Contact(contact) => self.contact(contact),
+            Line::Placing(placing) => self.placing(placing),
+            Line::Cycle(_) | Line::Ended(_) | Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
+        }
+    }
+
+    /// Writes the summary, by which readers find their way.
+    pub(crate) fn finish(&mut self) -> McapResult<()> {
+        if let Some(state) = self.left_out.take() {
+            self.frames(&state)?;
+        }
+        self.sink.finish()
+    }
+
+    /// Ends, and gives back where the messages went.
+    pub(crate) fn ended(mut self) -> McapResult<S> {
+        self.finish()?;
+        Ok(self.sink)
+    }
+
+    /// The robots' arms by channels, once the program has said them.
+    pub(super) fn arms(&self) -> &[Option<Arm>] {
+        &self.arms
+    }
+
+    /// What is around them.
+    pub(super) fn scenery(&self) -> &Scenery {
+        self.scene.scenery()
+    }
+
+    fn begin(&mut self, hello: &Hello) -> McapResult<()> {
+        let robots = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count();
+        let arm = |(at, runs): (usize, &arl_wire::Runs)| {
+            let prefix = if robots > 1 { format!("channel_{}/", at + 1) } else { String::new() };
+            (!runs.links.is_empty()).then(|| Arm::new(prefix, runs, at, &self.scene.scenery().carriers))
+        };
+        self.arms = hello.channels.iter().enumerate().map(arm).collect();
+        let axis = |axis: &arl_wire::Axis| Axis {
+            name: axis.name.clone(),
+            unit: axis.unit.clone(),
+            min: axis.min,
+            max: axis.max,
+        };
+        let runs = |(runs, arm): (&arl_wire::Runs, &Option<Arm>)| Runs {
+            program: runs.program.clone(),
+            robot: runs.robot.clone().unwrap_or_default(),
+            axes: runs.axes.iter().map(axis).collect(),
+            links: arm.iter().flat_map(Arm::chain).collect(),
+            tcp: arm.as_ref().map(Arm::tcp_frame).unwrap_or_default(),
+            carriers: arm.iter().flat_map(Arm::carried).collect(),
+        };
+        let name = |(signal, name): (&String, &String)| Name { signal: signal.clone(), name: name.clone() };
+        let channels = hello.channels.iter().zip(&self.arms).map(runs).collect();
+        let cell = Cell { channels, names: hello.names.iter().map(name).collect() };
+        self.last.channels = vec![Channel::default(); hello.channels.len()];
+        self.parts.begin(&hello.channels);
+        self.write("/arl/cell", &schemas::CELL, 0.0, &cell)?;
+        let robots = self.scene.robots(&self.arms);
+        self.write("/scene", &schemas::SCENE_UPDATE, 0.0, &robots)
+    }
+
+    fn state(&mut self, state: &State) -> McapResult<()> {
+        let time = state.time;
+        self.time = time;
+        let controller = Controller { time, mode: state.mode.clone(), speed_override: state.speed_override };
+        if (Controller { time: self.last.controller.time, ..controller.clone() }) != self.last.controller {
+            self.write("/arl/controller", &schemas::CONTROLLER, time, &controller)?;
+            self.last.controller = controller;
+        }
+        let levels = |levels: &str| levels.bytes().map(|level| level == b'1').collect();
+        let (di, r#do) = (levels(&state.di), levels(&state.dout));
+        let io = Io { time, di, r#do, ai: state.ai.clone(), ao: state.ao.clone() };
+        if self.last.io.as_ref().is_none_or(|last| (Io { time: last.time, ..io.clone() }) != *last) {
+            self.write("/arl/io", &schemas::IO, time, &io)?;
+            if let Some(update) = self.scene.bodies(state, &self.arms, timestamp(time)) {
+                self.write("/scene", &schemas::SCENE_UPDATE, time, &update)?;
+            }
+            self.last.io = Some(io);
+        }
+        for (at, said) in state.channels.iter().enumerate() {
+            self.channel(at, said, time)?;
+        }
+        self.parts.robots_are(&state.channels);
+        if time < self.frames_due {
+            self.left_out = Some(state.clone());
+            return Ok(());
+        }
+        self.frames_due = time + FRAMES_INTERVAL_S - 1e-6;
+        self.left_out = None;
+        self.frames(state)
+    }
+
+    fn channel(&mut self, at: usize, said: &arl_wire::Channel, time: f64) -> McapResult<()> {
+        let line = |line: usize| u32::try_from(line).unwrap_or_default();
+        let channel = Channel {
+            time,
+            state: said.state.clone(),
+            file: said.file.clone(),
+            line: line(said.line),
+            motion_file: said.motion_file.clone(),
+            motion_line: line(said.motion_line),
+            motion: said.motion,
+            axes: said.axes.clone(),
+            tcp: said.tcp.clone(),
+            base: said.base.clone(),
+        };
+        let Some(last) = self.last.channels.get_mut(at) else { return Ok(()) };
+        if (Channel { time: last.time, ..channel.clone() }) == *last {
+            return Ok(());
+        }
+        last.clone_from(&channel);
+        self.write(&format!("/arl/channel_{}", at + 1), &schemas::CHANNEL, time, &channel)
+    }
+
+    /// Frames and joints of all robots, where one has moved.
+    fn frames(&mut self, state: &State) -> McapResult<()> {
+        let time = state.time;
+        let places = state.channels.iter();
+        let places = places.map(|said| [&said.axes[..], &said.tcp, &said.base, &said.workpiece].concat()).collect();
+        if self.last.places == places {
+            return Ok(());
+        }
+        self.last.places = places;
+        let (mut transforms, mut joints) = (Vec::new(), Vec::new());
+        for (arm, said) in self.arms.iter_mut().zip(&state.channels) {
+            let Some(arm) = arm else { continue };
+            arm.stands_on(&said.base);
+            transforms.extend(arm.transforms(said, timestamp(time)));
+            joints.extend(arm.joints(&said.axes).map(|(name, position)| JointState { name, position: Some(position) }));
+        }
+        transforms.extend(self.parts.held(timestamp(time)));
+        if transforms.is_empty() {
+            return Ok(());
+        }
+        self.write("/tf", &schemas::FRAME_TRANSFORMS, time, &FrameTransforms { transforms })?;
+        let joints = JointStates { timestamp: Some(timestamp(time)), joints };
+        self.write("/joint_states", &schemas::JOINT_STATES, time, &joints)
+    }
+
+    fn log(&mut self, time: f64, log: Log) -> McapResult<()> {
+        self.write("/log", &schemas::LOG, time, &Log { timestamp: Some(timestamp(time)), ..log })
+    }
+
+    /// A motion of the report; what the report says of whole channels follows from these.
+    fn motion(&mut self, object: &Value) -> McapResult<()> {
+        let number = |value: &Value, name: &str| value[name].as_f64().unwrap_or_default();
+        let text = |value: &Value, name: &str| value[name].as_str().unwrap_or_default().to_owned();
+        let whole = |name: &str| object[name].as_u64().unwrap_or_default();
+        if object["motion"].is_null() {
+            return Ok(());
+        }
+        let blend = |blend: &Value| Blend {
+            asked: number(blend, "asked"),
+            used: number(blend, "used"),
+            unit: text(blend, "unit"),
+            why: text(blend, "why"),
+        };
+        let closest = |rate: &str| {
+            let closest = &object["closest"][rate];
+            closest.is_object().then(|| Closest { of: text(closest, "of"), percent: number(closest, "percent") })
+        };
+        let motion = Motion {
+            channel: whole("channel") as u32,
+            motion: whole("motion"),
+            line: whole("line") as u32,
+            kind: text(object, "kind"),
+            start: number(object, "start"),
+            duration: number(object, "duration"),
+            way: number(object, "way"),
+            programmed: number(object, "programmed"),
+            reached: number(object, "reached"),
+            unit: text(object, "unit"),
+            blend: object["blend"].is_object().then(|| blend(&object["blend"])),
+            closest_vel: closest("vel"),
+            closest_acc: closest("acc"),
+            closest_jerk: closest("jerk"),
+            file: text(object, "file"),
+        };
+        self.write("/arl/motions", &schemas::MOTION, motion.start, &motion)
+    }
+
+    /// What came nearer to each other than it should.
+    fn contact(&mut self, contact: &arl_wire::Contact) -> McapResult<()> {
+        let arl_wire::Contact { time, file, line, one, other, distance } = contact.clone();
+        let level = Level::Warning.into();
+        let log = Log { level, message: contact.to_string(), file: file.clone(), line, ..Log::default() };
+        self.log(time, log)?;
+        self.write("/arl/contacts", &schemas::CONTACT, time, &Contact { time, file, line, one, other, distance })
+    }
+
+    /// A body that robots take along is elsewhere.
+    fn placing(&mut self, placing: &Placing) -> McapResult<()> {
+        let body = self.scene.scenery().bodies.get(placing.body);
+        let frame = body.map(|(body, _)| format!("part/{}", body.name)).unwrap_or_default();
+        if let Some(transform) = self.parts.place(placing, frame, timestamp(self.time)) {
+            let transforms = FrameTransforms { transforms: vec![transform] };
+            self.write("/tf", &schemas::FRAME_TRANSFORMS, self.time, &transforms)?;
+        }
+        match self.scene.place(placing, &self.arms, timestamp(self.time)) {
+            Some(update) => self.write("/scene", &schemas::SCENE_UPDATE, self.time, &update),
+            None => Ok(()),
+        }
+    }
+
+    fn write(
+        &mut self,
+        topic: &str,
+        schema: &'static Schema,
+        time: f64,
+        message: &impl prost::Message,
+    ) -> McapResult<()> {
+        self.sink.message(topic, schema, nanoseconds(time), &message.encode_to_vec())
+    }
+}
+
+fn nanoseconds(time: f64) -> u64 {
+    (time * 1e9).round() as u64
+}
+
+fn timestamp(time: f64) -> Timestamp {
+    let all = nanoseconds(time);
+    Timestamp { seconds: (all / 1_000_000_000) as i64, nanos: (all % 1_000_000_000) as i32 }
+}

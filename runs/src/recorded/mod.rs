@@ -1,0 +1,10 @@
+//! What a recording says of a run, laid out so that any stretch of time, any line and any signal can be asked for.
+
+mod bounds;
+mod read;
+mod store;
+
+#[cfg(any(test, feature = "fuzzing"))]
+pub(crate) use read::of;
+pub(crate) use read::read;
+pub(crate) use store::{Signal, Store, TOLD_AGAIN, Took, Track};

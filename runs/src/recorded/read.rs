@@ -1,0 +1,109 @@
+//! Reads a recording. What is cut off is read as far as it goes.
+
+use std::collections::HashMap;
+use std::io::Read;
+use std::path::Path;
+
+use arl_robot::regular_file;
+use mcap::records::Record;
+use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+
+use super::store::Store;
+use crate::texts::Text;
+use arl_terminal::failure::Failure;
+
+/// No record of a recording is longer, in bytes; none is longer than its file either, whatever it says of itself.
+const LONGEST_RECORD: usize = 1 << 30;
+
+/// Before each record stand its kind and its length.
+const RECORD_HEAD: usize = 1 + 8;
+
+/// The run of a recording.
+///
+/// # Errors
+/// There is no such file, or it is no recording of a run.
+pub(crate) fn read(path: &Path) -> Result<Store, Failure> {
+    let cannot = |error: std::io::Error| Failure::io("read", path, &error);
+    let mut file = regular_file::expect(path).and_then(|()| std::fs::File::open(path)).map_err(cannot)?;
+    let size = file.metadata().map_err(cannot)?.len();
+    of(&mut file, size).map_err(|why| Failure::Other(format!("{} is no recording of a run: {why}", path.display())))
+}
+
+/// The run of a recording of so many bytes.
+///
+/// # Errors
+/// It is none.
+pub(crate) fn of(file: &mut impl Read, size: u64) -> Result<Store, String> {
+    let mut store = Store::default();
+    let mut reading = Reading { store: &mut store, topics: HashMap::new() };
+    let trouble = reading.read_all(file, size).err();
+    if store.cell.channels.is_empty() {
+        return Err(trouble.unwrap_or_else(|| "it says nothing of robots or programs (topic /arl/cell)".to_owned()));
+    }
+    store.trouble = trouble.map(|why| format!("the recording ends after {:.3} s: {why}", store.end));
+    Ok(store)
+}
+
+/// A file that is being read.
+struct Reading<'a> {
+    store: &'a mut Store,
+    topics: HashMap<u16, String>,
+}
+
+impl Reading<'_> {
+    fn read_all(&mut self, file: &mut impl Read, size: u64) -> Result<(), String> {
+        let longest = usize::try_from(size).unwrap_or(usize::MAX).min(LONGEST_RECORD);
+        let options = LinearReaderOptions::default().with_record_length_limit(longest).with_emit_chunks(true);
+        let mut reader = LinearReader::new_with_options(options);
+        while let Some(event) = reader.next_event() {
+            match event.map_err(|error| error.to_string())? {
+                LinearReadEvent::ReadRequest(wanted) => {
+                    let read = file.read(reader.insert(wanted)).map_err(|error| error.to_string())?;
+                    reader.notify_read(read);
+                }
+                LinearReadEvent::Record { data, opcode } => {
+                    match mcap::parse_record(opcode, data).map_err(|error| error.to_string())? {
+                        Record::Chunk { header, data } => self.chunk(&header.compression, &data)?,
+                        record => self.record(record)?,
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The records of a chunk. None of them reaches beyond it, whatever it says of itself.
+    fn chunk(&mut self, compression: &str, mut rest: &[u8]) -> Result<(), String> {
+        if !compression.is_empty() {
+            return Err(format!("it is compressed by {compression}, which is not read: save it without compression"));
+        }
+        while let Some((head, behind)) = rest.split_first_chunk::<RECORD_HEAD>() {
+            let [opcode, length @ ..] = *head;
+            let length = usize::try_from(u64::from_le_bytes(length)).unwrap_or(usize::MAX);
+            let Some((data, behind)) = behind.split_at_checked(length) else { break };
+            self.record(mcap::parse_record(opcode, data).map_err(|error| error.to_string())?)?;
+            rest = behind;
+        }
+        if rest.is_empty() { Ok(()) } else { Err("a record reaches beyond its chunk".to_owned()) }
+    }
+
+    fn record(&mut self, record: Record<'_>) -> Result<(), String> {
+        match record {
+            Record::Channel(channel) => {
+                self.topics.insert(channel.id, channel.topic);
+            }
+            Record::Message { header, data } => {
+                if let Some(topic) = self.topics.get(&header.channel_id) {
+                    let taken = self.store.take(topic, header.log_time, &data);
+                    taken.map_err(|error| format!("a message of {topic} is not understood ({error})"))?;
+                }
+            }
+            Record::Attachment { header, data, .. } if header.media_type.starts_with("text/") => {
+                let text = String::from_utf8_lossy(&data).into_owned();
+                self.store.sources.push(Text { name: header.name, text });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,141 @@
+//! What stands in a cell or is carried, and the shapes of its robots: what viewers draw, and what robots can touch.
+
+mod description;
+mod fit;
+mod shape;
+pub mod stl;
+#[cfg(test)]
+pub(crate) mod tests;
+
+use arl_robot::cell::{Body, Carrier, Cell, Form, Solid, Stands};
+use arl_robot::kinematics::Frame;
+use arl_robot::robot::Robot;
+use std::path::{Path, PathBuf};
+
+use arl_terminal::failure::Failure;
+use arl_terminal::show;
+#[cfg(any(test, feature = "fuzzing"))]
+pub use description::of_text;
+pub use shape::Shape;
+
+/// The bodies of a cell and the shapes of its robots.
+#[derive(Clone, Default, Debug)]
+pub struct Scenery {
+    /// Its bodies, and how they look.
+    pub bodies: Vec<(Body, Looks)>,
+    /// What takes bodies along.
+    pub carriers: Vec<Carrier>,
+    /// By channels; `None`: capsules along its links.
+    shapes: Vec<Option<Shape>>,
+}
+
+/// How something looks, and what of it can be touched.
+#[derive(Clone, Default, PartialEq, Debug)]
+pub struct Looks {
+    /// What viewers draw.
+    pub seen: Vec<Piece>,
+    /// What can be touched.
+    pub touched: Vec<Piece>,
+}
+
+/// A solid in the frame of what it belongs to.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Piece {
+    /// Where it is, in mm.
+    pub at: Frame,
+    /// Its form.
+    pub solid: Solid,
+    /// Red, green, blue and how solid it is, from 0 to 1, where somebody says it.
+    pub color: Option<[f64; 4]>,
+}
+
+impl Scenery {
+    /// That of a cell in which `robot` is that of channel 1. A robot whose shape cannot be read is told of, and has capsules.
+    ///
+    /// # Errors
+    /// A URDF file of a body cannot be read, or a robot is none, or has not the axis of a carrier.
+    pub fn of(cell: &Cell, robot: Option<&str>) -> Result<Self, Failure> {
+        Self::with(cell, load(robot)?, &show::warning)
+    }
+
+    /// The same, with the robot of the first channel as it is; `tell` is told of shapes that cannot be read.
+    ///
+    /// # Errors
+    /// As for [`of`](Self::of).
+    pub fn with(cell: &Cell, robot: Robot, tell: &dyn Fn(&str)) -> Result<Self, Failure> {
+        let looks = |body: &Body| match &body.form {
+            Form::Solid(solid) => Ok((body.clone(), Looks::of(solid))),
+            Form::Urdf(file) => {
+                let wrong = |problem| Failure::Usage(format!("body `{}`: {}: {problem}", body.name, file.display()));
+                description::of_body(file).map(|looks| (body.clone(), looks)).map_err(wrong)
+            }
+        };
+        let bodies = cell.bodies.iter().map(looks).collect::<Result<_, Failure>>()?;
+        let others = cell.programs.channels.iter().filter(|channel| !channel.background);
+        let others = others.map(|channel| Ok((load(channel.robot.as_deref())?, &channel.stands)));
+        let all = std::iter::once(Ok((robot, &cell.stands))).chain(others);
+        let all: Vec<_> = all.collect::<Result<_, Failure>>()?;
+        for carrier in &cell.carriers {
+            let Some((robot, _)) = all.get(carrier.channel as usize - 1) else { continue };
+            has_axis(robot, carrier)?;
+        }
+        let shapes = all.iter().map(|(robot, stands)| shape_of(robot, stands, tell)).collect::<Result<_, Failure>>()?;
+        Ok(Self { bodies, carriers: cell.carriers.clone(), shapes })
+    }
+
+    /// The shape of the robot of a channel, from 0.
+    pub fn shape(&self, channel: usize) -> Option<&Shape> {
+        self.shapes.get(channel)?.as_ref()
+    }
+}
+
+/// The robot of this name or file; the default one without.
+fn load(robot: Option<&str>) -> Result<Robot, Failure> {
+    let robot = robot.or_else(|| Robot::builtin_names().next()).unwrap_or_default();
+    Robot::load(robot).map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// The files that a cell names for how its robots and bodies look.
+pub fn named(cell: &Cell) -> impl Iterator<Item = &Path> {
+    let bodies = cell.bodies.iter().filter_map(|body| match &body.form {
+        Form::Urdf(file) | Form::Solid(Solid::Mesh { file, .. }) => Some(file.as_path()),
+        Form::Solid(_) => None,
+    });
+    let others = cell.programs.channels.iter().map(|channel| &channel.stands);
+    let robots = std::iter::once(&cell.stands).chain(others).filter_map(|stands| stands.urdf.as_deref());
+    bodies.chain(robots)
+}
+
+/// The same with the meshes that are named there, as far as they can be found. Who uses what is none says so.
+pub fn files(cell: &Cell) -> impl Iterator<Item = PathBuf> {
+    named(cell).flat_map(|file| std::iter::once(file.to_owned()).chain(description::meshes(file)))
+}
+
+/// That a robot has the axis of a carrier.
+fn has_axis(robot: &Robot, Carrier { axis, channel, .. }: &Carrier) -> Result<(), Failure> {
+    if robot.external_axes().iter().any(|external| external.name == *axis) {
+        return Ok(());
+    }
+    let known: Vec<&str> = robot.external_axes().iter().map(|external| &*external.name).collect();
+    let has = if known.is_empty() { "no external axes".to_owned() } else { format!("only {}", known.join(", ")) };
+    let text = format!(
+        "the cell has a [[carrier]] of the axis `{axis}`: the robot {} of channel {channel} has {has}",
+        robot.name
+    );
+    Err(Failure::Usage(text))
+}
+
+fn shape_of(robot: &Robot, stands: &Stands, tell: &dyn Fn(&str)) -> Result<Option<Shape>, Failure> {
+    let Some(file) = &stands.urdf else { return Ok(None) };
+    let shape = Shape::read(file, robot);
+    let tell = |problem| tell(&format!("{}: {problem}; the robot has capsules in its place", file.display()));
+    Ok(shape.map_err(tell).ok())
+}
+
+impl Looks {
+    /// One solid.
+    fn of(solid: &Solid) -> Self {
+        let piece = Piece { at: Frame::identity(), solid: solid.clone(), color: None };
+        Self { seen: vec![piece.clone()], touched: vec![piece] }
+    }
+}

@@ -1,0 +1,206 @@
+//! A page in the browser that shows a run, of a recording or of a program that goes on.
+//!
+//! The page is in `runs/page/`. It asks this server for what it shows, and gives it orders where there is somebody to take them.
+
+mod answer;
+mod http;
+mod live;
+mod page;
+mod serve;
+mod teach;
+#[cfg(test)]
+mod tests;
+
+use arl_terminal::exit::Exit;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+
+use arl_robot::Robot;
+use serde_json::{Value, json};
+
+use crate::listen::Hears;
+use crate::recorded::{self, Store};
+use crate::report::{Differences, Summary};
+use crate::scenery::Scenery;
+use crate::texts;
+use answer::{About, Known};
+use arl_terminal::failure::Failure;
+use arl_terminal::{interrupt, show};
+use live::Live;
+use serve::{Answer, Asked, ToPage};
+use teach::Teacher;
+
+/// At most so many rows are told at once.
+const MOST_ROWS: usize = 400_000;
+
+/// What is shown: one run, or two beside each other.
+struct Shown {
+    runs: Vec<(String, Arc<Mutex<Store>>)>,
+    /// The program of the first one, where it runs.
+    live: Option<Live>,
+    /// Who writes its points, where that is wanted.
+    teacher: Option<Teacher>,
+}
+
+/// Where the page is served.
+#[derive(Clone, Copy, Debug)]
+pub struct Page {
+    /// The port on this computer; a free one where it is 0.
+    pub port: u16,
+    /// Whether a browser opens it.
+    pub opens: bool,
+}
+
+/// A program that is to run, and who hears it besides.
+pub struct Program<'a> {
+    /// What the page calls it.
+    pub name: String,
+    /// What starts it.
+    pub command: Command,
+    /// Its files.
+    pub sources: &'a [PathBuf],
+    /// What stands in its cell.
+    pub scenery: &'a Scenery,
+    /// Who hears it before the page does.
+    pub hearers: Vec<Box<dyn Hears>>,
+    /// The robots of its channels, where the page may write its points.
+    pub teaches: Option<Vec<Robot>>,
+}
+
+/// Shows one or two recordings, until the command is interrupted.
+///
+/// # Errors
+/// One cannot be read, or the port is taken.
+pub fn recordings(files: &[PathBuf], page: Page) -> Result<Exit, Failure> {
+    let name = |file: &Path| file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let runs = files.iter().map(|file| Ok((name(file), Arc::new(Mutex::new(recording(file)?)))));
+    let shown = Shown { runs: runs.collect::<Result<_, Failure>>()?, live: None, teacher: None };
+    let server = serve(&Arc::new(shown), page)?;
+    // It serves for ever.
+    server.join().map_err(|_| Failure::Other("the server ended".to_owned()))?;
+    Ok(Exit::SUCCESS)
+}
+
+/// Shows a program that runs, until it ends; its exit code. Once it runs, `lock`, which kept it as it is, is let go.
+///
+/// # Errors
+/// It does not start, or the port is taken.
+pub fn program<L>(program: Program<'_>, lock: L, page: Page) -> Result<Exit, Failure> {
+    let Program { name, command, sources, scenery, hearers, teaches } = program;
+    let teacher = teaches.map(|robots| Teacher::new(robots, sources));
+    let store = Store { goes_on: true, sources: texts::read(sources), ..Store::default() };
+    let file = PathBuf::from(command.get_program());
+    let live = Live::start(command, &hearers).map_err(|error| Failure::io("start", &file, &error))?;
+    drop(lock);
+    // The program stops its robot, and this command ends with it.
+    interrupt::leave_to_the_program();
+    let store = Arc::new(Mutex::new(store));
+    let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live), teacher });
+    let _server = serve(&shown, page)?;
+    let code = shown.live.as_ref().map_or(0, |live| live.hear(hearers, scenery, &store));
+    Ok(Exit::from(code))
+}
+
+/// Serves the page, tells its address and opens it.
+fn serve(shown: &Arc<Shown>, page: Page) -> Result<JoinHandle<()>, Failure> {
+    let shown = Arc::clone(shown);
+    let to_page = |address| ToPage::new(address, move |asked: &Asked<'_>| shown.answer(asked));
+    let (address, server) =
+        http::serve(page.port, http::Limits::USUAL, to_page).map_err(|error| http::refusal(page.port, &error))?;
+    let url = format!("http://{address}/");
+    let mut out = std::io::stdout();
+    // Nobody may read it.
+    let _ = writeln!(out, "{url}").and_then(|()| out.flush());
+    if page.opens && open::that_detached(&url).is_err() {
+        show::warning("no browser opens by itself: open the address above");
+    }
+    Ok(server)
+}
+
+fn recording(file: &Path) -> Result<Store, Failure> {
+    let store = recorded::read(file)?;
+    if let Some(trouble) = &store.trouble {
+        show::warning(&format!("{}: {trouble}", file.display()));
+    }
+    Ok(store)
+}
+
+impl Shown {
+    fn answer(&self, asked: &Asked<'_>) -> Answer {
+        if let Some((kind, bytes)) = page::file(asked.path) {
+            return Answer::Bytes(kind, bytes.to_vec());
+        }
+        match asked.path.strip_prefix("/api/").map(|path| path.split('/').collect::<Vec<_>>()).as_deref() {
+            Some(["runs"]) => Answer::Json(self.runs.iter().map(|(name, _)| name.clone()).collect()),
+            Some(["differences"]) => match &self.runs[..] {
+                [(_, one), (_, other)] => {
+                    let [one, other] = [one, other].map(|store| Summary::of(&lock(store)));
+                    Answer::Json(json!(Differences::between(&one, &other)))
+                }
+                _ => Answer::NotFound,
+            },
+            Some(["teach", rest @ ..]) => match &self.teacher {
+                Some(teacher) => teacher.answer(rest, asked.order),
+                None => {
+                    Answer::Refused("points are only written where the command was started with --teach".to_owned())
+                }
+            },
+            Some(["order"]) => match (&self.live, asked.order) {
+                (Some(live), Some(order)) => {
+                    live.order(order).map_or_else(Answer::Refused, |()| Answer::Json(Value::Null))
+                }
+                (None, Some(_)) => {
+                    Answer::Refused("this is a recording: there is no program that takes orders".to_owned())
+                }
+                (_, None) => Answer::NotFound,
+            },
+            Some(["run", number, rest @ ..]) => {
+                let run = number.parse::<usize>().ok().and_then(|number| self.runs.get(number));
+                let about = |name| About { name, teaches: self.teacher.is_some() };
+                run.map_or(Answer::NotFound, |(name, store)| of_run(&lock(store), about(name), rest, asked))
+            }
+            _ => Answer::NotFound,
+        }
+    }
+}
+
+fn of_run(store: &Store, about: About<'_>, path: &[&str], asked: &Asked<'_>) -> Answer {
+    match path {
+        [] => Answer::Json(answer::run(store, about)),
+        ["news"] => Answer::Json(answer::news(store, &known(asked))),
+        ["model", number] => match number.parse().ok().and_then(|number: usize| store.meshes.get(number)) {
+            Some(bytes) => Answer::Bytes("model/stl", bytes.clone()),
+            None => Answer::NotFound,
+        },
+        ["samples"] => match store.tracks.get(asked.count("channel").wrapping_sub(1)) {
+            Some(track) => {
+                let span = [asked.number("from").unwrap_or(0.0), asked.number("to").unwrap_or(f64::MAX)];
+                let most = asked.number("most").map_or(MOST_ROWS, |most| most as usize).min(MOST_ROWS);
+                Answer::Bytes("application/octet-stream", answer::samples(track, span, most))
+            }
+            None => Answer::NotFound,
+        },
+        _ => Answer::NotFound,
+    }
+}
+
+fn known(asked: &Asked<'_>) -> Known {
+    Known {
+        scene: asked.count("scene"),
+        controller: asked.count("controller"),
+        log: asked.count("log"),
+        contacts: asked.count("contacts"),
+        motions: asked.count("motions"),
+        states: asked.count("states"),
+        bases: asked.count("bases"),
+        signals: asked.count("signals"),
+    }
+}
+
+/// What a store is worth does not depend on who looked at it last.
+fn lock(store: &Mutex<Store>) -> MutexGuard<'_, Store> {
+    store.lock().unwrap_or_else(PoisonError::into_inner)
+}

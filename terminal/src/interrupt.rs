@@ -1,0 +1,30 @@
+//! Ctrl-C.
+
+use crate::failure::INTERRUPTED;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether Ctrl-C is for the program that runs in front of this process.
+static LEFT_TO_PROGRAM: AtomicBool = AtomicBool::new(false);
+/// Whether Ctrl-C was pressed since.
+static WAS_PRESSED: AtomicBool = AtomicBool::new(false);
+
+/// Makes Ctrl-C end the command with its exit code. cargo is of the same group of processes, and ends by itself.
+pub fn end_the_command() {
+    // Without a handler the process still ends, only with another code.
+    let _ = ctrlc::set_handler(|| {
+        if !LEFT_TO_PROGRAM.load(Ordering::Relaxed) {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+        WAS_PRESSED.store(true, Ordering::Relaxed);
+    });
+}
+
+/// From now on Ctrl-C is the running program's business.
+pub fn leave_to_the_program() {
+    LEFT_TO_PROGRAM.store(true, Ordering::Relaxed);
+}
+
+/// Whether Ctrl-C was pressed while it was the program's business.
+pub fn was_pressed() -> bool {
+    WAS_PRESSED.load(Ordering::Relaxed)
+}

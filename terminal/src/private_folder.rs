@@ -1,0 +1,82 @@
+//! Folders in the system's folder for files that go. Any user can write there: so each is a new one, which nobody else
+//! gets into.
+
+use std::fs::DirBuilder;
+use std::io::{ErrorKind, Result};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A folder that goes with its owner.
+#[derive(Debug)]
+pub struct PrivateFolder(PathBuf);
+
+impl PrivateFolder {
+    /// Another one, whose name begins like this; the numbers of the process and of the folder follow.
+    ///
+    /// # Errors
+    /// None can be made there.
+    pub fn new(prefix: &str) -> Result<Self> {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        let mut make = DirBuilder::new();
+        #[cfg(unix)]
+        std::os::unix::fs::DirBuilderExt::mode(&mut make, 0o700);
+        loop {
+            let number = NEXT.fetch_add(1, Ordering::Relaxed);
+            let path = std::env::temp_dir().join(format!("{prefix}{}-{number}", std::process::id()));
+            match make.create(&path) {
+                // It is of somebody else, or of a process of the same number that has ended.
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+                made => return made.map(|()| Self(path)),
+            }
+        }
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for PrivateFolder {
+    fn drop(&mut self) {
+        // What stays there the system takes away.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nobody_else_gets_into_a_new_folder() {
+        let prefix = "arl2rs-private-test-";
+        // Somebody has made the next ones, one of them as a link.
+        let taken = |number: u64| std::env::temp_dir().join(format!("{prefix}{}-{number}", std::process::id()));
+        let first = PrivateFolder::new(prefix).expect("a folder");
+        let name = first.path().display().to_string();
+        let own: u64 = name.rsplit('-').next().and_then(|number| number.parse().ok()).expect("a number");
+        let numbers = own + 1..own + 64;
+        numbers.clone().for_each(|number| {
+            #[cfg(unix)]
+            std::os::unix::fs::symlink("/nowhere", taken(number)).expect("a link");
+            #[cfg(not(unix))]
+            std::fs::create_dir(taken(number)).expect("a folder");
+        });
+        let folder = PrivateFolder::new(prefix).expect("a folder");
+        assert!(numbers.clone().all(|number| taken(number) != folder.path()), "{folder:?}");
+        #[cfg(unix)]
+        {
+            let mode =
+                std::os::unix::fs::PermissionsExt::mode(&folder.path().metadata().expect("it is there").permissions());
+            assert_eq!(mode & 0o777, 0o700);
+        }
+        let path = folder.path().to_path_buf();
+        drop(folder);
+        assert!(!path.exists());
+        drop(first);
+        numbers.for_each(|number| {
+            let _ = std::fs::remove_file(taken(number)).or_else(|_| std::fs::remove_dir(taken(number)));
+        });
+    }
+}

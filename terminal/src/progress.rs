@@ -1,0 +1,37 @@
+//! A sign of life on the terminal where something takes long.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::time::Duration;
+
+/// A turning sign with words beside it; gone when dropped. Nothing at all where nobody looks.
+pub struct Progress(Option<ProgressBar>);
+
+impl Progress {
+    /// Shows it.
+    pub fn start(words: &str) -> Self {
+        if !super::show::is_watched() {
+            return Self(None);
+        }
+        let bar = ProgressBar::new_spinner().with_message(words.to_string());
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed:.dim}") {
+            bar.set_style(style);
+        }
+        bar.enable_steady_tick(Duration::from_millis(100));
+        Self(Some(bar))
+    }
+
+    /// Changes the words.
+    pub fn say(&self, words: &str) {
+        if let Some(bar) = &self.0 {
+            bar.set_message(words.to_string());
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}

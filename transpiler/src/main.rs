@@ -1,5 +1,0 @@
-//! The `arl2rs` command.
-
-fn main() -> std::process::ExitCode {
-    arl2rs::cli::main()
-}
