@@ -72,7 +72,7 @@ fn every_motion_has_its_figures() {
 #[test]
 fn blends_tell_what_was_asked_and_used() {
     let (records, _) = records();
-    let blends: Vec<_> = records.iter().map(|record| record.blend.map(|it| (it.asked, it.used, it.unit))).collect();
+    let blends: Vec<_> = records.iter().map(|record| record.zone().map(|it| (it.asked, it.used, it.unit))).collect();
     assert_eq!(blends[0], None);
     let Some((asked, used, "mm")) = blends[2] else { panic!("{blends:?}") };
     assert!(asked == 20.0 && (used - 20.0).abs() < 1e-6, "{used}");
@@ -121,9 +121,9 @@ fn motions_that_wait_for_the_next_one_are_recorded_when_they_go() {
     for record in &records {
         assert!(record.start.is_some() && record.duration > 0.1 && record.reached > 0.0, "{record:?}");
         // A zone stays what it is where motions flow into each other.
-        assert!(record.blend.is_none_or(|blend| blend.used <= blend.asked + 1e-6), "{record:?}");
+        assert!(record.zone().is_none_or(|blend| blend.used <= blend.asked + 1e-6), "{record:?}");
     }
-    assert!(records[1].blend.is_some_and(|blend| blend.used > 5.0), "{:?}", records[1].blend);
+    assert!(records[1].zone().is_some_and(|blend| blend.used > 5.0), "{:?}", records[1].zone());
     assert!((records[2].way + records[3].way - 132.0).abs() < 25.0, "{records:?}");
 }
 
@@ -139,7 +139,7 @@ fn a_target_without_its_blend_has_the_reason() {
     controller.run();
     let why: Vec<_> = controller.motions().into_iter().map(|record| record.unblended).collect();
     assert_eq!(why, [None, Some(NoBlend::Reversal), None]);
-    assert!(controller.motions()[1].blend.is_some_and(|blend| blend.used == 0.0));
+    assert!(controller.motions()[1].zone().is_some_and(|blend| blend.used == 0.0));
 }
 
 /// The records of a program, and its trace: rows of numbers, those of absent axes 0.
@@ -188,7 +188,7 @@ fn a_zone_that_is_not_used_as_asked_has_its_reason() {
     let (records, _) = records_and_rows(zigzag);
     let why: Vec<_> = records.iter().map(MotionRecord::smaller_zone).collect();
     assert_eq!(why, [None, None, None, None, Some(SmallerZone::Half), Some(SmallerZone::NothingBehind)]);
-    let blend = records[4].blend.unwrap_or_else(|| panic!("no zone: {:?}", records[4]));
+    let blend = records[4].zone().unwrap_or_else(|| panic!("no zone: {:?}", records[4]));
     assert!(blend.asked == 40.0 && (blend.used - 15.0).abs() < 1e-9, "{blend:?}");
     let (records, _) = records_and_rows(|cx| {
         Box::pin(async move {
@@ -221,6 +221,7 @@ fn a_motion_that_is_cut_off_says_so_of_its_zone() {
     });
     let cut = controller.motions().swap_remove(5);
     assert_eq!(cut.smaller_zone(), Some(SmallerZone::Unfinished), "{cut:?}");
+    assert_eq!(cut.zone().map(|zone| zone.used), Some(0.0), "{cut:?}");
 }
 
 #[test]

@@ -147,8 +147,8 @@ pub struct MotionRecord {
     pub duration: f64,
     /// The path of the TCP against the workpiece, in mm.
     pub way: f64,
-    /// The zone at its end, where one was asked for.
-    pub blend: Option<Rounding>,
+    /// The zone at its end as it is planned, where one was asked for.
+    blend: Option<Rounding>,
     /// Why the robot stops at its target though a zone was asked for.
     pub unblended: Option<NoBlend>,
     /// Where it passes so close to a singular point that it is slowed down to less than half of what was programmed.
@@ -184,16 +184,21 @@ impl MotionRecord {
         found
     }
 
+    /// The zone at its end, where one was asked for. Nothing of it was used as long as the motion has not come there.
+    pub fn zone(&self) -> Option<Rounding> {
+        self.blend.map(|blend| Rounding { used: if self.arrived { blend.used } else { 0.0 }, ..blend })
+    }
+
     /// Why the zone at its end was not used as it was asked for: not at all, or only a part of it. `None`: it was, or none was asked for.
     pub fn smaller_zone(&self) -> Option<SmallerZone> {
-        let blend = self.blend.filter(|blend| blend.used < blend.asked * (1.0 - NO_PART))?;
+        let blend = self.zone().filter(|blend| blend.used < blend.asked * (1.0 - NO_PART))?;
         Some(match (&self.unblended, &self.less) {
             (Some(why), _) => SmallerZone::Stop(why.clone()),
-            _ if self.flows => SmallerZone::Flows,
+            (None, _) if self.flows => SmallerZone::Flows,
+            _ if !self.arrived => SmallerZone::Unfinished,
             (None, Some(why)) => SmallerZone::Part(why.clone()),
             (None, None) if blend.used > 0.0 => SmallerZone::Half,
-            (None, None) if self.arrived => SmallerZone::NothingBehind,
-            (None, None) => SmallerZone::Unfinished,
+            (None, None) => SmallerZone::NothingBehind,
         })
     }
 

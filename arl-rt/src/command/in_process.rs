@@ -232,7 +232,7 @@ impl Run {
 
     /// What each motion did, a JSON object a line, where `--report` asked for it.
     pub fn report(&self) -> String {
-        report::all_json(&self.controller.recorded(), self.controller.time())
+        report::all_json(&self.controller.recorded())
     }
 
     /// Which signals and global variables [`observe`](Self::observe) tells, a name a line: `do.1`, `global.placed`.

@@ -383,14 +383,14 @@ type WriteReport = Box<dyn FnMut(&Controller) -> std::io::Result<()>>;
 fn report_to(report: Report) -> Result<WriteReport, String> {
     Ok(match report {
         Report::Table => Box::new(|controller| {
-            let text = report::tables(&controller.recorded(), controller.time());
+            let text = report::tables(&controller.recorded());
             let lateness = controller.lateness().map(ToString::to_string).unwrap_or_default();
             std::io::stderr().write_all((text + &lateness).as_bytes())
         }),
         Report::File(path) => {
             let mut file = File::create(&path).map_err(|error| format!("{}: {error}", path.display()))?;
             Box::new(move |controller| {
-                let text = report::all_json(&controller.recorded(), controller.time());
+                let text = report::all_json(&controller.recorded());
                 let clock = controller.lateness().map(report::clock_json).unwrap_or_default();
                 file.write_all((text + &clock).as_bytes())
             })

@@ -17,13 +17,13 @@ const HEAD: [&str; 10] =
 const WHAT_COUNTS: &str =
     "reached: along the path, outside of zones, without a weave; closest: zones included, tcp along its path only\n";
 
-/// The table of each robot; with several, each has a headline. `time` is how long the programs ran, in s.
-pub(crate) fn tables(robots: &[Recorded], time: f64) -> String {
+/// The table of each robot; with several, each has a headline.
+pub(crate) fn tables(robots: &[Recorded]) -> String {
     match robots {
-        [robot] => table(robot, time),
+        [robot] => table(robot),
         robots => {
             let headed = |(at, robot): (usize, &Recorded)| {
-                format!("channel {}, robot {}:\n{}", at + 1, robot.robot.name, table(robot, time))
+                format!("channel {}, robot {}:\n{}", at + 1, robot.robot.name, table(robot))
             };
             robots.iter().enumerate().map(headed).collect()
         }
@@ -31,13 +31,12 @@ pub(crate) fn tables(robots: &[Recorded], time: f64) -> String {
 }
 
 /// The same as JSON, robot by robot.
-pub(crate) fn all_json(robots: &[Recorded], time: f64) -> String {
-    robots.iter().enumerate().map(|(at, robot)| json(at + 1, robot, time)).collect()
+pub(crate) fn all_json(robots: &[Recorded]) -> String {
+    robots.iter().enumerate().map(|(at, robot)| json(at + 1, robot)).collect()
 }
 
-/// A table with one row for each line of the program, in the order of their first motions, and the figures of the cycle
-/// time: `time` is how long the program ran, in s.
-fn table(recorded: &Recorded, time: f64) -> String {
+/// A table with one row for each line of the program, in the order of their first motions, and the figures of the cycle time.
+fn table(recorded: &Recorded) -> String {
     let mut lines: Vec<Line<'_>> = Vec::new();
     for (file, record) in recorded.executed() {
         match lines.iter_mut().find(|line| line.is(file, record)) {
@@ -83,10 +82,11 @@ fn table(recorded: &Recorded, time: f64) -> String {
     if !lines.is_empty() {
         text.push_str(WHAT_COUNTS);
     }
-    text + &summary(recorded, time)
+    text + &summary(recorded)
 }
 
-fn summary(recorded: &Recorded, time: f64) -> String {
+fn summary(recorded: &Recorded) -> String {
+    let time = recorded.ended;
     let moving = recorded.sum(|record| record.duration);
     let metres = recorded.sum(|record| record.way) / 1000.0;
     let count = recorded.executed().count();
@@ -99,7 +99,8 @@ fn summary(recorded: &Recorded, time: f64) -> String {
 }
 
 /// One JSON object a line: each motion of a channel that began, then the figures of its cycle time.
-fn json(channel: usize, recorded: &Recorded, time: f64) -> String {
+fn json(channel: usize, recorded: &Recorded) -> String {
+    let time = recorded.ended;
     let of_motion = |motion| motion_json(channel, motion, &recorded.robot);
     let mut text: String = recorded.executed().map(of_motion).collect();
     let moving = recorded.sum(|record| record.duration);
@@ -139,7 +140,7 @@ pub(super) fn motion_json(channel: usize, (file, record): (File, &MotionRecord),
          \"reached\":{reached:.6},\"start\":{start:.6},\"duration\":{duration:.6},\"way\":{way:.6}",
         programmed.unit, programmed.value
     );
-    if let Some(blend) = record.blend {
+    if let Some(blend) = record.zone() {
         let (unit, asked, used) = (blend.unit, blend.asked, blend.used);
         let why = record.smaller_zone().map(|why| format!(",\"why\":{}", quoted(&why.to_string())));
         let why = why.unwrap_or_default();
@@ -259,7 +260,7 @@ impl<'a> Line<'a> {
         self.programmed = widened(self.programmed, record.programmed.value);
         self.reached = widened(self.reached, record.reached);
         self.slowed = NearSingular::slower(self.slowed, record.slowed);
-        let used = |record: &MotionRecord| record.blend.map_or(f64::INFINITY, |blend| blend.used / blend.asked);
+        let used = |record: &MotionRecord| record.zone().map_or(f64::INFINITY, |blend| blend.used / blend.asked);
         if used(record) < used(self.blend) {
             self.blend = record;
         }
@@ -274,7 +275,7 @@ impl<'a> Line<'a> {
     fn cells(&self, recorded: &Recorded) -> [String; 10] {
         let robot = &recorded.robot;
         let unit = self.first.programmed.unit;
-        let blend = self.blend.blend.map_or_else(String::new, |blend| {
+        let blend = self.blend.zone().map_or_else(String::new, |blend| {
             format!("{} of {} {}", short(blend.used), short(blend.asked), blend.unit)
         });
         let [vel, acc, jerk] = self.closest.map(|closest| {

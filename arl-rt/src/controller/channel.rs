@@ -74,6 +74,8 @@ pub(super) struct Channel {
     exits: bool,
     /// For how many cycles its robot has had nothing to do.
     rested: u32,
+    /// After how many cycles of the controller it ended last.
+    ended_after: u64,
 }
 
 impl Channel {
@@ -100,6 +102,7 @@ impl Channel {
             running: true,
             exits: false,
             rested: 0,
+            ended_after: 0,
         }
     }
 
@@ -152,6 +155,11 @@ impl Channel {
             _ if self.channel_state.paused.get() => State::Paused,
             _ => State::Running,
         }
+    }
+
+    /// After how many cycles of the controller the program ended, when it has.
+    pub(super) fn ended_after(&self) -> Option<u64> {
+        matches!(self.phase, Phase::Ended(_)).then_some(self.ended_after)
     }
 
     /// How the program ended, when it has.
@@ -271,7 +279,10 @@ impl Channel {
                     self.channel_state.stepping.on.set(steps);
                     return;
                 }
-                Next::End(outcome) => Phase::Ended(outcome.clone()),
+                Next::End(outcome) => {
+                    self.ended_after = self.channel_state.shared.now.get() + 1;
+                    Phase::Ended(outcome.clone())
+                }
             };
             self.cx.goes_on();
         }

@@ -1,5 +1,6 @@
 //! What the motions of the robots did, where records of them are kept.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use super::Controller;
@@ -15,6 +16,8 @@ pub(crate) struct Recorded {
     pub(crate) robot: Arc<Robot>,
     /// The file that has the `main` of the channel's program.
     pub(crate) program: File,
+    /// When its program ended, in s of the controller, or now where it has not.
+    pub(crate) ended: f64,
     /// Each with the file that its line is of.
     pub(crate) motions: Vec<(File, MotionRecord)>,
 }
@@ -46,8 +49,11 @@ impl Controller {
             let unit = channel.channel_state().robot()?;
             let program = channel.cx().program();
             let motion = |record: &MotionRecord| (unit.recorded_file(record.number).unwrap_or(program), record.clone());
-            let motions = unit.records().iter().map(motion).collect();
-            Some(Recorded { robot: unit.shared_robot(), program, motions })
+            let mut motions: Vec<_> = unit.records().iter().map(motion).collect();
+            // A way back, or what is jogged, is planned behind what was planned before it.
+            motions.sort_by(|(_, one), (_, other)| one.start.partial_cmp(&other.start).unwrap_or(Ordering::Equal));
+            let ended = channel.ended_after().map_or_else(|| self.time(), |cycles| self.shared.rate.time(cycles));
+            Some(Recorded { robot: unit.shared_robot(), program, ended, motions })
         };
         self.channels.foreground().filter_map(of_channel).collect()
     }

@@ -169,6 +169,7 @@ impl Unit {
     pub(crate) fn set_base(&mut self, base: Frame) {
         if base != self.base {
             self.base = base;
+            self.tcp = self.tcp_by_axes();
             self.effort.set_base(&base);
         }
     }
@@ -278,6 +279,11 @@ impl Unit {
     /// What it carries, and where it stands.
     fn rig(&self) -> Rig {
         Rig { base: self.base, ..*self.queue.rig() }
+    }
+
+    /// Where the TCP is in the world: the base may be another one than that of the last motion, as before the first.
+    fn tcp_by_axes(&self) -> Frame {
+        self.rig().tcp_at(&self.robot.kinematics.forward(&self.setpoint().axes))
     }
 
     /// What pushes the robot.
@@ -545,7 +551,6 @@ impl Unit {
         if let Some(recorder) = &mut self.recorder {
             recorder.step(&mut self.queue, &step);
         }
-        self.tcp = step.tcp;
         self.executing = (step.line, step.motion);
         self.finished = step.finished;
         self.note_rest();
@@ -558,6 +563,7 @@ impl Unit {
         if step.motion != 0 {
             self.set_base(self.queue.rig().base);
         }
+        self.tcp = if self.queue.rig().base == self.base { step.tcp } else { self.tcp_by_axes() };
         self.change_due();
         self.commanded.go_to(step.joints, period);
         self.exchange(beat);

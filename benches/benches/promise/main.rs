@@ -97,7 +97,7 @@ fn run(chain: &Chain, zones: bool, settings: &Settings) -> Option<(f64, Vec<f64>
         cycles += 1;
     }
     let records = recorder.records();
-    let asked = records.iter().take(records.len() - 1).filter_map(|record| record.blend);
+    let asked = records.iter().take(records.len() - 1).filter_map(|record| record.zone());
     Some((f64::from(cycles) * CYCLE, asked.map(|rounding| rounding.used / rounding.asked).collect()))
 }
 

@@ -152,3 +152,30 @@ fn cases_run_what_their_cell_names() {
     let worse = folder.arl2rs(&["test", "worse"]);
     assert!(worse.out.contains("none.toml: cannot read the cell file"), "{}", worse.out);
 }
+
+#[test]
+fn each_channel_is_reported_with_its_own_time_and_its_tcp_stands_on_its_base() {
+    let cell = "base = [700, 0, 450]\n[[channel]]\nprogram = \"long.arl\"\n";
+    let folder = Folder::new("several_reported")
+        .with("short.arl", "func void main()\n    waittime 0.01\n    movej j:{3,-90,90,0,90,0}\nendfunc\n")
+        .with("long.arl", "func void main()\n    movej j:{5,-90,90,0,90,0}\n    waittime 2\nendfunc\n")
+        .with("cell.toml", cell);
+    let run = ["run", "short.arl", "--cell", "cell.toml", "--trace", "short.csv", "--report=short.jsonl"];
+    folder.arl2rs(&run).is(0, "");
+    let rows: Vec<Vec<f64>> = (folder.read("short.csv").lines().skip(1))
+        .map(|row| row.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN)).collect())
+        .collect();
+    let place = |row: &[f64]| row[15..18].to_vec();
+    let moves = rows.windows(2).map(|pair| {
+        place(&pair[0]).iter().zip(place(&pair[1])).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+    });
+    assert!(moves.fold(0.0, f64::max) < 1.0, "the TCP jumps");
+    assert!(rows[0][15] > 1000.0 && rows[0][17] > 1000.0, "{:?}", rows[0]);
+    let report = folder.read("short.jsonl");
+    let times: Vec<f64> = (report.lines())
+        .map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap())
+        .filter_map(|object| object["cycle_time"].as_f64())
+        .collect();
+    assert!((times[0] - rows.len() as f64 * 0.001).abs() < 1e-9, "{times:?} {}", rows.len());
+    assert!(times[0] < 1.0 && times[1] > 2.0, "{times:?}");
+}

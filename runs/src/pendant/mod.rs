@@ -1,6 +1,6 @@
 //! `arl2rs run --pendant`: a live screen of a program that runs.
 //!
-//! The program is a process of its own, driven by lines ([`Link`]): a screen that hangs does not hold up a robot, and when
+//! The program is a process of its own, driven by lines (`link.rs`): a screen that hangs does not hold up a robot, and when
 //! the screen goes, the robot stops on its path.
 
 mod inside;

@@ -143,8 +143,10 @@ fn of_channel(store: &Store, track: &Track, channel: usize) -> OfChannel {
     let own = |motion: &&Motion| motion.channel as usize == channel;
     let file = |number: u16| track.files.get(usize::from(number)).map_or("", |name| file_name(name)).to_owned();
     let mut lines: Vec<OfLine> = Vec::new();
+    // What each motion took is known once the run has ended; before that, and of older recordings, where the robot was seen.
+    let are_known = store.motions.iter().any(|motion| own(&motion));
     for (&(number, line), took) in track.lines.iter().filter(|((_, line), _)| *line > 0) {
-        let (moving, standing) = (rounded(took.moving), rounded(took.standing));
+        let (moving, standing) = (if are_known { 0.0 } else { rounded(took.moving) }, rounded(took.standing));
         lines.push(OfLine { file: file(number), line, moving, standing, ..OfLine::default() });
     }
     let main = file(track.pointers.iter().find(|at| at.motion_line > 0).map_or(0, |at| at.motion_file));
@@ -166,6 +168,7 @@ fn of_channel(store: &Store, track: &Track, channel: usize) -> OfChannel {
             }
         }
     }
+    lines.retain(|line| line.motions > 0 || line.moving + line.standing > 0.0);
     lines.sort_by(|one, other| (&one.file, one.line).cmp(&(&other.file, other.line)));
     let sum = |of: fn(&OfLine) -> f64| rounded(lines.iter().map(of).sum());
     OfChannel {
@@ -187,6 +190,7 @@ fn rounded(value: f64) -> f64 {
 impl OfLine {
     fn add(&mut self, motion: &Motion) {
         self.motions += 1;
+        self.moving = rounded(self.moving + motion.duration);
         self.way = rounded(self.way + motion.way);
         if !self.kinds.contains(&motion.kind) {
             self.kinds.push(motion.kind.clone());

@@ -119,7 +119,7 @@ impl Recording {
         self.flush();
         self.voice.state(controller);
         if self.wishes.each_motion {
-            let report = report::all_json(&controller.recorded(), controller.time());
+            let report = report::all_json(&controller.recorded());
             report.lines().for_each(|object| self.voice.report(object));
         }
         self.voice.ended();
