@@ -12,7 +12,7 @@ const PROGRAM = `func void opened(int gate)
     setdo(3, true)
 endfunc
 func void main()
-    joint home = {0, -90, 90, 0, 90, 0}
+    joint home = {60, -90, 90, 0, 90, 0}
     interrupt "gate", when:getdi(5), do:opened(7)
     movej home, vp:50%
     movej j:{30, -90, 90, 0, 90, 0}, vp:50%
