@@ -142,7 +142,7 @@ def test_files_of_a_trace_are_those_of_the_first_robot_s_motions(program):
 
 
 def test_lines_have_their_file():
-    text = 'import "grip.arl"\nfunc void main()\n    movej j:{0, -90, 90, 0, 90, 0}\n    grip::take()\nendfunc\n'
+    text = 'import "grip.arl"\nfunc void main()\n    movej j:{9, -90, 90, 0, 90, 0}\n    grip::take()\nendfunc\n'
     beside = {"grip.arl": "func void take()\n    movej j:{5, -90, 90, 0, 90, 0}\nendfunc\n"}
     result = arl2rs.run(source=text, beside=beside)
     assert [(row["file"], row["line"]) for row in result.report] == [("program.arl", 3), ("grip.arl", 2)]
@@ -162,7 +162,7 @@ def test_500_points_come_from_an_array():
     turn = np.linspace(0, 2 * np.pi, 500)
     fixed = np.ones_like(turn)
     circle = np.column_stack([850 + 60 * np.cos(turn), 60 * np.sin(turn), 900 * fixed, 0 * fixed, 180 * fixed, 0 * fixed])
-    text = "func void main()\n    movej j:{0, -90, 90, 0, 90, 0}\n    ptp p:weld[0]\n"
+    text = "func void main()\n    movej j:{9, -90, 90, 0, 90, 0}\n    ptp p:weld[0]\n"
     text += "    for(int i=1;i<500;i++)\n        lin p:weld[i], vl:100mm/s, sl:1mm\n    endfor\nendfunc\n"
     program = arl2rs.compile(source=text, beside={"program_data.arl": arl2rs.points("weld", circle)})
     assert program.points["weld"].sizes == (500,)

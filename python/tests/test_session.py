@@ -231,11 +231,11 @@ def test_cycles_before_ctrl_c_are_in_a_snapshot(tmp_path):
 
 
 def test_inputs_by_name_take_what_is_observed(tmp_path):
-    (tmp_path / "cell.toml").write_text('[names]\n"di.5" = "ready"\n"ai.1" = "force"\n')
+    (tmp_path / "cell.toml").write_text('[names]\n"di.5" = "ready"\n"ai.1" = "pressure"\n')
     source = tmp_path / "waits.arl"
     source.write_text("func void main()\n    waituntil getdi(5)\n    print getai(1)\nendfunc\n")
     with arl2rs.compile(source, cell=tmp_path / "cell.toml").session() as session:
-        session.set(force=1, ready=np.float64(1.0))
+        session.set(pressure=1, ready=np.float64(1.0))
         session.step(10)
         assert session.is_over and session.result().output == "1\n"
 
