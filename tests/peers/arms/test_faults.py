@@ -152,6 +152,8 @@ def test_an_emergency_stop(bench, driver, tmp_path):
 def test_motors_that_are_too_weak(bench, driver):
     # They give less than half of what the accelerations of all axes ask for. And a limit for the distance that drives of their kind have.
     bench.text = bench.text.replace('name = "j1"', 'name = "j1"\nfollowing = 2.0')
+    # From there all axes have far to go.
+    bench.change("home = [0, -90, 90, 0, 90, 0]", "home = [0, 0, 0, 0, 0, 0]")
     alarm = bench.run(peer_of(bench, driver, bench.arm(torque_share=0.35)), TURN)
     assert alarm.code == 3 and f"alarm {NOT_FOLLOWING}" in alarm.err, alarm.err
     assert "j1 is 2." in alarm.err and alarm.peer.arm.stands

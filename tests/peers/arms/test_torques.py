@@ -42,7 +42,7 @@ WALL = ((0.9766, 0.0, 1.0234), (0.02, 0.3, 0.3))
 @pytest.mark.parametrize("driver", ["udp", "rsi"])
 def test_a_wall_is_a_collision(bench, driver):
     # It stands behind where the robot begins.
-    bench.change('profile = "S"', 'profile = "S"\nhome = [0, -90, 90, 0, 45, 0]')
+    bench.change("home = [0, -90, 90, 0, 90, 0]", "home = [0, -90, 90, 0, 45, 0]")
     peer = getattr(bench, driver)(bench.arm(obstacle=WALL))
     run = bench.run(peer, PROGRAMS / "touch.arl")
     assert run.code == 3 and "touch.arl:7" in run.err, run.err
