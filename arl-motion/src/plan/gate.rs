@@ -1,8 +1,8 @@
 //! Gates: straight up, over, and straight down to the target, with rounded corners.
 //!
-//! A gate is three axis motions in a row under one number. It rises by `rise` before anything else moves, and by as much
-//! again while it goes over already; on the other side the same with `sink`. Where the highest place that is allowed leaves
-//! no room for the second half, the corner is a right angle, in which the robot stops.
+//! A gate is three axis motions in a row under one number. It rises by `rise` before anything else moves, and by as
+//! much again while it goes over already; on the other side the same with `sink`. Where the highest place that is
+//! allowed leaves no room for the second half, the corner is a right angle, in which the robot stops.
 //!
 //! How much of the way over a corner takes depends on what is programmed for both, not on the override.
 
@@ -117,9 +117,9 @@ pub(crate) fn plan(
     Ok(motions)
 }
 
-/// The corner that takes `share` of a way of the lift: while the lift goes from there to where it rests, the way over begins. Returns how it
-/// meets both, each seen from where the other one rests. So a corner takes about as long as both of them would by
-/// themselves, and neither waits for the other one.
+/// The corner that takes `share` of a way of the lift: while the lift goes from there to where it rests, the way over
+/// begins. Returns how it meets both, each seen from where the other one rests. So a corner takes about as long as both
+/// of them would by themselves, and neither waits for the other one.
 fn corner(lift: Option<Limits>, share: f64, over: Option<Limits>) -> Option<[CornerEnd; 2]> {
     let [lift, over] = [lift?, over?].map(|limits| limits.rising_in(LEAST_RISE_S));
     if share <= 0.0 {
@@ -133,7 +133,9 @@ fn corner(lift: Option<Limits>, share: f64, over: Option<Limits>) -> Option<[Cor
         CornerEnd { part, speed: (state.vel * time).max(part), acc: state.acc * time * time }
     };
     let gone_over = over.state_after(over_time);
-    Some([end(share, lift.state_after(time), time), end(gone_over.at, gone_over, over_time)])
+    // Not by rounding more than its half, which the other corner needs.
+    let over_share = gone_over.at.min(LARGEST_CORNER_SHARE);
+    Some([end(share, lift.state_after(time), time), end(over_share, gone_over, over_time)])
 }
 
 /// Lets each part be as much of the gate as it takes of the time.

@@ -253,3 +253,28 @@ fn a_gate_has_the_same_way_at_every_override_and_in_manual_operation() {
         }
     }
 }
+
+/// Both corners of a short way over take half of it each.
+#[test]
+fn corners_share_a_short_way_over() {
+    let mut random = Random::new(67);
+    for name in ["hsr065", "cobra600"] {
+        let robot = robot(name);
+        for round in 0..15 {
+            let mut from = random_joints(&robot, &mut random, 0.6);
+            // There is room above for both corners.
+            from.axes[2] = (robot.axes[2].min + robot.axes[2].max) / 2.0;
+            let mut to = from;
+            for axis in [0, 1, 3] {
+                to.axes[axis] += random.between(-3.0, 3.0);
+            }
+            let slow = Lift { vel: Some(10.0), acc: None };
+            let mut queue = Queue::repeatable(robot.clone(), from);
+            let gate = Gate { rising: slow, falling: slow, ..plain(10.0, 10.0) };
+            queue.add(&jump(&robot, &to, gate), &Settings::default()).unwrap();
+            run(&mut queue, 100.0);
+            // A stop may be quicker; nothing is late that came in one piece.
+            assert!(!was_late(&mut queue), "{name} {round}");
+        }
+    }
+}
