@@ -49,6 +49,7 @@ const COMPILER: &[&str] = &[
     "sources",
     "diagnostics",
     "hir",
+    "operators",
     "index",
     "visit",
     "effects",

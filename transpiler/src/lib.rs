@@ -15,6 +15,7 @@ pub mod format;
 pub mod hir;
 pub mod index;
 mod near;
+pub mod operators;
 #[cfg(feature = "tools")]
 pub mod reference;
 pub mod render;
@@ -59,8 +60,8 @@ pub struct CheckOptions {
     pub background: bool,
     /// A file without `main` is fine: it is checked as a module.
     pub library: bool,
-    /// Record what every name means, for editors. The program that comes out is not for the emitter: its effects are not
-    /// looked at.
+    /// Record what every name means, for editors. The program that comes out is not for the emitter: its effects are
+    /// not looked at.
     pub index: bool,
     /// The robot, where it is known: targets that it can never reach are warned of.
     #[cfg(feature = "tools")]

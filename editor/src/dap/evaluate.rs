@@ -1,12 +1,16 @@
-//! Expressions of ARL while the program stands: variables and their parts, operators, and functions that change nothing.
+//! Expressions of ARL while the program stands: variables and their parts, operators, and functions that change
+//! nothing.
 //!
-//! Numbers are computed as the program does: whole numbers wrap, `int / int` is whole.
+//! Operators are those of the checker ([`operators`]). What is declared `const` is not known here: where an operator
+//! takes two values only if one of them is a constant, names count as such.
 
 use super::literal::{Literal, Part};
-use arl_lang::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
+use arl_lang::ast::{BinaryOp, Expr, ExprKind, Radix, UnaryOp};
 use arl_lang::catalog::{Base, Family, base_type, enum_constant, system_element};
 use arl_lang::symbol::Interner;
 use arl_lang::written;
+use arl2rs::hir;
+use arl2rs::operators::{self, Operand};
 
 /// A value with its type.
 #[derive(Clone, PartialEq, Debug)]
@@ -87,19 +91,22 @@ pub(super) fn evaluate(text: &str, source: &mut dyn Source) -> Result<Input> {
     match &expr.kind {
         ExprKind::Assign(op, sides) => {
             let place = evaluator.place(&sides.0)?;
-            let value = match op {
-                Some(op) => {
-                    let (left, right) = (evaluator.value(&sides.0)?, evaluator.value(&sides.1)?);
-                    binary(*op, left, right)?
-                }
-                None => evaluator.assigned(&sides.1)?,
+            let given = match op {
+                Some(op) => Given { value: evaluator.binary(*op, &sides.0, &sides.1)?, written: None, is_name: false },
+                None => evaluator.given(&sides.1)?,
             };
+            let value = evaluator.fitting(&place, given)?;
             Ok(Input::Assignment(place, value))
         }
         ExprKind::Step(step, inner) => {
             let place = evaluator.place(inner)?;
             let op = if step.up { BinaryOp::Add } else { BinaryOp::Subtract };
-            let value = binary(op, evaluator.value(inner)?, Value::Int(1))?;
+            let one = Given { value: Value::Int(1), written: Some(operators::Literal::None), is_name: false };
+            let before = evaluator.given(inner)?;
+            if !matches!(before.value, Value::Int(_) | Value::Uint(_) | Value::Byte(_)) {
+                return Err(format!("a {} is not counted up or down", before.value.ty()));
+            }
+            let value = binary(op, &before, &one)?;
             Ok(Input::Assignment(place, value))
         }
         _ => evaluator.value(&expr).map(Input::Value),
@@ -170,25 +177,59 @@ impl Value {
         Literal::Plain(written)
     }
 
-    fn number(&self) -> Option<f64> {
-        match self {
-            Self::Int(value) => Some(f64::from(*value)),
-            Self::Uint(value) => Some(f64::from(*value)),
-            Self::Byte(value) => Some(f64::from(*value)),
-            Self::Double(value) => Some(*value),
-            Self::Bool(_) | Self::Text(_) | Self::Other(..) => None,
-        }
+    /// The same for operators; `None`: no operator has a value for it.
+    fn scalar(&self) -> Option<hir::Value> {
+        Some(match self {
+            Self::Int(value) => hir::Value::Int(*value),
+            Self::Uint(value) => hir::Value::Uint(*value),
+            Self::Byte(value) => hir::Value::Byte(*value),
+            Self::Double(value) => hir::Value::Double(*value),
+            Self::Bool(value) => hir::Value::Bool(*value),
+            Self::Text(text) => hir::Value::String(text.as_str().into()),
+            Self::Other(ty, Literal::Plain(name)) => {
+                let Some(Base::Enum(id)) = base_type(&ty.to_ascii_lowercase()) else { return None };
+                let mut names = id.def().constants.iter().map(|constant| constant.name);
+                let at = names.position(|constant| constant.eq_ignore_ascii_case(name))?;
+                hir::Value::Enum(id, u16::try_from(at).ok()?)
+            }
+            Self::Other(..) => return None,
+        })
     }
 
     /// Whether it counts as true in a condition.
     pub(super) fn truth(&self) -> Result<bool> {
-        match self {
-            Self::Bool(value) => Ok(*value),
-            other => {
-                other.number().map(|number| number != 0.0).ok_or_else(|| format!("{} is no condition", other.ty()))
+        let fitting = self.scalar().and_then(|value| operators::fit(&value, operators::Literal::None, Base::Bool));
+        match fitting {
+            Some(hir::Value::Bool(truth)) => Ok(truth),
+            _ => Err(format!("{} is no condition", self.ty())),
+        }
+    }
+}
+
+impl From<hir::Value> for Value {
+    fn from(value: hir::Value) -> Self {
+        match value {
+            hir::Value::Int(value) => Self::Int(value),
+            hir::Value::Uint(value) => Self::Uint(value),
+            hir::Value::Byte(value) => Self::Byte(value),
+            hir::Value::Double(value) => Self::Double(value),
+            hir::Value::Bool(value) => Self::Bool(value),
+            hir::Value::String(text) => Self::Text(text.to_string()),
+            hir::Value::Enum(id, at) => {
+                let name = id.def().constants.get(usize::from(at)).map_or("", |constant| constant.name);
+                Self::Other(id.def().name.to_owned(), Literal::Plain(name.to_owned()))
             }
         }
     }
+}
+
+/// What an operand gives.
+struct Given {
+    value: Value,
+    /// How it was written, where it is a constant.
+    written: Option<operators::Literal>,
+    /// It is the name of a variable, which may be declared as a constant.
+    is_name: bool,
 }
 
 /// The text of a string literal.
@@ -262,19 +303,63 @@ impl Evaluator<'_> {
                 Ok(Value::of(&ty, &literal))
             }
             ExprKind::Call(call) => self.call(call),
-            ExprKind::Unary(op, inner) => unary(*op, self.value(inner)?),
+            ExprKind::Unary(op, inner) => unary(*op, &self.given(inner)?),
             ExprKind::Binary(op @ (BinaryOp::And | BinaryOp::Or), sides) => {
                 let left = self.value(&sides.0)?.truth()?;
                 let decided = (*op == BinaryOp::Or) == left;
                 Ok(Value::Bool(if decided { left } else { self.value(&sides.1)?.truth()? }))
             }
-            ExprKind::Binary(op, sides) => {
-                let (left, right) = (self.value(&sides.0)?, self.value(&sides.1)?);
-                binary(*op, left, right)
-            }
+            ExprKind::Binary(op, sides) => self.binary(*op, &sides.0, &sides.1),
             ExprKind::Assign(..) | ExprKind::Step(..) => Err("only the whole input can be an assignment".into()),
             ExprKind::Brace(_) => self.assigned(expr),
             ExprKind::Splice(_) | ExprKind::Error => Err("this is no expression".into()),
+        }
+    }
+
+    fn given(&mut self, expr: &Expr) -> Result<Given> {
+        let (mut value, written) = (self.value(expr)?, self.written(expr));
+        // A pattern has 32 bits and no sign of its own: an int, until its place wants something else.
+        if let (Value::Uint(bits), Some(operators::Literal::Pattern)) = (&value, written) {
+            value = Value::Int(*bits as i32);
+        }
+        let is_name = written.is_none() && matches!(expr.kind, ExprKind::Name(_) | ExprKind::Path { .. });
+        Ok(Given { value, written, is_name })
+    }
+
+    fn binary(&mut self, op: BinaryOp, left: &Expr, right: &Expr) -> Result<Value> {
+        binary(op, &self.given(left)?, &self.given(right)?)
+    }
+
+    /// How a constant is written; `None`: it is none.
+    fn written(&mut self, expr: &Expr) -> Option<operators::Literal> {
+        use operators::Literal as Written;
+        match &expr.kind {
+            ExprKind::Int(value, Radix::Decimal) if i32::try_from(*value).is_err() => Some(Written::Wide),
+            ExprKind::Int(_, Radix::Binary | Radix::Hexadecimal) => Some(Written::Pattern),
+            ExprKind::Int(..) | ExprKind::Double(_) | ExprKind::String(_) | ExprKind::Bool(_) => Some(Written::None),
+            ExprKind::Name(symbol) => {
+                let name = self.names.name(*symbol).to_owned();
+                // A variable may be called like a number.
+                hexadecimal(&name).filter(|_| self.source.variable(None, &name).is_err()).map(|_| Written::Pattern)
+            }
+            ExprKind::Unary(UnaryOp::Complement, inner) => match self.written(inner)? {
+                Written::Pattern => Some(Written::Complement),
+                _ => Some(Written::None),
+            },
+            ExprKind::Unary(_, inner) => self.written(inner).map(|_| Written::None),
+            ExprKind::Binary(_, sides) => self.written(&sides.0).and(self.written(&sides.1)).map(|_| Written::None),
+            _ => None,
+        }
+    }
+
+    /// The value as its place has it; what has no place among plain values is left to the program.
+    fn fitting(&mut self, place: &Place, given: Given) -> Result<Value> {
+        let (ty, _) = self.found(place)?;
+        let wanted = base_type(&ty.to_ascii_lowercase());
+        let Some((wanted, value)) = wanted.zip(given.value.scalar()) else { return Ok(given.value) };
+        match brought(&value, &given, wanted) {
+            Some(fitting) => Ok(fitting.into()),
+            None => Err(format!("{} is no value of {ty}", given.value.literal().text())),
         }
     }
 
@@ -385,118 +470,54 @@ fn word(name: &str) -> Option<Value> {
         "endl" => return Some(Value::Text("\n".into())),
         _ => {}
     }
-    if let Some(bits) = name.strip_suffix('h').and_then(|digits| u32::from_str_radix(digits, 16).ok()) {
-        return Some(Value::Int(bits as i32));
+    if let Some(bits) = hexadecimal(name) {
+        return Some(i32::try_from(bits).map_or(Value::Uint(bits), Value::Int));
     }
-    enum_constant(name).map(|(id, at)| {
-        let constant = id.def().constants.get(usize::from(at)).map_or(name, |constant| constant.name);
-        Value::Other(id.def().name.to_owned(), Literal::Plain(constant.to_owned()))
-    })
+    enum_constant(name).map(|(id, at)| hir::Value::Enum(id, at).into())
 }
 
-fn unary(op: UnaryOp, value: Value) -> Result<Value> {
-    match (op, value) {
-        (UnaryOp::Not, value) => Ok(Value::Bool(!value.truth()?)),
-        (UnaryOp::Negate, Value::Int(value)) => Ok(Value::Int(value.wrapping_neg())),
-        (UnaryOp::Negate, Value::Uint(0x8000_0000)) => Ok(Value::Int(i32::MIN)),
-        (UnaryOp::Negate, Value::Double(value)) => Ok(Value::Double(-value)),
-        (UnaryOp::Negate, Value::Byte(value)) => Ok(Value::Int(-i32::from(value))),
-        (UnaryOp::Complement, Value::Int(value)) => Ok(Value::Int(!value)),
-        (UnaryOp::Complement, Value::Uint(value)) => Ok(Value::Uint(!value)),
-        (UnaryOp::Complement, Value::Byte(value)) => Ok(Value::Byte(!value)),
-        (_, value) => Err(format!("there is no such operation on {}", value.ty())),
-    }
+fn hexadecimal(name: &str) -> Option<u32> {
+    name.strip_suffix('h').and_then(|digits| u32::from_str_radix(digits, 16).ok())
 }
 
-fn binary(op: BinaryOp, left: Value, right: Value) -> Result<Value> {
-    use BinaryOp::{Add, Equal, NotEqual};
-    let wrong =
-        |left: &Value, right: &Value| Err(format!("{} {} {} is not possible", left.ty(), op.text(), right.ty()));
-    match (&left, &right) {
-        (Value::Text(one), Value::Text(other)) => match op {
-            Add => Ok(Value::Text(format!("{one}{other}"))),
-            Equal => Ok(Value::Bool(one == other)),
-            NotEqual => Ok(Value::Bool(one != other)),
-            _ => wrong(&left, &right),
-        },
-        (Value::Bool(one), Value::Bool(other)) => match op {
-            Equal => Ok(Value::Bool(one == other)),
-            NotEqual => Ok(Value::Bool(one != other)),
-            _ => wrong(&left, &right),
-        },
-        (Value::Other(_, Literal::Plain(one)), Value::Other(_, Literal::Plain(other))) => match op {
-            Equal => Ok(Value::Bool(one.eq_ignore_ascii_case(other))),
-            NotEqual => Ok(Value::Bool(!one.eq_ignore_ascii_case(other))),
-            _ => wrong(&left, &right),
-        },
-        (Value::Int(one), Value::Int(other)) => {
-            whole(op, i64::from(*one), i64::from(*other), |it| Value::Int(it as i32))
-        }
-        (Value::Uint(one), Value::Uint(other)) => {
-            whole(op, i64::from(*one), i64::from(*other), |it| Value::Uint(it as u32))
-        }
-        (Value::Byte(one), Value::Byte(other)) => {
-            whole(op, i64::from(*one), i64::from(*other), |it| Value::Byte(it as u8))
-        }
-        _ => match (left.number(), right.number()) {
-            (Some(one), Some(other)) if is_double(&left) || is_double(&right) => {
-                decimal(op, one, other).map_or_else(|| wrong(&left, &right), Ok)
-            }
-            // Of whole numbers the wider type counts.
-            (Some(one), Some(other)) if matches!((&left, &right), (Value::Uint(_), _) | (_, Value::Uint(_))) => {
-                whole(op, one as i64, other as i64, |it| Value::Uint(it as u32))
-            }
-            (Some(one), Some(other)) => whole(op, one as i64, other as i64, |it| Value::Int(it as i32)),
-            _ => wrong(&left, &right),
-        },
-    }
+fn unary(op: UnaryOp, given: &Given) -> Result<Value> {
+    let wrong = || format!("{}{} is not possible", op.text(), given.value.ty());
+    let value = given.value.scalar().ok_or_else(wrong)?;
+    let [wanted, _] = operators::unary(op, operand(&value, given)).ok_or_else(wrong)?;
+    let value = brought(&value, given, wanted).ok_or_else(wrong)?;
+    operators::compute_unary(op, &value).map(|computed| computed.value.into()).ok_or_else(wrong)
 }
 
-fn is_double(value: &Value) -> bool {
-    matches!(value, Value::Double(_))
+fn binary(op: BinaryOp, left: &Given, right: &Given) -> Result<Value> {
+    let wrong = || format!("{} {} {} is not possible", left.value.ty(), op.text(), right.value.ty());
+    let (one, other) = left.value.scalar().zip(right.value.scalar()).ok_or_else(wrong)?;
+    let operation = operators::binary(op, operand(&one, left), operand(&other, right));
+    let if_declared = |may_be: bool, one, other| may_be.then(|| operators::binary(op, one, other)).flatten();
+    let operation = operation
+        .or_else(|| if_declared(right.is_name, operand(&one, left), constant(&other, right)))
+        .or_else(|| if_declared(left.is_name, constant(&one, left), operand(&other, right)));
+    let operation = operation.ok_or_else(wrong)?;
+    let (one, other) = (brought(&one, left, operation.left), brought(&other, right, operation.right));
+    let (one, other) = one.zip(other).ok_or_else(wrong)?;
+    let computed = operators::compute(op, &one, &other).map_err(|alarm| alarm.to_string())?;
+    computed.map(|computed| computed.value.into()).ok_or_else(wrong)
 }
 
-fn whole(op: BinaryOp, one: i64, other: i64, made: fn(i64) -> Value) -> Result<Value> {
-    let counted = || u32::try_from(other).ok().filter(|count| *count < 32).ok_or(format!("a shift by {other}"));
-    Ok(match op {
-        BinaryOp::Add => made(one.wrapping_add(other)),
-        BinaryOp::Subtract => made(one.wrapping_sub(other)),
-        BinaryOp::Multiply => made(one.wrapping_mul(other)),
-        BinaryOp::Divide => made(one.checked_div(other).ok_or("division by zero")?),
-        BinaryOp::Remainder => made(one.checked_rem(other).ok_or("division by zero")?),
-        BinaryOp::ShiftLeft => made(one << counted()?),
-        BinaryOp::ShiftRight => made(one >> counted()?),
-        BinaryOp::BitAnd => made(one & other),
-        BinaryOp::BitOr => made(one | other),
-        BinaryOp::BitXor => made(one ^ other),
-        _ => Value::Bool(compared(op, one.cmp(&other))),
-    })
+fn operand<'a>(value: &'a hir::Value, given: &Given) -> Operand<'a> {
+    let literal = given.written.unwrap_or(operators::Literal::None);
+    Operand { base: value.base(), constant: given.written.map(|_| value), literal }
 }
 
-fn decimal(op: BinaryOp, one: f64, other: f64) -> Option<Value> {
-    Some(match op {
-        BinaryOp::Add => Value::Double(one + other),
-        BinaryOp::Subtract => Value::Double(one - other),
-        BinaryOp::Multiply => Value::Double(one * other),
-        BinaryOp::Divide => Value::Double(one / other),
-        BinaryOp::Remainder => Value::Double(one % other),
-        op if op.compares() => match one.partial_cmp(&other) {
-            Some(order) => Value::Bool(compared(op, order)),
-            None => Value::Bool(op == BinaryOp::NotEqual),
-        },
-        _ => return None,
-    })
+/// The same if it is declared as a constant.
+fn constant<'a>(value: &'a hir::Value, given: &Given) -> Operand<'a> {
+    Operand { constant: Some(value), ..operand(value, given) }
 }
 
-fn compared(op: BinaryOp, order: std::cmp::Ordering) -> bool {
-    match op {
-        BinaryOp::Less => order.is_lt(),
-        BinaryOp::LessEqual => order.is_le(),
-        BinaryOp::Greater => order.is_gt(),
-        BinaryOp::GreaterEqual => order.is_ge(),
-        BinaryOp::Equal => order.is_eq(),
-        _ => order.is_ne(),
-    }
+fn brought(value: &hir::Value, given: &Given, to: Base) -> Option<hir::Value> {
+    let literal = given.written.unwrap_or(operators::Literal::None);
+    // The constants of enumerations count as int.
+    let number = matches!(value, hir::Value::Enum(..)).then(|| operators::fit(value, literal, Base::Int)).flatten();
+    operators::fit(value, literal, to).or_else(|| operators::fit(&number?, literal, to))
 }
 
 #[cfg(test)]
@@ -510,6 +531,8 @@ mod tests {
             let (ty, text) = match (module, name) {
                 (None, "count") => ("int", "7"),
                 (None, "late") => ("bool", "false"),
+                (None, "mask") => ("byte", "129"),
+                (None, "bits") => ("uint", "3"),
                 (None, "title") => ("string", r#""a \"b\"""#),
                 (None, "home") => ("pose", "{x 1.5,y 2,cfg 3}"),
                 (None, "table") => ("int[2][3]", "{{1,2,3},{4,5,6}}"),
@@ -570,9 +593,21 @@ mod tests {
             ("$I[1]", "int 9"),
             ("getdi(3) || getdi(4)", "bool true"),
             ("0ffh", "int 255"),
+            ("mask << 1", "byte 2"),
+            ("~mask", "byte 126"),
+            ("mask + 1", "byte 130"),
+            ("mask * count", "int 903"),
+            ("bits + 4294967295", "uint 2"),
+            ("bits == 3", "bool true"),
+            ("-2147483648", "int -2147483648"),
+            ("\"b\" > title", "bool true"),
             ("twice(count + 1) + \"!\"", "string \"88!\""),
             ("count += 1", "[] = 8"),
             ("count--", "[] = 6"),
+            ("bits + count", "uint 10"),
+            ("bits = 0ffffffffh", "[] = 4294967295"),
+            ("count = 0ffffffffh", "[] = -1"),
+            ("mask += 1", "[] = 130"),
             ("home.x = 3", r#"[Named("x")] = 3"#),
             ("home = {x 1, y -2}", "[] = {x 1,y -2}"),
         ] {
@@ -584,7 +619,13 @@ mod tests {
     fn mistakes_say_what_is_wrong() {
         for (text, words) in [
             ("nothing", "there is no variable nothing"),
-            ("count / 0", "division by zero"),
+            ("count / 0", "alarm 20001: division by zero"),
+            ("mask << 9", "alarm 20002: shift by 9: a value of 8 bits is shifted by 0 to 7"),
+            ("1.5 % 0.0", "alarm 20001: division by zero"),
+            ("home.cfg + (bits + 0)", "int + uint is not possible"),
+            ("home.x++", "a double is not counted up or down"),
+            ("mask = 300", "300 is no value of byte"),
+            ("home + home", "pose + pose is not possible"),
             ("table[5]", "outside the array"),
             ("home.q", "pose has no component q"),
             ("title - 1", "string - int is not possible"),

@@ -6,7 +6,7 @@
 
 use super::call::family_name;
 use super::context::{Body, Checker};
-use super::convert::{Typed, integer, number};
+use super::convert::{Typed, number};
 use super::name::constant;
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::listed;
@@ -14,6 +14,7 @@ use crate::diagnostics::support::SupportProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Bound, Expr, ExprKind, FuncId, ModuleId, Passed, Type, Value};
 use crate::index;
+use crate::operators::integer;
 use arl_lang::ast::{self, Arg, Unit};
 use arl_lang::catalog::{
     self, Access, Base, Effect, Entry, Family, Kind, Mode, Motion, ParamType, Presence, Range, Restore, Struct,
@@ -573,7 +574,8 @@ impl<'a> Checker<'a> {
         self.report(body, typed.expr.span, problem)
     }
 
-    /// What is wrong with a value that assigns to a label, as if that were a variable, where there is none of this name.
+    /// What is wrong with a value that assigns to a label, as if that were a variable, where there is none of this
+    /// name.
     fn assigned_label(&self, body: &Body, params: &[Parameter<'_>], value: &ast::Expr) -> Option<ArgumentProblem> {
         let ast::ExprKind::Assign(None, sides) = &value.kind else { return None };
         let ast::ExprKind::Name(symbol) = sides.0.kind else { return None };

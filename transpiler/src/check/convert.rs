@@ -4,26 +4,14 @@ use super::context::{Body, Checker};
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, Type, Value};
-use arl_lang::catalog::{Base, Enum, Struct};
+use crate::operators::{Conversion, Literal, Operand, conversion, fit, integer};
+use arl_lang::catalog::{Base, Struct};
 use std::fmt::Display;
 
 /// An expression with what matters of the way it was written.
 pub(crate) struct Typed {
     pub(crate) expr: Expr,
     pub(crate) literal: Literal,
-}
-
-/// How an integer constant was written.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Literal {
-    /// Nothing special.
-    None,
-    /// Binary or hexadecimal: 32 bits without a sign of their own.
-    Pattern,
-    /// `~` of a pattern: as wide as the place wants it.
-    Complement,
-    /// Decimal, 2^31 or more: for a uint only.
-    Wide,
 }
 
 impl Typed {
@@ -38,72 +26,10 @@ impl Typed {
             _ => None,
         }
     }
-}
 
-/// How a type converts to another.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Conversion {
-    /// Nothing to do.
-    Same,
-    /// The manual's Table 2-1.
-    Implicit,
-    /// Beyond the manual.
-    Extended,
-}
-
-/// Whether values of one type convert to another by themselves.
-pub(crate) fn conversion(from: Base, to: Base) -> Option<Conversion> {
-    if from == to {
-        return Some(Conversion::Same);
-    }
-    match (from, to) {
-        (Base::Byte, Base::Int | Base::Double | Base::Bool) | (Base::Int, Base::Double | Base::Bool) => {
-            Some(Conversion::Implicit)
-        }
-        (Base::Enum(_), Base::Int) => Some(Conversion::Implicit),
-        (Base::Double, Base::Bool) | (Base::Uint, Base::Double | Base::Bool) | (Base::Byte, Base::Uint) => {
-            Some(Conversion::Extended)
-        }
-        _ => None,
-    }
-}
-
-/// The constant as a value of another type, where it has one there.
-pub(crate) fn fit(value: &Value, literal: Literal, to: Base) -> Option<Value> {
-    if value.base() == to {
-        return Some(value.clone());
-    }
-    let number = integer(value);
-    match (value, to) {
-        (Value::Enum(_, index), Base::Int) => Some(Value::Int(i32::from(*index))),
-        (Value::Int(number), Base::Enum(id)) => enum_constant(id, i64::from(*number)),
-        (Value::Double(number), Base::Bool) => Some(Value::Bool(*number != 0.0)),
-        (_, Base::Double) => number.map(|number| Value::Double(number as f64)),
-        (_, Base::Bool) => number.map(|number| Value::Bool(number != 0)),
-        (_, Base::Int) => i32::try_from(number?).ok().map(Value::Int),
-        (Value::Int(bits), Base::Uint) if matches!(literal, Literal::Pattern | Literal::Complement) => {
-            Some(Value::Uint(*bits as u32))
-        }
-        (_, Base::Uint) => u32::try_from(number?).ok().map(Value::Uint),
-        (Value::Int(bits), Base::Byte) if literal == Literal::Complement => {
-            let low = *bits as u8;
-            (*bits as u32 | 0xff == u32::MAX || *bits as u32 <= 0xff).then_some(Value::Byte(low))
-        }
-        (Value::Int(bits), Base::Byte) if literal == Literal::Pattern => {
-            u8::try_from(*bits as u32).ok().map(Value::Byte)
-        }
-        (_, Base::Byte) => u8::try_from(number?).ok().map(Value::Byte),
-        _ => None,
-    }
-}
-
-/// The value of an integer constant.
-pub(crate) fn integer(value: &Value) -> Option<i64> {
-    match value {
-        Value::Int(number) => Some(i64::from(*number)),
-        Value::Uint(number) => Some(i64::from(*number)),
-        Value::Byte(number) => Some(i64::from(*number)),
-        _ => None,
+    /// The same as operators see it.
+    pub(crate) fn operand(&self) -> Operand<'_> {
+        Operand { base: self.expr.ty.base, constant: self.value(), literal: self.literal }
     }
 }
 
@@ -117,11 +43,6 @@ pub(crate) fn number(value: &Expr) -> Option<f64> {
         ExprKind::Convert(inner) => number(inner),
         _ => None,
     }
-}
-
-fn enum_constant(id: Enum, number: i64) -> Option<Value> {
-    let index = u16::try_from(number).ok()?;
-    id.def().constants.get(index as usize).map(|_| Value::Enum(id, index))
 }
 
 /// What to write in place of a text that stands where a number is wanted.
@@ -258,7 +179,8 @@ impl Checker<'_> {
         self.report(body, expr.span, TypeProblem::NoValue { what })
     }
 
-    /// Whether a value converts to a type, without reporting anything. The less, the better it fits; `None`: not at all.
+    /// Whether a value converts to a type, without reporting anything. The less, the better it fits; `None`: not at
+    /// all.
     pub(crate) fn cost(&self, typed: &Typed, to: Type) -> Option<u32> {
         let from = typed.expr.ty;
         if from == to {

@@ -113,8 +113,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports a global variable whose name an earlier one has. What has no type was reported, and is perhaps no declaration
-    /// at all.
+    /// Reports a global variable whose name an earlier one has. What has no type was reported, and is perhaps no
+    /// declaration at all.
     fn report_second(&mut self, id: GlobalId) {
         let Some(slot) = self.globals.get(id.0 as usize).filter(|slot| slot.ty.is_some()) else { return };
         let (module, at) = (slot.module, slot.var.name.span);
@@ -215,7 +215,7 @@ impl<'a> Checker<'a> {
 
     fn array_size(&mut self, body: &mut Body, dim: &ast::Expr) -> Option<u32> {
         let typed = self.expr(body, dim, Some(Type::scalar(Base::Int)))?;
-        let size = typed.value().and_then(super::convert::integer).and_then(|size| u32::try_from(size).ok());
+        let size = typed.value().and_then(crate::operators::integer).and_then(|size| u32::try_from(size).ok());
         match size {
             Some(size) if size > 0 => Some(size),
             _ => self.report(body, dim.span, TypeProblem::ArraySize),

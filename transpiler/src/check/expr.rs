@@ -1,7 +1,7 @@
 //! Expressions.
 
 use super::context::{Body, Checker};
-use super::convert::{Literal, Typed};
+use super::convert::Typed;
 use super::name::constant;
 use super::place::PlaceOrValue;
 use crate::diagnostics::constants::ConstantProblem;
@@ -9,6 +9,7 @@ use crate::diagnostics::system::NotTaken;
 use crate::diagnostics::types::TypeProblem;
 use crate::effects::facts::limit;
 use crate::hir::{Expr, ExprKind, Place, Projection, Root, Type, Value};
+use crate::operators::Literal;
 use arl_lang::ast::{self, BinaryOp, Radix};
 use arl_lang::catalog::Base;
 use arl_lang::span::Span;

@@ -1,7 +1,7 @@
 //! The checker: files in, a checked program and diagnostics out.
 //!
 //! One file per concern: `load` reads the files, `declare` globals and signatures, `statements` and `expr` (with
-//! `name`, `place`, `operators`, `brace`, `call`, `arguments`, `convert`, `fold`) what functions do, `flow` and
+//! `name`, `place`, `operators`, `brace`, `call`, `arguments`, `convert`) what functions do, `flow` and
 //! `conditions`, `first_motion` and `targets` look at the finished functions.
 
 mod arguments;
@@ -17,7 +17,6 @@ mod doubts;
 mod expr;
 mod first_motion;
 mod flow;
-mod fold;
 mod load;
 mod mention;
 mod name;
@@ -162,7 +161,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
 
 /// The syntax trees of a program.
 #[derive(Default)]
-pub struct Syntax {
+pub(crate) struct Syntax {
     _modules: Vec<LoadedModule>,
 }
 

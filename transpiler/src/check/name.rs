@@ -1,12 +1,13 @@
 //! What a name means where it stands.
 
 use super::context::{Body, Checker};
-use super::convert::{Literal, Typed};
+use super::convert::Typed;
 use super::place::PlaceOrValue;
 use crate::diagnostics::names::NameProblem;
 use crate::hir::{Expr, ExprKind, GlobalId, ModuleId, Place, Root, Type, Value};
 use crate::index::{Meaning, Wanted};
 use crate::near::Hints;
+use crate::operators::Literal;
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, ConstantValue, Enum, Struct};
 use arl_lang::span::Span;

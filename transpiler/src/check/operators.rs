@@ -1,13 +1,13 @@
 //! Types of operators.
 
 use super::context::{Body, Checker};
-use super::convert::{Literal, Typed, fit, integer};
-use super::fold::width;
+use super::convert::Typed;
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, Type, Value};
+use crate::operators::{self, Computed, Literal, integer, width};
 use arl_lang::ast::{BinaryOp, UnaryOp};
-use arl_lang::catalog::{Base, Struct};
+use arl_lang::catalog::Base;
 use arl_lang::span::Span;
 
 const BOOL: Type = Type::scalar(Base::Bool);
@@ -35,27 +35,19 @@ impl Checker<'_> {
     }
 
     fn shift(&mut self, body: &Body, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
-        let left = self.number(left);
-        let base = left.expr.ty.base;
-        if left.expr.ty.is_array() || !matches!(base, Base::Int | Base::Uint | Base::Byte) {
-            return self.operator_problem(body, op, &left, &right, span, None);
-        }
-        let right = self.number(right);
-        if right.expr.ty.is_array() || !matches!(right.expr.ty.base, Base::Int | Base::Uint | Base::Byte) {
-            return self.operator_problem(body, op, &left, &right, span, None);
-        }
-        // A uint that is no constant counts as it is: the result has the type of the left operand anyway.
-        let count = match (right.expr.ty.base, right.value()) {
-            (Base::Uint, None) => right.expr,
-            _ => self.coerce(body, right, INT, "a shift count")?,
-        };
+        let (left, right) = (self.number(left), self.number(right));
+        let is_array = left.expr.ty.is_array() || right.expr.ty.is_array();
+        let operation = operators::binary(op, left.operand(), right.operand()).filter(|_| !is_array);
+        let Some(operation) = operation else { return self.operator_problem(body, op, &left, &right, span, None) };
+        let count = self.coerce(body, right, Type::scalar(operation.right), "a shift count")?;
+        let base = operation.left;
         if let ExprKind::Const(Value::Int(count)) = count.kind
             && !(0..width(base) as i32).contains(&count)
         {
             let most = width(base) - 1;
             return self.report(body, span, ConstantProblem::ShiftCount { count: i64::from(count), most });
         }
-        self.finish(body, op, left.expr, count, base, span)
+        self.finish(body, op, left.expr, count, operation.result, span)
     }
 
     fn arithmetic(&mut self, body: &Body, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
@@ -67,32 +59,30 @@ impl Checker<'_> {
             }
             return self.operator_problem(body, op, &left, &right, span, Some("work on the elements one by one"));
         }
-        match (left_ty.base, right_ty.base) {
-            (Base::String, Base::String) if op == BinaryOp::Add || op.compares() => {
-                let base = if op.compares() { Base::Bool } else { Base::String };
-                self.finish(body, op, left.expr, right.expr, base, span)
-            }
+        let operation = operators::binary(op, left.operand(), right.operand());
+        let bases = (left_ty.base, right_ty.base);
+        if let Some(operation) = operation
+            && matches!(bases, (Base::String, Base::String) | (Base::Struct(_), Base::Struct(_)))
+        {
+            return self.finish(body, op, left.expr, right.expr, operation.result, span);
+        }
+        match bases {
             (Base::String, _) | (_, Base::String) => {
                 let hint = (op == BinaryOp::Add).then_some("make a text of the other operand with `tostr(...)`");
                 self.operator_problem(body, op, &left, &right, span, hint)
             }
-            (Base::Struct(a), Base::Struct(b)) => match structure_operator(op, a, b) {
-                Some(result) => self.finish(body, op, left.expr, right.expr, Base::Struct(result), span),
-                None if op.compares() => {
-                    let ty = self.type_name(left_ty);
-                    self.report(body, span, TypeProblem::Compare { ty })
-                }
-                None => self.operator_problem(body, op, &left, &right, span, None),
-            },
+            (Base::Struct(_), Base::Struct(_)) if op.compares() => {
+                let ty = self.type_name(left_ty);
+                self.report(body, span, TypeProblem::Compare { ty })
+            }
+            (Base::Struct(_), Base::Struct(_)) => self.operator_problem(body, op, &left, &right, span, None),
             (Base::Bool, _) | (_, Base::Bool) => self.compare_bools(body, op, left, right, span),
             _ => self.numbers(body, op, left, right, span),
         }
     }
 
     fn compare_bools(&mut self, body: &Body, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
-        let comparable = |typed: &Typed| matches!(typed.expr.ty.base, Base::Bool | Base::Int | Base::Byte);
-        let equality = matches!(op, BinaryOp::Equal | BinaryOp::NotEqual);
-        if !equality || !comparable(&left) || !comparable(&right) {
+        if operators::binary(op, left.operand(), right.operand()).is_none() {
             let hint = match op {
                 BinaryOp::BitAnd => Some("`&&` combines conditions"),
                 BinaryOp::BitOr => Some("`||` combines conditions"),
@@ -109,30 +99,31 @@ impl Checker<'_> {
     fn numbers(&mut self, body: &Body, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
         let left = self.number(left);
         let right = self.number(right);
-        let Some(base) = common(&left, &right) else {
-            let mixed = [left.expr.ty.base, right.expr.ty.base];
-            let hint = (mixed.contains(&Base::Uint) && mixed.contains(&Base::Int))
-                .then_some("uint and int do not mix: convert one of them through a double, or use constants that fit");
+        let Some(operation) = operators::binary(op, left.operand(), right.operand()) else {
+            let bases = [left.expr.ty.base, right.expr.ty.base];
+            let bits = matches!(op, BinaryOp::BitAnd | BinaryOp::BitOr | BinaryOp::BitXor);
+            let numbers = bases.iter().all(|base| matches!(base, Base::Byte | Base::Int | Base::Uint | Base::Double));
+            let hint = if bits && numbers && bases.contains(&Base::Double) {
+                Some("bits are those of int, uint and byte")
+            } else if bases.contains(&Base::Uint) && bases.contains(&Base::Int) {
+                Some("uint and int do not mix: convert one of them through a double, or use constants that fit")
+            } else {
+                None
+            };
             return self.operator_problem(body, op, &left, &right, span, hint);
         };
-        let bits = matches!(op, BinaryOp::BitAnd | BinaryOp::BitOr | BinaryOp::BitXor);
-        if bits && base == Base::Double {
-            return self.operator_problem(body, op, &left, &right, span, Some("bits are those of int, uint and byte"));
-        }
         let divides = matches!(op, BinaryOp::Divide | BinaryOp::Remainder);
         let by_literal_zero = matches!(right.value(), Some(Value::Double(zero)) if *zero == 0.0)
             || right.value().and_then(integer) == Some(0);
-        let ty = Type::scalar(base);
-        let left = self.coerce(body, left, ty, "an operand")?;
-        let right = self.coerce(body, right, ty, "an operand")?;
+        let left = self.coerce(body, left, Type::scalar(operation.left), "an operand")?;
+        let right = self.coerce(body, right, Type::scalar(operation.right), "an operand")?;
         if divides && by_literal_zero {
-            if base != Base::Double || op == BinaryOp::Remainder {
+            if operation.left != Base::Double || op == BinaryOp::Remainder {
                 return self.report(body, span, ConstantProblem::DivideByZero);
             }
             self.report::<()>(body, span, ConstantProblem::DoubleByZero);
         }
-        let result = if op.compares() { Base::Bool } else { base };
-        self.finish(body, op, left, right, result, span)
+        self.finish(body, op, left, right, operation.result, span)
     }
 
     /// Enumerations count as int where an operator meets them.
@@ -160,8 +151,10 @@ impl Checker<'_> {
     ) -> Option<Typed> {
         let ty = Type::scalar(result);
         if let (ExprKind::Const(a), ExprKind::Const(b)) = (&left.kind, &right.kind)
-            && let Ok(Some(value)) = self.fold_binary(body, op, a, b, span)
+            // What is an alarm has been reported.
+            && let Ok(Some(computed)) = operators::compute(op, a, b)
         {
+            let value = self.held(body, computed, span);
             return Some(Typed::plain(Expr { ty, kind: ExprKind::Const(value), span }));
         }
         let kind = ExprKind::Binary(op, Box::new((left, right)));
@@ -175,43 +168,48 @@ impl Checker<'_> {
         }
         if op == UnaryOp::Not {
             let operand = self.coerce(body, operand, BOOL, "the operand of `!`")?;
-            return self.finish_unary(body, op, Typed::plain(operand), span);
+            return self.finish_unary(body, op, Typed::plain(operand), Base::Bool, span);
         }
         let operand = self.number(operand);
-        if op == UnaryOp::Negate && operand.literal == Literal::Wide {
-            // 2147483648 alone is beyond int, but its negative is not.
-            if let Some(Value::Uint(0x8000_0000)) = operand.value() {
-                return Some(Typed::plain(Expr { ty: INT, kind: ExprKind::Const(Value::Int(i32::MIN)), span }));
-            }
+        let ty = operand.expr.ty;
+        let taken = operators::unary(op, operand.operand()).filter(|_| !ty.is_array());
+        if op == UnaryOp::Negate && operand.literal == Literal::Wide && taken.is_none() {
             let text = self.text(body.module, operand.expr.span).to_string();
             return self.report(body, operand.expr.span, TypeProblem::WideLiteral { text });
         }
-        let ty = operand.expr.ty;
-        match (op, ty.base) {
-            _ if ty.is_array() => self.unary_problem(body, op, ty, span, None),
-            (UnaryOp::Negate, Base::Byte) => {
-                let operand = self.coerce(body, operand, INT, "the operand of `-`")?;
-                self.finish_unary(body, op, Typed::plain(operand), span)
-            }
-            (UnaryOp::Negate, Base::Int | Base::Double | Base::Struct(Struct::Joint))
-            | (UnaryOp::Complement, Base::Int | Base::Uint | Base::Byte) => self.finish_unary(body, op, operand, span),
-            (UnaryOp::Negate, Base::Uint) => {
-                self.unary_problem(body, op, ty, span, Some("a uint has no sign: keep the value in an int or a double"))
-            }
-            _ => self.unary_problem(body, op, ty, span, None),
-        }
+        let Some([wanted, result]) = taken else {
+            let hint = (op == UnaryOp::Negate && ty == Type::scalar(Base::Uint))
+                .then_some("a uint has no sign: keep the value in an int or a double");
+            return self.unary_problem(body, op, ty, span, hint);
+        };
+        let operand = if ty == Type::scalar(wanted) {
+            operand
+        } else {
+            Typed::plain(self.coerce(body, operand, Type::scalar(wanted), "the operand of `-`")?)
+        };
+        self.finish_unary(body, op, operand, result, span)
     }
 
-    fn finish_unary(&mut self, body: &Body, op: UnaryOp, operand: Typed, span: Span) -> Option<Typed> {
-        let ty = operand.expr.ty;
-        if let Some(value) = operand.value()
-            && let Some(value) = self.fold_unary(body, op, &value.clone(), span)
-        {
+    fn finish_unary(&mut self, body: &Body, op: UnaryOp, operand: Typed, result: Base, span: Span) -> Option<Typed> {
+        let ty = Type::scalar(result);
+        if let Some(computed) = operand.value().and_then(|value| operators::compute_unary(op, value)) {
+            let value = self.held(body, computed, span);
             let complement = op == UnaryOp::Complement && operand.literal == Literal::Pattern;
             let literal = if complement { Literal::Complement } else { Literal::None };
             return Some(Typed { expr: Expr { ty, kind: ExprKind::Const(value), span }, literal });
         }
         Some(Typed::plain(Expr { ty, kind: ExprKind::Unary(op, Box::new(operand.expr)), span }))
+    }
+
+    /// The value, with a warning where it has wrapped.
+    fn held(&mut self, body: &Body, computed: Computed, span: Span) -> Value {
+        let Computed { value, wrapped } = computed;
+        if wrapped {
+            let held = integer(&value).unwrap_or_default().to_string();
+            let ty = self.base_name(value.base());
+            self.report::<()>(body, span, ConstantProblem::Overflow { ty, value: held });
+        }
+        value
     }
 
     fn unary_problem<T>(&mut self, body: &Body, op: UnaryOp, ty: Type, span: Span, hint: Option<&str>) -> Option<T> {
@@ -240,46 +238,5 @@ impl Checker<'_> {
             hint: hint.map(Into::into),
         };
         self.report(body, span, problem)
-    }
-}
-
-/// The type that both numbers are brought to; `None` where they do not mix.
-fn common(left: &Typed, right: &Typed) -> Option<Base> {
-    let (a, b) = (left.expr.ty.base, right.expr.ty.base);
-    let number = |base| matches!(base, Base::Byte | Base::Int | Base::Uint | Base::Double);
-    if !number(a) || !number(b) {
-        return None;
-    }
-    if a == b {
-        return Some(a);
-    }
-    if a == Base::Double || b == Base::Double {
-        return Some(Base::Double);
-    }
-    // A constant takes the type of the other operand where it fits; of two constants the int gives way.
-    let gives_way = |constant: &Typed, other: &Typed| {
-        let value = constant.value()?;
-        if other.value().is_some() && constant.expr.ty.base != Base::Int {
-            return None;
-        }
-        fit(value, constant.literal, other.expr.ty.base).map(|_| other.expr.ty.base)
-    };
-    if let Some(base) = gives_way(left, right).or_else(|| gives_way(right, left)) {
-        return Some(base);
-    }
-    match (a, b) {
-        (Base::Byte, Base::Int) | (Base::Int, Base::Byte) => Some(Base::Int),
-        (Base::Byte, Base::Uint) | (Base::Uint, Base::Byte) => Some(Base::Uint),
-        _ => None,
-    }
-}
-
-/// What an operator makes of two structures.
-fn structure_operator(op: BinaryOp, left: Struct, right: Struct) -> Option<Struct> {
-    match (op, left, right) {
-        (BinaryOp::Add | BinaryOp::Subtract, Struct::Joint, Struct::Joint) => Some(Struct::Joint),
-        (BinaryOp::Multiply, Struct::Frame, Struct::Frame) => Some(Struct::Frame),
-        (BinaryOp::Multiply, Struct::Frame | Struct::Pose, Struct::Frame | Struct::Pose) => Some(Struct::Pose),
-        _ => None,
     }
 }

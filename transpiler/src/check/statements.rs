@@ -2,7 +2,7 @@
 
 use super::arguments::{Callee, does_something};
 use super::context::{Body, Checker, State};
-use super::convert::{Typed, integer};
+use super::convert::Typed;
 use super::doubts::is_comparison;
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::doubts::Doubt;
@@ -13,6 +13,7 @@ use crate::hir::{
     self, Arm, Block, Bound, Expr, ExprKind, For, FuncId, LabelId, LoopInfo, Passed, Stmt, StmtKind, Type, Value,
 };
 use crate::index::{Meaning, Role, Wanted};
+use crate::operators::integer;
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, Effect, Kind, Mode, Presence};
 use arl_lang::elsewhere;
