@@ -1,4 +1,5 @@
-//! What a program says of its run, an object of JSON a line: to a screen that drives it, or to a recorder.
+//! What a program says of its run, an object of JSON a line: to a screen that drives it, or to a recorder. `arl-rt`
+//! writes the lines by hand, as a cycle has no time for more; a test of the command holds that both have the same keys.
 //!
 //! ```
 //! let line: arl_wire::Line = serde_json::from_str(r#"{"warning":"the battery is low"}"#)?;
@@ -12,10 +13,11 @@ use std::fmt;
 use arl_robot::cell::{Signal, SignalKind};
 use arl_robot::kinematics::{self, Frame};
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
-/// A line of the program. `arl-rt` documents them in its module `live`.
-#[derive(Clone, PartialEq, Deserialize, Debug)]
+/// A line of the program; the last three are not the program's, but of who listens to it. `arl-rt` documents them in
+/// its module `live`.
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 #[serde(rename_all = "snake_case")]
 pub enum Line {
     /// The first line: what runs on which robots.
@@ -35,7 +37,7 @@ pub enum Line {
     /// An order that could not be carried out, and why.
     Refused(Refused),
     /// What a motion did, or a channel: an object of the report.
-    Report(serde_json::Value),
+    Report(Report),
     /// Nothing more comes; so often something was left out.
     Ended(u64),
     /// A body that a robot takes along came, was taken or put down: said by who watches them.
@@ -50,7 +52,7 @@ pub enum Line {
 }
 
 /// What runs on which robots.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 #[serde(default)]
 pub struct Hello {
     /// The channels, in their order.
@@ -60,11 +62,11 @@ pub struct Hello {
 }
 
 /// What one channel runs.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Runs {
     /// The main file of its program.
     pub program: String,
-    /// Absent in a background channel.
+    /// Its robot; empty, or absent, in a background channel.
     pub robot: Option<String>,
     /// The robot's own axes, then the external ones.
     pub axes: Vec<Axis>,
@@ -93,14 +95,14 @@ impl Runs {
     }
 
     /// The flange in the base, in mm, while the axes have these values in deg and mm.
-    pub fn flange_at(&self, axes: &[f64]) -> Frame {
+    fn flange_at(&self, axes: &[f64]) -> Frame {
         let links = self.links.iter().zip(axes);
         links.fold(Frame::identity(), |before, (link, axis)| before * link.joint().at(*axis)) * placed(&self.flange)
     }
 }
 
 /// A capsule that belongs to a link, from 1, or to the base, 0: its ends in the frame of that, and its radius, in mm.
-#[derive(Clone, PartialEq, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct Limb {
     /// What people call it.
     pub name: String,
@@ -119,7 +121,7 @@ pub fn name_of_link(link: usize, of: usize, limbs: &[Limb]) -> &str {
 }
 
 /// Where the robots are.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Cycle {
     /// Controller time in s.
     pub time: f64,
@@ -153,9 +155,9 @@ fn has([di, dout]: [&str; 2], (signal, wanted): (Signal, bool)) -> bool {
 }
 
 /// Where the robot of a channel is.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Moves {
-    /// The place of the motion that is executed, or was last; line 0: none yet.
+    /// The file of the motion that is executed, or was last.
     pub file: String,
     /// From 1; 0: nothing has moved yet.
     pub line: u32,
@@ -169,7 +171,7 @@ pub struct Moves {
 pub type Placed = [f64; 7];
 
 /// A joint that moves a link against the one before, or against the base.
-#[derive(Clone, PartialEq, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct LinkJoint {
     /// The link's frame in the one before while the axis is at 0.
     pub origin: Placed,
@@ -201,7 +203,7 @@ pub fn written(frame: &Frame) -> Placed {
 }
 
 /// An axis and its range, in its unit.
-#[derive(Clone, PartialEq, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct Axis {
     /// `j1`.., of external axes `ej1`..
     pub name: String,
@@ -214,14 +216,14 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Whether it moves along its axis.
+    /// Whether its positions are in mm, not in deg.
     pub fn is_linear(&self) -> bool {
         self.unit == "mm"
     }
 }
 
 /// How everything stands.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct State {
     /// Controller time in s.
     pub time: f64,
@@ -244,7 +246,7 @@ pub struct State {
 }
 
 /// How one channel stands.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Channel {
     /// `running`, `paused`, `ended`, `alarm` and so on.
     pub state: String,
@@ -272,7 +274,7 @@ pub struct Channel {
 }
 
 /// The functions and variables of a channel.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 #[serde(default)]
 pub struct Inside {
     /// From 1.
@@ -296,7 +298,7 @@ impl Inside {
 }
 
 /// A function that runs, or the action of an event.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Function {
     /// Its name.
     pub name: String,
@@ -307,7 +309,7 @@ pub struct Function {
 }
 
 /// A variable and its value as a literal.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Variable {
     /// Its name.
     pub name: String,
@@ -316,7 +318,7 @@ pub struct Variable {
 }
 
 /// The global variables of a file.
-#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 #[serde(default)]
 pub struct Globals {
     /// The file.
@@ -327,20 +329,159 @@ pub struct Globals {
     pub handles: Vec<Variable>,
 }
 
+/// A line of the report (docs/seeing-a-run.md): times in s, ways in mm.
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
+#[serde(untagged)]
+pub enum Report {
+    /// What a motion did.
+    Motion(Box<MotionReport>),
+    /// What a channel did in all.
+    Channel(ChannelReport),
+    /// How late cycles began, in real time.
+    Clock {
+        /// The figures.
+        clock: ClockReport,
+    },
+}
+
+/// What a motion did.
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
+pub struct MotionReport {
+    /// From 1.
+    pub channel: u32,
+    /// Its running number.
+    pub motion: u64,
+    /// The file that it is of.
+    pub file: String,
+    /// From 1.
+    pub line: u32,
+    /// The instruction: `lin`.
+    pub kind: String,
+    /// Of `programmed` and `reached`: `mm/s`, `deg/s` or `%`.
+    pub unit: String,
+    /// The speed that was asked for.
+    pub programmed: f64,
+    /// The highest speed along the path.
+    pub reached: f64,
+    /// When it began.
+    pub start: f64,
+    /// How long it was executed.
+    pub duration: f64,
+    /// How far the TCP went.
+    pub way: f64,
+    /// The zone at its end, where one was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub blend: Option<BlendReport>,
+    /// Where it slowed down beside a singular point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slowed: Option<SlowedReport>,
+    /// The limits that it came nearest to.
+    pub closest: ClosestReport,
+}
+
+/// A zone: what was asked for and what was used, in its unit.
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
+pub struct BlendReport {
+    /// `mm`, `deg` or `%`.
+    pub unit: String,
+    /// What the program asks for.
+    pub asked: f64,
+    /// What was used.
+    pub used: f64,
+    /// Why that is less.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+}
+
+/// Where an axis lets a motion go slowly only, beside a singular point.
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
+pub struct SlowedReport {
+    /// The axis.
+    pub axis: String,
+    /// How far along the motion, 0 to 1.
+    pub along: f64,
+    /// The speed that it lets it have.
+    pub speed: f64,
+    /// The unit of the speed.
+    pub unit: String,
+}
+
+/// The limits of each kind that a motion came nearest to.
+#[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
+#[serde(default)]
+pub struct ClosestReport {
+    /// Of speed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vel: Option<Closest>,
+    /// Of acceleration.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub acc: Option<Closest>,
+    /// Of jerk.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jerk: Option<Closest>,
+}
+
+/// A limit, and how much of it was used.
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
+pub struct Closest {
+    /// Whose it is: `j1`, `tcp`.
+    pub of: String,
+    /// %
+    pub percent: f64,
+}
+
+/// What a channel did in all.
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
+pub struct ChannelReport {
+    /// From 1.
+    pub channel: u32,
+    /// Until its program had ended.
+    pub cycle_time: f64,
+    /// How long its robot moved.
+    pub moving: f64,
+    /// How long it stood.
+    pub standing: f64,
+    /// How many motions began.
+    pub motions: u64,
+}
+
+/// How late cycles began.
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
+pub struct ClockReport {
+    /// How many there were.
+    pub cycles: u64,
+    /// How many of them began late.
+    pub late: u64,
+    /// How many were lost.
+    pub lost: u64,
+    /// How many messages of robots were missing.
+    pub missing: u64,
+    /// The longest delay.
+    pub longest: f64,
+    /// How many began within so many s.
+    pub histogram: Vec<(f64, u64)>,
+}
+
 /// What the program printed.
-#[derive(Clone, PartialEq, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct Message {
     /// Controller time in s.
     pub time: f64,
     /// `channel 1`, as a sentence calls it.
     #[serde(default)]
     pub channel: String,
+    /// Whether it goes to the pendant.
+    #[serde(default)]
+    pub hmi: bool,
+    /// Whether it goes to the console.
+    #[serde(default)]
+    pub console: bool,
     /// What was printed.
     pub text: String,
 }
 
 /// What stopped a program.
-#[derive(Clone, PartialEq, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct Alarm {
     /// Its number.
     #[serde(default)]
@@ -356,7 +497,7 @@ pub struct Alarm {
 }
 
 /// An order that could not be carried out, and why.
-#[derive(Clone, PartialEq, Deserialize, Debug)]
+#[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct Refused {
     /// The order.
     pub order: String,

@@ -5,6 +5,7 @@ mod cache;
 mod checking;
 mod collisions;
 mod formatting;
+mod keys;
 mod killing;
 mod odd_files;
 mod pointers;

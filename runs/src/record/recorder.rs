@@ -1,7 +1,6 @@
 //! Writes what a program says into a recording.
 
 use mcap::McapResult;
-use serde_json::Value;
 
 use super::links::Arm;
 use super::messages::{
@@ -13,7 +12,7 @@ use super::scene::Scene;
 use super::schemas::{self, Schema};
 use super::sink::Sink;
 use crate::scenery::Scenery;
-use arl_wire::{Hello, Line, Placing, State};
+use arl_wire::{BlendReport, Hello, Line, MotionReport, Placing, Report, State};
 
 /// How often frames and joints are written for viewers, in s; our own messages have every state.
 const FRAMES_INTERVAL_S: f64 = 0.02;
@@ -73,7 +72,7 @@ impl<S: Sink> Recorder<S> {
         match line {
             Line::Hello(hello) => self.begin(hello),
             Line::State(state) => self.state(state),
-            Line::Message(arl_wire::Message { time, channel, text }) => {
+            Line::Message(arl_wire::Message { time, channel, text, .. }) => {
                 let said = log(Level::Info, text.trim_end_matches('\n'));
                 self.log(*time, Log { name: channel.clone(), ..said })
             }
@@ -81,7 +80,7 @@ impl<S: Sink> Recorder<S> {
             Line::Alarm(arl_wire::Alarm { text, file, line, .. }) => {
                 self.log(self.time, Log { file: file.clone(), line: *line, ..log(Level::Error, text) })
             }
-            Line::Report(object) => self.motion(object),
+            Line::Report(report) => self.motion(report),
             Line::Contact(contact) => self.contact(contact),
             Line::Placing(placing) => self.placing(placing),
             Line::Cycle(_) | Line::Ended(_) | Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
@@ -226,39 +225,34 @@ impl<S: Sink> Recorder<S> {
     }
 
     /// A motion of the report; what the report says of whole channels follows from these.
-    fn motion(&mut self, object: &Value) -> McapResult<()> {
-        let number = |value: &Value, name: &str| value[name].as_f64().unwrap_or_default();
-        let text = |value: &Value, name: &str| value[name].as_str().unwrap_or_default().to_owned();
-        let whole = |name: &str| object[name].as_u64().unwrap_or_default();
-        if object["motion"].is_null() {
-            return Ok(());
-        }
-        let blend = |blend: &Value| Blend {
-            asked: number(blend, "asked"),
-            used: number(blend, "used"),
-            unit: text(blend, "unit"),
-            why: text(blend, "why"),
+    fn motion(&mut self, report: &Report) -> McapResult<()> {
+        let Report::Motion(motion) = report else { return Ok(()) };
+        let MotionReport { channel, line, start, duration, way, programmed, reached, .. } = **motion;
+        let blend = |blend: &BlendReport| Blend {
+            asked: blend.asked,
+            used: blend.used,
+            unit: blend.unit.clone(),
+            why: blend.why.clone().unwrap_or_default(),
         };
-        let closest = |rate: &str| {
-            let closest = &object["closest"][rate];
-            closest.is_object().then(|| Closest { of: text(closest, "of"), percent: number(closest, "percent") })
+        let closest = |closest: &Option<arl_wire::Closest>| {
+            closest.as_ref().map(|closest| Closest { of: closest.of.clone(), percent: closest.percent })
         };
         let motion = Motion {
-            channel: whole("channel") as u32,
-            motion: whole("motion"),
-            line: whole("line") as u32,
-            kind: text(object, "kind"),
-            start: number(object, "start"),
-            duration: number(object, "duration"),
-            way: number(object, "way"),
-            programmed: number(object, "programmed"),
-            reached: number(object, "reached"),
-            unit: text(object, "unit"),
-            blend: object["blend"].is_object().then(|| blend(&object["blend"])),
-            closest_vel: closest("vel"),
-            closest_acc: closest("acc"),
-            closest_jerk: closest("jerk"),
-            file: text(object, "file"),
+            channel,
+            motion: motion.motion,
+            line,
+            kind: motion.kind.clone(),
+            start,
+            duration,
+            way,
+            programmed,
+            reached,
+            unit: motion.unit.clone(),
+            blend: motion.blend.as_ref().map(blend),
+            closest_vel: closest(&motion.closest.vel),
+            closest_acc: closest(&motion.closest.acc),
+            closest_jerk: closest(&motion.closest.jerk),
+            file: motion.file.clone(),
         };
         self.write("/arl/motions", &schemas::MOTION, motion.start, &motion)
     }
