@@ -35,9 +35,20 @@ struct Frame {
     /// The statements of the current branch.
     body: Block,
     doubts: Doubts,
+    /// How many braces are open around the statements of its cases, each of which was reported.
+    case_braces: usize,
 }
 
 impl Frame {
+    fn new(kind: Open, span: Span, doubts: Doubts) -> Self {
+        Self { kind, span, body: Vec::new(), doubts, case_braces: 0 }
+    }
+
+    /// Whether it is a `switch` with a case.
+    fn is_in_case(&self) -> bool {
+        matches!(self.kind, Open::Switch(_, _, Some(_), _))
+    }
+
     /// Whether its closing line may be missing without another mistake.
     fn is_quiet(&self) -> bool {
         self.doubts.may_open || self.doubts.may_be_closed
@@ -151,6 +162,7 @@ impl<'source> Blocks<'source> {
         let Line { kind, span } = line;
         self.last = span;
         if let Some(brace) = doubts.closes_brace
+            && !self.closes_case_brace()
             && !self.is_braced()
         {
             errors.push(SyntaxError::new(SyntaxErrorKind::StrayClose(Bracket::Brace), brace));
@@ -187,10 +199,13 @@ impl<'source> Blocks<'source> {
             LineKind::EndSwitch => self.close(BlockKind::Switch, span, None, errors),
             LineKind::BraceOpen => {
                 errors.push(SyntaxError::new(SyntaxErrorKind::BlockBrace, span));
-                if let Some(frame) = self.frames.last_mut() {
-                    frame.doubts.braced = true;
+                match self.frames.last_mut() {
+                    Some(frame) if frame.is_in_case() => frame.case_braces += 1,
+                    Some(frame) => frame.doubts.braced = true,
+                    None => {}
                 }
             }
+            LineKind::BraceClose if self.closes_case_brace() => {}
             LineKind::BraceClose if self.is_braced() => self.pop(span, None),
             LineKind::BraceClose => {
                 errors.push(SyntaxError::new(SyntaxErrorKind::StrayClose(Bracket::Brace), span));
@@ -224,6 +239,12 @@ impl<'source> Blocks<'source> {
     /// Whether the innermost block was opened with a brace.
     fn is_braced(&self) -> bool {
         self.frames.last().is_some_and(|frame| frame.doubts.braced)
+    }
+
+    /// Whether a `}` ends the braces around statements of a case, which then are closed.
+    fn closes_case_brace(&mut self) -> bool {
+        let open = self.frames.last_mut().map(|frame| &mut frame.case_braces).filter(|open| **open > 0);
+        open.map(|open| *open -= 1).is_some()
     }
 
     /// A line that closes the innermost block, or the function, in another language's words.
@@ -286,12 +307,7 @@ impl<'source> Blocks<'source> {
     fn func(&mut self, head: Box<FuncHead>, span: Span, doubts: Doubts, errors: &mut Vec<SyntaxError>) {
         if self.only_statements {
             errors.push(SyntaxError::new(SyntaxErrorKind::FuncAmongStatements, span));
-            self.frames.push(Frame {
-                kind: Open::Func(head),
-                span,
-                body: Vec::new(),
-                doubts: Doubts { drop: true, ..doubts },
-            });
+            self.frames.push(Frame::new(Open::Func(head), span, Doubts { drop: true, ..doubts }));
             return;
         }
         self.cut_short = !self.frames.is_empty();
@@ -302,7 +318,7 @@ impl<'source> Blocks<'source> {
         self.too_deep = false;
         self.forgiven = 0;
         self.outside = false;
-        self.frames.push(Frame { kind: Open::Func(head), span, body: Vec::new(), doubts });
+        self.frames.push(Frame::new(Open::Func(head), span, doubts));
     }
 
     fn open(&mut self, kind: Open, span: Span, mut doubts: Doubts, errors: &mut Vec<SyntaxError>) {
@@ -321,7 +337,7 @@ impl<'source> Blocks<'source> {
             self.beyond += 1;
             return;
         }
-        self.frames.push(Frame { kind, span, body: Vec::new(), doubts });
+        self.frames.push(Frame::new(kind, span, doubts));
     }
 
     /// The position of the innermost open block of the kind.
@@ -515,7 +531,7 @@ impl<'source> Blocks<'source> {
         }
         let (error, span, _) = self.take_misspelt(BlockKind::Switch)?;
         let kind = Open::Switch(error_at(span), Vec::new(), None, false);
-        self.frames.push(Frame { kind, span, body: Vec::new(), doubts: Doubts::default() });
+        self.frames.push(Frame::new(kind, span, Doubts::default()));
         Some(error)
     }
 
@@ -581,7 +597,7 @@ impl<'source> Blocks<'source> {
 
     /// Closes the innermost block and adds it to the one around it.
     fn pop(&mut self, end: Span, condition: Option<Expr>) {
-        let Some(Frame { kind, span, mut body, doubts }) = self.frames.pop() else { return };
+        let Some(Frame { kind, span, mut body, doubts, .. }) = self.frames.pop() else { return };
         if doubts.drop {
             return;
         }

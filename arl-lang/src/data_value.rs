@@ -6,8 +6,8 @@ use crate::ast::{Item, Var};
 use crate::symbol::Interner;
 use crate::{ParseOptions, parse, text};
 
-/// The bytes of a file in which the global variable `variable` of type `ty` has `value`, a literal; comments, layout and encoding stay
-/// (manual 5.11.5, `savefilepose`).
+/// The bytes of a file in which the global variable `variable` of type `ty` has `value`, a literal; comments, layout
+/// and encoding stay (manual 5.11.5, `savefilepose`).
 ///
 /// ```
 /// let file = b"// points\npose p1 = {x 1} // above the tray\n";
@@ -17,7 +17,8 @@ use crate::{ParseOptions, parse, text};
 /// ```
 ///
 /// # Errors
-/// The file has mistakes or no such variable, or its encoding cannot express the value; in words that go on behind the name of the file.
+/// The file has mistakes or no such variable, or its encoding cannot express the value; in words that go on behind the
+/// name of the file.
 pub fn with_value(bytes: &[u8], ty: &str, variable: &str, value: &str) -> Result<Vec<u8>, String> {
     let text = text::decode(bytes).map_err(|error| format!("cannot be read: {error}"))?;
     let (place, value) = match place(&text, ty, variable)? {

@@ -108,11 +108,12 @@ fn word(lexeme: PlacedLexeme, source: &str) -> Option<&str> {
 /// Whether the `{` at the end of a line opens a block, as in other languages: behind a condition, the head of a block,
 /// or a word that stands alone (`try {`) and is no instruction, whose braces would hold a value.
 fn opens_block(lexemes: &[PlacedLexeme], source: &str) -> bool {
+    let opens = |token| is_header(token) || matches!(token, Token::Case | Token::Default);
     match lexemes {
         [.., (_, Lexeme::ParenClose, _), (_, Lexeme::BraceOpen, _)] => true,
         [first, between @ .., (_, Lexeme::BraceOpen, _)] => word(*first, source).is_some_and(|word| {
             let stands_alone = || between.is_empty() && crate::catalog::instructions(word).is_empty();
-            control_token(word).is_some_and(is_header) || stands_alone()
+            control_token(word).is_some_and(opens) || stands_alone()
         }),
         _ => false,
     }

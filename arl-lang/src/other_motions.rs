@@ -2,6 +2,9 @@
 
 use std::fmt::Write;
 
+/// The number of the last tool and of the last workpiece: `$tool31`, `$wobj31`.
+const LAST: u32 = 31;
+
 /// A motion of another language.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct OtherMotion {
@@ -82,8 +85,8 @@ fn krl(statement: &str) -> Option<String> {
     let number: f64 = number.parse().ok().filter(|number: &f64| number.is_finite())?;
     let blends = before.split_whitespace().any(|word| word.eq_ignore_ascii_case("cont"));
     let mut line = match (is_line, blends) {
-        (true, false) => format!("lin {target},vl:{}mm/s", millimetres(number)),
-        (true, true) => format!("lin {target},vl:{}mm/s,sl:10mm", millimetres(number)),
+        (true, false) => format!("lin {target},vl:{}mm/s", millimetres(number)?),
+        (true, true) => format!("lin {target},vl:{}mm/s,sl:10mm", millimetres(number)?),
         (false, false) => format!("ptp {target},vp:{number}%"),
         (false, true) => format!("ptp {target},vp:{number}%,sp:20%"),
     };
@@ -92,8 +95,8 @@ fn krl(statement: &str) -> Option<String> {
         let digits: String = number.unwrap_or("").chars().take_while(char::is_ascii_digit).collect();
         let _ = match digits.parse::<u32>() {
             Ok(0) => write!(line, ",{label}:${none}"),
-            Ok(number) => write!(line, ",{label}:${list}{number}"),
-            Err(_) => Ok(()),
+            Ok(number @ 1..=LAST) => write!(line, ",{label}:${list}{number}"),
+            _ => Ok(()),
         };
     }
     Some(line)
@@ -145,15 +148,16 @@ fn degrees(list: &str) -> Option<String> {
 /// is not above 0.
 fn scaled(value: &str, unit: &str) -> Option<String> {
     match value.parse::<f64>() {
-        Ok(number) if number.is_finite() => (number > 0.0).then(|| format!("{}{unit}", millimetres(number))),
+        Ok(number) => millimetres(number).map(|number| format!("{number}{unit}")),
         _ if is_name(value) => Some(format!("{value}*1000")),
         _ => Some(format!("({value})*1000")),
     }
 }
 
-/// Metres in mm, to a thousandth.
-fn millimetres(metres: f64) -> String {
-    ((metres * 1e6).round() / 1e3).to_string()
+/// Metres in mm, to a thousandth; `None` where nothing above 0 is left.
+fn millimetres(metres: f64) -> Option<f64> {
+    let number = (metres * 1e6).round() / 1e3;
+    (number.is_finite() && number > 0.0).then_some(number)
 }
 
 #[cfg(test)]
@@ -174,6 +178,9 @@ mod tests {
             ("LIN P1 CONT Vel=0.25 m/s CPDAT1 Tool[1]:Gripper Base[0]", "lin P1,vl:250mm/s,sl:10mm,t:$tool1,w:$WORLD"),
             ("PTP P3 CONT Vel = 50 % PDAT3", "ptp P3,vp:50%,sp:20%"),
             ("LIN P2 Vel=1 m/s CPDAT2 Tool[0] Base[12]", "lin P2,vl:1000mm/s,t:$FLANGE,w:$wobj12"),
+            ("LIN P2 Vel=1 m/s CPDAT2 Tool[40] Base[31]", "lin P2,vl:1000mm/s,w:$wobj31"),
+            ("movel(p, v=1e-9)", "lin p,vl:250mm/s"),
+            ("movel(p, v=inf)", "lin p,vl:250mm/s"),
         ] {
             assert_eq!(other_motion(theirs).map(|found| found.ours).as_deref(), Some(ours), "{theirs}");
         }

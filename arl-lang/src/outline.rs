@@ -45,8 +45,8 @@ pub struct PlacedRole {
     pub start: u32,
     /// What it is.
     pub role: Role,
-    /// Whether a statement begins with it: at the start of the line, behind the condition of an `if` on one line, behind
-    /// the colon of a case.
+    /// Whether a statement begins with it: at the start of the line, behind the condition of an `if` on one line,
+    /// behind the colon of a case.
     pub begins: bool,
 }
 
@@ -89,8 +89,8 @@ pub struct Outline {
     pub roles: Vec<PlacedRole>,
     /// What the lines mean for the blocks, in the order of the text.
     pub turns: Vec<PlacedTurn>,
-    /// The offsets of mistakes in the form of a line, in no order. Those that only say how lines fit each other as blocks
-    /// are not among them.
+    /// The offsets of mistakes in the form of a line, in no order. Those that only say how lines fit each other as
+    /// blocks are not among them.
     pub mistakes: Vec<u32>,
 }
 

@@ -35,8 +35,8 @@ impl std::fmt::Debug for Span {
 /// How many bytes of a text share an entry of [`LineIndex`]'s count of characters.
 const BLOCK: usize = 1024;
 
-/// Where the lines of a text begin, to turn offsets into lines and columns. Each answer takes the same time, however long
-/// the line is.
+/// Where the lines of a text begin, to turn offsets into lines and columns. Each answer takes the same time, however
+/// long the line is.
 #[derive(Clone, Debug)]
 pub struct LineIndex {
     starts: Vec<u32>,

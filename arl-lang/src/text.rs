@@ -96,8 +96,8 @@ fn decode_gb18030(bytes: &[u8]) -> Result<String, usize> {
     }
 }
 
-/// The bytes of a file with a part of its text, as [`decode`] gives it, replaced by plain characters; all other bytes stay.
-/// `None` where the part is none of the text, or its bytes cannot be told.
+/// The bytes of a file with a part of its text, as [`decode`] gives it, replaced by plain characters; all other bytes
+/// stay. `None` where the part is none of the text, or its bytes cannot be told.
 ///
 /// ```
 /// let file = "\u{feff}pose p = {x 1}\r\n".as_bytes();

@@ -7,7 +7,8 @@ use std::thread::{Builder, JoinHandle};
 /// What each of them does first, where somebody says so.
 static FIRST: OnceLock<fn()> = OnceLock::new();
 
-/// Says what each thread beside the cycle does first, from now on: to take less of the computer than the cycle does. What was said first holds.
+/// Says what each thread beside the cycle does first, from now on: to take less of the computer than the cycle does.
+/// What was said first holds.
 pub fn each_does_first(first: fn()) {
     let _ = FIRST.set(first);
 }

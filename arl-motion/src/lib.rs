@@ -1,21 +1,22 @@
 //! Motion of robot arms: commands in, a set-point each cycle out.
 //!
-//! A [`Queue`] takes [`Command`]s (lines, circles, splines, axis motions) and plans them ahead, blended where their zones say so.
-//! Each [`Queue::step`] moves the robot on by one cycle, within the limits of every axis and of the TCP. The robot stops on its
-//! path ([`Queue::stop_on_path`]), goes on, follows an override that changes at any time, and leaves its motion for others and
-//! comes back ([`Queue::request_suspension`]). A [`Recorder`] tells what each motion really did.
+//! A [`Queue`] takes [`Command`]s (lines, circles, splines, axis motions) and plans them ahead, blended where their
+//! zones say so. Each [`Queue::step`] moves the robot on by one cycle, within the limits of every axis and of the TCP.
+//! The robot stops on its path ([`Queue::stop_on_path`]), goes on, follows an override that changes at any time, and
+//! leaves its motion for others and comes back ([`Queue::request_suspension`]). A [`Recorder`] tells what each motion
+//! really did.
 //!
 //! Lengths are in mm, angles in deg, times in s; rotation vectors, where there are any, are in rad.
 //!
 //! # Real time, or the same every time
 //!
-//! [`Queue::new`] is for a control loop: a step never waits, and what threads find beside it (blends, time laws) is taken over when it
-//! is there. [`Queue::repeatable`] is for simulation and planning: there a step waits for the threads, and a queue that is stepped with
-//! the same commands at the same cycles gives the same set-points to the last bit, on every machine. `arl-rt` uses the one with its real
-//! clock, the other with its virtual one.
+//! [`Queue::new`] is for a control loop: a step never waits, and what threads find beside it (blends, time laws) is
+//! taken over when it is there. [`Queue::repeatable`] is for simulation and planning: there a step waits for the
+//! threads, and a queue that is stepped with the same commands at the same cycles gives the same set-points to the last
+//! bit, on every machine. `arl-rt` uses the one with its real clock, the other with its virtual one.
 //!
-//! A build without optimisation is about 50 times slower, too slow for real time. Optimise what computes in debug builds, too, in the
-//! `Cargo.toml` of the workspace:
+//! A build without optimisation is about 50 times slower, too slow for real time. Optimise what computes in debug
+//! builds, too, in the `Cargo.toml` of the workspace:
 //!
 //! ```toml
 //! [profile.dev.package]
@@ -26,8 +27,8 @@
 //!
 //! # Features
 //!
-//! `files` (a default one) has the robots that are built in, and those from files. Without it a robot is what [`robot::Robot::new`]
-//! makes of its description, and neither the language nor a reader of TOML is compiled.
+//! `files` (a default one) has the robots that are built in, and those from files. Without it a robot is what
+//! [`robot::Robot::new`] makes of its description, and neither the language nor a reader of TOML is compiled.
 //!
 //! # Example
 //!
@@ -46,7 +47,8 @@
 //! }
 //! let [x, y, z, a, b, c] = arl_motion::kinematics::frame_components(&queue.tcp());
 //! let slow = Speed { tcp: 250.0, ..Speed::FULL };
-//! let first = Command { speed: slow, zone: Zone::within(20.0), ..Command::new(Target::line([x, y + 100.0, z, a, b, c])) };
+//! let corner = Target::line([x, y + 100.0, z, a, b, c]);
+//! let first = Command { speed: slow, zone: Zone::within(20.0), ..Command::new(corner) };
 //! let second = Command { speed: slow, ..Command::new(Target::line([x + 100.0, y + 100.0, z, a, b, c])) };
 //! queue.add(&first, &settings)?;
 //! queue.add(&second, &settings)?;
@@ -68,14 +70,15 @@
 //! # Ok::<(), arl_motion::PlanError>(())
 //! ```
 //!
-//! Every motion, and every blend between two, is a stretch of one path with one parameter. Planning finds limits of that
-//! parameter's speed, acceleration and jerk, constant for each stretch, such that *whatever* moves along it within them
-//! keeps every axis and the TCP within theirs. Starting, stopping, resuming and changing the override are then problems of
-//! that one parameter and can never leave the path or break a limit. Where neither a duration is given nor a
-//! weave laid over it, every place has limits of its own, and the whole of the way ahead is timed at once.
+//! Every motion, and every blend between two, is a stretch of one path with one parameter. Planning finds limits of
+//! that parameter's speed, acceleration and jerk, constant for each stretch, such that *whatever* moves along it within
+//! them keeps every axis and the TCP within theirs. Starting, stopping, resuming and changing the override are then
+//! problems of that one parameter and can never leave the path or break a limit. Where neither a duration is given nor
+//! a weave laid over it, every place has limits of its own, and the whole of the way ahead is timed at once.
 //!
-//! The folders are the stages: `command`, `geometry`, `limits`, `overlay`, `plan`, `blend`, `follow`, `time_optimal`, `junction`,
-//! `queue`. Each imports from those before it only. [`beside`] starts the threads that find blends and time laws.
+//! The folders are the stages: `command`, `geometry`, `limits`, `overlay`, `plan`, `blend`, `follow`, `time_optimal`,
+//! `junction`, `queue`. Each imports from those before it only. [`beside`] starts the threads that find blends and time
+//! laws.
 
 pub mod beside;
 mod blend;

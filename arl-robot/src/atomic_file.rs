@@ -260,7 +260,9 @@ impl Draft {
     /// Lets it stay, by a name that [`remove_leftovers`] passes over, where it can have one; which that is.
     fn keep(mut self) -> PathBuf {
         self.is_kept = true;
-        let kept = self.path.with_extension(KEPT);
+        // Another computer, or a container, may have kept one of a process of the same number.
+        let mut names = (0..).map(|number| self.path.with_extension(format!("{number}.{KEPT}")));
+        let Some(kept) = names.find(|kept| !kept.exists()) else { return self.path.clone() };
         if fs::rename(&self.path, &kept).is_ok() { kept } else { self.path.clone() }
     }
 }
@@ -327,8 +329,8 @@ pub fn remove_leftovers(directory: &Path) {
     let mut left = left.map(|entry| entry.path()).peekable();
     if left.peek().is_some() {
         // Somebody may just exchange two files: what lies beside then is nobody's draft.
-        let Ok(_lock) = lock(directory) else { return };
-        left.for_each(|path| remove_abandoned(&path));
+        let Ok(locked) = lock(directory) else { return };
+        left.for_each(|path| remove_abandoned(&path, &locked));
     }
 }
 
@@ -339,8 +341,8 @@ fn is_in_the_making(name: &str) -> bool {
     })
 }
 
-/// Removes a file that nobody holds.
-fn remove_abandoned(path: &Path) {
+/// Removes a file that nobody holds, of a directory that is locked, where directories can be.
+fn remove_abandoned(path: &Path, _locked: &Option<File>) {
     if let Ok(file) = File::open(path)
         && file.try_lock().is_ok()
     {

@@ -6,8 +6,9 @@ use toml::de::{DeTable, DeValue};
 
 use crate::settings::{SettingsError, Source, Value, hint, quoted};
 
-/// The text of a settings file in which the value at `path` is `value`. The path is that of the keys, with points between; entries of lists
-/// count from 1: `axis.1.vel`. The last key may be a new one. What is no TOML value is a text.
+/// The text of a settings file in which the value at `path` is `value`. The path is that of the keys, with points
+/// between; entries of lists count from 1: `axis.1.vel`. The last key may be a new one. What is no TOML value is a
+/// text.
 ///
 /// ```
 /// let text = "[[event]]\nat = 1.0\ndi.1 = true\n";

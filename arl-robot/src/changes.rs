@@ -1,4 +1,5 @@
-//! Values that are others in a run, as `--set` names them: of its robot, its cell, its scenario and its global variables.
+//! Values that are others in a run, as `--set` names them: of its robot, its cell, its scenario and its global
+//! variables.
 
 use crate::change;
 use crate::settings::SettingsError;

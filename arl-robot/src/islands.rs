@@ -156,8 +156,8 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The line through the ends of what a channel carries. Without `raw`, the whole of a signed register for V, its upper
-    /// half for mA.
+    /// The line through the ends of what a channel carries. Without `raw`, the whole of a signed register for V, its
+    /// upper half for mA.
     fn new(ty: AnalogType, raw: Option<(i32, i32)>) -> Self {
         let usual = match ty {
             AnalogType::Volt => (-32767, 32767),

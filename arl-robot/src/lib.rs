@@ -2,8 +2,9 @@
 //!
 //! The runtime moves robots with it, and the command tells before a program runs which targets a robot cannot reach.
 //!
-//! The feature `files` (a default one) has the files: robots that are built in or [loaded](Robot::load), and cells. Without it there are
-//! values and kinematics alone, a robot is one from [`Robot::new`], and neither a reader of TOML nor the language is compiled.
+//! The feature `files` (a default one) has the files: robots that are built in or [loaded](Robot::load), and cells.
+//! Without it there are values and kinematics alone, a robot is one from [`Robot::new`], and neither a reader of TOML
+//! nor the language is compiled.
 
 // The runtime and the command write files so; it is no part of what this crate is for.
 #[cfg(feature = "files")]
@@ -29,7 +30,8 @@ mod rate;
 #[doc(hidden)]
 pub mod regular_file;
 pub mod robot;
-// How all our crates read the files that users write. `SettingsError`, which they all give, is [`cell::SettingsError`], too.
+// How all our crates read the files that users write. `SettingsError`, which they all give, is [`cell::SettingsError`],
+// too.
 #[cfg(feature = "files")]
 #[doc(hidden)]
 pub mod settings;

@@ -1,4 +1,5 @@
-//! What a program can be held against before it runs: that part of a cell file which says what there is around the robot.
+//! What a program can be held against before it runs: that part of a cell file which says what there is around the
+//! robot.
 
 use std::collections::BTreeMap;
 

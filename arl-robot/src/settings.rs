@@ -271,6 +271,7 @@ pub fn hint_of_many(word: &str, known: &[&str]) -> String {
     match (nearest(word, known), known.get(..LISTED)) {
         (Some(near), _) => format!("did you mean `{near}`?"),
         (None, Some(first)) => format!("there are {}, like {}", known.len(), first.join(", ")),
+        (None, None) if known.is_empty() => "there are none".to_owned(),
         (None, None) => format!("there are {}", known.join(", ")),
     }
 }

@@ -1,4 +1,5 @@
-//! Doors for `fuzz/` to what reads bytes from outside and is no one else's business. Each panics where something is wrong.
+//! Doors for `fuzz/` to what reads bytes from outside and is no one else's business. Each panics where something is
+//! wrong.
 
 use crate::builtins::communication::melsec_answer;
 use crate::communication::Inbox;
@@ -55,8 +56,8 @@ pub fn melsec(mut bytes: &[u8]) {
     }
 }
 
-/// What comes over a socket, in pieces, while a program reads up to a mark: what is taken, the marks and what is left are all
-/// that came.
+/// What comes over a socket, in pieces, while a program reads up to a mark: what is taken, the marks and what is left
+/// are all that came.
 pub fn read_until(mark: &[u8], pieces: &[&[u8]]) {
     if mark.is_empty() {
         return;

@@ -1,11 +1,11 @@
 //! What robot programs in ARL run on: the cycle, motion, io, system variables and a simulated robot.
 //!
-//! The compiler turns an ARL program into an implementation of [`Program`]; a [`Controller`] runs it, cycle by cycle. Whoever
-//! embeds one needs little more than what stands here at the top:
+//! The compiler turns an ARL program into an implementation of [`Program`]; a [`Controller`] runs it, cycle by cycle.
+//! Whoever embeds one needs little more than what stands here at the top:
 //!
 //! - [`Builder`] takes what a controller has: [`Robot`], [`Cell`], clock, drivers, more programs ([`Foreground`])
-//! - [`Controller::step`] and [`Controller::run`] run it; [`Outcome`], [`State`] and [`Status`] say how it stands, [`Captured`]
-//!   keeps what it prints, and an [`Alarm`] says what went wrong
+//! - [`Controller::step`] and [`Controller::run`] run it; [`Outcome`], [`State`] and [`Status`] say how it stands,
+//!   [`Captured`] keeps what it prints, and an [`Alarm`] says what went wrong
 //! - [`Handle`] is a controller as other threads have it, [`Running`] one on a thread of its own
 //! - [`Cx`] is what a running program sees of its controller
 //!
@@ -41,8 +41,8 @@
 //! # Ok::<(), arl_rt::SetupError>(())
 //! ```
 //!
-//! A build without optimisation is slow, too slow for cycles of 1 ms in real time. The `Cargo.toml` of your workspace can have what computes
-//! optimised in debug builds, too:
+//! A build without optimisation is slow, too slow for cycles of 1 ms in real time. The `Cargo.toml` of your workspace
+//! can have what computes optimised in debug builds, too:
 //!
 //! ```toml
 //! [profile.dev.package]
@@ -52,10 +52,10 @@
 //! nalgebra = { opt-level = 2 }
 //! ```
 //!
-//! The modules are for those who drive a real arm ([`robot_driver`], [`io`], [`clock`], [`devicenet`], [`network`]), who keep
-//! what outlives a run ([`storage`]), who write programs in Rust ([`program`], [`fault`], [`values`]), or who want to know more
-//! of a run ([`status`], [`output`], [`system`]). What is below is there, too: [`motion`], [`robot`], [`kinematics`], [`cell`],
-//! [`dynamics`].
+//! The modules are for those who drive a real arm ([`robot_driver`], [`io`], [`clock`], [`devicenet`], [`network`]),
+//! who keep what outlives a run ([`storage`]), who write programs in Rust ([`program`], [`fault`], [`values`]), or who
+//! want to know more of a run ([`status`], [`output`], [`system`]). What is below is there, too: [`motion`], [`robot`],
+//! [`kinematics`], [`cell`], [`dynamics`].
 //!
 //! The features: `macros` has `arl!` and `arl_file!`; `serial` (a default one) has serial lines; `realtime` has
 //! [`clock::Realtime`] on Linux.

@@ -169,7 +169,7 @@ fn pulses_and_outputs_in_motion_belong_to_their_channel() {
     let (mut controller, said) = with_channels(Controller::builder().foreground(second), first);
     assert_eq!(controller.run(), Outcome::Ended);
     assert_eq!(said.text(), "channel 1: false\n");
-    assert!(controller.dout(5).unwrap());
+    assert!(controller.digital_output(5).unwrap());
     // The second program ended long before the pulse of the first one did.
     assert!(controller.time() > 8.9, "{}", controller.time());
 }

@@ -248,8 +248,8 @@ fn state_is_kept() {
     assert!(scripts.path().join(".arl-state/I.state").is_file());
 }
 
-/// Whoever damages a state file by hand, and in whatever way: the run does not begin, says which file it is and leaves it as it is,
-/// so that the last good value is still there once it is put right.
+/// Whoever damages a state file by hand, and in whatever way: the run does not begin, says which file it is and leaves
+/// it as it is, so that the last good value is still there once it is put right.
 fn damaged_state_is_refused() {
     let folder = Folder::new("damaged");
     let run = || run("count", &["--state-dir", folder.text()]);

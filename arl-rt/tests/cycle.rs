@@ -78,7 +78,7 @@ fn waituntil_sees_inputs_and_its_longest_time() {
     assert_eq!((outcome, text.as_str()), (Outcome::Ended, "true 2\n"));
     let (mut controller, messages) = controller(Controller::builder(), script);
     controller.run_for(1.25);
-    controller.set_di(6, true).unwrap();
+    controller.set_digital_input(6, true).unwrap();
     controller.run();
     assert_eq!(messages.text(), "false 1.25\n");
 }
@@ -225,7 +225,7 @@ fn a_reset_starts_from_the_beginning() {
     assert!(controller.reset().is_err(), "it runs");
     for _ in 0..2 {
         assert!(matches!(controller.run(), Outcome::Alarm(_)));
-        assert!(!controller.dout(4).unwrap(), "the pulse has ended");
+        assert!(!controller.digital_output(4).unwrap(), "the pulse has ended");
         controller.reset().unwrap();
     }
     assert_eq!(messages.text(), "1\n5\n2\n5\n", "system variables of 10.1 stay, those of 10.2 do not");

@@ -1,5 +1,5 @@
-//! Alarms of interrupts while the robot moves: each names what it is about, the robot comes to rest on its path, and what was
-//! saved last is still there.
+//! Alarms of interrupts while the robot moves: each names what it is about, the robot comes to rest on its path, and
+//! what was saved last is still there.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "these are tests, too")]
 
 mod common;
@@ -98,13 +98,13 @@ fn alarms_of_events_stop_the_robot_on_its_path() {
         let kept = Shared::default();
         let builder = Controller::builder().storage(kept.clone());
         let (mut controller, said) = controller(builder, move |cx| program(cx, wrong));
-        while !controller.dout(1).unwrap() {
+        while !controller.digital_output(1).unwrap() {
             controller.step();
         }
         let rest = controller.joints();
         controller.run_for(0.7);
         let before = tcp(&controller);
-        controller.set_di(1, true).unwrap();
+        controller.set_digital_input(1, true).unwrap();
         let mut path = vec![before];
         let mut ended = None;
         for cycle in 0..1000 {
@@ -171,7 +171,7 @@ fn a_handler_that_never_ends_holds_nobody_up() {
         })
     });
     controller.run_for(0.2);
-    controller.set_di(1, true).unwrap();
+    controller.set_digital_input(1, true).unwrap();
     controller.run_for(5.0);
     // The motion goes on to its target; the program stands in the handler until somebody stops it.
     assert!((controller.joints().axes[0] - 60.0).abs() < 1e-6);

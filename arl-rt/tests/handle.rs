@@ -61,9 +61,9 @@ fn a_thread_sets_inputs_and_hears_what_happens() {
     let running = spawned();
     let handle = running.handle();
     let events = handle.events().unwrap();
-    assert!(!handle.dout(2).unwrap());
-    handle.set_ai(1, 4.0).unwrap();
-    handle.set_di(1, true).unwrap();
+    assert!(!handle.digital_output(2).unwrap());
+    handle.set_analog_input(1, 4.0).unwrap();
+    handle.set_digital_input(1, true).unwrap();
     assert_eq!(running.join(), Outcome::Ended);
     let events: Vec<Event> = events.iter().collect();
     let texts: Vec<&str> = events
@@ -97,8 +97,8 @@ fn alarms_and_warnings_are_heard() {
 fn wrong_questions_are_answered_with_why() {
     let running = spawned();
     let handle = running.handle();
-    assert!(matches!(handle.set_di(4711, true), Err(HandleError::Fault(_))));
-    assert!(matches!(handle.ao(0), Err(HandleError::Fault(_))));
+    assert!(matches!(handle.set_digital_input(4711, true), Err(HandleError::Fault(_))));
+    assert!(matches!(handle.analog_output(0), Err(HandleError::Fault(_))));
     let Err(HandleError::Order(why)) = handle.order("di.1 = maybe") else { panic!("it was taken") };
     let why = why.to_string();
     assert!(why.contains("maybe") || why.contains("true"), "{why}");
@@ -111,12 +111,12 @@ fn a_thread_that_is_the_controllers_own_does_not_wait_for_itself() {
     let (kept, handle) = (Rc::clone(&answers), Rc::new(RefCell::new(None::<Handle>)));
     let asking = Rc::clone(&handle);
     let builder = Controller::builder().output(move |_: &Message<'_>| {
-        let answer = asking.borrow().as_ref().map(|handle| handle.dout(2));
+        let answer = asking.borrow().as_ref().map(|handle| handle.digital_output(2));
         kept.borrow_mut().extend(answer);
     });
     let mut controller = plain(builder, wait_and_divide);
     *handle.borrow_mut() = Some(controller.handle());
-    controller.set_di(1, true).unwrap();
+    controller.set_digital_input(1, true).unwrap();
     controller.run_for(0.1);
     assert_eq!(answers.borrow().first(), Some(&Err(HandleError::OwnThread)));
 }
@@ -126,8 +126,8 @@ fn a_question_that_panics_costs_who_asked_alone() {
     let running = spawned();
     let handle = running.handle();
     assert_eq!(handle.ask(|_| panic!("as it is meant to")), Err::<(), _>(HandleError::Panicked));
-    handle.set_ai(1, 4.0).unwrap();
-    handle.set_di(1, true).unwrap();
+    handle.set_analog_input(1, 4.0).unwrap();
+    handle.set_digital_input(1, true).unwrap();
     assert_eq!(running.join(), Outcome::Ended);
 }
 
@@ -180,8 +180,8 @@ fn a_program_that_has_ended_begins_anew_until_somebody_waits_for_its_end() {
     let handle = running.handle();
     let events = handle.events().unwrap();
     let ended = || events.iter().any(|event| event == Event::State(State::Ended));
-    handle.set_ai(1, 4.0).unwrap();
-    handle.set_di(1, true).unwrap();
+    handle.set_analog_input(1, 4.0).unwrap();
+    handle.set_digital_input(1, true).unwrap();
     assert!(ended());
     handle.press(Pendant::Reset).unwrap();
     assert!(ended());

@@ -23,11 +23,11 @@ fn outputs_and_inputs_single_and_in_groups() {
         })
     });
     for channel in 6..=9 {
-        controller.set_di(channel, true).unwrap();
+        controller.set_digital_input(channel, true).unwrap();
     }
     assert_eq!(controller.run(), Outcome::Ended);
     assert_eq!(messages.text(), "true\n12\n15\ntrue\n0.002\n", "each syncdo takes a cycle");
-    assert!(controller.dout(64).unwrap() && !controller.dout(2).unwrap());
+    assert!(controller.digital_output(64).unwrap() && !controller.digital_output(2).unwrap());
 }
 
 #[test]
@@ -44,11 +44,11 @@ fn channels_that_do_not_exist_are_alarms() {
 #[allow(clippy::unwrap_used, reason = "part of a test")]
 fn edges(controller: &mut Controller, channel: i32) -> Vec<(u64, bool)> {
     let mut edges = Vec::new();
-    let mut level = controller.dout(channel).unwrap();
+    let mut level = controller.digital_output(channel).unwrap();
     let mut cycle = 0;
     while controller.outcome().is_none() {
         controller.step();
-        let now = controller.dout(channel).unwrap();
+        let now = controller.digital_output(channel).unwrap();
         if now != level {
             edges.push((cycle, now));
             level = now;
@@ -94,10 +94,10 @@ fn a_pulse_goes_on_in_a_pause_and_ends_with_stop() {
         })
     });
     controller.run_for(0.3);
-    assert!(!controller.dout(5).unwrap() && controller.dout(6).unwrap());
+    assert!(!controller.digital_output(5).unwrap() && controller.digital_output(6).unwrap());
     controller.stop();
     assert_eq!(controller.run(), Outcome::Stopped);
-    assert!(!controller.dout(6).unwrap());
+    assert!(!controller.digital_output(6).unwrap());
     assert!(controller.time() < 0.31);
 }
 
@@ -113,10 +113,10 @@ fn setdo_waits_for_the_motion_and_setdoimv_comes_with_its_end() {
         })
     });
     controller.step();
-    assert!(controller.dout(1).unwrap(), "no motion is on its way: at once");
+    assert!(controller.digital_output(1).unwrap(), "no motion is on its way: at once");
     let mut angles = Vec::new();
     for channel in [2, 3] {
-        while !controller.dout(channel).unwrap() {
+        while !controller.digital_output(channel).unwrap() {
             controller.step();
         }
         angles.push(controller.joints().axes[0]);
@@ -225,12 +225,12 @@ fn drivers_stand_for_the_outside() {
     impl arl_rt::io::IoDriver for Loop {
         fn read(&mut self, mut inputs: arl_rt::io::Inputs<'_>) {
             for (at, level) in self.0.borrow().iter().enumerate() {
-                inputs.set_di(at + 1, *level);
+                inputs.set_digital_input(at + 1, *level);
             }
         }
 
         fn write(&mut self, outputs: arl_rt::io::Outputs<'_>) {
-            *self.0.borrow_mut() = (1..=8).map(|channel| outputs.dout(channel)).collect();
+            *self.0.borrow_mut() = (1..=8).map(|channel| outputs.digital_output(channel)).collect();
         }
     }
 

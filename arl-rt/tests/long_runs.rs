@@ -199,7 +199,7 @@ fn so_many_seconds_are_so_many_seconds() {
     });
     controller.run_for(3600.0);
     assert_eq!(controller.time(), 3600.0);
-    controller.set_di(1, true).unwrap();
+    controller.set_digital_input(1, true).unwrap();
     controller.run_for(0.5);
     assert_eq!(controller.time(), 3600.5);
     assert_eq!(controller.run(), Outcome::Ended);

@@ -225,6 +225,40 @@ fn a_motion_that_is_cut_off_says_so_of_its_zone() {
 }
 
 #[test]
+fn a_motion_that_is_cut_off_behind_its_first_blend_has_not_used_its_zone() {
+    let (mut controller, _) = controller(Controller::builder().record_motions(), zigzag);
+    let has_begun = |controller: &Controller| controller.motions().get(3).is_some_and(|record| record.start.is_some());
+    while !has_begun(&controller) {
+        controller.step();
+    }
+    controller.run_for(0.3);
+    controller.stop();
+    controller.run_for(1.0);
+    let cut = controller.motions().swap_remove(3);
+    assert_eq!(
+        (cut.zone().map(|zone| zone.used), cut.smaller_zone()),
+        (Some(0.0), Some(SmallerZone::Unfinished)),
+        "{cut:?}"
+    );
+}
+
+#[test]
+fn a_zone_that_is_passed_within_a_cycle_is_used() {
+    let (records, _) = records_and_rows(|cx| {
+        Box::pin(async move {
+            motion::movej(bent(0.0)).vp(50.0).run(cx).await.at(FILE, 3)?;
+            for (line, far) in [(4, 100.0), (5, 200.0), (6, 300.0)] {
+                motion::lin(aside(cx, far, 0.1 * far)?).vl(1000.0).sl(0.2).run(cx).await.at(FILE, line)?;
+            }
+            motion::lin(aside(cx, 300.0, -100.0)?).vl(1000.0).run(cx).await.at(FILE, 7)
+        })
+    });
+    for record in &records[1..3] {
+        assert_eq!(record.smaller_zone(), None, "{record:?}");
+    }
+}
+
+#[test]
 fn a_weave_is_not_part_of_the_speed_that_is_reached() {
     let (records, _) = records_and_rows(|cx| {
         Box::pin(async move {

@@ -123,7 +123,10 @@ fn events_stops_and_pauses_of_several_channels_allocate_nothing() {
     for (moving, at) in [("goes before", 90), ("goes on after the stop", 700), ("goes on after the pause", 1250)] {
         assert!(speeds[at] > 0.0, "the robot {moving}");
     }
-    assert!(controller.dout(1).unwrap() && controller.dout(2).unwrap(), "the timer and the trigger did their work");
+    assert!(
+        controller.digital_output(1).unwrap() && controller.digital_output(2).unwrap(),
+        "the timer and the trigger did their work"
+    );
 }
 
 #[test]

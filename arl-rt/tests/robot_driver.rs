@@ -514,6 +514,15 @@ fn a_robot_that_does_not_start_is_no_controller() {
     assert!(outside.contains(why) && outside.contains("is the robot file that of this robot?"), "{outside}");
 }
 
+#[test]
+fn a_robot_that_leaves_its_range_is_an_alarm_at_once() {
+    let (mut controller, heard) = turning(|cycle, feedback| changed(cycle, feedback, 500.0));
+    let (number, line, text) = outcome(&mut controller);
+    assert_eq!((number, line), (20070, 2), "{text}");
+    assert!(text.starts_with("the robot does not follow: j3 is "), "{text}");
+    keep_limits(&heard.borrow());
+}
+
 /// Axis 3 is at 500 deg in some of the cycles in which the motors are off.
 fn pushed_away(from: u64, to: u64) -> (Controller, Rc<RefCell<Heard>>) {
     thread_local!(static WHEN: std::cell::Cell<(u64, u64)> = const { std::cell::Cell::new((0, 0)) });

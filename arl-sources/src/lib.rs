@@ -3,8 +3,8 @@
 /// Where the sources of the runtime are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Origin {
-    /// In the checkout with this path: the command was compiled there without optimisation, by somebody who works on the
-    /// runtime and wants to see what was changed.
+    /// In the checkout with this path: the command was compiled there without optimisation, by somebody who works on
+    /// the runtime and wants to see what was changed.
     Checkout(&'static str),
     /// Here.
     Carried(&'static Carried),

@@ -81,7 +81,7 @@ fn once(work: Work, interrupts: i32, cycles: usize) -> Result<(Vec<f64>, [f64; 6
     for cycle in 0..FIRST + cycles {
         if cycle % CHANGES == 0 {
             let (change, input) = (cycle / CHANGES, (cycle / CHANGES % 60 + 1) as i32);
-            controller.set_di(input, change / 60 % 2 == 0)?;
+            controller.set_digital_input(input, change / 60 % 2 == 0)?;
         }
         let begin = processor_time();
         let state = controller.step();

@@ -1,7 +1,9 @@
-//! What somebody waits for who debugs: from the launch to the first halt, and from a step to what an editor shows of it.
+//! What somebody waits for who debugs: from the launch to the first halt, and from a step to what an editor shows of
+//! it.
 //!
-//! `cargo bench -p arl-benches --bench debugger [-- STEPS]`. Builds the command first, and speaks to `arl2rs dap` over its
-//! standard input and output, as an editor does. A launch compiles the program anew, beside what `arl2rs build` takes.
+//! `cargo bench -p arl-benches --bench debugger [-- STEPS]`. Builds the command first, and speaks to `arl2rs dap` over
+//! its standard input and output, as an editor does. A launch compiles the program anew, beside what `arl2rs build`
+//! takes.
 
 use std::path::Path;
 use std::process::{Command, Stdio};

@@ -1,7 +1,7 @@
 //! What it costs to drive an arm over the network, beside a bare loop that exchanges packets of the same length.
 //!
-//! `cargo bench -p arl-benches --bench driver [-- CYCLES]`. The other side is a thread that answers at once. All take turns; a cycle waits for
-//! its answer, so that a second has as many set-points as it can.
+//! `cargo bench -p arl-benches --bench driver [-- CYCLES]`. The other side is a thread that answers at once. All take
+//! turns; a cycle waits for its answer, so that a second has as many set-points as it can.
 
 use std::error::Error;
 use std::net::UdpSocket;

@@ -1,7 +1,7 @@
 //! What somebody waits for who types in an editor: from a change to its diagnostics, and for what is asked.
 //!
-//! `cargo bench -p arl-benches --bench editor [-- CHANGES]`. Builds the command first, and speaks to `arl2rs lsp` over its
-//! standard input and output, as an editor does.
+//! `cargo bench -p arl-benches --bench editor [-- CHANGES]`. Builds the command first, and speaks to `arl2rs lsp` over
+//! its standard input and output, as an editor does.
 
 use std::time::Instant;
 

@@ -71,7 +71,7 @@ fn all_at_once(interrupts: i32) -> Result<f64, Box<dyn Error>> {
     let mut least = f64::INFINITY;
     for _ in 0..1000 {
         for level in [false, true] {
-            (1..=60).try_for_each(|channel| controller.set_di(channel, level))?;
+            (1..=60).try_for_each(|channel| controller.set_digital_input(channel, level))?;
             let start = processor_time();
             controller.step();
             if level {

@@ -1,8 +1,8 @@
 //! What a cycle takes while the other side of a connection does wrong, beside a peer that does right.
 //!
-//! `cargo bench -p arl-benches --bench faults [-- SECONDS [NAME...]]`: processor time of the controller's thread in a cycle, and
-//! how often it was put to sleep by anything but its clock. A foreground program moves, a background program talks. The peers are
-//! processes of their own.
+//! `cargo bench -p arl-benches --bench faults [-- SECONDS [NAME...]]`: processor time of the controller's thread in a
+//! cycle, and how often it was put to sleep by anything but its clock. A foreground program moves, a background program
+//! talks. The peers are processes of their own.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, reason = "a bench")]
 

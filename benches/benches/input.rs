@@ -1,13 +1,14 @@
-//! What a check costs of texts that no one should write: at most 3 s of processor time and 500 MB each, and ten times as
-//! much for ten times the text.
+//! What a check costs of texts that no one should write: at most 3 s of processor time and 500 MB each, and ten times
+//! as much for ten times the text.
 //!
-//! `cargo bench -p arl-benches --bench input [-- WORDS OF A NAME]`. Builds the command first. What is emitted is measured,
-//! too, where the text is a program.
+//! `cargo bench -p arl-benches --bench input [-- WORDS OF A NAME]`. Builds the command first. What is emitted is
+//! measured, too, where the text is a program.
 
 use std::path::Path;
 use std::process::Stdio;
 
-use arl_benches::cost::{Cost, build_command, cost, measures};
+use arl_benches::command;
+use arl_benches::cost::{Cost, cost, measures};
 use arl_benches::inputs::{Amount, all};
 
 /// Seconds and MB.
@@ -18,7 +19,7 @@ fn main() -> Result<(), String> {
         return Ok(());
     }
     let wanted: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
-    let command = build_command()?;
+    let command = command::build()?;
     let folder = std::env::temp_dir().join("arl-benches-input");
     std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
     println!("{:<48}     s   MB  of a tenth  as JSON s   MB  emitted s   MB", "");

@@ -1,8 +1,8 @@
 //! How late control cycles of 1 ms begin, beside a bare loop that sleeps to points of the clock.
 //!
-//! `cargo bench -p arl-benches --bench jitter [-- SECONDS]`. The two take turns, each in a thread of its own: as any program, and with what
-//! `Realtime` asks the system for (which needs the right to it); on a machine that does nothing else, and beside as many threads that
-//! calculate as there are cores.
+//! `cargo bench -p arl-benches --bench jitter [-- SECONDS]`. The two take turns, each in a thread of its own: as any
+//! program, and with what `Realtime` asks the system for (which needs the right to it); on a machine that does nothing
+//! else, and beside as many threads that calculate as there are cores.
 
 use std::error::Error;
 use std::sync::Arc;

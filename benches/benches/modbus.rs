@@ -1,9 +1,10 @@
-//! Requests a second that a Modbus TCP server answers: the controller's own, and that of pymodbus, each in a process of its
-//! own, for the same client. Beside them what the system takes anyway: plain Rust that reads, and writes bytes that it has ready.
+//! Requests a second that a Modbus TCP server answers: the controller's own, and that of pymodbus, each in a process of
+//! its own, for the same client. Beside them what the system takes anyway: plain Rust that reads, and writes bytes that
+//! it has ready.
 //!
-//! `cargo bench -p arl-benches --bench modbus`; pymodbus is looked for in the Python that `ARL_PEERS_PYTHON` names (`python3`
-//! where it names none). In turns: the median of the rounds. With it, on Linux, the processor time that the server takes for a
-//! request, which does not depend on what the client can do.
+//! `cargo bench -p arl-benches --bench modbus`; pymodbus is looked for in the Python that `ARL_PEERS_PYTHON` names
+//! (`python3` where it names none). In turns: the median of the rounds. With it, on Linux, the processor time that the
+//! server takes for a request, which does not depend on what the client can do.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, reason = "a bench")]
 
@@ -107,8 +108,8 @@ fn median(mut rounds: Vec<f64>) -> f64 {
     rounds[rounds.len() / 2]
 }
 
-/// How many answers the clients get in a round. Each waits for its answer before it asks again: of several requests at once,
-/// pymodbus answers the first one only.
+/// How many answers the clients get in a round. Each waits for its answer before it asks again: of several requests at
+/// once, pymodbus answers the first one only.
 fn answers(port: u16, task: Task) -> usize {
     let threads: Vec<_> = (0..task.clients).map(|_| std::thread::spawn(move || ask(port, task.registers))).collect();
     threads.into_iter().map(|thread| thread.join().unwrap()).sum()

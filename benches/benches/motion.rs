@@ -1,4 +1,5 @@
-//! Chains of blended motions: how near they come to the programmed speed, what planning a motion takes and what a cycle.
+//! Chains of blended motions: how near they come to the programmed speed, what planning a motion takes and what a
+//! cycle.
 //!
 //! `cargo bench -p arl-benches --bench motion [-- MOTIONS [CHAIN...]]`
 
@@ -64,8 +65,8 @@ struct Run {
     speeds: Vec<f64>,
 }
 
-/// The least of several runs: what a motion or a cycle costs but for what else the machine does. Every run does the same, so the
-/// least that a cycle took in any of them is what it costs.
+/// The least of several runs: what a motion or a cycle costs but for what else the machine does. Every run does the
+/// same, so the least that a cycle took in any of them is what it costs.
 fn least(robot: &Arc<Robot>, chain: &Chain, count: usize) -> Result<Run, Box<dyn Error>> {
     let mut least = once(robot, chain, count)?;
     for _ in 1..REPEATS {

@@ -1,8 +1,8 @@
 //! What it costs to record a run, to look for collisions in it, and to open what was recorded.
 //!
-//! `cargo bench -p arl-benches --bench recording [-- ROUNDS]`. Builds the command first. Runs take turns: without anything, recorded, with
-//! bodies to run into. Then recordings of growing length are opened: until the page has all but the places of the robot, and until it has those
-//! of five minutes.
+//! `cargo bench -p arl-benches --bench recording [-- ROUNDS]`. Builds the command first. Runs take turns: without
+//! anything, recorded, with bodies to run into. Then recordings of growing length are opened: until the page has all
+//! but the places of the robot, and until it has those of five minutes.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;

@@ -1,12 +1,13 @@
 //! What building programs of any size costs, as a multiple of what an empty one costs in the same run.
 //!
-//! `cargo bench -p arl-benches --bench size [-- MOTIONS|POINTS|FUNCTION|FUNCTIONS]`. Builds the command first. Counted is the
-//! processor time of the command and all that it starts, and the most memory that any of them had.
+//! `cargo bench -p arl-benches --bench size [-- MOTIONS|POINTS|FUNCTION|FUNCTIONS]`. Builds the command first. Counted
+//! is the processor time of the command and all that it starts, and the most memory that any of them had.
 
 use std::path::PathBuf;
 use std::process::Stdio;
 
-use arl_benches::cost::{Cost, build_command, cost, measures};
+use arl_benches::command;
+use arl_benches::cost::{Cost, cost, measures};
 use arl_benches::sizes::Sized;
 use arl_benches::statistics::median;
 
@@ -65,7 +66,7 @@ struct Bench {
 
 impl Bench {
     fn new() -> Result<Self, String> {
-        let command = build_command()?;
+        let command = command::build()?;
         let folder = std::env::temp_dir().join("arl-benches-size");
         // What an earlier run has left would be found up to date.
         let _ = std::fs::remove_dir_all(folder.join("cache/programs"));

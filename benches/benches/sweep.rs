@@ -1,8 +1,8 @@
 //! What a sweep costs beside the cycles of its runs.
 //!
-//! `cargo bench -p arl-benches --bench sweep [-- RUNS]`. Builds the command first. A hundredth, a tenth and all of so many runs (10 000) of some ten
-//! seconds of the robot's time: by the command, and by the program itself with nothing around it but a pipe, on all cores. What a run costs
-//! that has no cycles is not counted among theirs.
+//! `cargo bench -p arl-benches --bench sweep [-- RUNS]`. Builds the command first. A hundredth, a tenth and all of so
+//! many runs (10 000) of some ten seconds of the robot's time: by the command, and by the program itself with nothing
+//! around it but a pipe, on all cores. What a run costs that has no cycles is not counted among theirs.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};

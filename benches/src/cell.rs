@@ -21,8 +21,8 @@ pub struct Robot {
 }
 
 impl Robot {
-    /// A robot that watches so many interrupts, of the priorities from `first` on, and goes so many rounds of four motions
-    /// at such a share of its speed, in %.
+    /// A robot that watches so many interrupts, of the priorities from `first` on, and goes so many rounds of four
+    /// motions at such a share of its speed, in %.
     pub fn new(first: i32, interrupts: i32, rounds: i32, percent: f64) -> Self {
         Self { program: emitted::Globals::new(), first, interrupts, rounds, percent }
     }

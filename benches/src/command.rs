@@ -37,7 +37,7 @@ impl Place {
 /// Cargo fails, or makes no command next to the bench that asks.
 pub fn build() -> Result<PathBuf, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let arguments = ["build", "--quiet", "--release", "-p", "arl2rs"];
+    let arguments = ["build", "--quiet", "--release", "-p", "arl2rs-cli"];
     let status = Command::new(cargo).args(arguments).stdin(Stdio::null()).status();
     if !status.map_err(|error| error.to_string())?.success() {
         return Err("cargo could not build arl2rs".into());

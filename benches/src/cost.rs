@@ -1,7 +1,7 @@
 //! What a command costs: processor time and memory of it and of all that it starts.
 
 use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use nix::sys::resource::{UsageWho, getrusage};
@@ -55,20 +55,4 @@ pub fn cost<S: AsRef<OsStr>>(command: &Path, words: &[S], cache: &Path, errors: 
         (Some(seconds), Some(megabytes), Some(code)) => Ok(Cost { seconds, megabytes, code: code as i32 }),
         _ => Err(format!("{} cannot be measured", command.display())),
     }
-}
-
-/// Builds the command `arl2rs` and says where it is.
-///
-/// # Errors
-/// It does not build.
-pub fn build_command() -> Result<PathBuf, String> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let built = Command::new(cargo).args(["build", "--quiet", "--release", "-p", "arl2rs"]).status();
-    if !built.map_err(|error| error.to_string())?.success() {
-        return Err("the command does not build".into());
-    }
-    // This program lies in target/release/deps.
-    let own = std::env::current_exe().map_err(|error| error.to_string())?;
-    let command = own.ancestors().nth(2).map(|folder| folder.join("arl2rs")).filter(|path| path.is_file());
-    command.ok_or_else(|| "cargo made no arl2rs next to this bench".into())
 }

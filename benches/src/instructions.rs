@@ -1,5 +1,5 @@
-//! Instructions that a piece of work takes, counted by valgrind: a figure that does not hang on the machine's caches, clock
-//! and alignment.
+//! Instructions that a piece of work takes, counted by valgrind: a figure that does not hang on the machine's caches,
+//! clock and alignment.
 
 use std::process::{Command, Stdio};
 
@@ -9,8 +9,8 @@ pub fn can_be_counted() -> bool {
     answer.is_ok_and(|status| status.success())
 }
 
-/// The instructions of one round of `work`: this program is run again with these words and a number of rounds behind them,
-/// with one round and with two. What start and end take is the same in both.
+/// The instructions of one round of `work`: this program is run again with these words and a number of rounds behind
+/// them, with one round and with two. What start and end take is the same in both.
 ///
 /// # Errors
 /// The program cannot be run, does not end well, or valgrind does not say how many there were.

@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-/// The processor time that this thread has used. On a machine that does other things as well it says more than the clock
-/// on the wall.
+/// The processor time that this thread has used. On a machine that does other things as well it says more than the
+/// clock on the wall.
 pub fn processor_time() -> Duration {
     let time = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or(0))

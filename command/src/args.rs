@@ -33,7 +33,8 @@ pub(crate) enum Command {
         /// Show people at most so many errors and warnings, errors first; 0 for all. JSON always has all.
         #[arg(long, value_name = "N", default_value_t = MOST_SHOWN)]
         max_errors: usize,
-        /// Run programs without mistakes on the virtual clock, with the scenario of their arl.toml, and find what their robots run into.
+        /// Run programs without mistakes on the virtual clock, with the scenario of their arl.toml, and find what their
+        /// robots run into.
         #[arg(long, conflicts_with = "background")]
         collisions: bool,
         /// With --collisions: also what comes nearer to each other than so many mm.
@@ -89,8 +90,8 @@ pub(crate) enum Command {
     },
     /// Show a run in the browser: robot, path, program and signals on one time line.
     ///
-    /// Of a recording, or of a program that runs in real time, with the pendant's buttons in the page. The first line of the standard output
-    /// is the address of the page.
+    /// Of a recording, or of a program that runs in real time, with the pendant's buttons in the page. The first line
+    /// of the standard output is the address of the page.
     View {
         /// A program, or a recording that `arl2rs run --record` made, or two recordings to be compared.
         #[arg(required = true, num_args = 1..=2, value_name = "FILE.arl|RUN.mcap")]
@@ -112,7 +113,8 @@ pub(crate) enum Command {
     },
     /// Run a program once for each row of a table of parameters, on all cores.
     ///
-    /// A JSON object for each run comes on the standard output, in the order of the table. What is known from an earlier sweep does not run again.
+    /// A JSON object for each run comes on the standard output, in the order of the table. What is known from an
+    /// earlier sweep does not run again.
     Sweep {
         /// The program and the table.
         #[arg(value_name = "S.toml")]
@@ -130,9 +132,9 @@ pub(crate) enum Command {
     },
     /// Remove compiled programs and runtimes; they are compiled again when they are needed.
     ///
-    /// They are in `~/.cache/arl2rs`, `~/Library/Caches/arl2rs` or `%LOCALAPPDATA%\arl2rs`, or in the folder that the variable
-    /// ARL2RS_CACHE names. ARL2RS_CACHE_LIMIT is how many gigabytes they may take (4, or `none`): beyond that, what was not used
-    /// for longest goes.
+    /// They are in `~/.cache/arl2rs`, `~/Library/Caches/arl2rs` or `%LOCALAPPDATA%\arl2rs`, or in the folder that the
+    /// variable ARL2RS_CACHE names. ARL2RS_CACHE_LIMIT is how many gigabytes they may take (4, or `none`): beyond that,
+    /// what was not used for longest goes.
     Clean {
         /// Only what was not used for so many days.
         #[arg(long, value_name = "DAYS")]

@@ -11,7 +11,7 @@ use arl_robot::cell::{Cell, fit};
 use arl_terminal::answer;
 use arl_terminal::answer::Format;
 use arl_terminal::exit::Exit;
-use arl_terminal::failure::{COMPILE_ERRORS, Failure};
+use arl_terminal::failure::Failure;
 use arl2rs::CheckOptions;
 use arl2rs::compile::{Compiled, check_program};
 use arl2rs::render::json;
@@ -49,7 +49,7 @@ pub(crate) fn check(
             }
         }
     }
-    Ok(if refused { Exit::from(COMPILE_ERRORS) } else { Exit::SUCCESS })
+    Ok(if refused { Exit::FAILURE } else { Exit::SUCCESS })
 }
 
 /// What there is to say of files, a JSON object each, and whether there are errors.

@@ -5,13 +5,16 @@ use std::process::{Command, Stdio};
 
 use serde_json::json;
 
+use crate::run;
 use arl_project::cache::Kind;
 use arl_project::options::{Checking, RunOptions};
 use arl_project::program::{Ready, prepare_checked};
+use arl_project::robots;
 use arl_runs::collide::Scene;
 use arl_runs::listen::{Heard, Listener};
 use arl_runs::scenery::Scenery;
 use arl_terminal::answer::{self, Format};
+use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
 use arl_terminal::private_folder::PrivateFolder;
 use arl_terminal::show;
@@ -19,10 +22,6 @@ use arl_wire::Contact;
 
 /// A run ends after so many controller seconds.
 const MOST_SECONDS: f64 = 600.0;
-/// Exit codes of a program with which it has run.
-const ENDED: i32 = 0;
-const ALARM: i32 = 3;
-const OUT_OF_TIME: i32 = 4;
 /// The code of what is found, where diagnostics have theirs.
 const CODE: &str = "collision";
 
@@ -34,7 +33,8 @@ pub(crate) struct Look {
     pub clearance: f64,
 }
 
-/// Runs a program, and tells what comes too near to each other; whether something does. The scenario is that of its `arl.toml`.
+/// Runs a program, and tells what comes too near to each other; whether something does. The scenario is that of its
+/// `arl.toml`.
 ///
 /// # Errors
 /// The program does not begin, or its cell speaks to the outside, which a check must not.
@@ -49,12 +49,13 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
     let state = PrivateFolder::new("arl2rs-state-");
     let state = state.map_err(|error| Failure::Other(format!("there is no place for a state: {error}")))?;
     let options = RunOptions { state_dir: Some(state.path().to_path_buf()), ..asked.of_program(file)? };
-    let cell = super::run::cell(&options)?;
+    let cell = run::cell(&options)?;
     if !cell.islands.is_empty() || cell.buses.modbus_tcp.is_some() {
         let text = "a check runs no program whose cell has [[island]] or [modbus_tcp]; `run` tells of collisions, too";
         return Err(Failure::Usage(format!("{}: {text}", file.display())));
     }
-    let scenery = Scenery::of(&cell, options.robot.as_deref())?;
+    let robots = robots::of_cell(&cell, robots::load(options.robot.as_deref())?)?;
+    let scenery = Scenery::of(&cell, &robots, &show::warning)?;
     let (watchers, found) = Scene::of(&scenery, &show::warning)?.watch(look.clearance, false);
     let ready = prepare_checked(Kind::Program, file, options.cell.as_deref(), &options.checking())?;
     let Ran { code, why, heard } = run(ready, &options, Listener::of(watchers)?)?;
@@ -64,8 +65,8 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
         show::warning(&format!("{}: {text}", file.display()));
     }
     match code {
-        Some(ENDED) => {}
-        Some(ALARM | OUT_OF_TIME) if found.begun => {
+        Some(Exit::SUCCESS) => {}
+        Some(Exit::ALARM | Exit::OUT_OF_TIME) if found.begun => {
             let text =
                 format!("{}: its run ended with `{why}`: what would come behind that is not known", file.display());
             show::warning(&text);
@@ -78,7 +79,7 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
 
 /// How a run went.
 struct Ran {
-    code: Option<i32>,
+    code: Option<Exit>,
     /// The first words of it that are no warning.
     why: String,
     heard: Heard,
@@ -103,7 +104,7 @@ fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result
     let words = |line: &&str| !line.starts_with("warning") && !line.trim().is_empty();
     let why = said.lines().find(words).unwrap_or("it says no word").trim().to_owned();
     let (status, heard) = ended.map_err(fail)?;
-    Ok(Ran { code: status.code(), why, heard })
+    Ok(Ran { code: status.code().and_then(|code| u8::try_from(code).ok()).map(Exit), why, heard })
 }
 
 fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {

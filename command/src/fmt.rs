@@ -5,13 +5,14 @@ use arl_robot::atomic_file::{self, ChangeError};
 use arl_robot::regular_file;
 use arl_terminal::answer;
 use arl_terminal::exit::Exit;
-use arl_terminal::failure::{COMPILE_ERRORS, Failure};
+use arl_terminal::failure::Failure;
 use arl2rs::format::format;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Lays out the files, those below folders, and standard input for `-`; with `check` only names those that would change.
+/// Lays out the files, those below folders, and standard input for `-`; with `check` only names those that would
+/// change.
 pub(crate) fn fmt(files: &[PathBuf], check: bool) -> Result<Exit, Failure> {
     let mut good = true;
     for file in files {
@@ -28,7 +29,7 @@ pub(crate) fn fmt(files: &[PathBuf], check: bool) -> Result<Exit, Failure> {
             Err(failure) => good &= succeeds(Err(failure))?,
         }
     }
-    Ok(if good { Exit::SUCCESS } else { Exit::from(COMPILE_ERRORS) })
+    Ok(if good { Exit::SUCCESS } else { Exit::FAILURE })
 }
 
 /// Whether all went well with a file, and nothing had to be named. What went wrong is said, and others still have their

@@ -54,7 +54,8 @@ impl From<Failure> for HostError {
     }
 }
 
-/// A compiled library. As long as this lives nobody compiles the program anew, which would remove it: it is for loading it.
+/// A compiled library. As long as this lives nobody compiles the program anew, which would remove it: it is for loading
+/// it.
 #[derive(Debug)]
 pub struct CompiledLibrary {
     /// The file.
@@ -64,7 +65,8 @@ pub struct CompiledLibrary {
     _lock: Lock,
 }
 
-/// Says which file this code is in, where that is not the program of the process: what another one compiled is compiled anew.
+/// Says which file this code is in, where that is not the program of the process: what another one compiled is compiled
+/// anew.
 pub fn is_part_of(file: PathBuf) {
     program::is_part_of(file);
 }
@@ -145,8 +147,8 @@ pub struct TextProgram {
     _lock: Lock,
 }
 
-/// Puts a program that is given as text into the cache: its main file first, and what lies beside it, by their names. The same texts
-/// have the same folder, so that they are compiled once.
+/// Puts a program that is given as text into the cache: its main file first, and what lies beside it, by their names.
+/// The same texts have the same folder, so that they are compiled once.
 ///
 /// # Errors
 /// A name leads out of the folder, or it cannot be written.
@@ -182,7 +184,8 @@ pub fn text_program(files: &[(String, String)]) -> Result<TextProgram, HostError
     })
 }
 
-/// Compiles a program for a sweep, and gathers all that its runs depend on. `rows` may name robots and scenarios of their own.
+/// Compiles a program for a sweep, and gathers all that its runs depend on. `rows` may name robots and scenarios of
+/// their own.
 ///
 /// # Errors
 /// It has mistakes, cannot be compiled here, a file cannot be read, or no row has parameters that there are.
@@ -199,8 +202,9 @@ pub fn table(file: &Path) -> Result<Sweep, HostError> {
     safely(|| Sweep::read(file))
 }
 
-/// Makes runs on so many processes (0: one for each core), and hands out their rows in order, until `is_enough`. With `keeps`, what is known from
-/// earlier does not run again, and what is new is kept. `warn` is told what is no reason to end.
+/// Makes runs on so many processes (0: one for each core), and hands out their rows in order, until `is_enough`. With
+/// `keeps`, what is known from earlier does not run again, and what is new is kept. `warn` is told what is no reason to
+/// end.
 ///
 /// # Errors
 /// The program cannot be written to the disk.

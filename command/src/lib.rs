@@ -20,7 +20,7 @@ use arl_editor::{dap, lsp};
 use arl_project::{listing, robots};
 use arl_runs::{report, urdf};
 use arl_terminal::exit::Exit;
-use arl_terminal::failure::{Failure, USAGE};
+use arl_terminal::failure::Failure;
 use arl_terminal::{answer, interrupt};
 use arl2rs::compile::{guard, on_large_stack, remember_panics};
 use clap::Parser;
@@ -32,15 +32,16 @@ pub fn main() -> ExitCode {
     ExitCode::from(command(std::env::args_os()))
 }
 
-/// Does what these words say, the first of which is the name of the command; gives the exit code: 0 done, 1 compile errors, 2 usage, 3 alarm,
-/// 4 out of time, 130 interrupted. On Unix a program that runs may take the place of this process.
+/// Does what these words say, the first of which is the name of the command; gives the exit code: 0 done, 1 compile
+/// errors, 2 usage, 3 alarm, 4 out of time, 130 interrupted. On Unix a program that runs may take the place of this
+/// process.
 pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(said) => {
             // Where nobody can read it, the exit code says enough.
             let _ = said.print();
-            return u8::try_from(said.exit_code()).unwrap_or(USAGE);
+            return u8::try_from(said.exit_code()).unwrap_or(Exit::USAGE.0);
         }
     };
     remember_panics();
@@ -71,8 +72,8 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         Command::New { folder } => done(new::new(&folder)),
         Command::Fmt { files, check } => fmt::fmt(&files, check),
         Command::View { files, options } => view::view(&files, &options),
-        Command::Lsp => lsp::lsp(),
-        Command::Dap => dap::dap(),
+        Command::Lsp => Ok(lsp::lsp()),
+        Command::Dap => Ok(dap::dap()),
         Command::Robots { import: Some(file), .. } => print(urdf::import(&file)),
         Command::Robots { name, .. } => print(robots::robots(name.as_deref())),
     }
@@ -90,8 +91,3 @@ fn print(text: Result<String, Failure>) -> Result<Exit, Failure> {
     }
     done(answer::write(&text))
 }
-
-/// The examples of the README run.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -60,7 +60,8 @@ pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
 /// Who is to hear what the program does: collisions come first, so that they are recorded.
 fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hears>>, Failure> {
     let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;
-    let scenery = Scenery::with(&cell(options)?, robot, &show::warning)?;
+    let cell = cell(options)?;
+    let scenery = Scenery::of(&cell, &robots::of_cell(&cell, robot)?, &show::warning)?;
     let mut hearers = watchers(&scenery, options.clearance)?;
     if let Some(path) = &options.record {
         hearers.push(Box::new(Recording::create(path, &scenery, sources)?));
@@ -78,7 +79,8 @@ pub(crate) fn cell(options: &RunOptions) -> Result<Cell, Failure> {
     Ok(cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default())
 }
 
-/// Who watches what robots touch, and what they take along: where the cell has bodies, or somebody asks for a clearance.
+/// Who watches what robots touch, and what they take along: where the cell has bodies, or somebody asks for a
+/// clearance.
 pub(crate) fn watchers(scenery: &Scenery, clearance: Option<f64>) -> Result<Vec<Box<dyn Hears>>, Failure> {
     if clearance.is_none() && scenery.bodies.is_empty() {
         return Ok(Vec::new());

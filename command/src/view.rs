@@ -5,12 +5,11 @@ use crate::run;
 use arl_project::cache::Kind;
 use arl_project::program::prepare;
 use arl_project::robots;
-use arl_robot::Robot;
-use arl_robot::cell::Cell;
 use arl_runs::scenery::Scenery;
 use arl_runs::view::{self, Page, Program};
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
+use arl_terminal::show;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -38,7 +37,8 @@ fn live(program: &Path, options: &ViewOptions, page: Page) -> Result<Exit, Failu
     let options_of_run = options.run().of_program(program)?;
     let cell = run::cell(&options_of_run)?;
     let first = options_of_run.robot.as_deref();
-    let scenery = Scenery::of(&cell, first)?;
+    let robots = robots::of_cell(&cell, robots::load_with(first, &options_of_run.changed()?)?)?;
+    let scenery = Scenery::of(&cell, &robots, &show::warning)?;
     let ready = prepare(Kind::Program, program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options_of_run.arguments());
@@ -48,14 +48,7 @@ fn live(program: &Path, options: &ViewOptions, page: Page) -> Result<Exit, Failu
         sources: &ready.sources,
         scenery: &scenery,
         hearers: run::watchers(&scenery, None)?,
-        teaches: options.teach.then(|| robots_of(&cell, first)).transpose()?,
+        teaches: options.teach.then_some(robots),
     };
     view::program(program, ready.lock, page)
-}
-
-/// The robots of the channels that have one, in the order of the channels.
-fn robots_of(cell: &Cell, first: Option<&str>) -> Result<Vec<Robot>, Failure> {
-    let beside = cell.programs.channels.iter().filter(|channel| !channel.background);
-    let named = beside.map(|channel| robots::load(channel.robot.as_deref()));
-    std::iter::once(robots::load(first)).chain(named).collect()
 }

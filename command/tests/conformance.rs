@@ -1,8 +1,10 @@
-//! The conformance cases through the command: a test for each folder of `tests/conformance`, and for the example that a PLC works.
+//! The conformance cases through the command: a test for each folder of `tests/conformance`, and for the example that a
+//! PLC works.
 //!
-//! The first test that runs lets the command compile and run the cases of all folders together, as that is much sooner done
-//! than one folder after the other. `cargo run -p arl2rs -- test tests/conformance/FOLDER` does it for one folder alone.
-#![allow(clippy::disallowed_methods, clippy::expect_used, reason = "tests start processes, and may fail")]
+//! The first test that runs lets the command compile and run the cases of all folders together, as that is much sooner
+//! done than one folder after the other. `cargo run -p arl2rs-cli -- test tests/conformance/FOLDER` does it for one
+//! folder alone.
+#![allow(clippy::expect_used, reason = "tests start processes, and may fail")]
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
 //! The example with an io island: a robot and the stand-in for a PLC, in one process, over Modbus TCP.
-#![allow(clippy::disallowed_methods, clippy::expect_used, reason = "tests start processes, and may fail")]
+#![allow(clippy::expect_used, reason = "tests start processes, and may fail")]
 
 use std::path::Path;
 use std::process::Command;

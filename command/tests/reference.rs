@@ -1,6 +1,6 @@
 //! The reference: every page has its form, every example does what stands below it, and the pages of what is built in
 //! are those that the catalog gives (`UPDATE_REFERENCE=1` writes them).
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods, reason = "a test")]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test")]
 
 use arl_lang::catalog::{self, Base, Family, reference};
 use std::collections::BTreeSet;

@@ -6,7 +6,8 @@ use arl_rt::robot_driver::{Driven, DrivenTime, DriverError};
 use crate::rsi::RsiArm;
 use crate::udp::UdpArm;
 
-/// Makes the driver that `[driver]` of a cell file asks for: what [`arl_rt::Builder::drivers`] wants. Nothing is opened yet.
+/// Makes the driver that `[driver]` of a cell file asks for: what [`arl_rt::Builder::drivers`] wants. Nothing is opened
+/// yet.
 ///
 /// # Errors
 /// The protocol is one that this crate does not know.

@@ -1,9 +1,11 @@
-//! Waiting for a packet, to the microsecond. The time limit of sockets would count in ticks of the kernel: 4 ms or more.
+//! Waiting for a packet, to the microsecond. The time limit of sockets would count in ticks of the kernel: 4 ms or
+//! more.
 
 use std::net::UdpSocket;
 use std::time::Instant;
 
-/// Waits until there is something to receive, or the time is over; whether there is. A socket with an error has something, too.
+/// Waits until there is something to receive, or the time is over; whether there is. A socket with an error has
+/// something, too.
 #[cfg(unix)]
 pub(crate) fn wait_until(socket: &UdpSocket, until: Instant) -> bool {
     use rustix::event::{PollFd, PollFlags, Timespec, poll};

@@ -1,5 +1,5 @@
-//! The driver over RSI against a robot that sends and waits as the documentation says. What an arm with masses does stands in
-//! `tests/peers/arms`.
+//! The driver over RSI against a robot that sends and waits as the documentation says. What an arm with masses does
+//! stands in `tests/peers/arms`.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "these are tests")]
 
@@ -58,7 +58,8 @@ fn ask(socket: &UdpSocket, to: &str, text: &str) -> Option<Answered> {
     Some(answered(std::str::from_utf8(&bytes[..length]).unwrap()))
 }
 
-/// A robot that begins at 20 deg, is where it was told to be, and sends every `step` ms of its time until it is told to stop.
+/// A robot that begins at 20 deg, is where it was told to be, and sends every `step` ms of its time until it is told to
+/// stop.
 fn robot(to: String, step: u64, ready: u8) -> JoinHandle<Vec<Answered>> {
     std::thread::spawn(move || {
         let socket = UdpSocket::bind("127.0.0.1:0").unwrap();

@@ -1,9 +1,5 @@
 //! The language server and the debug adapter, for editors.
 
 pub mod dap;
+mod framing;
 pub mod lsp;
-
-/// The examples of the README run.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -1,7 +1,7 @@
 //! A compiled ARL program as a shared library, behind a small versioned C interface: `arl.h` describes it.
 //!
-//! [`library!`] makes a crate such a library; `arl2rs build --library` writes one that uses it. With the feature `load`,
-//! `Library` opens one from Rust.
+//! [`library!`] makes a crate such a library; `arl2rs build --library` writes one that uses it. With the feature
+//! `load`, `Library` opens one from Rust.
 //!
 //! Whatever crosses the interface is plain C: pointers, numbers, functions. No panic crosses it.
 

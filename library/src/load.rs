@@ -89,7 +89,8 @@ impl Library {
         Ok(Self { interface: unsafe { &*interface } })
     }
 
-    /// A run at the start of its first cycle, with arguments as on a command line. With `traced` it keeps the trace of the first robot.
+    /// A run at the start of its first cycle, with arguments as on a command line. With `traced` it keeps the trace of
+    /// the first robot.
     ///
     /// # Errors
     /// What is wrong with the arguments, or why there is no controller.
@@ -117,22 +118,23 @@ impl Library {
     }
 }
 
-/// A run of a program. It goes on only on the thread that began it: elsewhere everything is refused but [`stop`](Self::stop), texts are empty, and a
-/// run that is dropped there stays in memory.
+/// A run of a program. It goes on only on the thread that began it: elsewhere everything is refused but
+/// [`stop`](Self::stop), texts are empty, and a run that is dropped there stays in memory.
 #[derive(Debug)]
 pub struct Session {
     run: NonNull<Served>,
     interface: &'static Interface,
 }
 
-// SAFETY: the other side of the interface looks at which thread calls, and does nothing on another one than that of the run.
+// SAFETY: the other side of the interface looks at which thread calls, and does nothing on another one than that of the
+// run.
 unsafe impl Send for Session {}
 // SAFETY: as for `Send`; what takes `&self` may be called while another call is under way.
 unsafe impl Sync for Session {}
 
 impl Session {
-    /// Goes on for so many cycles, or until the run is over: then its exit code. `alone`: nobody else changes anything, so that programs
-    /// that all wait in vain end it.
+    /// Goes on for so many cycles, or until the run is over: then its exit code. `alone`: nobody else changes anything,
+    /// so that programs that all wait in vain end it.
     ///
     /// # Errors
     /// The run has panicked.
@@ -161,7 +163,8 @@ impl Session {
         self.tried(|run, why| unsafe { (self.interface.order)(run, order.as_ptr(), take_bytes, why) }).map(drop)
     }
 
-    /// Which signals and global variables [`observe`](Self::observe) tells behind the row of the trace: `["do.1", "global.placed"]`.
+    /// Which signals and global variables [`observe`](Self::observe) tells behind the row of the trace: `["do.1",
+    /// "global.placed"]`.
     ///
     /// # Errors
     /// Something is not there, or no number; then nothing changes.
@@ -171,7 +174,8 @@ impl Session {
         self.tried(|run, why| unsafe { (self.interface.watch)(run, names.as_ptr(), take_bytes, why) }).map(drop)
     }
 
-    /// Fills in the last cycle's row of the trace, then what is watched, as far as there is room; how many numbers there are.
+    /// Fills in the last cycle's row of the trace, then what is watched, as far as there is room; how many numbers
+    /// there are.
     pub fn observe(&mut self, numbers: &mut [f64]) -> usize {
         // SAFETY: as in `go_on`; there is room for so many.
         unsafe { (self.interface.observe)(self.run.as_ptr(), numbers.as_mut_ptr(), numbers.len()) }
@@ -209,8 +213,8 @@ impl Session {
         }
     }
 
-    /// What came of the run, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s and the alarms; with
-    /// `--report` also what the motions of the first robot were together.
+    /// What came of the run, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s and
+    /// the alarms; with `--report` also what the motions of the first robot were together.
     pub fn summary(&mut self) -> String {
         text(self.taken(self.interface.summary))
     }
@@ -230,8 +234,9 @@ impl Session {
         text(self.taken(self.interface.state))
     }
 
-    /// The rows of the trace since the last call, one behind the other. With `--trace-columns file` among its words each has one number more
-    /// at its end: which of [`files`](Self::files) its line is of, from 0; no number where no motion is executed.
+    /// The rows of the trace since the last call, one behind the other. With `--trace-columns file` among its words
+    /// each has one number more at its end: which of [`files`](Self::files) its line is of, from 0; no number where no
+    /// motion is executed.
     pub fn take_rows(&mut self) -> Vec<f64> {
         let bytes = self.taken(self.interface.rows);
         bytes.chunks_exact(8).map(|double| f64::from_ne_bytes(double.try_into().unwrap_or_default())).collect()

@@ -96,7 +96,10 @@ fn what_came_of_a_run_is_told_with_what_its_motions_did() {
     run.go_on(u64::MAX, true).unwrap();
     let (summary, report) = (run.summary(), run.report());
     assert!(summary.starts_with("{\"outcome\":\"ended\",\"code\":0,"), "{summary}");
-    assert!(summary.contains("\"motions\":1,\"way\":") && summary.contains("\"alarms\":[]}"), "{summary}");
+    assert!(
+        summary.contains("\"motions\":1,\"way\":") && summary.contains("\"alarms\":[],\"ended_by\":null}"),
+        "{summary}"
+    );
     assert_eq!(report.lines().count(), 2, "{report}");
     let mut run = begun(&[]);
     run.order("di.1 = true").unwrap();

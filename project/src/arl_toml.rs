@@ -1,5 +1,5 @@
-//! `arl.toml`: what a command does not say of the robot and the cell that programs are for. It lies beside a program, or
-//! in a folder above it; its paths count from its own folder. What the command says goes first.
+//! `arl.toml`: what a command does not say of the robot and the cell that programs are for. It lies beside a program,
+//! or in a folder above it; its paths count from its own folder. What the command says goes first.
 
 use crate::options::{Checking, RunOptions};
 use crate::program_path;
@@ -64,6 +64,9 @@ fn is_there(path: &Path) -> bool {
 }
 
 /// Reads the file, which is given in full; so are then the paths in it.
+///
+/// # Errors
+/// It cannot be read, or a line is not as the file is written: the line, and what it may say.
 pub fn read(path: &Path) -> Result<ArlToml, Failure> {
     let text = regular_file::read_text(path).map_err(|error| Failure::io("read", path, &error))?;
     let source = Source { file: NAME, text: &text };
@@ -146,6 +149,10 @@ fn take<T: Clone>(own: &mut Option<T>, other: &Option<T>) -> Option<T> {
 
 impl Checking {
     /// The same, with what the `arl.toml` of a program says besides. With `--verbose` it is told what came from where.
+    ///
+    /// # Errors
+    /// The program is not there or no file of ARL; a file beside it or above cannot be read, or names what is not
+    /// there.
     pub fn of_program(&self, program: &Path) -> Result<Self, Failure> {
         program_path::check(program)?;
         self.with(&of_program(program)?.unwrap_or_default())
@@ -169,6 +176,9 @@ impl Checking {
 
 impl RunOptions {
     /// The same, with what the `arl.toml` of a program says besides. With `--verbose` it is told what came from where.
+    ///
+    /// # Errors
+    /// As for [`Checking::of_program`].
     pub fn of_program(&self, program: &Path) -> Result<Self, Failure> {
         program_path::check(program)?;
         let file = of_program(program)?.unwrap_or_default();

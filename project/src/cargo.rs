@@ -45,6 +45,10 @@ pub struct RustError {
 }
 
 /// Compiles the project in `folder`, with what is in `target`. What of that is damaged is made anew.
+///
+/// # Errors
+/// cargo is not there or cannot be started, another package cannot be had, or the disk does not take what is made. What
+/// rustc says of the program is no error, but part of what comes back.
 pub fn build(folder: &Path, target: &Path, release: bool, progress: &Progress) -> Result<Built, Failure> {
     let shared = target.parent().unwrap_or(target);
     // cargo lets one process at a time compile there, too.
@@ -55,7 +59,7 @@ pub fn build(folder: &Path, target: &Path, release: bool, progress: &Progress) -
     let is_first = !profile.join("deps").is_dir() && !show::is_watched();
     let begun = Instant::now();
     if is_first {
-        show::say("compiling the runtime, once for all programs: this takes a minute or so\n");
+        show::say("compiling the runtime, once for all programs: this takes a minute or two\n");
     }
     let damaged = own.take_damaged();
     if !damaged.is_empty() {

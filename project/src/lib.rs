@@ -1,5 +1,5 @@
-//! What belongs to a program (its robot, its cell, its `arl.toml`), and its way from source texts to a compiled program, with as
-//! little work as the changes need.
+//! What belongs to a program (its robot, its cell, its `arl.toml`), and its way from source texts to a compiled
+//! program, with as little work as the changes need.
 
 pub mod arl_toml;
 pub mod cache;
@@ -15,8 +15,3 @@ pub mod runtime;
 pub mod several;
 pub mod stamp;
 mod trouble;
-
-/// The examples of the README run.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

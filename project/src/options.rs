@@ -38,14 +38,15 @@ pub struct RunOptions {
     /// The cell: io, buses, home points.
     #[arg(long, value_name = "FILE")]
     pub cell: Option<PathBuf>,
-    /// Move the robots that the cell has a `[driver]` for. Without this all robots are simulated, whatever the cell says.
+    /// Move the robots that the cell has a `[driver]` for. Without this all robots are simulated, whatever the cell
+    /// says.
     #[arg(long)]
     pub drive: bool,
     /// Run as fast as possible, or in real time.
     #[arg(long, value_enum)]
     pub clock: Option<Clock>,
-    /// Run in real time, with what the system gives the control cycle: the highest priority, its memory locked, a core of its own (the last
-    /// one, or this). What it does not allow is told.
+    /// Run in real time, with what the system gives the control cycle: the highest priority, its memory locked, a core
+    /// of its own (the last one, or this). What it does not allow is told.
     #[arg(long, value_name = "CORE", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub realtime: Option<String>,
     /// The folder that the program's files are in; the program's folder if absent.
@@ -63,27 +64,27 @@ pub struct RunOptions {
     /// Columns of the trace behind those that it always has, with commas between: `file`, the file that the line is of.
     #[arg(long, value_name = "COLUMN", requires = "trace")]
     pub trace_columns: Option<String>,
-    /// Record the run for viewers of robot data (Foxglove, Lichtblick, Rerun): frames, joints, io, program and motion pointer, messages,
-    /// alarms, what each motion did. A description of the robots is written beside it: cell.urdf.
+    /// Record the run for viewers of robot data (Foxglove, Lichtblick, Rerun): frames, joints, io, program and motion
+    /// pointer, messages, alarms, what each motion did. A description of the robots is written beside it: cell.urdf.
     #[arg(long, value_name = "FILE.mcap")]
     pub record: Option<PathBuf>,
-    /// Look for collisions, and warn also where robots, bodies of the cell and what is carried come nearer to each other than so many
-    /// mm. Without it they are looked for where the cell has bodies.
+    /// Look for collisions, and warn also where robots, bodies of the cell and what is carried come nearer to each
+    /// other than so many mm. Without it they are looked for where the cell has bodies.
     #[arg(long, value_name = "MM", value_parser = clearance)]
     pub clearance: Option<f64>,
-    /// Say at the end what each line's motions did: speeds, times, blends, the closest limit. With =FILE: each motion as
-    /// a JSON object in a line of the file.
+    /// Say at the end what each line's motions did: speeds, times, blends, the closest limit. With =FILE: each motion
+    /// as a JSON object in a line of the file.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
     pub report: Option<PathBuf>,
-    /// The report of the whole run in another form: cycle time by line, moving and waiting, signals, contacts. Without --report=FILE it goes
-    /// to the standard error.
+    /// The report of the whole run in another form: cycle time by line, moving and waiting, signals, contacts. Without
+    /// --report=FILE it goes to the standard error.
     #[arg(long, value_enum, requires = "report")]
     pub format: Option<ReportFormat>,
     /// Draw the motion afterwards: the way of the TCP, its speed, the axes' speeds.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
-    /// Show a live screen with the program, the robot and io, and keys for start, pause, step, reset, override and inputs.
-    /// The program runs in real time. Where the standard output is no terminal, it runs as without this option.
+    /// Show a live screen with the program, the robot and io, and keys for start, pause, step, reset, override and
+    /// inputs. The program runs in real time. Where the standard output is no terminal, it runs as without this option.
     #[arg(long, conflicts_with_all = ["plot", "clock"])]
     pub pendant: bool,
     /// The loop running mode: a program that ends is reset and begins again.
@@ -104,8 +105,8 @@ pub struct RunOptions {
     /// The date at the start on the virtual clock: `now`, or a time like 2000-01-01T00:00:00.
     #[arg(long, value_name = "T")]
     pub start_time: Option<String>,
-    /// Another value at one place for this run: `global.pitch=80`, `robot.axis.1.vel=90`, `io.event.2.at=1.5`, `cell.KEYS=VALUE`. Entries
-    /// of lists count from 1. As often as there are places.
+    /// Another value at one place for this run: `global.pitch=80`, `robot.axis.1.vel=90`, `io.event.2.at=1.5`,
+    /// `cell.KEYS=VALUE`. Entries of lists count from 1. As often as there are places.
     #[arg(long = "set", value_name = "PLACE=VALUE")]
     pub changes: Vec<String>,
     /// Tell what came from the command line and what from an `arl.toml` beside the program or above it.
@@ -114,6 +115,9 @@ pub struct RunOptions {
 }
 
 /// A distance in mm.
+///
+/// # Errors
+/// It is no number, negative or not finite.
 pub fn clearance(text: &str) -> Result<f64, String> {
     let distance = text.parse::<f64>().ok().filter(|distance| distance.is_finite() && *distance >= 0.0);
     distance.ok_or_else(|| "expected a distance in mm, 0 or more".into())

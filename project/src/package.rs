@@ -28,6 +28,9 @@ pub struct EmittedOther {
 }
 
 /// Writes the project of a program. `folder` is that of its files.
+///
+/// # Errors
+/// A file of it cannot be written.
 pub fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &Path) -> Result<(), Failure> {
     manifest(&place.folder, &place.name, runtime, (rust.kind, PROGRAM_LEVEL))?;
     let source = |name: &str| place.folder.join("src").join(name);
@@ -75,9 +78,10 @@ pub fn other(other: &EmittedOther, module: &str) -> String {
 /// How far programs are optimised: far enough for loops, and soon done.
 const PROGRAM_LEVEL: u8 = 1;
 
-/// How the runtime is compiled, which everybody waits for once. What moves robots is as fast as it can be, in one piece each: between pieces
-/// nothing small is inlined. The rest of the runtime is mostly called, and seldom loops: small is fast enough there. What reads files at the start,
-/// is only compiled where it is used, or is not used at all, needs no optimisation of its own.
+/// How the runtime is compiled, which everybody waits for once. What moves robots is as fast as it can be, in one piece
+/// each: between pieces nothing small is inlined. The rest of the runtime is mostly called, and seldom loops: small is
+/// fast enough there. What reads files at the start, is only compiled where it is used, or is not used at all, needs no
+/// optimisation of its own.
 const RUNTIME: &str = "\
 arl-lang = { opt-level = 1, codegen-units = 2 }
 arl-motion = { opt-level = 2, codegen-units = 1 }
@@ -107,6 +111,9 @@ pub const SETTINGS: [&str; 6] = [
 ];
 
 /// Writes Cargo.toml, and Cargo.lock where the versions of other packages are known.
+///
+/// # Errors
+/// One of them cannot be written.
 pub fn manifest(folder: &Path, name: &str, runtime: &Unpacked, (kind, level): (Kind, u8)) -> Result<(), Failure> {
     let (crate_type, library) = match kind {
         Kind::Library => ("[lib]\ncrate-type = [\"cdylib\"]\n\n", format!("arl-library = {}\n", runtime.library)),

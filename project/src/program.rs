@@ -36,6 +36,9 @@ pub struct Ready {
 }
 
 /// The options of a check.
+///
+/// # Errors
+/// The robot is none, or the cell file cannot be read.
 pub fn check_options(checking: &Checking) -> Result<CheckOptions, Failure> {
     let script_dir = match &checking.script_dir {
         Some(folder) => Some(std::path::absolute(folder).map_err(|error| Failure::io("use", folder, &error))?),
@@ -84,6 +87,9 @@ pub struct Done {
 
 impl<'a> Job<'a> {
     /// A program and what the cell has beside it.
+    ///
+    /// # Errors
+    /// A robot or a cell file cannot be read, or the channels of the cell are none.
     pub fn new(file: &'a Path, cell: Option<&'a Path>, checking: &Checking) -> Result<Self, Failure> {
         let others = several::named(cell, checking.robot.as_deref())?;
         let with_options = |other: Other| check_options(&other.checking(checking)).map(|options| (other, options));
@@ -103,11 +109,17 @@ impl<'a> Job<'a> {
     }
 
     /// The main file as an absolute path.
+    ///
+    /// # Errors
+    /// The current folder cannot be had.
     pub fn main(&self) -> Result<PathBuf, Failure> {
         absolute(self.file)
     }
 
     /// Where the program is kept.
+    ///
+    /// # Errors
+    /// The current folder cannot be had.
     pub fn place(&self, cache: &Cache) -> Result<Place, Failure> {
         let place = match self.cell {
             Some(cell) => cache.programs(&self.main()?, &absolute(cell)?),
@@ -164,11 +176,17 @@ pub fn bug(bug: Bug) -> Failure {
 }
 
 /// Compiles a program, with those that its cell names, unless that was done before.
+///
+/// # Errors
+/// The program is refused, or cannot be compiled: why, and where.
 pub fn prepare(kind: Kind, file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
     prepare_job(&Job::new(file, cell, checking)?.into_kind(kind), checking)
 }
 
 /// The same for one of which a check has told all warnings.
+///
+/// # Errors
+/// As for [`prepare`].
 pub fn prepare_checked(kind: Kind, file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
     prepare_job(&Job { is_checked: true, ..Job::new(file, cell, checking)?.into_kind(kind) }, checking)
 }
@@ -247,8 +265,8 @@ fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Re
     Ok(Ready { program, lock, sources })
 }
 
-/// Makes a program as new as its sources, which have the text that it was compiled from, even where they were written again:
-/// alarms show the lines of files that are no newer than the program.
+/// Makes a program as new as its sources, which have the text that it was compiled from, even where they were written
+/// again: alarms show the lines of files that are no newer than the program.
 fn renew(program: &Path, sources: &[PathBuf]) {
     let time = |path: &Path| path.metadata().and_then(|about| about.modified()).ok();
     let newest = sources.iter().filter_map(|path| time(path)).max();
@@ -283,6 +301,9 @@ fn build(
 }
 
 /// Compiles emitted Rust with cargo; the executable is put at `to`.
+///
+/// # Errors
+/// As for [`cargo::build`], and what rustc refuses.
 pub fn compile_rust(
     cache: &Cache,
     place: &Place,

@@ -1,14 +1,17 @@
 //! `arl2rs robots`, and what the compiler needs to know of a robot.
 
 use arl_lang::catalog::Family;
-use arl_lang::near::nearest;
-use arl_robot::changes::{Changes, Part};
-use arl_robot::{Robot, regular_file};
+use arl_robot::Robot;
+use arl_robot::cell::Cell;
+use arl_robot::changes::Changes;
+use arl_robot::robot::RobotError;
 use arl_terminal::failure::Failure;
 use std::borrow::Cow;
-use std::path::Path;
 
-/// Lists the built-in robots, or prints the file of one.
+/// The list of the built-in robots, or the text of the file of one.
+///
+/// # Errors
+/// None of this name is built in.
 pub fn robots(name: Option<&str>) -> Result<String, Failure> {
     let Some(name) = name else {
         let width = Robot::builtin_names().map(str::len).max().unwrap_or(0);
@@ -20,59 +23,63 @@ pub fn robots(name: Option<&str>) -> Result<String, Failure> {
         };
         return Ok(Robot::builtin_names().enumerate().map(line).collect());
     };
-    Robot::text(name).map(ToString::to_string).ok_or_else(|| Failure::Usage(unknown(name)))
-}
-
-fn unknown(name: &str) -> String {
-    let hint = match nearest(name, Robot::builtin_names()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("built in are {}", Robot::builtin_names().collect::<Vec<_>>().join(", ")),
-    };
-    format!("no robot `{name}` is built in, and there is no such file; {hint}")
+    Robot::builtin(name).map_err(refused)?;
+    Ok(Robot::text(name).unwrap_or_default().to_owned())
 }
 
 /// The kind of the robot that `--robot` names. The rest of a robot file is read when the program starts.
-pub fn family(robot: Option<&str>) -> Result<Family, Failure> {
+///
+/// # Errors
+/// There is none, or its file does not say it.
+pub(crate) fn family(robot: Option<&str>) -> Result<Family, Failure> {
     if robot.is_none() {
         return Ok(Family::default());
     }
     let (file, text) = text(robot)?;
-    family_in(&text, &file)
+    family_in(&text, file)
 }
 
 /// The name and the text of the file of the robot that `--robot` names, or of the default one.
-pub fn text(robot: Option<&str>) -> Result<(String, Cow<'static, str>), Failure> {
-    let Some(robot) = robot else {
-        let name = Robot::builtin_names().next().unwrap_or_default();
-        return Ok((name.to_owned(), Robot::text(name).unwrap_or_default().into()));
-    };
-    if let Some(text) = Robot::text(robot) {
-        return Ok((robot.to_owned(), text.into()));
-    }
-    match regular_file::read_text(Path::new(robot)) {
-        Ok(text) => Ok((robot.to_owned(), text.into())),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound && is_name(robot) => {
-            Err(Failure::Usage(unknown(robot)))
-        }
-        Err(error) => Err(Failure::Usage(format!("cannot read the robot file {robot}: {error}"))),
-    }
+///
+/// # Errors
+/// There is none.
+pub(crate) fn text(robot: Option<&str>) -> Result<(&str, Cow<'static, str>), Failure> {
+    let robot = named(robot);
+    Ok((robot, Robot::source(robot).map_err(refused)?))
 }
 
 /// The robot that `--robot` names, or the default one.
+///
+/// # Errors
+/// There is none, or its file is wrong.
 pub fn load(robot: Option<&str>) -> Result<Robot, Failure> {
     load_with(robot, &Changes::default())
 }
 
 /// The same with other values at some places.
+///
+/// # Errors
+/// As for [`load`], or there is no such place.
 pub fn load_with(robot: Option<&str>, changes: &Changes) -> Result<Robot, Failure> {
-    let (name, text) = text(robot)?;
-    let usage = |error: &dyn std::fmt::Display| Failure::Usage(error.to_string());
-    let text = changes.apply(Part::Robot, &name, text.into_owned()).map_err(|error| usage(&error))?;
-    Robot::parse(&name, &text).map_err(|error| usage(&error))
+    Robot::load_with(named(robot), changes).map_err(refused)
 }
 
-fn is_name(robot: &str) -> bool {
-    Path::new(robot).extension().is_none() && !robot.contains(['/', '\\'])
+/// The robots of a cell's channels that have one, in the order of the channels; `first` is that of the first one.
+///
+/// # Errors
+/// One of the others is none.
+pub fn of_cell(cell: &Cell, first: Robot) -> Result<Vec<Robot>, Failure> {
+    let beside = cell.programs.channels.iter().filter(|channel| !channel.background);
+    let named = beside.map(|channel| load(channel.robot.as_deref()));
+    std::iter::once(Ok(first)).chain(named).collect()
+}
+
+fn named(robot: Option<&str>) -> &str {
+    robot.or_else(|| Robot::builtin_names().next()).unwrap_or_default()
+}
+
+fn refused(error: RobotError) -> Failure {
+    Failure::Usage(error.to_string())
 }
 
 fn family_in(text: &str, file: &str) -> Result<Family, Failure> {

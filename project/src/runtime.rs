@@ -116,7 +116,7 @@ impl Runtime {
 fn gone(checkout: &Path) -> Failure {
     Failure::Other(format!(
         "this arl2rs works on the checkout {}, which is gone, so that no program can be compiled\n\
-         help: `cargo install --locked --path transpiler` in a checkout installs a command that carries what it needs",
+         help: `cargo install --locked --path command` in a checkout installs a command that carries what it needs",
         checkout.display()
     ))
 }

@@ -27,6 +27,9 @@ impl Other {
     }
 
     /// The folder of its files, counted from that of the main file where it is below.
+    ///
+    /// # Errors
+    /// The current folder cannot be had.
     pub fn folder(&self, main: &Path) -> Result<String, Failure> {
         let (main, file) = (absolute(main)?, absolute(&self.path)?);
         let folder = file.parent().unwrap_or(Path::new(""));
@@ -64,8 +67,8 @@ struct All<'a> {
 }
 
 impl All<'_> {
-    /// Adds a program that a channel runs or can load: one with this robot (none: the default one), or one in the background.
-    /// `line` is that of the channel.
+    /// Adds a program that a channel runs or can load: one with this robot (none: the default one), or one in the
+    /// background. `line` is that of the channel.
     fn add(&mut self, file: String, robot: Option<Option<&str>>, line: Option<u32>) -> Result<(), Failure> {
         let family = robot.map(robots::family).transpose()?;
         let Some((known, before)) = self.others.iter_mut().find(|(it, _)| it.file == file) else {
@@ -106,6 +109,9 @@ fn kind(family: Family) -> &'static str {
 }
 
 /// The path from the root, with a message that names it where there is none.
+///
+/// # Errors
+/// The path is empty, or the current folder cannot be had.
 pub fn absolute(path: &Path) -> Result<PathBuf, Failure> {
     std::path::absolute(path).map_err(|error| Failure::io("use", path, &error))
 }

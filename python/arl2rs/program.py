@@ -151,7 +151,9 @@ def _compiled(arguments: dict[str, Any]) -> Program:
 
 def _full(path: StrPath | None) -> StrPath | None:
     """A file in full; the name of a robot stays."""
-    return Path(path).absolute() if path is not None and Path(path).exists() else path
+    if path is None or os.fspath(path) == NO_SCENARIO:
+        return path
+    return Path(path).absolute() if Path(path).exists() else path
 
 
 def _scenario(path: StrPath | None) -> StrPath | None:
@@ -183,7 +185,7 @@ class Program:
         self.path = there(program, "a program") if program is not None else Path() if self._text is None else self._text.path
         self._arguments: CompileArguments = {"robot": robot, "cell": cell, "scenario": _scenario(scenario), "script_dir": script_dir}
         self._given = given(self.path, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
-        with told, notice(f"compiling {self.path.name}: the first time that takes minutes, after a change seconds"):
+        with told, notice(f"compiling {self.path.name}: the first time that takes a minute or two, after a change seconds"):
             try:
                 self._library = _arl2rs.Library(self._given)
             except _arl2rs.Mistakes as problem:
@@ -223,6 +225,11 @@ class Program:
         """The signals of the cell: inputs and outputs, each with what the cell calls it."""
         with told:
             return tuple(Signal(signal, name) for signal, name in _arl2rs.signals(self._given))
+
+    @cached_property
+    def _kinds(self) -> Mapping[str, str]:
+        """The signals that the cell has names for, by these."""
+        return {signal.name: signal.signal for signal in self.signals if signal.name is not None}
 
     @property
     def columns(self) -> tuple[str, ...]:

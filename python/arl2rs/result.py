@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -69,6 +69,9 @@ class Result:
     way: float | None = None
     """How far its TCP went, mm."""
     alarms: tuple[Alarm, ...] = ()
+    """All alarms, also those of channels that ended before the run did, and those that were cleared."""
+    ended_by: Alarm | None = None
+    """The alarm that ended the run: that of the first of its channels that one ended."""
     messages: tuple[Message, ...] = field(default=(), repr=False)
     warnings: tuple[str, ...] = ()
     report: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
@@ -93,8 +96,8 @@ class Result:
 
         Raises `AlarmError` with file and line where an alarm ended it, `UnfinishedError` where it did not end.
         """
-        if self.alarms and self.outcome == "alarm":
-            raise AlarmError(ending(self.alarms))
+        if self.ended_by is not None:
+            raise AlarmError(self.ended_by)
         if not self.ended:
             raise UnfinishedError("; ".join(self.warnings) or f"the run did not come to its end: {self.outcome}")
         return self
@@ -113,17 +116,18 @@ def alarms_of(figures: Mapping[str, Any]) -> tuple[Alarm, ...]:
     return tuple(Alarm(**alarm) for alarm in figures["alarms"])
 
 
-def ending(alarms: Sequence[Alarm]) -> Alarm:
-    """The alarm that ended a run: the first of the channel that ended last, whose later ones follow from it."""
-    return next(alarm for alarm in alarms if alarm.channel == alarms[-1].channel)
+def ended_by(figures: Mapping[str, Any]) -> Alarm | None:
+    """The alarm that ended the run of a summary."""
+    alarm = figures["ended_by"]
+    return None if alarm is None else Alarm(**alarm)
 
 
 def of_summary(summary: str, said: str, report: str = "", rows: NDArray[np.float64] | None = None, columns: tuple[str, ...] = ()) -> Result:
     """The result that the Rust side tells; `rows` are those of the trace."""
     figures = json.loads(summary)
     figures.pop("real_time", None)
-    alarms = alarms_of(figures)
-    del figures["alarms"]
+    alarms, ending = alarms_of(figures), ended_by(figures)
+    del figures["alarms"], figures["ended_by"]
     lines = [json.loads(line) for line in said.split("\n") if line]
     told = [json.loads(line) for line in report.split("\n") if line]
     motions = tuple(row for row in told if "motion" in row)
@@ -132,6 +136,7 @@ def of_summary(summary: str, said: str, report: str = "", rows: NDArray[np.float
     return Result(
         **figures,
         alarms=alarms,
+        ended_by=ending,
         messages=tuple(Message(**line["message"]) for line in lines if "message" in line),
         warnings=tuple(line["warning"] for line in lines if "warning" in line),
         report=motions,

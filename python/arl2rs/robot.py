@@ -173,7 +173,7 @@ class Robot:
         if len(starts) not in (1, len(rows)):
             raise RefusedError(f"near has {len(starts)} rows: expected 1, or {len(rows)} as there are poses")
         if not np.isfinite(starts).all():
-            raise RefusedError("near has a number that is none")
+            raise RefusedError("near: expected finite numbers: deg, or mm where an axis is linear")
         cfg = how[0]
         if cfg is not None and cfg not in self.configurations:
             raise RefusedError(f"{self.name} has no configuration {cfg}: {', '.join(map(str, self.configurations))} are")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _arl2rs
 from .problems import AlarmError, RefusedError, SessionError, told
-from .result import Alarm, Result, alarms_of, ending, of_summary
+from .result import Alarm, Result, alarms_of, ended_by, of_summary
 from .values import plain
 from .variables import Watch, find
 
@@ -117,17 +117,9 @@ class Session:
         """
         if cycles < 0:
             raise RefusedError(f"a session does not step back: {cycles} cycles; resume() of an earlier snapshot() does")
-        was_over = self.is_over
-        before = self._run.gone
-        try:
-            with told:
-                self.code = self._run.step(cycles, alone, self._numbers)
-        finally:
-            # Ctrl-C comes between cycles: those before it are gone.
-            if not was_over:
-                self._note_cycles(self._run.gone - before, alone)
+        self._go(self._run.step, cycles, alone, self._numbers)
         if self.code == ALARMED:
-            raise AlarmError(ending(self.alarms))
+            raise self._alarm()
         return self._numbers.copy()
 
     def observe(self) -> NDArray[np.float64]:
@@ -171,14 +163,14 @@ class Session:
 
     def set(self, **signals: bool | float) -> None:
         """Sets inputs, by what the cell calls them or as `di_5`, `ai_2`. Digital ones take truth values, 0 and 1."""
-        called = {signal.name: signal.signal for signal in self._program.signals if signal.name is not None}
         for name, value in signals.items():
-            kind, _, channel = name.partition("_")
-            is_numbered = kind in ("di", "ai", "internal") and channel.isdigit()
-            signal = f"{kind}.{channel}" if is_numbered else called.get(name, name)
+            kind, _, channel = name.rpartition("_")
+            is_numbered = kind in ("di", "ai", "internal", "internal_do") and channel.isdigit()
+            if not is_numbered:
+                kind = self._program._kinds.get(name, "").partition(".")[0]
             given = plain(value, name)
             # What is observed is a number.
-            if given in (0, 1) and signal.startswith(("di.", "internal.")):
+            if given in (0, 1) and kind in ("di", "internal", "internal_do"):
                 given = bool(given)
             self.order(f"{f'{kind}.{channel}' if is_numbered else name} = {json.dumps(given)}")
         self.observe()
@@ -229,12 +221,7 @@ class Session:
 
     def finish(self) -> Result:
         """Goes on to the end of the run, where nobody changes anything any more; gives what came of it: `Result.check` raises an alarm."""
-        before = self._run.gone
-        try:
-            with told:
-                self.code = self._run.go_on(2**63, True)
-        finally:
-            self._note_cycles(self._run.gone - before, True)
+        self._go(self._run.go_on, 2**63, True)
         return self.result()
 
     def snapshot(self) -> Snapshot:
@@ -270,10 +257,28 @@ class Session:
         if self.time == 0:
             raise RefusedError("global variables get their first values in the first cycle: step first, or give `globals` to the session")
 
+    def _go(self, act: Callable[..., int | None], cycles: int, alone: bool, *more: Any) -> None:
+        """Goes on. Ctrl-C comes between cycles: those before it are gone."""
+        was_over, before = self.is_over, self._run.gone
+        try:
+            with told:
+                self.code = act(cycles, alone, *more)
+        except KeyboardInterrupt:
+            self._note_cycles(self._run.gone - before, alone)
+            raise
+        if not was_over:
+            self._note_cycles(self._run.gone - before, alone)
+
+    def _alarm(self) -> AlarmError:
+        """That of the alarm that ended the run."""
+        with told:
+            ending = ended_by(json.loads(self._run.summary()))
+        return AlarmError(self.alarms[-1] if ending is None else ending)
+
     def _do(self, what: str, *arguments: str) -> None:
         """Does something to a run that is not over."""
         if self.code == ALARMED:
-            raise AlarmError(ending(self.alarms))
+            raise self._alarm()
         if self.code is not None:
             with told:
                 outcome = json.loads(self._run.summary())["outcome"]
@@ -292,8 +297,10 @@ class Session:
 
     def _note(self, what: str, *arguments: Any) -> None:
         """What is done again and again is kept once: an episode of an agent has many steps."""
-        done = (what, arguments)
-        self._done.append(self._known.setdefault(done, done))
+        if self._done:
+            # The last one may still grow.
+            self._done[-1] = self._known.setdefault(self._done[-1], self._done[-1])
+        self._done.append((what, arguments))
 
     def _repeat(self, done: tuple[Done, ...]) -> None:
         for what, arguments in done:

@@ -236,7 +236,7 @@ def sweep(
         raise RefusedError(f"{processes} processes: expected 0 or more")
     if engine not in ("local", "ray"):
         raise RefusedError(f"engine {engine!r}: expected 'local' or 'ray'")
-    with told, notice(f"compiling {path.name} for {len(texts)} runs: the first time that takes minutes, after a change seconds"):
+    with told, notice(f"compiling {path.name} for {len(texts)} runs: the first time that takes a minute or two, after a change seconds"):
         bundle = _arl2rs.Bundle(settings, texts)
     lines: list[str] = []
     with _Progress(len(texts), progress) as bar, told:

@@ -1,4 +1,5 @@
-//! The part of the package `arl2rs` that is Rust: what the command and the libraries of programs do, for its Python side.
+//! The part of the package `arl2rs` that is Rust: what the command and the libraries of programs do, for its Python
+//! side.
 
 mod farm;
 mod problem;

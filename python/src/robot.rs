@@ -112,8 +112,9 @@ impl Robot {
         Ok((bytes(py, &poses)?, cfgs))
     }
 
-    /// The axes that bring the TCP to rows of poses, each near a row of axes; those of a pose that is not reached are no
-    /// numbers, and it has the reason. `how`: `cfg`, `turn`, and whether each is near the one before that was reached.
+    /// The axes that bring the TCP to rows of poses, each near a row of axes; those of a pose that is not reached are
+    /// no numbers, and it has the reason. `how`: `cfg`, `turn`, and whether each is near the one before that was
+    /// reached.
     fn inverse<'py>(
         &self,
         py: Python<'py>,

@@ -159,7 +159,7 @@ impl Going {
 pub(crate) struct Session {
     thread: ThreadId,
     going: Mutex<Option<Going>>,
-    /// So many cycles were asked of the run, and not interrupted by Ctrl-C.
+    /// As [`Session::gone`] tells it.
     gone: AtomicU64,
 }
 
@@ -199,7 +199,8 @@ impl Session {
 
 #[pymethods]
 impl Session {
-    /// Goes on for so many cycles, or to the end of the run; its exit code then. Other threads of Python go on meanwhile.
+    /// Goes on for so many cycles, or to the end of the run; its exit code then. Other threads of Python go on
+    /// meanwhile.
     fn go_on(&self, py: Python<'_>, cycles: u64, alone: bool) -> PyResult<Option<u8>> {
         let mut left = cycles;
         loop {
@@ -286,7 +287,8 @@ impl Session {
         self.with(|going| going.run.time())
     }
 
-    /// So many cycles were asked of it so far; Ctrl-C may have come before all of a call were gone.
+    /// How many cycles of calls came back, of long calls in parts; those that were asked for behind the end of the run
+    /// count, too.
     #[getter]
     fn gone(&self) -> u64 {
         self.gone.load(Ordering::Relaxed)

@@ -69,8 +69,8 @@ impl Place {
     }
 }
 
-/// A literal of a type as JSON: structures are objects whose names are in small letters, arrays are lists, and numbers of
-/// type double have a point. What JSON has no value for, like constants of enumerations, is `{"arl": ".."}`.
+/// A literal of a type as JSON: structures are objects whose names are in small letters, arrays are lists, and numbers
+/// of type double have a point. What JSON has no value for, like constants of enumerations, is `{"arl": ".."}`.
 pub(crate) fn of_literal(literal: &str, ty: &str) -> PyResult<Value> {
     let mut names = Interner::default();
     let parsed = parse_expression(literal, &mut names, ParseOptions::default());

@@ -96,7 +96,7 @@ def test_wrong_shapes_are_told():
         (lambda: robot.forward("abc"), "joints"),
         (lambda: robot.inverse([[1, 2], [3, 4]]), r"poses: expected 6 numbers"),
         (lambda: robot.inverse(np.zeros((3, 6)), near=np.zeros((2, 6))), "near has 2 rows: expected 1, or 3"),
-        (lambda: robot.inverse([0] * 6, near=[0, -90, np.nan, 0, 0, 0]), "near has a number that is none"),
+        (lambda: robot.inverse([0] * 6, near=[0, -90, np.nan, 0, 0, 0]), "near: expected finite numbers"),
         (lambda: robot.inverse([0] * 6, cfg=9), "no configuration 9"),
         (lambda: robot.inverse({"x": 1}), "the pose has no y"),
         (lambda: robot.forward(robot.home, tool=[1, 2, 3]), "tool: expected 6 numbers"),

@@ -135,7 +135,7 @@ def test_files_of_a_trace_are_those_of_the_first_robot_s_motions(program):
     rows[:, columns.index("motion")] = [0, 1, 2, 1]
     report = '{"channel":1,"motion":1,"file":"a.arl"}\n{"channel":1,"motion":2,"file":"b.arl"}\n'
     report += '{"channel":2,"motion":1,"file":"c.arl"}\n{"channel":1,"cycle_time":1,"motions":2}\n'
-    summary = '{"outcome":"ended","code":0,"cycle_time":1,"alarms":[]}'
+    summary = '{"outcome":"ended","code":0,"cycle_time":1,"alarms":[],"ended_by":null}'
     result = arl2rs.result.of_summary(summary, "", report, rows, columns)
     assert list(result.trace.file) == ["", "a.arl", "b.arl", "a.arl"]
     assert [row["file"] for row in result.report] == ["a.arl", "b.arl", "c.arl"] and result.totals[0]["motions"] == 2
@@ -293,14 +293,19 @@ def test_alarms_have_file_and_line(short):
     assert (raised.value.file, raised.value.line) == ("short.arl", 15)
 
 
-def test_the_alarm_that_ended_a_run_is_the_one_of_the_channel_that_ended_last():
-    def alarm(number, channel):
-        return {"number": number, "text": f"{number}", "file": "a.arl", "line": 1, "channel": channel}
-
-    summary = {"outcome": "alarm", "code": 3, "cycle_time": 1, "alarms": [alarm(1, "two"), alarm(2, "one"), alarm(3, "one")]}
+def test_the_alarm_that_ended_a_run_is_not_one_that_was_cleared(tmp_path):
+    source = tmp_path / "twice.arl"
+    source.write_text("func void main()\n    waittime 0.1\n    if(getdi(1)) waittime getai(1) - 5\n    print 1 % getai(2)\nendfunc\n")
+    scenario = tmp_path / "twice.toml"
+    scenario.write_text(
+        '[[event]]\nat = 0.5\npendant = "clear"\n[[event]]\nat = 0.6\ndi.1 = true\npendant = "reset"\n'
+        '[[event]]\nat = 0.7\npendant = "start"\n'
+    )
+    result = arl2rs.compile(source, scenario=scenario).run()
+    assert [alarm.line for alarm in result.alarms] == [4, 3]
     with pytest.raises(arl2rs.AlarmError) as raised:
-        arl2rs.result.of_summary(json.dumps(summary), "").check()
-    assert raised.value.number == 2
+        result.check()
+    assert raised.value.alarm == result.ended_by == result.alarms[1]
 
 
 def test_no_scenario_is_a_word(example):

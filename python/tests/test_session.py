@@ -197,8 +197,10 @@ def test_a_session_goes_on_from_a_snapshot(program):
         session.step(1000)
         session.set(di_9=True)
         session.set_global("clearance", 160.0)
-        session.step(500)
-        session.step(500)
+        for _ in range(1000):
+            session.step()
+        session.step(0)
+        assert len(session._done) == 4 and len(session._known) == 3, "what grows is kept once"
         snapshot = session.snapshot()
         ahead = session.step(1000)
         whole = session.result()

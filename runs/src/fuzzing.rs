@@ -1,4 +1,5 @@
-//! Doors for `fuzz/` to the files from anywhere that the command reads, and that are no programs. Each panics where something is wrong.
+//! Doors for `fuzz/` to the files from anywhere that this crate reads, and that are no programs. Each panics where
+//! something is wrong.
 
 use std::path::Path;
 

@@ -1,6 +1,8 @@
-//! What is made of a run: recordings, the view in the browser and the screen of the pendant, reports, plots, and what robots touch.
+//! What is made of a run: recordings, the view in the browser and the screen of the pendant, reports, plots, and what
+//! robots touch.
 //!
-//! A program says what it does, a line at a time ([`arl_wire`]); here is who hears it. Nothing here compiles or checks programs.
+//! A program says what it does, a line at a time ([`arl_wire`]); here is who hears it. Nothing here compiles or checks
+//! programs.
 
 pub mod collide;
 #[cfg(any(test, feature = "fuzzing"))]
@@ -17,8 +19,3 @@ pub mod signals;
 pub mod texts;
 pub mod urdf;
 pub mod view;
-
-/// The examples of the README run.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -63,6 +63,9 @@ pub enum Heard {
 
 impl Listener {
     /// For those who want to hear, in this order; `None` where nobody does.
+    ///
+    /// # Errors
+    /// No port can be opened, or the system gives no random bytes.
     pub fn of(hearers: Vec<Box<dyn Hears>>) -> Result<Option<Self>, Failure> {
         if hearers.is_empty() {
             return Ok(None);
@@ -77,6 +80,9 @@ impl Listener {
     }
 
     /// Hears the program until it has ended, whatever comes between.
+    ///
+    /// # Errors
+    /// The program cannot be waited for, or its port is of no use.
     pub fn hear(self, program: &mut Child) -> std::io::Result<(ExitStatus, Heard)> {
         let Self { port, hearers } = self;
         match port.accept(|| program.try_wait())? {
@@ -92,7 +98,8 @@ impl Listener {
     }
 }
 
-/// Passes on what comes until nothing comes any more. Who cannot go on is told of once; the program and the others go on.
+/// Passes on what comes until nothing comes any more. Who cannot go on is told of once; the program and the others go
+/// on.
 pub fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> Heard {
     let mut stream = BufReader::new(stream);
     let mut bytes = Vec::new();

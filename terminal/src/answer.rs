@@ -25,18 +25,27 @@ pub enum ReportFormat {
 }
 
 /// Writes text as it is. That nobody reads on is no failure.
+///
+/// # Errors
+/// It can be written no further, as on a full disk.
 pub fn write(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
 /// Writes text that may have colours, without them where they are not wanted.
+///
+/// # Errors
+/// As for [`write()`].
 pub fn write_coloured(text: &str) -> Result<(), Failure> {
     let mut out = anstream::stdout().lock();
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
 /// What became of writing to standard output.
+///
+/// # Errors
+/// Writing failed, and not because nobody reads on.
 pub fn written(outcome: io::Result<()>) -> Result<(), Failure> {
     match outcome {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {

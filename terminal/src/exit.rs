@@ -1,4 +1,4 @@
-//! How the command ends: 0 done, 1 compile errors, 2 usage, 3 alarm, 4 out of time, 130 interrupted.
+//! How a tool ends.
 
 /// An exit code. The standard one cannot be asked for its number.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -9,6 +9,14 @@ impl Exit {
     pub const SUCCESS: Self = Self(0);
     /// Programs have mistakes, or something around them went wrong.
     pub const FAILURE: Self = Self(1);
+    /// The command line asks for something that cannot be.
+    pub const USAGE: Self = Self(2);
+    /// An alarm ended a run.
+    pub const ALARM: Self = Self(3);
+    /// The time of a run was over, or nothing could change any more.
+    pub const OUT_OF_TIME: Self = Self(4);
+    /// Ctrl-C.
+    pub const INTERRUPTED: Self = Self(130);
 }
 
 impl From<u8> for Exit {

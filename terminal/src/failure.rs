@@ -1,17 +1,10 @@
-//! How the command ends when it does not go well.
+//! How a tool ends when it does not go well.
 
 use crate::exit::Exit;
+use crate::show;
 use std::path::Path;
 
-/// Exit codes, as the book lists them.
-/// A program has mistakes, or something around it went wrong.
-pub const COMPILE_ERRORS: u8 = 1;
-/// The command line asks for something that cannot be.
-pub const USAGE: u8 = 2;
-/// Ctrl-C.
-pub const INTERRUPTED: u8 = 130;
-
-/// Why a command gave up. What is to be said was not said yet, but for [`Failure::Shown`].
+/// Why a tool gave up. What is to be said was not said yet, but for [`Failure::Shown`].
 #[derive(Debug)]
 pub enum Failure {
     /// The program has errors, and they were shown.
@@ -23,7 +16,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// A file or folder that the command itself could not use.
+    /// A file or folder that the command itself could not use: `doing` is `read`, `write` and so on.
     pub fn io(doing: &str, path: &Path, error: &std::io::Error) -> Self {
         Self::Other(format!("cannot {doing} {}: {error}", path.display()))
     }
@@ -31,14 +24,14 @@ impl Failure {
     /// Says it, and gives the exit code.
     pub fn report(self) -> Exit {
         match self {
-            Failure::Shown => Exit::from(COMPILE_ERRORS),
+            Failure::Shown => Exit::FAILURE,
             Failure::Usage(text) => {
-                super::show::error(&text);
-                Exit::from(USAGE)
+                show::error(&text);
+                Exit::USAGE
             }
             Failure::Other(text) => {
-                super::show::error(&text);
-                Exit::from(COMPILE_ERRORS)
+                show::error(&text);
+                Exit::FAILURE
             }
         }
     }

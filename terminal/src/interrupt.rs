@@ -1,6 +1,6 @@
 //! Ctrl-C.
 
-use crate::failure::INTERRUPTED;
+use crate::exit::Exit;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Whether Ctrl-C is for the program that runs in front of this process.
@@ -13,7 +13,7 @@ pub fn end_the_command() {
     // Without a handler the process still ends, only with another code.
     let _ = ctrlc::set_handler(|| {
         if !LEFT_TO_PROGRAM.load(Ordering::Relaxed) {
-            std::process::exit(i32::from(INTERRUPTED));
+            std::process::exit(i32::from(Exit::INTERRUPTED.0));
         }
         WAS_PRESSED.store(true, Ordering::Relaxed);
     });

@@ -1,17 +1,11 @@
-//! How the tools of arl2rs say what they have to say, and end: errors and warnings, answers, exit codes, Ctrl-C, and the ports and
-//! folders that belong to one run alone.
+//! How the tools of arl2rs say what they have to say, and end: errors and warnings, answers, exit codes, Ctrl-C, and
+//! the ports and folders that belong to one run alone.
 
 pub mod answer;
 pub mod exit;
 pub mod failure;
-pub mod framing;
 pub mod interrupt;
 pub mod port;
 pub mod private_folder;
 pub mod progress;
 pub mod show;
-
-/// The examples of the README run.
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -102,6 +102,9 @@ impl Port {
 
     /// The connection of the run, or how it ended without one. Whoever else connects is not heard. There is none behind
     /// it.
+    ///
+    /// # Errors
+    /// The port is of no use any more, or `ended` says so.
     pub fn accept<E>(self, mut ended: impl FnMut() -> Result<Option<E>>) -> Result<std::result::Result<TcpStream, E>> {
         let mut unknown = Vec::new();
         loop {

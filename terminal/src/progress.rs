@@ -1,5 +1,6 @@
 //! A sign of life on the terminal where something takes long.
 
+use crate::show;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
 
@@ -9,7 +10,7 @@ pub struct Progress(Option<ProgressBar>);
 impl Progress {
     /// Shows it.
     pub fn start(words: &str) -> Self {
-        if !super::show::is_watched() {
+        if !show::is_watched() {
             return Self(None);
         }
         let bar = ProgressBar::new_spinner().with_message(words.to_string());

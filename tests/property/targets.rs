@@ -1,5 +1,5 @@
-//! Random targets with random tools and workpieces on the robots that are built in: what `check --robot` says of them before
-//! the program runs is what the runtime says then.
+//! Random targets with random tools and workpieces on the robots that are built in: what `check --robot` says of them
+//! before the program runs is what the runtime says then.
 
 use crate::{first_seed, report, times};
 use arl_robot::Robot;
@@ -66,8 +66,8 @@ fn joints(robot: &Robot, mut value: impl FnMut(usize, f64, f64) -> f64) -> Axes 
     axes
 }
 
-/// Tool and workpiece as programs give them: whether the tool is stationary or the workpiece held, and the frame. Upright, so
-/// that they suit a SCARA, too, most of the time.
+/// Tool and workpiece as programs give them: whether the tool is stationary or the workpiece held, and the frame.
+/// Upright, so that they suit a SCARA, too, most of the time.
 fn mounts(random: &mut Random) -> [(bool, [f64; 6]); 2] {
     let held = random.chance(25);
     [0, 1].map(|_| {

@@ -1,5 +1,5 @@
-//! Executes programs: an interpreter that walks over the tree's expressions; statements are laid out flat first, so that
-//! jumps are simple.
+//! Executes programs: an interpreter that walks over the tree's expressions; statements are laid out flat first, so
+//! that jumps are simple.
 
 use crate::builtins::{BUILTINS, Param};
 use crate::operators::{binary, unary};

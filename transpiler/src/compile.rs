@@ -107,14 +107,14 @@ pub fn spliced_types(program: &Program, count: usize) -> Vec<Option<Type>> {
     types
 }
 
-/// Whether there are global variables in Rust, too: constants with a known value are written where they are used. A program
-/// with such variables and without `main` has `Globals::init`.
+/// Whether there are global variables in Rust, too: constants with a known value are written where they are used. A
+/// program with such variables and without `main` has `Globals::init`.
 pub fn has_variables(program: &Program) -> bool {
     program.globals.iter().any(|global| global.value.is_none())
 }
 
-/// Whether an interrupt, timer or trigger that the function of this name or a first value of a variable declares, or a function
-/// that they call, uses global variables in its condition or action.
+/// Whether an interrupt, timer or trigger that the function of this name or a first value of a variable declares, or a
+/// function that they call, uses global variables in its condition or action.
 pub fn events_use_globals(program: &Program, function: &str) -> bool {
     let ranges = Ranges::default();
     let outside = Scope { program, func: None, ranges: &ranges };

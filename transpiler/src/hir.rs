@@ -303,13 +303,13 @@ pub enum Counting {
     InContext,
     /// In a variable of its own: nothing inside counts in the context.
     Alone,
-    /// All at once behind the loop: it climbs in equal steps to a constant, so they are few and can be calculated. It does
-    /// not give the cycle back in between.
+    /// All at once behind the loop: it climbs in equal steps to a constant, so they are few and can be calculated. It
+    /// does not give the cycle back in between.
     Behind,
     /// Likewise, for a `while` that this variable takes to its end.
     Walking(Walk),
-    /// Nowhere: the rounds of a `for` are few. Those of loops in it are counted behind them, and there the cycle is given
-    /// back.
+    /// Nowhere: the rounds of a `for` are few. Those of loops in it are counted behind them, and there the cycle is
+    /// given back.
     Inside,
 }
 
@@ -397,7 +397,8 @@ pub enum ExprKind {
     Call(FuncId, Vec<Expr>),
     /// A built-in function or instruction.
     Builtin(Box<Builtin>),
-    /// A structure from braces: one value per component, `None` keeps the start value; an empty list is all start values.
+    /// A structure from braces: one value per component, `None` keeps the start value; an empty list is all start
+    /// values.
     Struct(Struct, Vec<Option<Expr>>),
     /// An array from braces, flat; elements that are missing at the end have start values.
     Array(Vec<Expr>),

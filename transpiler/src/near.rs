@@ -2,7 +2,8 @@
 
 pub(crate) use arl_lang::near::nearest;
 
-/// How many names a check compares with wrong ones, all in all. Whoever has so many mistakes needs no hints for the last.
+/// How many names a check compares with wrong ones, all in all. Whoever has so many mistakes needs no hints for the
+/// last.
 const COMPARISONS: usize = 1 << 20;
 
 /// What a check may still spend on looking for names that were meant, so that its cost grows with the program only.

@@ -27,6 +27,9 @@ impl Sources for FileSystem {
 
 /// Writes a file unless it already has this content, so that its time changes only with it; makes its folder. Says
 /// whether it wrote.
+///
+/// # Errors
+/// It cannot be written.
 #[expect(clippy::disallowed_methods, reason = "this is where the doors write files")]
 pub fn write_if_changed(path: &Path, content: &[u8]) -> std::io::Result<bool> {
     if std::fs::read(path).is_ok_and(|old| old == content) {

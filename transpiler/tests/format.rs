@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// The programs of the repository with their paths, in the order of these.
 fn corpus() -> Vec<(PathBuf, String)> {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
-    let mut folders: Vec<PathBuf> = ["arl-lang", "arl-macros", "arl-rt", "benches", "examples", "tests", "transpiler"]
+    let mut folders: Vec<PathBuf> = ["arl-lang", "arl-macros", "arl-rt", "benches", "command", "examples", "tests"]
         .map(|name| workspace.join(name))
         .into();
     let mut programs = Vec::new();

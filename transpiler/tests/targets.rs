@@ -1,5 +1,5 @@
-//! What is known before a program runs of the targets that a robot cannot reach. A line that must be warned of ends in a
-//! comment with the code and words of the message; all others must not be.
+//! What is known before a program runs of the targets that a robot cannot reach. A line that must be warned of ends in
+//! a comment with the code and words of the message; all others must not be.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "tests stop where something is wrong")]
 
@@ -210,7 +210,8 @@ fn configurations_ranges_and_singular_points_are_told() {
         movej j:{10,-90,90,0,45,0}
         lin p:{890,0,1080,0,110,0}",
     );
-    // Straight through the singular point, up to which no axis turns: there axes 4 and 6 would have to turn by half a turn.
+    // Straight through the singular point, up to which no axis turns: there axes 4 and 6 would have to turn by half a
+    // turn.
     kr10("movej start\nlin p:{900,0,900,0,90,0} // 910 74.4 % along it axes 4 and 6");
     kr10("movej start\nlin p:{900,0,900,180,50,180}");
     kr10("movej start\n$CONFIG_CHECK = false\nptp p:{900,0,600,0,90,0,4}");

@@ -4,8 +4,8 @@ use super::declare::{base, entries, folded, kind, param_type};
 use crate::ast::Unit;
 
 entries! { pub(super) AUXILIARY =
-    /// Writes values one after the other to the message bar, a file, the terminal or a string. A file in a directory that
-    /// does not exist, or outside the script directory: alarm.
+    /// Writes values one after the other to the message bar, a file, the terminal or a string. A file in a directory
+    /// that does not exist, or outside the script directory: alarm.
     instr print(
         to: {printto} [repeat(0, 4)] "where to, up to four; holds for later prints of the channel too; hmi at first",
         tostr: string [out, optional, labelled] "a variable that gets the text; nothing is written elsewhere then",
@@ -15,8 +15,8 @@ entries! { pub(super) AUXILIARY =
         argtoprint: any [repeat(1, 255)] "a value; endl is a new line",
     )
         { "3.5.1", text::print, acts, fails; "print \"PI is \",precision:3,PI,\", 255 is \",hex,255,\"h\"" }
-    /// Splits a text at a delimiter and reads the fields into variables, each as its type. Fields that are missing leave
-    /// their variables alone; text that is not of the type: alarm.
+    /// Splits a text at a delimiter and reads the fields into variables, each as its type. Fields that are missing
+    /// leave their variables alone; text that is not of the type: alarm.
     instr scan(
         from: string "the text",
         delimiter: string "what stands between the fields",

@@ -48,8 +48,8 @@ entries! { pub(super) CONVERT =
     /// precision: alarm.
     fn tostr(v: double "the number", precision: {int} "how many significant digits") -> string
         { "5.7.4", convert::tostr_precision, pure, fails; "print tostr(3.1415926,3)" }
-    /// Writes a number as a float of four bytes into an array, lowest byte first; digits beyond the seventh are lost. No
-    /// room from start on: alarm.
+    /// Writes a number as a float of four bytes into an array, lowest byte first; digits beyond the seventh are lost.
+    /// No room from start on: alarm.
     fn ftobytes(
         src: double "the number",
         data: [byte] [out] "the array that is written",

@@ -13,8 +13,8 @@ entries! { pub(super) INTERRUPT =
         do: any [action, rust("action")] "what is done, as a rule a call",
     )
         { "6.1", event::interrupt, acts, fails, form(Form::Event); "interrupt 1,when:getdi(6),do:setdo(1,true)\nwaittime 1" }
-    /// Disables interrupts: they keep watching their conditions, but lose the events. Without arguments all of them. One
-    /// that does not exist: alarm.
+    /// Disables interrupts: they keep watching their conditions, but lose the events. Without arguments all of them.
+    /// One that does not exist: alarm.
     instr disableint(
         name: string [optional] "the one with this name",
         priority: int [optional, range(0.0, 255.0)] "those of this priority",

@@ -8,14 +8,16 @@ entries! { pub(super) IO =
     /// Sets a digital output. A channel that does not exist: alarm.
     fn setdo(chan: int [addresses(Space::DigitalOutput)] "the output", value: bool "its level")
         { "5.5.1", io::setdo, waits, fails; "setdo(3,true)\nprint getdo(3)" }
-    /// Sets up to 32 neighbouring digital outputs. Channels that do not exist, in the wrong order or more than 32: alarm.
+    /// Sets up to 32 neighbouring digital outputs. Channels that do not exist, in the wrong order or more than 32:
+    /// alarm.
     fn setdo(
         from_chan: int [addresses(Space::DigitalOutput)] "the first output",
         to_chan: int [addresses(Space::DigitalOutput)] "the last output",
         value: int "their levels, lowest bit for the first output; bits beyond the last one are ignored",
     )
         { "5.5.2", io::setdo_group, waits, fails; "setdo(5,8,1100b)\nprint getdo(5,8)" }
-    /// Sets a digital output when the motion in front of it has ended and the next one starts, without stopping the robot.
+    /// Sets a digital output when the motion in front of it has ended and the next one starts, without stopping the
+    /// robot.
     instr setdoimv(channel: int [alias(&["chan"]), addresses(Space::DigitalOutput)] "the output", value: bool "its level")
         { "5.5.3", io::setdoimv, acts, fails; "setdoimv channel:3,value:true" }
     /// Sets a digital output and goes on when it has been sent.
@@ -28,8 +30,8 @@ entries! { pub(super) IO =
         value: int "their levels, lowest bit for the first output; bits beyond the last one are ignored",
     )
         { "5.5.5", io::syncdo_group, waits, fails; "syncdo(5,8,1100b)\nprint getdo(5,8)" }
-    /// Puts a pulse on a digital output while the program goes on: the level for the width, then the opposite. A new pulse
-    /// on the channel ends the old one.
+    /// Puts a pulse on a digital output while the program goes on: the level for the width, then the opposite. A new
+    /// pulse on the channel ends the old one.
     fn pulsedo(
         chan: int [addresses(Space::DigitalOutput)] "the output",
         value: bool "true for a high pulse, false for a low one",

@@ -24,8 +24,8 @@ entries! { pub(super) MOTION =
     )
         { "3.2.1", motion::movej, plans(Motion::Joint), fails, exclusive(AXIS);
           "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nmovej j:{j1 30},v:{per 10},sp:-1%" }
-    /// Moves to a pose by the axes' shortest way; all arrive together. The TCP's path is not defined. Unset components stay
-    /// where they are; the first motion of a program needs all of them.
+    /// Moves to a pose by the axes' shortest way; all arrive together. The TCP's path is not defined. Unset components
+    /// stay where they are; the first motion of a program needs all of them.
     instr ptp(
         p: pose "the target; cfg and turn choose among the solutions",
         v: speed [optional] "speed: per and exj count; its set components go to $DFSPEED, which stands in without it",
@@ -85,8 +85,8 @@ entries! { pub(super) MOTION =
     )
         { "3.2.5", motion::cir, plans(Motion::Arc), fails, exclusive(PATH);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\npose m = offset(p,50,50,0,0,0,0)\np.x = p.x + 100\ncir m,p,vl:100mm/s" }
-    /// Moves the TCP on an arc that consecutive ccir instructions make together, one point each. Fewer than three points,
-    /// points on one line, equal neighbours, or a stop of the look-ahead between them: alarm 12002.
+    /// Moves the TCP on an arc that consecutive ccir instructions make together, one point each. Fewer than three
+    /// points, points on one line, equal neighbours, or a stop of the look-ahead between them: alarm 12002.
     instr ccir(
         p: pose "the target; its cfg is ignored",
         v: speed [optional] "speed: tcp, ori and exj count; its set components go to $DFSPEED, which stands in without it",
@@ -100,8 +100,8 @@ entries! { pub(super) MOTION =
     )
         { "3.2.6", motion::ccir, plans(Motion::JoinedArc), fails, exclusive(PATH), only(Family::SixAxis);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\np.x = p.x + 50\np.y = p.y + 50\nccir p\np.x = p.x + 50\np.y = p.y - 50\nccir p" }
-    /// Lifts, moves over and lowers: the fast way from place to place of a SCARA robot. Start or target above the limit Z:
-    /// alarm 12042.
+    /// Lifts, moves over and lowers: the fast way from place to place of a SCARA robot. Start or target above the limit
+    /// Z: alarm 12042.
     instr jump(
         p: pose "the target",
         v: speed [optional] "speed: per and exj count; its set components go to $DFSPEED, which stands in without it",
@@ -117,8 +117,8 @@ entries! { pub(super) MOTION =
     )
         { "3.3.6", motion::jump, plans(Motion::Jump), fails, form(Form::Jump), exclusive(&[&["v", "vp"]]), only(Family::Scara);
           "movej j:{0,30,100,0},vp:50%\npose p = {x 400,y 100,z 350,a 0,b 0,c 0}\njump p,vp:50%,a:30,b:30" }
-    /// Lays a weave over the lines, circles and splines that follow, up to endweave. It begins and ends on the path; what is
-    /// too fast for the robot slows the path down.
+    /// Lays a weave over the lines, circles and splines that follow, up to endweave. It begins and ends on the path;
+    /// what is too fast for the robot slows the path down.
     instr startweave(weave: weavedata "the pattern")
         { "3.2.7.1", motion::startweave, acts, fails, foreground, only(Family::SixAxis),
           alias(&["startweavelin", "startweavespa"]);
@@ -131,8 +131,8 @@ entries! { pub(super) MOTION =
     instr startcompen(data: compendata "how fast the compensation may grow")
         { "3.2.11.1", motion::startcompen, acts, fails, foreground, changes(Role::Compensation), only(Family::SixAxis);
           "compendata limits = {200,600,1000,200,50,1000}\nstartcompen data:limits\nendcompen" }
-    /// Shifts and turns the lines, circles and splines that follow, up to endcompen, by as much more. At most 90 deg in all
-    /// about each axis.
+    /// Shifts and turns the lines, circles and splines that follow, up to endcompen, by as much more. At most 90 deg in
+    /// all about each axis.
     instr compen(
         x: double [optional, units(&[Unit::Millimetre]), set()] "shift along x of the frame, mm",
         y: double [optional, units(&[Unit::Millimetre]), set()] "shift along y of the frame, mm",

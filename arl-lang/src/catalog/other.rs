@@ -13,8 +13,8 @@ entries! { pub(super) OTHER =
     /// Raises an alarm with file and line where a condition does not hold.
     fn assert(x: bool "what must hold")
         { "5.12.4", flow::assert, pure, fails; "int a = 6\nassert(a == 6)" }
-    /// Saves a system variable: its value is there again at the next start. The program goes on when it is saved; robots go on
-    /// meanwhile. A name that does not exist: alarm.
+    /// Saves a system variable: its value is there again at the next start. The program goes on when it is saved;
+    /// robots go on meanwhile. A name that does not exist: alarm.
     fn savesv(svname: string [keeps] "the variable's name, without $")
         { "5.12.5", system::savesv, lasts, fails; "$TOOLS[0].t_frame.z = 120\nsavesv(\"TOOLS\")" }
     /// Sets the system variables of chapter 10.2 to their defaults and those of 10.1 to what was saved last.
@@ -28,18 +28,19 @@ entries! { pub(super) OTHER =
     ) -> string
         { "5.12.7", files::gettextstr, waits, fails;
           "print to:file,filepath:\"notes.txt\",\"first line\",endl\nprint to:hmi,gettextstr(\"notes.txt\",1)" }
-    /// Name of the file that the motion being executed stands in, or the last one, if only before the controller was switched on.
+    /// Name of the file that the motion being executed stands in, or the last one, if only before the controller was
+    /// switched on.
     fn curmpfile(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> string
         { "5.12.8", channel::curmpfile, acts, looks, fails; "print curmpfile(1)" }
     /// Line of the motion being executed, or the last one, if only before the controller was switched on.
     fn curmpline(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> int
         { "5.12.9", channel::curmpline, acts, looks, fails; "print curmpline(1)" }
-    /// Name of the file that the program stands in; until it runs, the one in which the channel's program stood when the controller
-    /// was switched off.
+    /// Name of the file that the program stands in; until it runs, the one in which the channel's program stood when
+    /// the controller was switched off.
     fn curppfile(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> string
         { "5.12.10", channel::curppfile, acts, looks, fails; "print curppfile(1)" }
-    /// Line that the program stands on; until it runs, the one on which the channel's program stood when the controller was switched
-    /// off.
+    /// Line that the program stands on; until it runs, the one on which the channel's program stood when the controller
+    /// was switched off.
     fn curppline(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> int
         { "5.12.11", channel::curppline, acts, looks, fails; "print curppline(1)" }
     /// Size of a file in the script directory, bytes. A file that is missing: alarm.

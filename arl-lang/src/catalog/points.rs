@@ -10,7 +10,8 @@ entries! { pub(super) POINTS =
         mode: bool "true: a file of that name is overwritten, false: it is left alone and the result is false",
     ) -> bool
         { "5.11.1", points::savearl, waits, fails, uses_disk; "print savearl(\"recipe1.arl\",\"recipe2.arl\",true)" }
-    /// Writes a pose to a point of a data file; it counts from the next load on. A file or point that is missing: false.
+    /// Writes a pose to a point of a data file; it counts from the next load on. A file or point that is missing:
+    /// false.
     fn savefilepose(
         file_name: string "the _data.arl file",
         pose_name: string [alias(&["p_name"])] "name of the pose in it",
@@ -18,7 +19,8 @@ entries! { pub(super) POINTS =
     ) -> bool
         { "5.11.2", points::savefilepose, waits, fails, uses_disk;
           "pose a = {x 0,y 10,z 15,a 0,b 90,c 0}\nprint savefilepose(\"recipe1_data.arl\",\"p1\",a)" }
-    /// Writes a joint to a point of a data file; it counts from the next load on. A file or point that is missing: false.
+    /// Writes a joint to a point of a data file; it counts from the next load on. A file or point that is missing:
+    /// false.
     fn savefilejoint(
         file_name: string "the _data.arl file",
         joint_name: string [alias(&["pose_name"])] "name of the joint in it",

@@ -23,8 +23,8 @@ entries! { pub(super) POSE =
     /// The inverse: for the pose of a frame A seen from B, the pose of B seen from A.
     fn poseinv(p: pose "the pose") -> pose
         { "5.8.5", pose::poseinv, pure; "pose p = {x 1,y 2,z 3,a 0,b 0,c 0}\nprint poseinv(p)" }
-    /// Shifts and turns a target in its workpiece frame. The point stays where the shift puts it; the turn acts about the
-    /// point itself.
+    /// Shifts and turns a target in its workpiece frame. The point stays where the shift puts it; the turn acts about
+    /// the point itself.
     fn offset(
         p: pose "the target",
         dx: double "shift along x of the workpiece frame, mm",

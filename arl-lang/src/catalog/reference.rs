@@ -87,8 +87,8 @@ pub fn entry(entry: &Entry) -> String {
     text
 }
 
-/// The signature, with what robots of a family have, or with everything: a prototype for a function, the format line for an
-/// instruction.
+/// The signature, with what robots of a family have, or with everything: a prototype for a function, the format line
+/// for an instruction.
 pub fn signature(entry: &Entry, family: Option<Family>) -> String {
     let params = || entry.params.iter().filter(|param| family.is_none_or(|family| param.is_of(family)));
     match entry.kind {

@@ -197,8 +197,8 @@ structure! { TOOL_INERTIA_PARA =
 }
 
 structure! { CONTROL =
-    /// Speeds and accelerations of the lifting and the lowering part of a jump. What is not set follows the motion's own
-    /// values.
+    /// Speeds and accelerations of the lifting and the lowering part of a jump. What is not set follows the motion's
+    /// own values.
     Control, "control", "Control", "2.5.11", Scara {
         rising_vel: double unset [range(0.0, 100.0)] "speed going up, % of the axis's limit",
         rising_acc: double unset [range(0.0, 100.0)] "acceleration going up, % of the axis's limit",
@@ -272,8 +272,8 @@ impl Struct {
         Struct::Tcpforce,
     ];
 
-    /// The definition for a robot family; `joint`, `jvel` and `slip` differ. `control`, which SCARA robots alone have, has
-    /// its family in its definition.
+    /// The definition for a robot family; `joint`, `jvel` and `slip` differ. `control`, which SCARA robots alone have,
+    /// has its family in its definition.
     pub fn def(self, family: Family) -> &'static StructDef {
         match (self, family) {
             (Struct::Joint, Family::SixAxis) => &JOINT,

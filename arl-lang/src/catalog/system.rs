@@ -40,11 +40,11 @@ variables! { pub(super) DATA =
 }
 
 variables! { pub(super) FUNCTION =
-    /// Whether lines and arcs may pass near the wrist singularity (axis 5 at 0): the TCP's position is kept at the cost of
-    /// its orientation.
+    /// Whether lines and arcs may pass near the wrist singularity (axis 5 at 0): the TCP's position is kept at the cost
+    /// of its orientation.
     WRIST: bool = "false" { "10.2.1", reset, role(Role::WristPassage); "$WRIST = true" }
-    /// Whether targets are reached in the configuration they were taught in (cfg and turn); false: in the one nearest to
-    /// the current axes.
+    /// Whether targets are reached in the configuration they were taught in (cfg and turn); false: in the one nearest
+    /// to the current axes.
     CONFIG_CHECK: bool = "true"
         { "10.2.2", reset, role(Role::ConfigurationCheck), alias(&["Congfig_check", "check_congfig", "check_config"]); "$CONFIG_CHECK = false" }
     /// Speed of motions that give none: per %, tcp mm/s, ori deg/s, exj deg/s, exl mm/s.
@@ -89,8 +89,8 @@ variables! { pub(super) FUNCTION =
     WOBJ_OFFSET: double[6] = "{0,0,0,0,0,0}" { "10.2.22", reset, role(Role::Frame); "$WOBJ_OFFSET = {50,50,50,0,0,0}\nprint $WOBJ_OFFSET" }
     /// Shift and turn of all tools: x, y, z mm, a, b, c deg.
     TOOL_OFFSET: double[6] = "{0,0,0,0,0,0}" { "10.2.23", reset, role(Role::Frame); "$TOOL_OFFSET = {50,0,0,0,0,0}\nprint $TOOL_OFFSET" }
-    /// Where each mechanical unit believes to be at servo-on: "feedback", where it is; "cmd", where it was sent last, if it
-    /// is near enough.
+    /// Where each mechanical unit believes to be at servo-on: "feedback", where it is; "cmd", where it was sent last,
+    /// if it is near enough.
     RESET_POS_TYPE: string[100] = "{\"\"}"
         { "10.2.24", permanent, words(&["", "feedback", "cmd"]); "$RESET_POS_TYPE[0] = \"feedback\"" }
     /// How near is near enough for $RESET_POS_TYPE, deg.
@@ -149,6 +149,7 @@ variables! { pub(super) EXTERNAL =
     AT_AUT_DO: int = "0" { "9.1.16", saved; "$AT_AUT_DO = 11" }
     /// Output of the lowest bit of the program number that was taken; 0: none.
     PGNO_ACK_FBIT_DO: int = "0" { "9.1.16", saved; "$PGNO_ACK_FBIT_DO = 12" }
-    /// First of the two outputs that show the channel's state: 00 not loaded, 10 running, 01 paused, 11 stopped; 0: none.
+    /// First of the two outputs that show the channel's state: 00 not loaded, 10 running, 01 paused, 11 stopped; 0:
+    /// none.
     CHAN_STATE_DO: int = "0" { "9.1.16", saved; "$CHAN_STATE_DO = 20" }
 }

@@ -4,8 +4,8 @@ use super::declare::{base, entries, folded, kind, param_type};
 use crate::ast::Unit;
 
 entries! { pub(super) TRIGGER =
-    /// Whether the motion has run for a time, counted at 100 % override. Outside the motion's time it never comes. Without a
-    /// motion that is being executed it is false.
+    /// Whether the motion has run for a time, counted at 100 % override. Outside the motion's time it never comes.
+    /// Without a motion that is being executed it is false.
     fn T(t: double [units(&[Unit::Second])] "time from its start, s") -> bool
         { "5.10.1", event::elapsed_time, acts, looks, foreground;
           "joint j = {30,-90,90,0,45,0}\nmovej j,vp:20%\nwhile(!T(0.5))\nendwhile\nprint \"0.5 s on the way\"" }

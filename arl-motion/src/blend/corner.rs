@@ -29,19 +29,19 @@ use crate::plan::path_check::{check_gentle_path, check_path};
 use arl_robot::kinematics::Rates;
 use arl_robot::robot::{Axis, ROBOT_AXES, Robot};
 
-/// Length of the tangents at the ends of a blend, in lengths of the zone. With 2 the blend of two straight lines that are
-/// left and joined at the same distance accelerates along the bisector alone.
+/// Length of the tangents at the ends of a blend, in lengths of the zone. With 2 the blend of two straight lines that
+/// are left and joined at the same distance accelerates along the bisector alone.
 const TANGENT_PER_ZONE: f64 = 2.0;
 /// How often a zone is halved before it is given up: where its blend would leave an axis's range or the reach.
 const ZONE_HALVINGS: u32 = 4;
 /// Parts of a blend between which it is looked at; and of one that hardly bends.
 const PARTS_OF_BLEND: u32 = 48;
 const PARTS_OF_GENTLE_BLEND: u32 = 4;
-/// A blend that takes less than this part of the time of a stop with constant limits saves time with a law, too, where these limits say
-/// enough about the motions.
+/// A blend that takes less than this part of the time of a stop with constant limits saves time with a law, too, where
+/// these limits say enough about the motions.
 const SURELY_FASTER_SHARE: f64 = 0.95;
-/// So many smaller zones are looked at where one is slower than a stop. Few of them save time: what a zone wins falls faster with its size
-/// than what it loses.
+/// So many smaller zones are looked at where one is slower than a stop. Few of them save time: what a zone wins falls
+/// faster with its size than what it loses.
 const MOST_SLOWER_ZONES: u32 = 2;
 /// The cosine of the smallest angle between two directions that are taken for one.
 const STRAIGHT_BACK: f64 = 1.0 - 1e-9;
@@ -63,14 +63,15 @@ pub(crate) struct Blend {
     pub(crate) blend_limits: BlendLimits,
     /// Whether it may take longer than a stop between the motions, as constant limits tell.
     pub(crate) may_lose_time: bool,
-    /// Whether it takes all that was asked for, or halves of both motions in a dense chain: not less, for want of a way or of time.
+    /// Whether it takes all that was asked for, or halves of both motions in a dense chain: not less, for want of a way
+    /// or of time.
     pub(crate) is_whole: bool,
     /// Why it takes less than was asked for, where it does.
     pub(crate) less: Option<NoBlend>,
 }
 
-/// The blend that the first motion's zone asks for, or of a smaller zone where there is no way or it `is_slower` than a stop. Else what is
-/// wrong with the smallest zone that was tried.
+/// The blend that the first motion's zone asks for, or of a smaller zone where there is no way or it `is_slower` than a
+/// stop. Else what is wrong with the smallest zone that was tried.
 pub(crate) fn blend(
     robot: &Robot,
     from: &Motion,
@@ -130,7 +131,8 @@ fn turns_back(from: &Motion, to: &Motion) -> bool {
     product(&coming, &going) < -STRAIGHT_BACK * (product(&coming, &coming) * product(&going, &going)).sqrt()
 }
 
-/// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is taken.
+/// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is
+/// taken.
 pub(crate) fn curved_blend(robot: &Robot, from: &Motion, to: &Motion, curvatures: [MidCurvature; 2]) -> Option<Blend> {
     let (leaving, joining) = parts(robot, from, to)?;
     let [start, end] = &curvatures;
@@ -166,8 +168,8 @@ impl Corner<'_> {
         [(1.0 - self.leaving, leaving.speed), (self.joining, joining.speed)]
     }
 
-    /// How the motions are met: as is given, at the parts that are taken, or at a speed that leaves blends of lines no other
-    /// acceleration than across.
+    /// How the motions are met: as is given, at the parts that are taken, or at a speed that leaves blends of lines no
+    /// other acceleration than across.
     fn met(&self) -> [CornerEnd; 2] {
         match self.from.corner {
             Some(GivenCorner { leaving, joining }) => [leaving.taking(self.leaving), joining.taking(self.joining)],
@@ -298,7 +300,8 @@ impl Corner<'_> {
         }
     }
 
-    /// Collects the limits of a path of the TCP that hardly bends; returns whether a few places are enough to know them.
+    /// Collects the limits of a path of the TCP that hardly bends; returns whether a few places are enough to know
+    /// them.
     fn glance_at_tool(
         &self,
         curve: &ToolCurve,
@@ -363,8 +366,8 @@ impl Corner<'_> {
         there.is_some_and(|there| end.iter().zip(&there.axes).all(|(a, b)| (a - b).abs() <= 0.01))
     }
 
-    /// Times a way of the axes from one rate of its parameter to another. Where it is gentle, what the axes do together goes
-    /// smoothly: each counts by how fast it is beside its highest speed.
+    /// Times a way of the axes from one rate of its parameter to another. Where it is gentle, what the axes do together
+    /// goes smoothly: each counts by how fast it is beside its highest speed.
     fn time_axes(&self, (curve, gentle): (&Quintic<ALL>, bool), rates: [f64; 2]) -> (Parametrization, f64) {
         let slowness = slowness(self.robot);
         let derivative = |order: usize, at: f64| SVector::from(curve.derivative(order, at)).component_mul(&slowness);
@@ -571,7 +574,8 @@ fn out_of_range<'a>(robot: &'a Robot, joints: &Joints) -> Option<&'a Axis> {
     robot.axes.iter().zip(values).find(|(axis, value)| !(axis.min..=axis.max).contains(value)).map(|(axis, _)| axis)
 }
 
-/// The share of the nominal time at which the curve's parameter is `at`: by Newton's steps, halving where they lead away.
+/// The share of the nominal time at which the curve's parameter is `at`: by Newton's steps, halving where they lead
+/// away.
 fn inverse(parametrization: &Parametrization, at: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     let mut share = at;
@@ -592,8 +596,8 @@ fn inverse(parametrization: &Parametrization, at: f64) -> f64 {
     share
 }
 
-/// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all of its
-/// acceleration.
+/// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all
+/// of its acceleration.
 fn collect(place: &Place, curve: &ToolCurve, swinging: bool, constraints: &mut Constraints, pace: &Pace) {
     let moving = place.vectors([1, 2, 3].map(|order| curve.path.track.derivative(order, place.at)));
     if swinging {

@@ -1,14 +1,14 @@
 //! Curvature where two blends meet in the middle of a motion.
 //!
-//! Blends that take whole halves of short motions leave nothing straight between them. Were every motion straight in its
-//! middle all the same, then a circle of short lines would be a path whose curvature falls to zero and rises again on each
-//! of them, and jerk would allow but a small part of the speed. So the middle gets about the curvature that the corners at
-//! both ends have on average: on a circle, the circle's. Where one corner is much sharper than the other, or bends the
-//! other way, it gets little or none, so that the path does not swing out.
+//! Blends that take whole halves of short motions leave nothing straight between them. Were every motion straight in
+//! its middle all the same, then a circle of short lines would be a path whose curvature falls to zero and rises again
+//! on each of them, and jerk would allow but a small part of the speed. So the middle gets about the curvature that the
+//! corners at both ends have on average: on a circle, the circle's. Where one corner is much sharper than the other, or
+//! bends the other way, it gets little or none, so that the path does not swing out.
 //!
-//! Motions of the axes are as fast as the slowest axis lets them be: what all axes do together is slower or faster with every
-//! direction, along a dense chain all the time. So their speed is given a change in the middle as well, or it would swing
-//! within each blend. The path does not depend on that.
+//! Motions of the axes are as fast as the slowest axis lets them be: what all axes do together is slower or faster with
+//! every direction, along a dense chain all the time. So their speed is given a change in the middle as well, or it
+//! would swing within each blend. The path does not depend on that.
 
 use nalgebra::{SVector, Vector3};
 
@@ -19,8 +19,8 @@ use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 use arl_robot::robot::{EXTERNAL_AXES, Robot};
 
-/// Up to about so large a difference between the directions of motions, as part of their length, the two corners' mean is
-/// taken as it is.
+/// Up to about so large a difference between the directions of motions, as part of their length, the two corners' mean
+/// is taken as it is.
 const GENTLE_DIFFERENCE: f64 = 0.1;
 /// A turn by so little, in rad or parts of the motion, is none.
 const NO_TURN: f64 = 1e-9;
@@ -36,8 +36,8 @@ pub(crate) struct MidCurvature {
     pub(crate) turning: Vector3<f64>,
     /// Of all axes, where the motion is one of the axes; else of the external ones.
     pub(crate) axes: [f64; ALL],
-    /// How its speed changes at its nominal pace, where the motion is one of the axes: per s, of which an axis at its highest speed
-    /// has 1 per s.
+    /// How its speed changes at its nominal pace, where the motion is one of the axes: per s, of which an axis at its
+    /// highest speed has 1 per s.
     pub(crate) surge: f64,
 }
 
@@ -147,8 +147,8 @@ impl Lengths {
         (corners, b.norm())
     }
 
-    /// The mean of two changes of a speed `scale`, nearer to the smaller one the sharper they are, and none where they bend apart; by the
-    /// middle motion's parameter.
+    /// The mean of two changes of a speed `scale`, nearer to the smaller one the sharper they are, and none where they
+    /// bend apart; by the middle motion's parameter.
     fn limited<const N: usize>(
         &self,
         first: &SVector<f64, N>,

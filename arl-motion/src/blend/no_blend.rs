@@ -10,7 +10,8 @@ use crate::command::error::PlanError;
 pub enum NoBlend {
     /// The next motion came too late.
     Late,
-    /// The zone leaves nothing to round off: it is too small beside one of the motions, or another blend has taken all of that.
+    /// The zone leaves nothing to round off: it is too small beside one of the motions, or another blend has taken all
+    /// of that.
     NothingLeft,
     /// The next motion goes back along the way that the robot came, so that there is nothing to round off.
     Reversal,

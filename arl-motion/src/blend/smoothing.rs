@@ -1,8 +1,9 @@
-//! Chains of lines whose corners are so flat that the whole of both halves can be rounded off without leaving them noticeably.
+//! Chains of lines whose corners are so flat that the whole of both halves can be rounded off without leaving them
+//! noticeably.
 //!
-//! A dense chain stands for a smooth path. Where its zones took less than half of each line, the curvature would rise and fall
-//! once a line, and jerk would allow but a small part of the speed. So the size of a zone says nothing there: a curve
-//! that stays that close to the programmed lines is on them.
+//! A dense chain stands for a smooth path. Where its zones took less than half of each line, the curvature would rise
+//! and fall once a line, and jerk would allow but a small part of the speed. So the size of a zone says nothing there:
+//! a curve that stays that close to the programmed lines is on them.
 
 use nalgebra::SVector;
 
@@ -11,10 +12,12 @@ use crate::geometry::track::Track;
 use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 
-/// How far such a curve leaves the lines at most, in mm (the TCP and linear external axes) and in deg (the tool and turning ones).
+/// How far such a curve leaves the lines at most, in mm (the TCP and linear external axes) and in deg (the tool and
+/// turning ones).
 const MOST_OFF: f64 = 0.001;
-/// A curve with curvature in the middle of lines (see [`crate::blend::mid_curvature`]) leaves a corner by no more than this part of its
-/// zone times the change of direction, in rad: lines of unequal lengths come that near, as a test of random chains holds.
+/// A curve with curvature in the middle of lines (see [`crate::blend::mid_curvature`]) leaves a corner by no more than
+/// this part of its zone times the change of direction, in rad: lines of unequal lengths come that near, as a test of
+/// random chains holds.
 const OFF_PER_TURN: f64 = 0.405;
 /// Lines of which one is more times as long as the other, or with speeds that differ by a larger part, are no chain.
 const MOST_TIMES_AS_LONG: f64 = 4.0;

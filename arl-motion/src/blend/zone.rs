@@ -62,8 +62,8 @@ pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rou
 /// The smallest part of a motion that a blend can take.
 const LEAST_ZONE: f64 = 1e-6;
 
-/// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked for.
-/// In a dense chain they are whole halves, whatever the zone.
+/// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked
+/// for. In a dense chain they are whole halves, whatever the zone.
 pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
     let asked = asked_parts(robot, from, to)?;
     Some(if is_smooth(from, to) { (LARGEST_ZONE, LARGEST_ZONE) } else { asked })

@@ -1,5 +1,5 @@
-//! Whether the numbers of a command are numbers that motion can be planned with. What belongs to the way itself (targets, speeds, ranges)
-//! is checked where it is planned.
+//! Whether the numbers of a command are numbers that motion can be planned with. What belongs to the way itself
+//! (targets, speeds, ranges) is checked where it is planned.
 
 use super::{Command, Compensation, Gate, PlanError, Settings, Target, Weave};
 use arl_robot::frames::Carried;
@@ -16,8 +16,8 @@ struct Range {
 /// A number that has to be in a range, and what it is.
 type Ranged = (&'static str, f64, Range);
 
-const POSITIVE: Range = Range { low: f64::MIN_POSITIVE, high: f64::MAX, expected: "a number above 0" };
-const NOT_NEGATIVE: Range = Range { low: 0.0, high: f64::MAX, expected: "0 or a number above it" };
+const POSITIVE: Range = Range { low: f64::MIN_POSITIVE, high: f64::MAX, expected: "a finite number above 0" };
+const NOT_NEGATIVE: Range = Range { low: 0.0, high: f64::MAX, expected: "a finite number, 0 or more" };
 const FINITE: Range = Range { low: -f64::MAX, high: f64::MAX, expected: "a finite number" };
 /// An infinite one, too, where that means that nothing is limited.
 const NUMBER: Range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, expected: "a number" };

@@ -15,8 +15,8 @@ pub fn is_unset(value: f64) -> bool {
 /// How many values [`Joints`] hold.
 pub(crate) const ALL: usize = ROBOT_AXES + EXTERNAL_AXES;
 
-/// The s that each axis takes for 1 deg (mm) at its highest speed, in the order of [`Joints::all`]; 0 for those that a robot does not
-/// have.
+/// The s that each axis takes for 1 deg (mm) at its highest speed, in the order of [`Joints::all`]; 0 for those that a
+/// robot does not have.
 pub(crate) fn slowness(robot: &Robot) -> SVector<f64, ALL> {
     let mut joints = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
     let own = joints.axes.iter_mut().zip(robot.own_axes());

@@ -174,14 +174,15 @@ impl Target {
         Self::Joints(Joints { axes, external: [UNSET; EXTERNAL_AXES] })
     }
 
-    /// The TCP along a straight line to a pose in the robot's base: x, y, z in mm, a, b, c in deg. External axes stay where they are.
+    /// The TCP along a straight line to a pose in the robot's base: x, y, z in mm, a, b, c in deg. External axes stay
+    /// where they are.
     pub fn line(pose: [f64; 6]) -> Self {
         Self::Line { pose, wobj: Frame::identity(), external: [UNSET; EXTERNAL_AXES] }
     }
 }
 
-/// How far from the target of a motion the next one may take over (slip). What is not above 0, or [`crate::command::UNSET`], asks
-/// for nothing.
+/// How far from the target of a motion the next one may take over (slip). What is not above 0, or
+/// [`crate::command::UNSET`], asks for nothing.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Zone {
     /// Percent of the largest zone, which is half of the motion; 0 or more goes before all others.
@@ -241,8 +242,8 @@ pub struct Settings {
     pub jerk_percent: f64,
     /// How the speed rises and falls: with T no jerk is limited.
     pub profile: VelocityProfile,
-    /// Manual low-speed mode: the TCP moves at most 250 mm/s, on every kind of motion; with a tool that stands, the flange
-    /// does, too.
+    /// Manual low-speed mode: the TCP moves at most 250 mm/s, on every kind of motion; with a tool that stands, the
+    /// flange does, too.
     pub manual: bool,
     /// Whether lines and circles pass the wrist singularity by letting the orientation give way.
     pub wrist: bool,

@@ -1,7 +1,8 @@
-//! How long the robot still takes to the end of a motion at full speed: what the governor will do, foreseen segment by segment.
+//! How long the robot still takes to the end of a motion at full speed: what the governor will do, foreseen segment by
+//! segment.
 //!
-//! It takes no acceleration over from one segment to the next, which the governor does where it can; so what is foreseen is a
-//! little more than what it will take.
+//! It takes no acceleration over from one segment to the next, which the governor does where it can; so what is
+//! foreseen is a little more than what it will take.
 
 use crate::limits::profile::{Change, Limits};
 use crate::limits::search::{self, Enough};
@@ -19,8 +20,8 @@ pub(crate) const MOST_LEGS: usize = 24;
 const SPEED_TOLERANCE: f64 = 1e-9;
 const WAY_TOLERANCE_S: f64 = 1e-10;
 
-/// How long a robot takes over legs, in s, that goes at the speed `vel` with the acceleration `acc` where they begin, and at
-/// `exit` at most where they end.
+/// How long a robot takes over legs, in s, that goes at the speed `vel` with the acceleration `acc` where they begin,
+/// and at `exit` at most where they end.
 pub(crate) fn time_over(legs: &[Leg], exit: f64, mut vel: f64, mut acc: f64) -> f64 {
     let mut exits = [exit; MOST_LEGS];
     let legs = legs.get(..MOST_LEGS.min(legs.len())).unwrap_or_default();

@@ -245,8 +245,9 @@ impl Segment {
         self.parametrization.is_none() && matches!(self.curve, Curve::Axes(_))
     }
 
-    /// The tool whose path is limited, after `at` s of nominal time, where the joints are `joints`. `None` where it is the axes that are
-    /// led, but for blends between motions that lead the TCP, and where it is not known what limits it.
+    /// The tool whose path is limited, after `at` s of nominal time, where the joints are `joints`. `None` where it is
+    /// the axes that are led, but for blends between motions that lead the TCP, and where it is not known what limits
+    /// it.
     pub(crate) fn tool(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<LedTool> {
         let pace = self.pace?;
         match &self.curve {
@@ -266,13 +267,15 @@ impl Segment {
         self.rig.carried.way_at(&kinematics.forward(&joints.axes)).translation.vector
     }
 
-    /// Three derivatives of the TCP's position in mm where the axes are led, after `at` s of nominal time, by differences.
+    /// Three derivatives of the TCP's position in mm where the axes are led, after `at` s of nominal time, by
+    /// differences.
     fn moving_by_axes(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> [Vector3<f64>; 3] {
         let tcp = |at: f64| self.tcp_by_axes(kinematics, &self.joints_on(kinematics, at, near));
         by_differences(tcp, at, self.time)
     }
 
-    /// Whether the next segment begins where this one ends: the flange's position where both lead the tool, all axes where both lead these.
+    /// Whether the next segment begins where this one ends: the flange's position where both lead the tool, all axes
+    /// where both lead these.
     pub(crate) fn meets(&self, next: &Self) -> bool {
         let (end, start) = (self.place(self.time), next.place(0.0));
         match (&self.curve, &next.curve) {
@@ -292,7 +295,8 @@ impl Segment {
         self.parametrization.as_ref().map_or(place, |parametrization| parametrization.at(place))
     }
 
-    /// How fast a part of a motion is gone after `at` s of nominal time, so many of which go by per s. `None`: it is half of a blend.
+    /// How fast a part of a motion is gone after `at` s of nominal time, so many of which go by per s. `None`: it is
+    /// half of a blend.
     pub(crate) fn plain_speed(&self, at: f64, vel: f64) -> Option<PlainSpeed> {
         if self.parametrization.is_some() {
             return None;
@@ -349,8 +353,8 @@ impl Segment {
         inside.map(|share| (share - self.from) / (self.to - self.from) * self.time).chain([self.time])
     }
 
-    /// Places beside singular points that a look along it must not miss, in s of nominal time from its start. What is laid down
-    /// by a parametrization of its own has none.
+    /// Places beside singular points that a look along it must not miss, in s of nominal time from its start. What is
+    /// laid down by a parametrization of its own has none.
     pub(crate) fn close_places(&self) -> impl Iterator<Item = f64> {
         let curve = if let Curve::Tool(curve) = &self.curve { Some(curve) } else { None };
         let places = curve.filter(|_| self.parametrization.is_none()).into_iter().flat_map(|curve| &curve.close_places);
@@ -373,9 +377,9 @@ impl Segment {
         curve.into_iter().flat_map(|curve| curve.borders())
     }
 
-    /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`, for a robot that goes on, or for one that
-    /// stops and whose acceleration takes `rise` s to rise at least. Returns how these change with it: three derivatives; `None` where nothing but constant limits holds, and at a
-    /// singular point.
+    /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`, for a robot that goes on,
+    /// or for one that stops and whose acceleration takes `rise` s to rise at least. Returns how these change with it:
+    /// three derivatives; `None` where nothing but constant limits holds, and at a singular point.
     pub(crate) fn limit(
         &self,
         robot: &Robot,
@@ -428,8 +432,8 @@ impl Segment {
         Some((place, place.rates(self.curve.rates(kinematics, place.at, joints)?)))
     }
 
-    /// The place after `at` s of nominal time with the rates there; of a singular point that beside it, towards the middle, as the axes
-    /// go on evenly. `None` where all that is beside it is singular, too.
+    /// The place after `at` s of nominal time with the rates there; of a singular point that beside it, towards the
+    /// middle, as the axes go on evenly. `None` where all that is beside it is singular, too.
     fn regular(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<(f64, Place, Joints, Rates)> {
         let look = |at: f64, joints: Joints| {
             let (place, rates) = self.place_with_rates(kinematics, at, &joints)?;
@@ -443,7 +447,8 @@ impl Segment {
         look(at, *joints).or_else(|| SHARES_BESIDE_SINGULAR.iter().find_map(beside))
     }
 
-    /// How all axes change after `at` s of nominal time, where they are at `joints`: two derivatives by it. `None` at a singular point.
+    /// How all axes change after `at` s of nominal time, where they are at `joints`: two derivatives by it. `None` at a
+    /// singular point.
     pub(crate) fn rates(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<[[f64; ALL]; 2]> {
         let (.., [first, second, _]) = self.place_with_rates(kinematics, at, joints)?;
         Some([first, second])
@@ -466,7 +471,8 @@ fn is_known(motion: &Motion) -> bool {
     motion.laid.is_none()
 }
 
-/// Whether every place of a motion has limits of its own: unless its duration is given or it weaves, which wants an even speed.
+/// Whether every place of a motion has limits of its own: unless its duration is given or it weaves, which wants an
+/// even speed.
 pub(crate) fn is_free(motion: &Motion) -> bool {
     motion.timed.is_none() && is_known(motion)
 }

@@ -1,12 +1,13 @@
 //! A double-ended queue that is copied quickly: what copies have in common is there once.
 //!
-//! Invariant: all chunks but the last one are full, and none is empty; of the first one `gone` elements do not count any more, fewer
-//! than it has.
+//! Invariant: all chunks but the last one are full, and none is empty; of the first one `gone` elements do not count
+//! any more, fewer than it has.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// How many elements a chunk has: copying the queue copies one pointer for as many; the first change after that copies as many.
+/// How many elements a chunk has: copying the queue copies one pointer for as many; the first change after that copies
+/// as many.
 const CHUNK: usize = 32;
 
 /// Shared elements, one behind the other.

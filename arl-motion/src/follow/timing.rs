@@ -1,5 +1,5 @@
-//! What limits the speed along the path ahead, as the governor sees it: stretches of constant acceleration and jerk, each
-//! cut into cells of constant speed. Lengths are s of nominal time.
+//! What limits the speed along the path ahead, as the governor sees it: stretches of constant acceleration and jerk,
+//! each cut into cells of constant speed. Lengths are s of nominal time.
 
 use std::collections::VecDeque;
 
@@ -166,8 +166,8 @@ impl Timing {
         }
     }
 
-    /// Finds the speeds at which stretches may be entered, from the last one backwards. `margin` is the part of the limits
-    /// that is counted on, `cycle` the length of a cycle in s.
+    /// Finds the speeds at which stretches may be entered, from the last one backwards. `margin` is the part of the
+    /// limits that is counted on, `cycle` the length of a cycle in s.
     pub(crate) fn find_entries(&mut self, margin: f64, cycle: f64) {
         let (mut exit, mut changed) = (0.0, true);
         // Nobody asks for that of the first one.
@@ -188,8 +188,8 @@ impl Timing {
         if self.stretches.len() > 2 { self.stretches.get(1).map(|stretch| stretch.entry) } else { None }
     }
 
-    /// The highest speed, without acceleration, at a place, as a state has it, from which everything behind it can be kept.
-    /// `margin` and `cycle` as in [`Self::find_entries`], which comes first.
+    /// The highest speed, without acceleration, at a place, as a state has it, from which everything behind it can be
+    /// kept. `margin` and `cycle` as in [`Self::find_entries`], which comes first.
     pub(crate) fn highest_speed(&self, at: f64, margin: f64, cycle: f64) -> f64 {
         let mut start = 0.0;
         let nexts = self.stretches.iter().skip(1).map(|next| next.entry).chain([0.0]);
@@ -261,8 +261,8 @@ impl Timing {
         end
     }
 
-    /// The way in s, up to `open` s before the end of everything, on which the robot may have to brake if it has to come to rest
-    /// there, however fast it may be before.
+    /// The way in s, up to `open` s before the end of everything, on which the robot may have to brake if it has to
+    /// come to rest there, however fast it may be before.
     pub(crate) fn braking(&self, open: f64) -> f64 {
         let (mut open, mut needed, mut exit) = (open, 0.0, 0.0);
         for stretch in self.stretches.iter().rev() {

@@ -47,6 +47,11 @@ impl Place {
     }
 }
 
+/// The part of the second difference of a way in steps that lies along the first of them; no number where that is none.
+pub(crate) fn second_difference_along([first, second]: [&Vector3<f64>; 2]) -> f64 {
+    (second - first).dot(first) / first.norm()
+}
+
 /// The part of the third difference of a way in steps that lies along it; no number where the middle step is none.
 pub(crate) fn third_difference_along([first, second, third]: [&Vector3<f64>; 3]) -> f64 {
     (third - 2.0 * second + first).dot(second) / second.norm()

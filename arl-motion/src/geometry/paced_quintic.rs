@@ -5,8 +5,8 @@ use std::sync::Arc;
 use crate::geometry::parametrization::Parametrization;
 use crate::geometry::quintic::{Knot, Quintic};
 
-/// Values along a path: a polynomial of the way's parameter or, where it has a pace of its own, of the parametrization that the
-/// parameter stands for.
+/// Values along a path: a polynomial of the way's parameter or, where it has a pace of its own, of the parametrization
+/// that the parameter stands for.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct PacedQuintic<const N: usize> {
     poly: Quintic<N>,

@@ -38,7 +38,8 @@ impl Parametrization {
         Self::One(Quintic::between(&knot(0.0, start), &knot(1.0, end)))
     }
 
-    /// As [`Parametrization::along`], for a way that hardly bends and hardly changes its speed: of its first and second derivatives.
+    /// As [`Parametrization::along`], for a way that hardly bends and hardly changes its speed: of its first and second
+    /// derivatives.
     pub(crate) fn gently<const N: usize>(
         derivative: impl Fn(usize, f64) -> SVector<f64, N>,
         start: [f64; 2],
@@ -62,9 +63,9 @@ impl Parametrization {
         Some((Self::One(whole), time))
     }
 
-    /// Along the path with these derivatives, with a speed in mm/s that goes smoothly from that of `start` to that of `end`, and so do their
-    /// accelerations, in mm/s2; with the nominal time in s. `None` where the path or the speed stands still or turns back
-    /// somewhere.
+    /// Along the path with these derivatives, with a speed in mm/s that goes smoothly from that of `start` to that of
+    /// `end`, and so do their accelerations, in mm/s2; with the nominal time in s. `None` where the path or the speed
+    /// stands still or turns back somewhere.
     pub(crate) fn along<const N: usize>(
         derivative: impl Fn(usize, f64) -> SVector<f64, N>,
         [start, start_acc]: [f64; 2],

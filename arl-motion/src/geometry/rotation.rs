@@ -8,8 +8,8 @@ const SERIES_TERMS: u32 = 24;
 const SMALL_ANGLE_TERMS: u32 = 4;
 const SMALL_ANGLE_SQUARED: f64 = 1e-3;
 
-/// A power series of the squared angle, `first` + .., whose term k is the one before divided by -(2k + `n`)(2k + `n` - 1);
-/// with its first two derivatives.
+/// A power series of the squared angle, `first` + .., whose term k is the one before divided by -(2k + `n`)(2k + `n` -
+/// 1); with its first two derivatives.
 fn series(angle_squared: f64, first: f64, n: u32) -> [f64; 3] {
     let (mut value, mut slope, mut bend) = (0.0, 0.0, 0.0);
     let terms = if angle_squared < SMALL_ANGLE_SQUARED { SMALL_ANGLE_TERMS } else { SERIES_TERMS };

@@ -1,9 +1,10 @@
 //! Smooth ways through points.
 //!
-//! At each inner point the way has the direction and the curvature of the parabola through the point and its neighbours,
-//! over the lengths of the chords; between them it is a polynomial of the fifth degree, at the ends one that goes on like a
-//! parabola. So a segment depends on no more than two points before it and one behind it, points on a line make a line,
-//! and what is planned already never changes. The tool's rotation and the external axes follow the same rule.
+//! At each inner point the way has the direction and the curvature of the parabola through the point and its
+//! neighbours, over the lengths of the chords; between them it is a polynomial of the fifth degree, at the ends one
+//! that goes on like a parabola. So a segment depends on no more than two points before it and one behind it, points on
+//! a line make a line, and what is planned already never changes. The tool's rotation and the external axes follow the
+//! same rule.
 
 use std::sync::Arc;
 
@@ -38,8 +39,8 @@ pub(crate) struct Passing {
     pub(crate) speed: f64,
 }
 
-/// The cosine of the angle, 150 deg, from which on chords turn back: a way through such a point would almost stop there, and
-/// its tangent would be shorter than `LEAST_SHARE_OF_CHORD`.
+/// The cosine of the angle, 150 deg, from which on chords turn back: a way through such a point would almost stop
+/// there, and its tangent would be shorter than `LEAST_SHARE_OF_CHORD`.
 const TURN_BACK_COSINE: f64 = -0.866_025_404;
 
 /// Where the way is nearly reversed its parameter slows down to this part of the length of the chords, not to nothing.
@@ -81,8 +82,8 @@ impl Passing {
     }
 }
 
-/// First and second derivative in the middle of three points, which are `way0` and `way1` apart over the lengths `h0` and
-/// `h1`.
+/// First and second derivative in the middle of three points, which are `way0` and `way1` apart over the lengths `h0`
+/// and `h1`.
 fn parabola<const N: usize>(h0: f64, way0: SVector<f64, N>, h1: f64, way1: SVector<f64, N>) -> [SVector<f64, N>; 2] {
     let (slope0, slope1) = (way0 / h0, way1 / h1);
     [(slope0 * h1 + slope1 * h0) / (h0 + h1), (slope1 - slope0) * (2.0 / (h0 + h1))]
@@ -148,8 +149,8 @@ fn polynomial<const N: usize>(
     Quintic::between(&knot(start, from), &knot(start + way, to))
 }
 
-/// How long the way is per unit of the parameter, in mm, and how that changes; never much shorter than `LEAST_SHARE_OF_CHORD` of the
-/// chord.
+/// How long the way is per unit of the parameter, in mm, and how that changes; never much shorter than
+/// `LEAST_SHARE_OF_CHORD` of the chord.
 fn gait(moved: &Quintic<3>, chord: f64, at: f64) -> [f64; 2] {
     let (first, second) = (Vector3::from(moved.derivative(1, at)), Vector3::from(moved.derivative(2, at)));
     let least = LEAST_SHARE_OF_CHORD * chord;

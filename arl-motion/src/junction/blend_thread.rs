@@ -1,8 +1,8 @@
 //! Finds junctions beside the cycle, on a thread of its own.
 //!
-//! When a motion is laid is decided by the cycle alone, whatever the thread has done until then. A junction that it has found by
-//! then is there; one that it is finding is waited for; else the cycle finds it. All three give the same, so a run does not
-//! depend on the thread. In real time the motion waits instead until the thread is ready.
+//! When a motion is laid is decided by the cycle alone, whatever the thread has done until then. A junction that it has
+//! found by then is there; one that it is finding is waited for; else the cycle finds it. All three give the same, so a
+//! run does not depend on the thread. In real time the motion waits instead until the thread is ready.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -18,14 +18,16 @@ use crate::time_optimal::law_solver_thread::fastest_duration;
 use crate::time_optimal::solver::Edge;
 use arl_robot::robot::Robot;
 
-/// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart, and may take a little
-/// longer than two motions alone.
+/// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart,
+/// and may take a little longer than two motions alone.
 const LEAST_GAIN_S: f64 = 0.001;
-/// Where two motions take longer than this, in s, one blend more or less is nothing beside it, and less than laws of that length differ.
+/// Where two motions take longer than this, in s, one blend more or less is nothing beside it, and less than laws of
+/// that length differ.
 const LONGEST_PAIR_S: f64 = 10.0;
 
-/// Constant limits say too little where a motion takes more than so many times as long with them as with those of one of its ends. Motions
-/// that are shorter than so many mm, of which there may be very many, hardly change from end to end.
+/// Constant limits say too little where a motion takes more than so many times as long with them as with those of one
+/// of its ends. Motions that are shorter than so many mm, of which there may be very many, hardly change from end to
+/// end.
 const UNEVEN_FACTOR: f64 = 2.0;
 const SHORT_MOTION_MM: f64 = 1.0;
 
@@ -53,8 +55,8 @@ impl<'a> Stopping<'a> {
         Self { robot, from, to, uneven: OnceCell::new(), time: OnceCell::new() }
     }
 
-    /// Whether laws have to tell whether a blend saves time: where the governor's constant limits let it seem possible that it does not, or
-    /// say too little about how long the motions take.
+    /// Whether laws have to tell whether a blend saves time: where the governor's constant limits let it seem possible
+    /// that it does not, or say too little about how long the motions take.
     pub(crate) fn doubts(&self, blend: &Blend) -> bool {
         let motions = [self.from, self.to];
         motions.iter().all(|motion| is_free(motion)) && (blend.may_lose_time || self.is_uneven())
@@ -93,8 +95,8 @@ impl<'a> Stopping<'a> {
     }
 }
 
-/// Whether constant limits say too little about how long a motion takes: those of its slowest place make it much slower than those of one of
-/// its ends would. So it is beside a singular point.
+/// Whether constant limits say too little about how long a motion takes: those of its slowest place make it much slower
+/// than those of one of its ends would. So it is beside a singular point.
 fn is_uneven(robot: &Robot, motion: &Motion) -> bool {
     let (Curve::Tool(curve), Some(limits)) = (&motion.curve, motion.limits) else { return false };
     if motion.length < SHORT_MOTION_MM {

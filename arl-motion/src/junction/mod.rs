@@ -1,5 +1,5 @@
-//! Where two motions meet: the blend between them, and the bend where it meets the blend before it. All of it is a function of the
-//! motions alone, so that it is the same whoever finds it, and when.
+//! Where two motions meet: the blend between them, and the bend where it meets the blend before it. All of it is a
+//! function of the motions alone, so that it is the same whoever finds it, and when.
 
 pub(crate) mod blend_thread;
 pub(crate) mod gain;
@@ -16,7 +16,8 @@ use crate::plan::lay_overlay::joined;
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
-/// The motion before, where a blend leads from there that may be bent at its end, and how it is bent where that blend begins.
+/// The motion before, where a blend leads from there that may be bent at its end, and how it is bent where that blend
+/// begins.
 pub(crate) type Before = Option<(Arc<Motion>, MidCurvature)>;
 
 /// What a junction depends on.
@@ -55,7 +56,8 @@ pub(crate) struct Blended {
 }
 
 impl Blended {
-    /// What it leaves to the next one: a smaller blend than was asked for stays as it is. One that is bent would begin elsewhere.
+    /// What it leaves to the next one: a smaller blend than was asked for stays as it is. One that is bent would begin
+    /// elsewhere.
     pub(crate) fn leaves(&self) -> Before {
         self.blend.is_whole.then(|| (Arc::clone(&self.from), MidCurvature::NONE))
     }

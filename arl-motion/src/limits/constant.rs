@@ -29,8 +29,8 @@ impl Constraint {
     }
 }
 
-/// Shares of the highest speed, and then of the highest acceleration, among which the quickest limits are looked for. At
-/// the full share of either nothing may be left for the rest; at the others something always is.
+/// Shares of the highest speed, and then of the highest acceleration, among which the quickest limits are looked for.
+/// At the full share of either nothing may be left for the rest; at the others something always is.
 const SPEED_SHARES: [f64; 9] = [1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3];
 const ACC_SHARES: [f64; 5] = [1.0, 0.9, 0.75, 0.6, 0.4];
 
@@ -126,7 +126,8 @@ pub(crate) fn passing(constraints: &[Constraint], fastest: f64) -> Limits {
         }))
     };
     let (acc_at_rest, jerk_at_rest) = (acc_at(0.0), jerk_at(0.0, 0.0));
-    // At half the speed something is left of both in any case, if no more than what the jerk leaves of the acceleration.
+    // At half the speed something is left of both in any case, if no more than what the jerk leaves of the
+    // acceleration.
     let half = (vel * 0.5).min(fastest);
     let by_jerk = |constraint: &Constraint| {
         (constraint.jerk - constraint.third * half * half * half) / (3.0 * constraint.second * half)

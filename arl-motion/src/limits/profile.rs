@@ -25,7 +25,8 @@ impl Limits {
         Self { jerk: self.jerk.min(self.acc / time), ..self }
     }
 
-    /// The distance of the change from one speed, without acceleration, to a lower one without: the mean speed times the time.
+    /// The distance of the change from one speed, without acceleration, to a lower one without: the mean speed times
+    /// the time.
     pub(crate) fn slowing(&self, from: f64, to: f64) -> f64 {
         let Self { acc, jerk, .. } = *self;
         let change = (from - to).max(0.0);

@@ -21,7 +21,8 @@ pub(crate) fn highest(low: f64, high: f64, enough: Enough, excess: impl Fn(f64) 
         if below >= 0.0 || high - low <= enough.value {
             break;
         }
-        // Where the secant is 0; an end that stays once more counts half, and now and then a half of the range is taken.
+        // Where the secant is 0; an end that stays once more counts half, and now and then a half of the range is
+        // taken.
         let secant = low - below * (high - low) / (above - below);
         let inside = secant > low && secant < high && step % 4 != 3;
         let middle = if inside { secant } else { f64::midpoint(low, high) };

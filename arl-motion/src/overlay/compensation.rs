@@ -10,8 +10,8 @@ use crate::overlay::{easing, paced, times};
 use arl_robot::frames::{Carried, Rig};
 use arl_robot::kinematics::frame;
 
-/// How far, in mm, and how, as a rotation vector in rad, the TCP is led away from its path: along and about the axes of what the
-/// way is seen from, unless said otherwise.
+/// How far, in mm, and how, as a rotation vector in rad, the TCP is led away from its path: along and about the axes of
+/// what the way is seen from, unless said otherwise.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Lead {
     shift: Vector3<f64>,
@@ -51,7 +51,8 @@ pub(crate) struct Led {
 }
 
 impl Led {
-    /// What of it a motion takes over: nothing under another compensation or none, or where paths are seen from elsewhere.
+    /// What of it a motion takes over: nothing under another compensation or none, or where paths are seen from
+    /// elsewhere.
     pub(crate) fn for_next(&self, settings: &Settings, rig: &Rig) -> Self {
         let goes_on = settings.compensation.is_some_and(|compensation| compensation.number == self.number);
         let alike = match (self.carried, rig.carried) {
@@ -93,8 +94,8 @@ const NO_GROWTH: f64 = 1e-9;
 const LEAST_GROWTH_SHARE: f64 = 1.0 / 16.0;
 
 impl Shift {
-    /// The compensation of a motion along `curve` that takes `seconds` at its full speed. `workpiece` and `world` are the
-    /// orientations of the workpiece frame and of the world, seen like the path.
+    /// The compensation of a motion along `curve` that takes `seconds` at its full speed. `workpiece` and `world` are
+    /// the orientations of the workpiece frame and of the world, seen like the path.
     pub(crate) fn new(
         compensation: &Compensation,
         before: &Led,

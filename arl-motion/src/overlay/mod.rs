@@ -89,13 +89,15 @@ impl Woven {
 }
 
 impl Overlay {
-    /// What the weave adds to the place of the TCP, in mm, along the axes of what the path is seen from, with its derivatives by the parameter.
+    /// What the weave adds to the place of the TCP, in mm, along the axes of what the path is seen from, with its
+    /// derivatives by the parameter.
     pub(crate) fn weaving(&self, at: f64) -> Option<Rates> {
         let (woven, frame) = (self.woven.as_ref()?, self.frame.as_ref()?);
         Some(carried(&frame.rotation(at), &frame.turning(at), &woven.at(at)))
     }
 
-    /// What is added to the place of the TCP, in mm, along the axes of what the path is seen from, with its derivatives by the parameter.
+    /// What is added to the place of the TCP, in mm, along the axes of what the path is seen from, with its derivatives
+    /// by the parameter.
     pub(crate) fn offset(&self, curve: &TcpPath, at: f64) -> Rates {
         let woven = self.weaving(at).unwrap_or([Vector3::zeros(); 4]);
         let shifted = self.shift.as_ref().map(|shift| shift.offset(curve, self.frame.as_ref(), at));

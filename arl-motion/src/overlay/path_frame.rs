@@ -35,8 +35,9 @@ enum Turns {
         /// How the tool turns the frame about the path, in rad per unit.
         roll: f64,
     },
-    /// From the direction at the start to that at the end of a segment of a spline: a rotation vector in rad about axes of the
-    /// base. Where segments meet it turns evenly, which their directions themselves do not: else acceleration would jump there.
+    /// From the direction at the start to that at the end of a segment of a spline: a rotation vector in rad about axes
+    /// of the base. Where segments meet it turns evenly, which their directions themselves do not: else acceleration
+    /// would jump there.
     Smoothly(Quintic<3>),
 }
 

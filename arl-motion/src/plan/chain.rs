@@ -32,7 +32,8 @@ pub(crate) struct Held {
     command: Command,
     settings: Settings,
     pub(crate) number: u64,
-    /// Where the robot is when it begins, and where it ends as far as that is known already: without what is laid over it.
+    /// Where the robot is when it begins, and where it ends as far as that is known already: without what is laid over
+    /// it.
     start: Joints,
     end: Joints,
     target: Place,
@@ -123,8 +124,8 @@ impl Held {
             || from.turns_back(&self.target, &next.target)
     }
 
-    /// Ends it with a stop, whatever its zone, where the next one would be of the same spline but for [`Held::breaks_off`]:
-    /// within a spline zones count for nothing.
+    /// Ends it with a stop, whatever its zone, where the next one would be of the same spline but for
+    /// [`Held::breaks_off`]: within a spline zones count for nothing.
     pub(crate) fn stop_before(&mut self, robot: &Robot, next: &Held) {
         if [self.kind, next.kind] == [Kind::Spline; 2] && self.breaks_off(robot, next) {
             self.command.zone = Zone::NONE;
@@ -136,8 +137,8 @@ impl Held {
         Place { tcp, external: self.start.external }
     }
 
-    /// Plans it, without what is laid over it, with the motion of its path that comes next; returns also what it leaves to that
-    /// one.
+    /// Plans it, without what is laid over it, with the motion of its path that comes next; returns also what it leaves
+    /// to that one.
     ///
     /// # Errors
     /// It cannot be moved; the error tells its line.

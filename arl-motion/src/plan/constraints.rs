@@ -15,8 +15,8 @@ use arl_robot::robot::{Axis, EXTERNAL_AXES, Robot};
 pub(crate) const MANUAL_SPEED_MM_S: f64 = 250.0;
 /// Between the places where a path is checked, derivatives are a little larger than at them.
 const BETWEEN_SAMPLES_FACTOR: f64 = 1.005;
-/// Places at which a curved path of the TCP is looked at; and of each part of one whose pace is made of parts: there the way may
-/// turn within a small part of its time.
+/// Places at which a curved path of the TCP is looked at; and of each part of one whose pace is made of parts: there
+/// the way may turn within a small part of its time.
 const PLACES_OF_CURVE: u32 = 24;
 const PLACES_OF_PART: u32 = 6;
 /// How far beside a place its other side is looked at.
@@ -127,8 +127,8 @@ impl<'a> Constraints<'a> {
         self.places.iter().enumerate().map(|(index, known)| place(index, *known)).collect()
     }
 
-    /// Joins the rows from `known` on, which are of one place, to the first rows, which are of others: limits that hold at
-    /// all of these places.
+    /// Joins the rows from `known` on, which are of one place, to the first rows, which are of others: limits that hold
+    /// at all of these places.
     pub(crate) fn join(&mut self, known: usize) {
         if known == 0 {
             return;
@@ -202,8 +202,8 @@ impl<'a> Constraints<'a> {
         self.push(along(rates, (tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk)));
     }
 
-    /// The TCP at a place where these are the derivatives of its position, in mm, and where it swings to and fro: all of its
-    /// acceleration counts, not only that along its path.
+    /// The TCP at a place where these are the derivatives of its position, in mm, and where it swings to and fro: all
+    /// of its acceleration counts, not only that along its path.
     pub(crate) fn swinging(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
         let tcp = &self.robot.tcp;
         let limits = [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk];
@@ -260,8 +260,8 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// The speed of the TCP in manual operation, at a place where all axes change by `rates`; of the flange, too, where the
-    /// tool stands.
+    /// The speed of the TCP in manual operation, at a place where all axes change by `rates`; of the flange, too, where
+    /// the tool stands.
     pub(crate) fn manual_place(&mut self, joints: &Joints, rates: &[f64; ALL], carried: &Carried) {
         self.cap_place(joints, rates, carried, MANUAL_SPEED_MM_S);
         if let Carried::Workpiece(_) = carried {
@@ -286,8 +286,8 @@ impl<'a> Constraints<'a> {
         self.push(Constraint::even(speed, vel, f64::INFINITY, f64::INFINITY));
     }
 
-    /// The speed of the flange in manual operation at a place of a path whose parameter changes by `rate`, where the tool
-    /// stands; else it is the TCP's that counts.
+    /// The speed of the flange in manual operation at a place of a path whose parameter changes by `rate`, where the
+    /// tool stands; else it is the TCP's that counts.
     pub(crate) fn manual_flange(&mut self, curve: &ToolCurve, at: f64, rate: f64) {
         if let Carried::Workpiece(_) = curve.carried {
             let [first, ..] = curve.twist(at).of_place(&curve.flange(at).translation.vector);
@@ -316,8 +316,8 @@ fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Constrai
 
 /// A speed along a path whose derivatives are given, with how it changes along the path.
 ///
-/// Where a path all but turns back, its speed falls and rises at once, and has no jerk to speak of. There the part of the jerk
-/// along the path counts, which is the smaller one.
+/// Where a path all but turns back, its speed falls and rises at once, and has no jerk to speak of. There the part of
+/// the jerk along the path counts, which is the smaller one.
 fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Constraint {
     let [p1, p2, p3] = rates;
     let first = p1.norm();

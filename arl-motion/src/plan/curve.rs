@@ -13,7 +13,8 @@ use arl_robot::frames::Carried;
 use arl_robot::kinematics::{Axes, Frame, Kinematics, Passage, Rates, Twist, wrap_degrees};
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
-/// Closer to a singular point than this (see [`arl_robot::kinematics::Kinematics::clearance`]) rounding spoils the derivatives.
+/// Closer to a singular point than this (see [`arl_robot::kinematics::Kinematics::clearance`]) rounding spoils the
+/// derivatives.
 pub(crate) const SINGULAR_CLEARANCE: f64 = 1e-5;
 
 /// What a motion moves along.
@@ -110,8 +111,8 @@ impl ToolCurve {
         self.passages.iter().rev().find(|passage| passage.to < at).map_or(self.cfg, |passage| passage.cfg_behind)
     }
 
-    /// Whether the TCP can go from one path over to another: they lead the same TCP, and no passage makes their orientations
-    /// inexact there.
+    /// Whether the TCP can go from one path over to another: they lead the same TCP, and no passage makes their
+    /// orientations inexact there.
     pub(crate) fn goes_on(&self, leave: f64, to: &ToolCurve, join: f64) -> bool {
         let exact = self.passages.iter().all(|passage| passage.to < leave)
             && to.passages.iter().all(|passage| passage.from > join);

@@ -192,7 +192,8 @@ impl Laid {
         Ok(Motion { curve: Curve::Tool(curve), laid: Some(Box::new(self)), ..motion })
     }
 
-    /// Everything that limits the parameter: the plain motion's own limits, the axes, the TCP, the compensation's limits.
+    /// Everything that limits the parameter: the plain motion's own limits, the axes, the TCP, the compensation's
+    /// limits.
     fn constraints(&self, robot: &Robot, curve: &ToolCurve, rates: &[(f64, Rates)]) -> Vec<Constraint> {
         let mut constraints = Constraints::new(robot);
         let pace = &self.plain.pace;

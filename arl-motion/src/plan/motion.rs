@@ -64,8 +64,8 @@ impl Motion {
         &self.end
     }
 
-    /// How long it takes from rest to rest at an override of 100 %, in s: where its duration is given, as it is executed, braking a
-    /// little more gently than its limits allow; else as the limits allow.
+    /// How long it takes from rest to rest at an override of 100 %, in s: where its duration is given, as it is
+    /// executed, braking a little more gently than its limits allow; else as the limits allow.
     pub fn duration(&self) -> f64 {
         self.limits.map_or(0.0, |limits| self.duration_with(&limits))
     }
@@ -75,8 +75,8 @@ impl Motion {
         if self.timed.is_some() { limits.duration_braking(1.0, LOOK_AHEAD_MARGIN) } else { limits.duration(1.0) }
     }
 
-    /// The same where an acceleration takes `rise` s to rise: a programmed duration is kept for all that, as long as the robot
-    /// can go a little faster.
+    /// The same where an acceleration takes `rise` s to rise: a programmed duration is kept for all that, as long as
+    /// the robot can go a little faster.
     pub(crate) fn rising_in(mut self, rise: f64) -> Self {
         if let (Some(highest), Some(limits)) = (self.timed, self.limits) {
             let wanted = limits.duration_braking(1.0, LOOK_AHEAD_MARGIN);
@@ -141,7 +141,8 @@ pub(crate) struct GivenCorner {
 pub(crate) struct CornerEnd {
     /// How much of the motion the blend takes.
     pub(crate) part: f64,
-    /// How fast the motion is met, as it goes on, and how that speed rises: by the blend's own parameter, which goes from 0 to 1.
+    /// How fast the motion is met, as it goes on, and how that speed rises: by the blend's own parameter, which goes
+    /// from 0 to 1.
     pub(crate) speed: f64,
     pub(crate) acc: f64,
 }

@@ -1,10 +1,11 @@
-//! Walks a path of the TCP before it is moved: is it reachable, within the ranges of the axes, clear of singular points, and how do
-//! the axes move along it?
+//! Walks a path of the TCP before it is moved: is it reachable, within the ranges of the axes, clear of singular
+//! points, and how do the axes move along it?
 
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
 use crate::geometry::parametrization::Parametrization;
 use crate::plan::curve::{SINGULAR_CLEARANCE, ToolCurve};
+use crate::plan::motion::NO_WAY_MM_OR_DEG;
 use arl_robot::kinematics::{
     Axes, CLEAR_OF_SINGULAR, RANGE_SLACK, Rates, Refusal, SHORTEST_STEP_S, Twist, lowest_pace, outruns,
 };
@@ -17,7 +18,7 @@ pub(crate) struct Survey {
     pub(crate) end: Axes,
     /// The derivatives of the axes by the parameter, at places close enough to see every change.
     pub(crate) rates: Vec<(f64, Rates)>,
-    /// Where it passes closest by a singular point, if it comes near one.
+    /// The slowest of the places where it passes by a singular point, if it comes near one.
     pub(crate) near_singular: Option<NearSingular>,
 }
 
@@ -43,11 +44,13 @@ const PASSAGE_STEPS: f64 = 48.0;
 const AXIS_4: usize = 3;
 /// How far beside a place its other side is looked at.
 const BESIDE_SHARE: f64 = 1e-9;
-/// A glimpse behind the start and before the end, where the axes must not differ from the ends by over `BEHIND_END_JUMP_DEG` deg.
+/// A glimpse behind the start and before the end, where the axes must not differ from the ends by over
+/// `BEHIND_END_JUMP_DEG` deg.
 const BEHIND_END_SHARE: f64 = 1e-6;
 const BEHIND_END_JUMP_DEG: f64 = 0.05;
 
-/// Places of a path are close together where the axes' motion changes over less than this part of it: beside singular points.
+/// Places of a path are close together where the axes' motion changes over less than this part of it: beside singular
+/// points.
 const CLOSE_SHARE: f64 = 0.02;
 /// These are so far apart, as part of the length over which the axes' motion changes.
 const CLOSE_STEP_SHARE: f64 = 0.06;
@@ -60,8 +63,8 @@ pub struct NearSingular {
     pub axis: usize,
     /// Where, as part of the path.
     pub along: f64,
-    /// How fast the path may be gone straight on there, by the limits of the robot's own axes: mm/s of the TCP, or deg/s where
-    /// the tool only turns.
+    /// How fast the path may be gone straight on there, by the limits of the robot's own axes: mm/s of the TCP, or
+    /// deg/s where the tool only turns.
     pub speed: f64,
     /// `mm/s` or `deg/s`.
     pub unit: &'static str,
@@ -176,8 +179,8 @@ const EXPECTED_SHARE: f64 = 0.02;
 
 /// What an axis does in less time than this, s at its highest speed, comes from rounding.
 const SEEN_S: f64 = 1e-9;
-/// An axis that is farther from where the place before made it bound to be than by this part of what the axes moved since was led by
-/// something between.
+/// An axis that is farther from where the place before made it bound to be than by this part of what the axes moved
+/// since was led by something between.
 const BENT_SHARE: f64 = 1e-3;
 
 /// How long the robot's own axis that takes longest would take from `a` to `b`, in s at its highest speed.
@@ -186,8 +189,8 @@ fn farthest(robot: &Robot, a: &Axes, b: &Axes) -> f64 {
     ways.map(|((a, b), axis)| (a - b).abs() / axis.vel).fold(0.0, f64::max)
 }
 
-/// Looks at a short path at a few places, the first and the last of which are its ends; `None` where that is not enough to
-/// know how the axes move, or where they must not go: [`check_path`] tells then.
+/// Looks at a short path at a few places, the first and the last of which are its ends; `None` where that is not enough
+/// to know how the axes move, or where they must not go: [`check_path`] tells then.
 pub(crate) fn check_gentle_path<const N: usize>(
     robot: &Robot,
     curve: &ToolCurve,
@@ -248,8 +251,8 @@ impl Walk<'_> {
         Ok(self.curve.borders().filter(|border| *border > at).fold(at + step, f64::min))
     }
 
-    /// Goes on to `next`, or less far where an axis jumps on the way there: then a singular point is between, which the axes
-    /// pass at a low speed, or cannot pass.
+    /// Goes on to `next`, or less far where an axis jumps on the way there: then a singular point is between, which the
+    /// axes pass at a low speed, or cannot pass.
     fn step(&self, at: f64, here: &Axes, known: Option<&Rates>, mut next: f64) -> Result<(f64, Axes), PlanError> {
         loop {
             let expected = known.map_or(*here, |known| ahead(here, known, next - at));
@@ -272,8 +275,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Whether the axes are so far from where they were bound to be that their motion changed on the way: an arm that is all but
-    /// stretched turns back within a hair's breadth.
+    /// Whether the axes are so far from where they were bound to be that their motion changed on the way: an arm that
+    /// is all but stretched turns back within a hair's breadth.
     fn bends(&self, here: &Axes, expected: &Axes, found: &Axes) -> bool {
         farthest(self.robot, found, expected) > BENT_SHARE * farthest(self.robot, found, here) + SEEN_S
     }
@@ -289,8 +292,8 @@ impl Walk<'_> {
         lowest_pace(&travel, &turning)
     }
 
-    /// How fast the way can be gone straight on beside a singular point. A place from which the axes cannot go on at the lowest speed
-    /// that makes sense is singular. In a passage axis 4 is led.
+    /// How fast the way can be gone straight on beside a singular point. A place from which the axes cannot go on at
+    /// the lowest speed that makes sense is singular. In a passage axis 4 is led.
     fn near_singular(&self, at: f64, axes: &Axes) -> Result<Option<NearSingular>, PlanError> {
         let kinematics = &self.robot.kinematics;
         if self.curve.passage(at).is_some() || kinematics.clearance(axes) > CLEAR_OF_SINGULAR {
@@ -304,14 +307,14 @@ impl Walk<'_> {
         }
         let ([_, travel, ..], [turning, ..]) = (self.way().moving(at), self.way().rotation_rates(at));
         let (way, unit) = match travel.norm() {
-            way if way > 0.0 => (way, "mm/s"),
+            way if way > NO_WAY_MM_OR_DEG => (way, "mm/s"),
             _ => (turning.norm().to_degrees(), "deg/s"),
         };
         Ok(Some(NearSingular { axis, along: at, speed: margin * way / pace, unit }))
     }
 
-    /// Where the axes' motion changes over so little of the path though they could go straight on, the path itself turns too sharply,
-    /// or what is laid over it does.
+    /// Where the axes' motion changes over so little of the path though they could go straight on, the path itself
+    /// turns too sharply, or what is laid over it does.
     fn not_too_sharp(&self, at: f64, axes: &Axes) -> Result<(), PlanError> {
         if self.is_plain_clear(at, axes) {
             return Err(PlanError::TooDense { along: at });
@@ -358,8 +361,8 @@ impl Walk<'_> {
         rates.scale(&self.robot.axes)
     }
 
-    /// The same where something is laid over the path: how the axes change along the plain path tells how near a singular
-    /// point is, while a weave would be at rest now and then.
+    /// The same where something is laid over the path: how the axes change along the plain path tells how near a
+    /// singular point is, while a weave would be at rest now and then.
     fn scale_of_way(&self, rates: &Rates, at: f64, axes: &Axes) -> f64 {
         let plain = self.plain.as_ref().and_then(|plain| Some((plain, self.plain_rates(at, axes)?)));
         let Some((plain, plain_rates)) = plain else { return self.scale(rates) };

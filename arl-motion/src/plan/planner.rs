@@ -247,7 +247,8 @@ impl Planner<'_> {
         }
     }
 
-    /// A segment of a smooth path, nominally in `time` s; it joins the motion before it without a stop where it `flows`.
+    /// A segment of a smooth path, nominally in `time` s; it joins the motion before it without a stop where it
+    /// `flows`.
     pub(crate) fn segment(
         &self,
         mut curve: ToolCurve,
@@ -489,8 +490,8 @@ impl Planner<'_> {
                 })
             }
         };
-        // Where one motion leaves something of its speed for its own ramps, and its neighbour does not, the way through both
-        // is still an even one.
+        // Where one motion leaves something of its speed for its own ramps, and its neighbour does not, the way through
+        // both is still an even one.
         let rate = match limits {
             Some(_) if self.command.duration.is_none() => highest_speed(&constraints.rows),
             limits => limits.map_or(1.0, |limits| limits.vel),

@@ -97,8 +97,8 @@ impl Layer {
         }
     }
 
-    /// Puts this layer away, of a robot that rests at `here` and has been given motions up to the number `added`: what is left in
-    /// its place has nothing to do. `starts` and `going` say how what is suspended below it goes on.
+    /// Puts this layer away, of a robot that rests at `here` and has been given motions up to the number `added`: what
+    /// is left in its place has nothing to do. `starts` and `going` say how what is suspended below it goes on.
     pub(crate) fn suspend(&mut self, here: Joints, added: u64, starts: VecDeque<Start>, going: bool) -> Self {
         let path = self.path.suspend();
         let early = self.requests.take_early();

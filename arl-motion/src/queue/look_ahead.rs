@@ -1,7 +1,7 @@
 //! Motions that are planned and wait until they are laid on the path.
 //!
-//! Blends take long to find, so a thread has some time for them where the robot can do without the motion meanwhile. How much time
-//! that is depends on the path alone, never on the thread.
+//! Blends take long to find, so a thread has some time for them where the robot can do without the motion meanwhile.
+//! How much time that is depends on the path alone, never on the thread.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -15,26 +15,28 @@ use crate::queue::{LOOK_AHEAD_S, Queue};
 
 /// The longest time, in s, that a blend may take to be found.
 const LONGEST_WAIT_S: f64 = 0.05;
-/// The part of the time after which the robot may have to brake without the motion; and the least time, in s, that is waited for.
+/// The part of the time after which the robot may have to brake without the motion; and the least time, in s, that is
+/// waited for.
 const WAITED_SHARE_OF_SPARE_TIME: f64 = 0.5;
 const LEAST_WAIT_S: f64 = 0.003;
 /// The same where the robot moves, and other laws may have to tell whether a blend saves time.
 const LEAST_WAIT_BESIDE_LAW_S: f64 = 0.02;
-/// So many motions a cycle are always laid, and are taken from the program, so many while there is not enough way ahead, and so many short
-/// ones, whose blends a thread finds, while the robot rests: no cycle must take long. As many as the robot may go in so many cycles are
-/// always possible.
+/// So many motions a cycle are always laid, and are taken from the program, so many while there is not enough way
+/// ahead, and so many short ones, whose blends a thread finds, while the robot rests: no cycle must take long. As many
+/// as the robot may go in so many cycles are always possible.
 const LEAST_MOTIONS_A_CYCLE: u32 = 2;
 const MOST_MOTIONS_A_CYCLE: u32 = 4;
 const SHORT_MOTIONS_A_CYCLE_AT_REST: u32 = 16;
 const CYCLES_WORTH_OF_MOTIONS: f64 = 2.0;
-/// A robot at rest does not set off along shorter motions, in s at full speed, before enough of them are ahead: one acceleration holds for all of
-/// them then, which could not get less any more while it speeds up.
+/// A robot at rest does not set off along shorter motions, in s at full speed, before enough of them are ahead: one
+/// acceleration holds for all of them then, which could not get less any more while it speeds up.
 const SHORT_MOTION_S: f64 = 0.02;
 /// Enough way ahead, in s at full speed; and where laws look along it.
 const ENOUGH_AHEAD_S: f64 = 0.5;
 const ENOUGH_AHEAD_FOR_LAWS_S: f64 = 5.0;
-/// How long, in s, a robot at rest waits for motions that come cycle by cycle, or for their blends, and the way, in s at full speed, that
-/// is laid then and enough; and the same where they are short: laws along very many of them leave some open, for which there has to be room.
+/// How long, in s, a robot at rest waits for motions that come cycle by cycle, or for their blends, and the way, in s
+/// at full speed, that is laid then and enough; and the same where they are short: laws along very many of them leave
+/// some open, for which there has to be room.
 const GATHERING_S: (f64, f64) = (0.05, ENOUGH_AHEAD_FOR_LAWS_S);
 const GATHERING_OF_DENSE_CHAIN_S: (f64, f64) = (0.5, 0.9);
 
@@ -146,7 +148,8 @@ impl Queue {
         lays && self.way_ahead() < LOOK_AHEAD_S
     }
 
-    /// Whether so many motions were planned in this cycle that the next one can wait for the next cycle, which must come in time.
+    /// Whether so many motions were planned in this cycle that the next one can wait for the next cycle, which must
+    /// come in time.
     pub(crate) fn has_planned_enough(&self) -> bool {
         let enough = if self.layer.path.wants_laws() { ENOUGH_AHEAD_FOR_LAWS_S } else { ENOUGH_AHEAD_S };
         let can_wait =
@@ -187,7 +190,8 @@ impl Queue {
         self.lay_waiting();
     }
 
-    /// Begins to look for how a motion is joined by the one before it, if that takes long and there is time. Returns when it is laid.
+    /// Begins to look for how a motion is joined by the one before it, if that takes long and there is time. Returns
+    /// when it is laid.
     fn begin_to_prepare(&mut self, motion: &Arc<Motion>) -> (u64, Option<Prepared>) {
         let time = (WAITED_SHARE_OF_SPARE_TIME * self.spare()).min(LONGEST_WAIT_S);
         let before = self.layer.waiting.motions.iter().rev().find(|ready| ready.motion.goes());
@@ -242,8 +246,9 @@ impl Queue {
         *self.spare.get_or_insert_with(|| self.layer.path.spare())
     }
 
-    /// Whether a robot at rest waits one more cycle because motions come, or blends are being found, that laws can then lead along from the
-    /// start: a law in hand would have to be found anew for each of them, and the last ones might come too late.
+    /// Whether a robot at rest waits one more cycle because motions come, or blends are being found, that laws can then
+    /// lead along from the start: a law in hand would have to be found anew for each of them, and the last ones might
+    /// come too late.
     pub(crate) fn gathers(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
         let is_open = || self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
@@ -265,14 +270,14 @@ impl Queue {
         self.spare = None;
     }
 
-    /// Whether a motion can be laid without waiting for the blend that leads to it, where that counts. The robot does not go on without it
-    /// while there is way ahead, and at its end needs none.
+    /// Whether a motion can be laid without waiting for the blend that leads to it, where that counts. The robot does
+    /// not go on without it while there is way ahead, and at its end needs none.
     fn is_prepared(&self, ready: &Ready) -> bool {
         !self.in_real_time || self.layer.path.is_empty() || ready.prepared.as_ref().is_none_or(Prepared::is_ready)
     }
 
-    /// Lays the motions that are due on the path, as soon as that can take them; some a cycle, but for those in a hurry, and those for
-    /// which a robot stands.
+    /// Lays the motions that are due on the path, as soon as that can take them; some a cycle, but for those in a
+    /// hurry, and those for which a robot stands.
     pub(crate) fn lay_waiting(&mut self) {
         let mut laid = Done::default();
         let stands = self.layer.path.rests() && self.layer.path.wants_laws();

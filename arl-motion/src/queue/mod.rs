@@ -122,18 +122,19 @@ pub(crate) struct Laid {
 }
 
 impl Queue {
-    /// An empty queue of a robot that rests at `start`, for cycles in real time. No cycle waits for what threads find beside it (blends and
-    /// time laws): the robot goes on with what it has, and comes to rest on its path where nothing more comes. So the set-points depend
-    /// on the computer, too; [`Queue::found_late`] counts what came too late.
+    /// An empty queue of a robot that rests at `start`, for cycles in real time. No cycle waits for what threads find
+    /// beside it (blends and time laws): the robot goes on with what it has, and comes to rest on its path where
+    /// nothing more comes. So the set-points depend on the computer, too; [`Queue::found_late`] counts what came too
+    /// late.
     pub fn new(robot: Arc<Robot>, start: Joints) -> Self {
         let mut queue = Self::repeatable(robot, start);
         queue.follow_real_time(true);
         queue
     }
 
-    /// The same, for cycles that take as long as they take, as in simulation and planning: a cycle that needs a blend or a time law waits
-    /// for it (30 ms and more at times), so that the same commands at the same cycles give the same set-points, to the last bit, on every
-    /// machine.
+    /// The same, for cycles that take as long as they take, as in simulation and planning: a cycle that needs a blend
+    /// or a time law waits for it (30 ms and more at times), so that the same commands at the same cycles give the same
+    /// set-points, to the last bit, on every machine.
     pub fn repeatable(robot: Arc<Robot>, start: Joints) -> Self {
         Self {
             robot,
@@ -164,13 +165,15 @@ impl Queue {
         }
     }
 
-    /// Says whether cycles take the time that they stand for from now on, as with [`Queue::new`], or wait as with [`Queue::repeatable`].
+    /// Says whether cycles take the time that they stand for from now on, as with [`Queue::new`], or wait as with
+    /// [`Queue::repeatable`].
     pub fn follow_real_time(&mut self, in_real_time: bool) {
         self.in_real_time = in_real_time;
         self.layer.path.follow_real_time(in_real_time);
     }
 
-    /// How many time laws and blends came too late, in real time; not those without which the robot went on as it would have with them.
+    /// How many time laws and blends came too late, in real time; not those without which the robot went on as it would
+    /// have with them.
     pub fn found_late(&self) -> u64 {
         self.layer.path.late_laws() + self.late_blends.count
     }
@@ -180,20 +183,20 @@ impl Queue {
         &self.robot
     }
 
-    /// Whether another motion can be added: up to [`LOOK_AHEAD`] always, then as long as the way ahead is shorter than what
-    /// stopping may take.
+    /// Whether another motion can be added: up to [`LOOK_AHEAD`] always, then as long as the way ahead is shorter than
+    /// what stopping may take.
     pub fn has_room(&self) -> bool {
         let executing = u64::from(self.layer.execution.started == Some(self.layer.finished + 1));
         let waiting = (self.unfinished() as u64).saturating_sub(executing);
         waiting < LOOK_AHEAD as u64 || (waiting < MOST_MOTIONS_AHEAD && self.is_short_of_way())
     }
 
-    /// Plans a motion from the end of the last one and appends it; returns its running number, from 1. A motion whose path
-    /// depends on the next one waits for that one, or for [`Queue::conclude`].
+    /// Plans a motion from the end of the last one and appends it; returns its running number, from 1. A motion whose
+    /// path depends on the next one waits for that one, or for [`Queue::conclude`].
     ///
     /// # Errors
-    /// The motion cannot be planned, or the one before it cannot now that this one is known ([`PlanError::Earlier`]), or
-    /// there is no room, or dropped motions have not come to rest yet. It was not added.
+    /// The motion cannot be planned, or the one before it cannot now that this one is known ([`PlanError::Earlier`]),
+    /// or there is no room, or dropped motions have not come to rest yet. It was not added.
     pub fn add(&mut self, command: &Command, settings: &Settings) -> Result<u64, PlanError> {
         if self.dropping {
             return Err(PlanError::Stopping);
@@ -245,8 +248,8 @@ impl Queue {
         self.laid.as_mut().map_or_else(Vec::new, std::mem::take)
     }
 
-    /// Says that no motion will come before the robot rests: one that waited for the next goes without it, and one alone goes off as if it
-    /// had no zone. A motion that comes all the same is planned as any other.
+    /// Says that no motion will come before the robot rests: one that waited for the next goes without it, and one
+    /// alone goes off as if it had no zone. A motion that comes all the same is planned as any other.
     ///
     /// # Errors
     /// It cannot be moved without a next one ([`PlanError::Earlier`]). It was dropped.
@@ -354,14 +357,14 @@ impl Queue {
         }
     }
 
-    /// The targets, since this was asked last, that should be rounded off but are reached with a stop. Those of the same two program lines
-    /// for the same reason count as one.
+    /// The targets, since this was asked last, that should be rounded off but are reached with a stop. Those of the
+    /// same two program lines for the same reason count as one.
     pub fn take_unblended(&mut self) -> Vec<UnblendedTarget> {
         std::mem::take(&mut self.unblended)
     }
 
-    /// The least part of its programmed speed, 0 to 1, that a weave or a compensation has left to a motion since this was
-    /// asked last, and that motion's program line.
+    /// The least part of its programmed speed, 0 to 1, that a weave or a compensation has left to a motion since this
+    /// was asked last, and that motion's program line.
     pub fn take_slowed(&mut self) -> (f64, u32) {
         std::mem::replace(&mut self.slowed, (1.0, 0))
     }
@@ -376,7 +379,8 @@ impl Queue {
         &self.joints
     }
 
-    /// The TCP now in the world, with the tool and the base of the motion that is or was last executed, translation in mm.
+    /// The TCP now in the world, with the tool and the base of the motion that is or was last executed, translation in
+    /// mm.
     pub fn tcp(&self) -> Frame {
         self.layer.execution.rig.tcp_at(&self.robot.kinematics.forward(&self.joints.axes))
     }
@@ -401,8 +405,8 @@ impl Queue {
         self.stop.is_some()
     }
 
-    /// Comes to rest on the path; motions stay in the queue until [`Queue::resume`]. A general stop does not soften a fast
-    /// one.
+    /// Comes to rest on the path; motions stay in the queue until [`Queue::resume`]. A general stop does not soften a
+    /// fast one.
     pub fn stop_on_path(&mut self, stop: Stop) {
         if self.stop != Some(Stop::Fast) {
             self.stop = Some(stop);
@@ -431,8 +435,8 @@ impl Queue {
         self.drop_at_rest();
     }
 
-    /// Puts the commanded positions elsewhere, as when a robot is switched on; returns whether it could: not while there
-    /// are motions, and not to what is no number.
+    /// Puts the commanded positions elsewhere, as when a robot is switched on; returns whether it could: not while
+    /// there are motions, and not to what is no number.
     pub fn place(&mut self, joints: Joints) -> bool {
         let idle = self.is_layer_idle() && self.rests() && joints.is_finite();
         if idle {
@@ -443,7 +447,8 @@ impl Queue {
         idle
     }
 
-    /// The running number of the last motion that is not executed any more: it has ended, or a blend leads away from it.
+    /// The running number of the last motion that is not executed any more: it has ended, or a blend leads away from
+    /// it.
     pub fn over(&self) -> u64 {
         self.layer.over
     }
@@ -458,8 +463,8 @@ impl Queue {
         &self.layer.execution.rig
     }
 
-    /// Moves on by one cycle at an override. A motion that is not blended with the next one ends exactly at its target, and the
-    /// next one starts with the cycle after.
+    /// Moves on by one cycle at an override. A motion that is not blended with the next one ends exactly at its target,
+    /// and the next one starts with the cycle after.
     pub fn step(&mut self, cycle: Cycle, speed_override: Override) -> Step {
         let dt = cycle.period();
         self.cycle = dt;
@@ -484,9 +489,10 @@ impl Queue {
         Step { finished: self.layer.finished, rests: self.rests(), ..step }
     }
 
-    /// Whether steps tell velocities and accelerations; they do unless this says otherwise. Whoever takes the positions alone saves
-    /// what finding them costs: then they are 0.
+    /// Whether steps tell velocities, accelerations and the speed of the TCP; they do unless this says otherwise.
+    /// Whoever takes the positions alone saves what finding them costs: then they are 0.
     pub fn tell_rates(&mut self, wanted: bool) {
+        self.velocity = Joints::ZERO;
         self.tells_rates = wanted;
     }
 
@@ -505,8 +511,8 @@ impl Queue {
         if self.braking_hard { FAST_STOP_FACTOR } else { 1.0 }
     }
 
-    /// How fast to go in this cycle, at an override of `speed`, 0 to 1. A fast stop is carried through to rest: from its acceleration
-    /// nothing else would be within the limits.
+    /// How fast to go in this cycle, at an override of `speed`, 0 to 1. A fast stop is carried through to rest: from
+    /// its acceleration nothing else would be within the limits.
     fn choose_pacing(&mut self, speed: f64) -> Pacing {
         let stop = if self.stop == Some(Stop::Fast) { self.stop } else { self.suspension.stop().or(self.stop) };
         let pacing = match stop {
@@ -556,8 +562,8 @@ impl Queue {
         (0, 0)
     }
 
-    /// Has the path's leader go on for a cycle; returns the segment that was left behind last, and whether the robot has come to a
-    /// stop at its end.
+    /// Has the path's leader go on for a cycle; returns the segment that was left behind last, and whether the robot
+    /// has come to a stop at its end.
     fn follow_path(&mut self, dt: f64, pacing: Pacing) -> (Option<Arc<Segment>>, bool) {
         let Layer { path, waiting, concluded, execution, finished, .. } = &mut self.layer;
         path.note_end(*concluded && waiting.is_empty());
@@ -574,8 +580,8 @@ impl Queue {
         (arrived, stands)
     }
 
-    /// Puts the commanded positions where the robot is on the path, or at the end of the segment at which it stands; returns the
-    /// motion executed there and its line, `executed` where there is no other.
+    /// Puts the commanded positions where the robot is on the path, or at the end of the segment at which it stands;
+    /// returns the motion executed there and its line, `executed` where there is no other.
     fn place_on_path(&mut self, executed: (u64, u32), end: Option<&Segment>) -> (u64, u32) {
         let kinematics = &self.robot.kinematics;
         match (end, self.layer.path.first()) {

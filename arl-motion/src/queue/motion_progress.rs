@@ -5,8 +5,8 @@ use crate::queue::Queue;
 
 /// For so many cycles what is left of a motion is counted down before it is found anew.
 const CYCLES_BETWEEN_FORECASTS: u32 = 16;
-/// How far the motion being executed has come. Times are those at an override of 100 %. A blend belongs to the motion that
-/// is joined, whose path counts from the target that is rounded off (manual 7.3).
+/// How far the motion being executed has come. Times are those at an override of 100 %. A blend belongs to the motion
+/// that is joined, whose path counts from the target that is rounded off (manual 7.3).
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Progress {
@@ -46,10 +46,15 @@ impl Queue {
         self.layer.progress
     }
 
-    /// How far a motion had come when it ended, or was left for a blend, in the last cycle. `None`: neither did it then, or it
-    /// was dropped.
+    /// How far a motion had come when it ended, or was left for a blend, in the last cycle. `None`: neither did it
+    /// then, or it was dropped.
     pub fn left(&self, motion: u64) -> Option<Progress> {
         self.left.iter().rev().find(|progress| progress.motion == motion).copied()
+    }
+
+    /// How far motions had come that ended, or were left for a blend, in the last cycle; parts of motions, too.
+    pub(super) fn left_behind(&self) -> &[Progress] {
+        &self.left
     }
 
     /// Counts time for the motion that counts as being executed.
@@ -65,8 +70,8 @@ impl Queue {
         progress_at(segment, 1.0, segment.duration().unwrap_or(self.layer.execution.elapsed), 0.0)
     }
 
-    /// How long the motion being executed still takes at full speed, in s, `passed` s of that later than when this was asked
-    /// last.
+    /// How long the motion being executed still takes at full speed, in s, `passed` s of that later than when this was
+    /// asked last.
     pub(crate) fn time_left(&mut self, motion: u64, elapsed: f64, passed: f64) -> f64 {
         let (left, age) = match self.forecast {
             Some((of, left, age)) if of == motion && age < CYCLES_BETWEEN_FORECASTS => {

@@ -2,10 +2,11 @@
 
 use nalgebra::Vector3;
 
-use crate::geometry::derivatives::third_difference_along;
+use crate::geometry::derivatives::{second_difference_along, third_difference_along};
 
-/// The speed and the acceleration along a way. Where it turns back the speed goes on with the other sign, so that its derivatives are what
-/// the robot does there, not those of a size. Where it all but turns back, the parts of acceleration and jerk along the way count, as in limits.
+/// The speed and the acceleration along a way. Where it turns back the speed goes on with the other sign, so that its
+/// derivatives are what the robot does there, not those of a size. Where it all but turns back, the parts of
+/// acceleration and jerk along the way count, as in limits.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(super) struct PathSpeed {
     /// The last two steps.
@@ -26,7 +27,7 @@ impl PathSpeed {
         let acc = (vel - self.vel) / period;
         let jerk = (acc - self.acc) / period;
         let along = [
-            (step - second).dot(&second) / second.norm() / period.powi(2),
+            second_difference_along([&second, &step]) / period.powi(2),
             third_difference_along([&first, &second, &step]) / period.powi(3),
         ];
         *self = Self { steps: [second, step], vel, acc };
@@ -60,17 +61,19 @@ mod tests {
     }
 
     #[test]
-    fn a_way_that_turns_back_round_a_narrow_bend_has_what_is_along_it() {
+    fn a_way_that_brakes_into_a_hairpin_has_the_acceleration_along_it() {
         let period = 0.001;
-        // A bend of 0.005 mm at 5 mm/s: a half turn within three cycles.
-        let bend = (0..200).map(|cycle| {
-            let (along, radius) = (f64::from(cycle) * 0.005, 0.005);
-            let angle = ((along - 0.5) / radius).clamp(0.0, std::f64::consts::PI);
-            let behind = (along - 0.5 - radius * std::f64::consts::PI).max(0.0);
-            Vector3::new(along.min(0.5) + radius * angle.sin() - behind, radius * (1.0 - angle.cos()), 0.0)
+        // It brakes to 4 mm/s by 8000 mm/s2, turns by 120 deg from one cycle to the next, and goes off from 5.6 mm/s in
+        // the same way.
+        let braking = (0..25).rev().map(|cycle| (4.0 + 8.0 * f64::from(cycle), 0.0_f64));
+        let going_off = (0..25).map(|cycle| (5.6 + 8.0 * f64::from(cycle), 120.0_f64.to_radians()));
+        let mut place = Vector3::zeros();
+        let hairpin = braking.chain(going_off).map(|(speed, towards)| {
+            place += speed * period * Vector3::new(towards.cos(), towards.sin(), 0.0);
+            place
         });
-        let [acc, _] = most(bend, period);
-        assert!(acc < 6000.0, "{acc}");
+        let [acc, _] = most(hairpin, period);
+        assert!((acc - 8000.0).abs() < 1.0, "{acc}");
     }
 
     #[test]

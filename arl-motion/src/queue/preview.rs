@@ -34,7 +34,7 @@ pub struct Preview {
 
 impl Preview {
     /// No more cycles than this are looked at: they are kept, all of them.
-    pub const MOST_CYCLES: usize = 1 << 20;
+    pub const MOST_CYCLES: usize = (1 << 20) - 1;
 
     /// How long it takes until the robot rests and nothing is left to do.
     pub fn duration(&self) -> Duration {
@@ -46,8 +46,8 @@ impl Preview {
         &self.steps
     }
 
-    /// The set-point at a time from now; behind the end the last one. Between two cycles positions, speeds and accelerations of the axes go
-    /// on smoothly from the one to the other, the TCP evenly.
+    /// The set-point at a time from now; behind the end the last one. Between two cycles positions, speeds and
+    /// accelerations of the axes go on smoothly from the one to the other, the TCP evenly.
     pub fn at(&self, time: Duration) -> Step {
         // Whole numbers: at the end of a cycle it is over.
         let cycle = self.cycle.length().as_nanos();
@@ -63,13 +63,24 @@ impl Preview {
 }
 
 impl Queue {
-    /// Looks at what the motions that are there will do from now on, at an override, where no other command comes: a copy of the queue goes
-    /// ahead, waits for blends and time laws as [`Queue::repeatable`] does, and stops where the robot rests and cannot go on.
-    /// It takes as long as those cycles take, and keeps some 0.5 kB for each of them.
+    /// Looks at what the motions that are there will do from now on, at an override, where no other command comes: a
+    /// copy of the queue goes ahead, waits for blends and time laws as [`Queue::repeatable`] does, and stops where the
+    /// robot rests and cannot go on. It takes as long as those cycles take, and keeps some 0.5 kB for each of them.
     ///
     /// # Errors
-    /// A motion that waits for the next one cannot be moved without it; the motion takes more than [`Preview::MOST_CYCLES`].
+    /// A motion that waits for the next one cannot be moved without it; the motion takes more than
+    /// [`Preview::MOST_CYCLES`].
     pub fn preview(&self, cycle: Cycle, speed_override: Override) -> Result<Preview, PlanError> {
+        self.preview_up_to(cycle, speed_override, Preview::MOST_CYCLES)
+    }
+
+    /// The same for at most so many cycles.
+    pub(crate) fn preview_up_to(
+        &self,
+        cycle: Cycle,
+        speed_override: Override,
+        most: usize,
+    ) -> Result<Preview, PlanError> {
         let mut copy = self.clone();
         copy.follow_real_time(false);
         copy.tell_rates(true);
@@ -77,8 +88,9 @@ impl Queue {
         let mut steps = vec![self.now()];
         let stands = |copy: &Queue| copy.is_layer_idle() || copy.stopped() || speed_override == Override::ZERO;
         while !(copy.rests() && stands(&copy)) {
-            if steps.len() > Preview::MOST_CYCLES {
-                return Err(PlanError::TooLong { most: Preview::MOST_CYCLES });
+            // The first one is where it begins.
+            if steps.len() > most {
+                return Err(PlanError::TooLong { most });
             }
             steps.push(copy.step(cycle, speed_override));
         }

@@ -12,7 +12,7 @@ use crate::command::joints::ALL;
 use crate::command::{Command, GatePart, MotionKind, Settings, Speed, Target};
 use crate::follow::segment::PlainSpeed;
 use crate::plan::constraints::MANUAL_SPEED_MM_S;
-use crate::plan::motion::Motion;
+use crate::plan::motion::{Motion, NO_WAY_MM_OR_DEG};
 use crate::plan::path_check::NearSingular;
 use crate::queue::elapsed::Elapsed;
 use crate::queue::path_buffer::Leaving;
@@ -23,8 +23,6 @@ use derivatives::{DERIVATIVES, Derivatives};
 use reached::Reached;
 pub use smaller_zone::SmallerZone;
 
-/// TCP paths shorter than this, mm, have no speed: then the tool's turning is what was programmed.
-const NO_DISTANCE_MM: f64 = 1e-6;
 /// A motion that has to be slower than this part of the programmed speed somewhere beside a singular point is told of.
 const SLOWED_SHARE: f64 = 0.5;
 /// A zone of which a smaller part than this is left out is used as it was asked for.
@@ -138,8 +136,8 @@ pub struct MotionRecord {
     /// The programmed speed, under the override: % of the axes' limits on axis motions, else mm/s, or deg/s
     /// where only the tool turns, and that of the external axes where they move alone; or the programmed duration in s.
     pub programmed: Figure,
-    /// The highest speed in the same unit outside of the zones at both ends, and without what is laid over the path; where the zones take
-    /// all of the motion, that between them. For a duration, how long it took.
+    /// The highest speed in the same unit outside of the zones at both ends, and without what is laid over the path;
+    /// where the zones take all of the motion, that between them. For a duration, how long it took.
     pub reached: f64,
     /// When it began, in s of controller time; `None` when it has not.
     pub start: Option<f64>,
@@ -172,8 +170,8 @@ pub struct MotionRecord {
 }
 
 impl MotionRecord {
-    /// The limits of speed, acceleration and jerk that it came nearest to. Where a blend with an axis motion is a part of it,
-    /// those of the TCP do not hold and are left out; so is the jerk with the profile T.
+    /// The limits of speed, acceleration and jerk that it came nearest to. Where a blend with an axis motion is a part
+    /// of it, those of the TCP do not hold and are left out; so is the jerk with the profile T.
     pub fn closest(&self) -> [Option<Closest>; 3] {
         let with_tool = self.along_tool && !self.mixed;
         let mut found = [None; 3];
@@ -189,21 +187,22 @@ impl MotionRecord {
         self.blend.map(|blend| Rounding { used: if self.arrived { blend.used } else { 0.0 }, ..blend })
     }
 
-    /// Why the zone at its end was not used as it was asked for: not at all, or only a part of it. `None`: it was, or none was asked for.
+    /// Why the zone at its end was not used as it was asked for: not at all, or only a part of it. `None`: it was, or
+    /// none was asked for.
     pub fn smaller_zone(&self) -> Option<SmallerZone> {
         let blend = self.zone().filter(|blend| blend.used < blend.asked * (1.0 - NO_PART))?;
         Some(match (&self.unblended, &self.less) {
+            _ if !self.arrived => SmallerZone::Unfinished,
             (Some(why), _) => SmallerZone::Stop(why.clone()),
             (None, _) if self.flows => SmallerZone::Flows,
-            _ if !self.arrived => SmallerZone::Unfinished,
             (None, Some(why)) => SmallerZone::Part(why.clone()),
             (None, None) if blend.used > 0.0 => SmallerZone::Half,
             (None, None) => SmallerZone::NothingBehind,
         })
     }
 
-    /// What of a motion has the programmed speed: the robot's axes, or the TCP along a path; where that stays, the tool's turning; where
-    /// that stays, too, external axes.
+    /// What of a motion has the programmed speed: the robot's axes, or the TCP along a path; where that stays, the
+    /// tool's turning; where that stays, too, external axes.
     fn measured_by(&self, robot: &Robot, motion: &Motion) -> (Measure, Figure) {
         let figure = |value: f64, unit: &'static str| Figure { value, unit };
         let moves = |linear: bool| {
@@ -211,7 +210,7 @@ impl MotionRecord {
             robot.external_axes().iter().zip(ways).any(|(axis, (end, start))| axis.linear == linear && end != start)
         };
         let (of_path, moves_external) = (self.measure == Measure::Tcp, moves(false) || moves(true));
-        if of_path && motion.length() >= NO_DISTANCE_MM {
+        if of_path && motion.length() >= NO_WAY_MM_OR_DEG {
             (Measure::Tcp, self.programmed)
         } else if of_path && (motion.moves_tool() || !moves_external) {
             (Measure::Turning, figure(self.speed.ori, "deg/s"))
@@ -269,8 +268,8 @@ impl Recorder {
         &self.records
     }
 
-    /// Notes a motion that the queue has taken. Its way may become known only with the next one. The rest of a gate belongs to the record
-    /// of the gate.
+    /// Notes a motion that the queue has taken. Its way may become known only with the next one. The rest of a gate
+    /// belongs to the record of the gate.
     pub fn planned(&mut self, queue: &mut Queue, number: u64, command: &Command, settings: &Settings) {
         let is_rest = matches!(&command.target, Target::Gate { gate, .. } if gate.part == GatePart::Rest);
         let is_of_last = is_rest
@@ -351,6 +350,19 @@ impl Recorder {
         }
     }
 
+    /// Notes which motions have come to their ends in this cycle, or were left for a blend: several where they are
+    /// short.
+    fn note_arrived(&mut self, queue: &Queue) {
+        let here = queue.progress().filter(|progress| progress.share >= 1.0);
+        // What leads into a motion, or is the first part of it, is left behind before the motion is.
+        let over = queue.left_behind().iter().filter(|left| queue.is_over(left.motion));
+        for ended in over.chain(&here) {
+            if let Some(record) = record_of(&mut self.records, &self.places, ended.motion) {
+                record.arrived = true;
+            }
+        }
+    }
+
     /// Notes what a cycle did, which the queue has just made.
     pub fn step(&mut self, queue: &mut Queue, step: &Step) {
         let period = queue.cycle();
@@ -358,6 +370,7 @@ impl Recorder {
         let began = self.time.seconds();
         self.time.add(period);
         self.still = if step.motion == 0 { self.still + 1 } else { 0 };
+        self.note_arrived(queue);
         let number = if step.motion == 0 { self.executed } else { step.motion };
         // Who stands may be moved by others than a motion.
         let is_still = self.still >= DERIVATIVES;
@@ -390,16 +403,9 @@ impl Recorder {
             let limits = [tcp.ori_vel, tcp.ori_acc * harder, tcp.ori_jerk * harder];
             record.tool.raise(Limited::Turning, tool.turning, limits, known);
         }
-        record.arrived |= step.motion == number && arrived(queue, number);
         let within = Speeds { tcp: tool.moving[0].abs(), turning: tool.turning[0].abs(), axes: axes[0] };
         record.note_speed(&self.robot, queue, number, &within);
     }
-}
-
-/// Whether a motion has come to its end in this cycle, or was left for a blend.
-fn arrived(queue: &Queue, number: u64) -> bool {
-    queue.left(number).is_some()
-        || queue.progress().is_some_and(|progress| progress.motion == number && progress.share >= 1.0)
 }
 
 /// Where an axis of [`Robot::axes`] is among all that there may be.
@@ -444,7 +450,8 @@ impl Speeds {
 }
 
 impl MotionRecord {
-    /// Notes how fast it goes in this cycle: outside of a zone as is planned without what is laid over the path, `within` one as it moves.
+    /// Notes how fast it goes in this cycle: outside of a zone as is planned without what is laid over the path,
+    /// `within` one as it moves.
     fn note_speed(&mut self, robot: &Robot, queue: &Queue, number: u64, within: &Speeds) {
         if self.measure == Measure::Duration {
             self.reached = self.duration;

@@ -12,17 +12,18 @@ pub struct Step {
     pub joints: Joints,
     /// How fast they change, in deg/s (mm/s). All 0 while the robot rests, and where [`Queue::tell_rates`] has said so.
     pub velocity: Joints,
-    /// How fast that changes, in deg/s2 (mm/s2).
+    /// How fast that changes, in deg/s2 (mm/s2); 0 where the velocity is.
     pub acceleration: Joints,
     /// The TCP in the world, with the tool and the base of the motion that is or was last executed, translation in mm.
     pub tcp: Frame,
-    /// The speed of the TCP against the workpiece, in mm/s.
+    /// The speed of the TCP against the workpiece, in mm/s; 0 where the velocity is.
     pub tcp_speed: f64,
     /// The running number, from 1, of the motion executed in this cycle; 0 where there is none.
     pub motion: u64,
     /// Its program line; 0 where there is none.
     pub line: u32,
-    /// The running number of the last motion that has ended; motions end in order.
+    /// The running number of the last motion that has ended; motions end in order. It falls back where motions go on
+    /// that were set aside: [`Queue::has_ended`] tells of each.
     pub finished: u64,
     /// Whether the robot stands still at the end of the cycle.
     pub rests: bool,

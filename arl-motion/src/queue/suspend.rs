@@ -1,8 +1,8 @@
 //! Motion that is stopped and set aside, so that others come in between: `stopmove` and `startmove`.
 //!
 //! What is set aside is the path itself, with the robot at rest on it. So going on after a return to that very place is
-//! going on along the same way. Only where motions are skipped, those behind them are planned anew, from the target that
-//! the robot goes to in their place.
+//! going on along the same way. Only where motions are skipped, those behind them are planned anew, from the target
+//! that the robot goes to in their place.
 
 mod way_back;
 
@@ -45,8 +45,8 @@ struct Again {
 /// How to go on with what was set aside last.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Start {
-    /// How many motions are dropped, counted from the stopped one: the robot goes to the target of the last of them. 0: to
-    /// the place of the stop.
+    /// How many motions are dropped, counted from the stopped one: the robot goes to the target of the last of them. 0:
+    /// to the place of the stop.
     pub skip: u32,
     /// Whether the way there is gone at manual speed.
     pub manual: bool,
@@ -144,8 +144,9 @@ impl Queue {
         self.is_settled() && self.suspension.suspended.last().is_none_or(|suspended| level >= suspended.level)
     }
 
-    /// Brings the robot to rest on its path and sets its motions aside, so that others can be added that come before they
-    /// go on. Only those of the level `level` of the program, or of a higher one, may do that: see [`Queue::takes`].
+    /// Brings the robot to rest on its path and sets its motions aside, so that others can be added that come before
+    /// they go on. Only those of the level `level` of the program, or of a higher one, may do that: see
+    /// [`Queue::takes`].
     pub fn request_suspension(&mut self, stop: Stop, level: u32) {
         if let Some(stopping) = &mut self.suspension.stopping {
             if stop == Stop::Fast {
@@ -180,8 +181,8 @@ impl Queue {
         true
     }
 
-    /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on its
-    /// way goes on to rest.
+    /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on
+    /// its way goes on to rest.
     pub fn drop_suspended(&mut self) -> bool {
         let waits = self.suspension.waits_for_start(&self.layer.requests);
         if waits {
@@ -217,8 +218,8 @@ impl Queue {
         self.is_open_to(level) && self.has_room() && !self.has_planned_enough()
     }
 
-    /// Whether nothing is left that those of a level of the program have to wait for: all motion, but for what was set aside
-    /// for them.
+    /// Whether nothing is left that those of a level of the program have to wait for: all motion, but for what was set
+    /// aside for them.
     pub fn idle_for(&self, level: u32) -> bool {
         if self.is_open_to(level) { self.is_layer_idle() } else { self.idle() }
     }

@@ -241,8 +241,8 @@ fn a_zone_close_to_the_wrist_singularity_keeps_every_limit() {
     assert_within_limits(&robot, &rows, "beside the wrist singularity");
 }
 
-/// The blend between the third line and the fourth takes half of its zone, as it would be slower than a stop with all of it: it ends before
-/// the middle of the fourth, where the next one begins.
+/// The blend between the third line and the fourth takes half of its zone, as it would be slower than a stop with all
+/// of it: it ends before the middle of the fourth, where the next one begins.
 #[test]
 fn a_blend_that_is_smaller_than_its_zone_does_not_bend_into_the_next_one() {
     let robot = robot("tx2-60");

@@ -35,8 +35,8 @@ fn speeds(rows: &[Step]) -> Vec<f64> {
     rows.windows(2).skip(1).map(places).collect()
 }
 
-/// How many cycles lie between the first and the last one at almost the programmed speed, and how many of them do not have
-/// it.
+/// How many cycles lie between the first and the last one at almost the programmed speed, and how many of them do not
+/// have it.
 fn at_speed(rows: &[Step], programmed: f64) -> (usize, usize) {
     let quick: Vec<bool> = speeds(rows).iter().map(|speed| *speed >= 0.99 * programmed).collect();
     let first = quick.iter().position(|quick| *quick).expect("it never gets up to speed");
@@ -77,8 +77,8 @@ fn dense_motions_of_the_axes_flow() {
         let at = f64::from(index) * 0.01;
         [30.0 * at.sin(), 10.0 * (at * 0.7).sin() - 90.0, 20.0 * (1.3 * at).sin() + 90.0, 0.0, 45.0, 0.0]
     };
-    // Where the axes' pace swings within each blend it takes 4617 and 1976; where the robot sets off before all are laid, 2523 and 857.
-    // In T the shortest motion along the curve takes 2038.
+    // Where the axes' pace swings within each blend it takes 4617 and 1976; where the robot sets off before all are
+    // laid, 2523 and 857. In T the shortest motion along the curve takes 2038.
     let chains = [(VelocityProfile::O, 600, 2450), (VelocityProfile::S, 200, 875), (VelocityProfile::T, 600, 2080)];
     for (profile, count, longest) in chains {
         let mut queue = Queue::repeatable(robot.clone(), axes(point(0)));

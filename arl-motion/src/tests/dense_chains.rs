@@ -73,7 +73,8 @@ fn dense_lines_keep_their_speed_whatever_their_zone() {
 
 #[test]
 fn very_dense_lines_that_come_while_the_robot_goes_keep_their_speed() {
-    // More of them than are ahead at once, ten a cycle: each time that laws led to the last one, those behind it would wait for another.
+    // More of them than are ahead at once, ten a cycle: each time that laws led to the last one, those behind it would
+    // wait for another.
     let robot = robot("kr10-r1420");
     let (step, speed) = (0.06, 600.0);
     let at = |index: u32| {
@@ -95,7 +96,8 @@ fn very_dense_lines_that_come_while_the_robot_goes_keep_their_speed() {
     }
 }
 
-/// How far the path leaves the lines from the first target to the others at most, in mm, and how many of them it came by.
+/// How far the path leaves the lines from the first target to the others at most, in mm, and how many of them it came
+/// by.
 fn farthest_off(rows: &[Step], targets: &[[f64; 2]]) -> (f64, usize) {
     let start = rows[0].tcp.translation.vector;
     let (mut line, mut farthest) = (0, 0.0_f64);
@@ -150,8 +152,8 @@ fn lines_that_turn_sharply_or_change_their_speed_keep_their_zones() {
     let robot = with_external_axes("kr10-r1420");
     let start = Joints { external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET], ..axes(START) };
     let [x, y, z, a, b, c] = frame_components(&robot.kinematics.forward(&START));
-    // How far the lines turn in deg, how long they are in mm, their speeds in mm/s, how far the second one turns the tool and leads the
-    // linear external axis, in deg and mm, and what is used of a zone of a tenth.
+    // How far the lines turn in deg, how long they are in mm, their speeds in mm/s, how far the second one turns the
+    // tool and leads the linear external axis, in deg and mm, and what is used of a zone of a tenth.
     let cases = [
         (0.01, [0.2, 0.2], [500.0, 500.0], [0.0, 0.0], 0.5),
         (1.0, [0.2, 0.2], [500.0, 500.0], [0.0, 0.0], 0.5),

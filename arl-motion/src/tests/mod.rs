@@ -149,8 +149,8 @@ fn assert_within_limits_of(robot: &Robot, rows: &[Step], profile: VelocityProfil
     }
 }
 
-/// Distance in mm of a point from the line through two others, and the angle in rad that the rotation at the same share of
-/// the way would have to be off.
+/// Distance in mm of a point from the line through two others, and the angle in rad that the rotation at the same share
+/// of the way would have to be off.
 fn off_line(start: &Frame, end: &Frame, at: &Frame) -> (f64, f64) {
     let way = end.translation.vector - start.translation.vector;
     let here = at.translation.vector - start.translation.vector;

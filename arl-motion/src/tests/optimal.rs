@@ -52,8 +52,8 @@ fn without_jerk_limits_a_corner_takes_as_long_as_the_shortest_motion_along_its_p
     }
 }
 
-/// Lines of so many mm to and fro with a corner of 150 deg, the tool turned by 12 deg at every other target; how many cycles they
-/// take.
+/// Lines of so many mm to and fro with a corner of 150 deg, the tool turned by 12 deg at every other target; how many
+/// cycles they take.
 fn to_and_fro(side: f64, zone: f64) -> f64 {
     let robot = robot("kr10-r1420");
     let mut queue = Queue::repeatable(robot.clone(), start());
@@ -115,7 +115,8 @@ fn a_chain_that_never_stops_goes_on_from_law_to_law() {
 
 #[test]
 fn chains_that_laws_made_slower_than_stops_are_no_longer() {
-    // The first crept behind a law that was found with lower limits; the others have laws that were found at too few places.
+    // The first crept behind a law that was found with lower limits; the others have laws that were found at too few
+    // places.
     let chains = [
         (
             "kr10-r1420",

@@ -69,6 +69,23 @@ fn at_the_end_of_a_cycle_it_is_over() {
     for (number, step) in (0_u32..).zip(ahead.steps()) {
         assert_eq!(ahead.at(Cycle::MS.length() * number), *step, "{number}");
     }
-    let slow = queue.preview(Cycle::MS, Override::from_percent(1e-6).unwrap());
-    assert_eq!(slow.unwrap_err(), PlanError::TooLong { most: Preview::MOST_CYCLES });
+    let most = ahead.steps().len() - 1;
+    assert_eq!(queue.preview_up_to(Cycle::MS, Override::FULL, most).unwrap().steps().len(), most + 1);
+    let long = queue.preview_up_to(Cycle::MS, Override::FULL, most - 1);
+    assert_eq!(long.unwrap_err(), PlanError::TooLong { most: most - 1 });
+}
+
+#[test]
+fn who_asks_for_no_rates_gets_the_same_positions() {
+    let robot = robot("kr10-r1420");
+    let mut queue = Queue::repeatable(robot, axes([0.0, -90.0, 90.0, 0.0, 30.0, 0.0]));
+    queue.add(&movej([20.0, -90.0, 90.0, 0.0, 30.0, 0.0]), &Settings::default()).unwrap();
+    let mut quiet = queue.clone();
+    quiet.tell_rates(false);
+    for _ in 0..200 {
+        let (told, silent) = (queue.step(Cycle::MS, Override::FULL), quiet.step(Cycle::MS, Override::FULL));
+        assert_eq!(silent.joints, told.joints);
+        assert_eq!((silent.velocity, silent.acceleration, silent.tcp_speed), (Joints::ZERO, Joints::ZERO, 0.0));
+    }
+    assert!(queue.step(Cycle::MS, Override::FULL).tcp_speed > 0.0);
 }

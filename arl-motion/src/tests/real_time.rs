@@ -33,7 +33,8 @@ fn lines(robot: &Robot) -> (Joints, Vec<Command>) {
     (start, (1..=60).map(command).collect())
 }
 
-/// Goes along lines, in real time or not, for `most` cycles; returns what each of them did, and how many laws were late.
+/// Goes along lines, in real time or not, for `most` cycles; returns what each of them did, and how many laws were
+/// late.
 fn ran(robot: &Arc<Robot>, threads: Option<Threads>, most: usize) -> (Vec<Step>, u64) {
     let (start, commands) = lines(robot);
     let robot = Arc::clone(robot);

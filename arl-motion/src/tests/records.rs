@@ -3,7 +3,8 @@
 use crate::queue::{MotionRecord, Recorder};
 use crate::tests::*;
 
-/// Records lines from the start, each so far from the one before in mm and deg, with its profile; `stop` in a cycle, and on after rest.
+/// Records lines from the start, each so far from the one before in mm and deg, with its profile; `stop` in a cycle,
+/// and on after rest.
 fn record(ways: &[([f64; 6], VelocityProfile)], zone: f64, stop: Option<(usize, Stop)>) -> Vec<MotionRecord> {
     let robot = with_external_axes("kr10-r1420");
     let start = Joints { axes: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET] };

@@ -60,8 +60,9 @@ fn random_way(robot: &Robot, random: &mut Random) -> Option<Way> {
     inside.then_some(Way { start: axes(start), rig, from, travel, turning })
 }
 
-/// What becomes of motions one behind the other, each of which starts where the one before has ended. A target that cannot be
-/// reached is told before what is wrong with the way there, so that the reason of a refusal may depend on where targets are.
+/// What becomes of motions one behind the other, each of which starts where the one before has ended. A target that
+/// cannot be reached is told before what is wrong with the way there, so that the reason of a refusal may depend on
+/// where targets are.
 fn outcome(robot: &Robot, start: &Joints, commands: &[Command]) -> &'static str {
     let mut start = *start;
     for command in commands {

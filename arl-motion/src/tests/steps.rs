@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// How far the rates of a trace are from its differences, as shares of the limits: speed, acceleration, and the TCP's speed in mm/s.
+/// How far the rates of a trace are from its differences, as shares of the limits: speed, acceleration, and the TCP's
+/// speed in mm/s.
 fn off(robot: &Robot, rows: &[Step]) -> [f64; 3] {
     let period = Cycle::MS.period();
     let mut off = [0.0_f64; 3];

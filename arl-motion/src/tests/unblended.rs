@@ -2,7 +2,8 @@
 
 use crate::tests::*;
 
-/// What is said of the targets of lines from the start, each so far from the one before in mm, deg and mm (deg) of external axes.
+/// What is said of the targets of lines from the start, each so far from the one before in mm, deg and mm (deg) of
+/// external axes.
 fn said(ways: &[([f64; 6], [f64; 2])], zone: f64) -> Vec<(u32, NoBlend)> {
     let robot = with_external_axes("kr10-r1420");
     let start = Joints { axes: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET] };
@@ -71,7 +72,8 @@ fn the_same_lines_are_told_once() {
     assert_eq!(queue.take_unblended(), []);
 }
 
-/// How many cycles lines to and fro take whose tool turns by so many deg each time, with a zone in mm, and why targets are not rounded off.
+/// How many cycles lines to and fro take whose tool turns by so many deg each time, with a zone in mm, and why targets
+/// are not rounded off.
 fn to_and_fro(profile: VelocityProfile, turn: f64, zone: f64) -> (usize, Vec<NoBlend>) {
     let robot = robot("kr6-r700");
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);

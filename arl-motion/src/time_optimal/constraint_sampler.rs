@@ -10,8 +10,8 @@ use crate::plan::constraints::{Constraints, Pace};
 use crate::time_optimal::solver::{Edge, Row, Way, guess_steps, places, thinned};
 use arl_robot::robot::Robot;
 
-/// The longest time, in s, between two places, nominal or as far as that can be guessed, and how many places there are at least and at
-/// most.
+/// The longest time, in s, between two places, nominal or as far as that can be guessed, and how many places there are
+/// at least and at most.
 const LONGEST_SPACING_S: f64 = 0.008;
 const FEWEST_PLACES: f64 = 48.0;
 const MOST_EVEN_PLACES: f64 = 250.0;
@@ -25,13 +25,13 @@ const MOST_COARSE_PLACES: usize = 40;
 const CLOSEST_SHARE_OF_SPACING: f64 = 1.0 / 256.0;
 /// A step as part of the path over which the motion changes.
 const STEP_SHARE_OF_SCALE: f64 = 0.06;
-/// The part of the highest speed before that still counts at the next place, for how far the motion changes: where everything turns back
-/// the speed is low for a moment, and the motion changes no faster for that.
+/// The part of the highest speed before that still counts at the next place, for how far the motion changes: where
+/// everything turns back the speed is low for a moment, and the motion changes no faster for that.
 const FORGOTTEN_SHARE: f64 = 0.7;
 /// So many places are in each part of a blend.
 const PLACES_OF_BLEND_PART: u32 = 3;
-/// By so much of the distance from a blend the places beside it may be farther apart than those in it: where it is sharp the robot
-/// is slow beside it, as beside a stop.
+/// By so much of the distance from a blend the places beside it may be farther apart than those in it: where it is
+/// sharp the robot is slow beside it, as beside a stop.
 const GROWTH_BESIDE_BLEND: f64 = 0.4;
 /// A start that is slower than this part of the full speed has its places as if it were as fast.
 const SLOWEST_START: f64 = 1e-4;
@@ -39,12 +39,13 @@ const SLOWEST_START: f64 = 1e-4;
 const BESIDE_SHARE: f64 = 1e-9;
 /// Places as near to each other, as part of the way, are the same.
 const SAME_PLACE_SHARE: f64 = 1e-9;
-/// A law is found without places that are closer together than about so many s: set-points are a ms apart, but a sharp blend is passed in few.
+/// A law is found without places that are closer together than about so many s: set-points are a ms apart, but a sharp
+/// blend is passed in few.
 const CLOSEST_S: f64 = 0.0004;
 /// The same where an acceleration may change at once.
 const CLOSEST_WITHOUT_JERK_LIMITS_S: f64 = 0.0003;
-/// With more segments than this ahead, their ends are no places of their own; they are looked at where they are farther apart than this
-/// part of the spacing.
+/// With more segments than this ahead, their ends are no places of their own; they are looked at where they are farther
+/// apart than this part of the spacing.
 const MOST_SEGMENTS_WITH_ENDS: usize = 150;
 const CLOSEST_ENDS_SHARE: f64 = 0.1;
 /// How often the end is brought nearer because there are too many places before it.
@@ -82,8 +83,8 @@ pub(crate) struct ConstraintSampler {
     /// Where the last segment ends, and whether the robot has to stop there.
     pub(crate) end: f64,
     pub(crate) stops: bool,
-    /// How long an acceleration takes to rise at least, in s, where the path is looked at for a stop: then each place has limits of its
-    /// own, along motions with a duration, too.
+    /// How long an acceleration takes to rise at least, in s, where the path is looked at for a stop: then each place
+    /// has limits of its own, along motions with a duration, too.
     rise: Option<f64>,
 }
 
@@ -97,7 +98,8 @@ pub(crate) struct Prospect {
 }
 
 impl ConstraintSampler {
-    /// Looks from `at` on along segments of which the first begins at `passed`, and the last one ends at `end`, with joints `near` there.
+    /// Looks from `at` on along segments of which the first begins at `passed`, and the last one ends at `end`, with
+    /// joints `near` there.
     pub(crate) fn new(
         robot: &Arc<Robot>,
         segments: Part,
@@ -201,8 +203,8 @@ impl ConstraintSampler {
         None
     }
 
-    /// The way, which takes so many s at least, with a density of places, and whether it has too many segments for places of their own; or
-    /// how far it got with as many places as there may be.
+    /// The way, which takes so many s at least, with a density of places, and whether it has too many segments for
+    /// places of their own; or how far it got with as many places as there may be.
     fn walk(
         &self,
         to: f64,
@@ -238,7 +240,8 @@ impl ConstraintSampler {
                     grade += 1;
                 }
                 let step = step.min(spacing_at(&grades, grade, at));
-                // Where too many segments meet for places of their own, those that are far enough from the last place are some all the same.
+                // Where too many segments meet for places of their own, those that are far enough from the last place
+                // are some all the same.
                 is_place |= at - way.places().last().copied().unwrap_or(self.at) >= step;
                 if is_place && !constraints.rows.is_empty() {
                     let rows = constraints.rows.drain(..).map(row);
@@ -289,9 +292,9 @@ impl ConstraintSampler {
         grades
     }
 
-    /// Where derivatives jump before `to`, between segments and within them, and for a fine look the places beside singular
-    /// points; and whether these are too many to be places, of which those are left out then that are nearer to each other
-    /// than `closest`.
+    /// Where derivatives jump before `to`, between segments and within them, and for a fine look the places beside
+    /// singular points; and whether these are too many to be places, of which those are left out then that are nearer
+    /// to each other than `closest`.
     fn joints(&self, to: f64, closest: f64, is_fine: bool) -> (Vec<f64>, bool) {
         let mut joints = Vec::new();
         let (mut start, mut count) = (self.passed, 0);
@@ -418,8 +421,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Adds the limits at `at`; where a segment begins, those of the one before as well. Returns a step over which the motion
-    /// changes little, no longer than `spacing`.
+    /// Adds the limits at `at`; where a segment begins, those of the one before as well. Returns a step over which the
+    /// motion changes little, no longer than `spacing`.
     fn rows(&mut self, at: f64, spacing: f64, constraints: &mut Constraints) -> f64 {
         let mut step = spacing;
         self.jump = None;

@@ -1,14 +1,16 @@
 //! How the robot goes along the path where time laws lead.
 //!
-//! Invariant: the law in hand leads the robot to rest on the path, within all limits, at whatever share of its speed it is
-//! followed. Another one takes its place only when it starts from the robot's very state; where none is found, the robot
-//! keeps to the one it has. So nothing that comes up, a motion, a stop or another override, can lead it off the path or
-//! beyond a limit.
+//! Invariant: the law in hand leads the robot to rest on the path, within all limits, at whatever share of its speed it
+//! is followed. Another one takes its place only when it starts from the robot's very state; where none is found, the
+//! robot keeps to the one it has. So nothing that comes up, a motion, a stop or another override, can lead it off the
+//! path or beyond a limit.
 //!
-//! From rest the robot sets off before it has a law, on a ramp that would come to rest again: it joins the law on the way.
+//! From rest the robot sets off before it has a law, on a ramp that would come to rest again: it joins the law on the
+//! way.
 //!
-//! Laws are found beside the cycle. What has to be done at once, stops and changes of the override, is done with the law in
-//! hand and with the limits that it was found from; where that makes a long stop, a shorter one is looked for beside the cycle.
+//! Laws are found beside the cycle. What has to be done at once, stops and changes of the override, is done with the
+//! law in hand and with the limits that it was found from; where that makes a long stop, a shorter one is looked for
+//! beside the cycle.
 
 use std::sync::Arc;
 
@@ -36,7 +38,8 @@ const SCALING_DURATIONS_S: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
 /// A stop that takes longer, in s, is begun, and a shorter one looked for, which has to be shorter by so much.
 const LONG_STOP_S: f64 = 0.05;
 const LEAST_GAIN_S: f64 = 0.004;
-/// A law is joined with this part of the acceleration and jerk, where that can be: between the places limits are not certain.
+/// A law is joined with this part of the acceleration and jerk, where that can be: between the places limits are not
+/// certain.
 const JOINING_SHARE_OF_LIMITS: f64 = 0.985;
 /// So long may a change of the override take that follows the law in hand all the time, where there is another way.
 const QUICK_SCALING_S: f64 = 0.25;
@@ -276,8 +279,8 @@ impl LawFollower {
         }
     }
 
-    /// s until the parameter is at `at` at full speed, or at where the law is known to be followed to if that is nearer, and where that
-    /// is; `None` where it does not follow a law.
+    /// s until the parameter is at `at` at full speed, or at where the law is known to be followed to if that is
+    /// nearer, and where that is; `None` where it does not follow a law.
     pub(crate) fn time_to(&self, at: f64) -> Option<(f64, f64)> {
         let Drive { found: Found { law, end, stops, .. }, time } = self.ahead.main.as_ref()?;
         // What comes later will be another law, if there is one.
@@ -303,8 +306,8 @@ impl LawFollower {
         self.ahead = Ahead { main: Some(Drive { found, time: 0.0 }), share, ..Ahead::default() };
     }
 
-    /// Sets off from rest before there is a law, for `time` s in which it is found, and would rest again soon if it were not:
-    /// not where it has just done so in vain.
+    /// Sets off from rest before there is a law, for `time` s in which it is found, and would rest again soon if it
+    /// were not: not where it has just done so in vain.
     pub(crate) fn set_off(&mut self, sampler: &ConstraintSampler, share: f64, time: f64) {
         if std::mem::take(&mut self.in_vain) {
             return;
@@ -321,8 +324,8 @@ impl LawFollower {
         self.ahead = Ahead { ramp, share, ..Ahead::default() };
     }
 
-    /// Takes over the law that leads on from where it has set off, which it reaches smoothly; where it is not able to, it comes to
-    /// rest again.
+    /// Takes over the law that leads on from where it has set off, which it reaches smoothly; where it is not able to,
+    /// it comes to rest again.
     pub(crate) fn join(&mut self, found: Option<Found>) {
         let joined = found.zip(self.ahead.state()).and_then(|(found, now)| {
             let time = found.law.time_at(now.at);
@@ -345,8 +348,8 @@ impl LawFollower {
         self.ahead.main.as_ref().is_some_and(|main| main.found.stops)
     }
 
-    /// The state after so many cycles from which the law is wanted that goes on behind the one in hand, if it is time for
-    /// that.
+    /// The state after so many cycles from which the law is wanted that goes on behind the one in hand, if it is time
+    /// for that.
     pub(crate) fn renewal(&self, cycles: u32, cycle: f64) -> Option<RenewalRequest> {
         let main = self.ahead.main.as_ref()?;
         let search = f64::from(cycles) * cycle;
@@ -374,7 +377,8 @@ impl LawFollower {
         })
     }
 
-    /// The state after so many cycles where it brakes, to go on at a share of the speed before it rests, or as soon as it does.
+    /// The state after so many cycles where it brakes, to go on at a share of the speed before it rests, or as soon as
+    /// it does.
     pub(crate) fn renewal_after_stop(&self, cycles: u32, cycle: f64, share: f64) -> Option<RenewalRequest> {
         let ramp = self.ahead.ramp.as_ref().filter(|_| self.pause <= 0.0)?;
         let (end, cycles) = (ramp.end, cycles.max((ramp.calm() / cycle).ceil() as u32));
@@ -423,8 +427,9 @@ impl LawFollower {
         }
     }
 
-    /// Goes over to another share of the speed: along the law in hand, or, where that leaves too little of the limits, by
-    /// slowing down until another law begins, for which there is [`LawFollower::renewal_after_stop`]; that takes `search` s.
+    /// Goes over to another share of the speed: along the law in hand, or, where that leaves too little of the limits,
+    /// by slowing down until another law begins, for which there is [`LawFollower::renewal_after_stop`]; that takes
+    /// `search` s.
     pub(crate) fn go_at(&mut self, share: f64, search: f64) {
         let Ahead { main: Some(main), easing, ramp: None, .. } = &self.ahead else { return };
         let leads_to = easing.as_ref().map_or(self.ahead.share, |easing| easing.scaling.to());
@@ -450,8 +455,8 @@ impl LawFollower {
         }
     }
 
-    /// Brakes to rest, where the limits are those of the way times `harder`, as can be done at once; returns whether that is
-    /// something new. There may be a shorter stop then: [`LawFollower::request_stop`].
+    /// Brakes to rest, where the limits are those of the way times `harder`, as can be done at once; returns whether
+    /// that is something new. There may be a shorter stop then: [`LawFollower::request_stop`].
     pub(crate) fn brake(&mut self, harder: f64) -> bool {
         if (self.brakes() && harder <= self.harder) || (self.stop_pause > 0.0 && harder <= 1.0) {
             return false;
@@ -518,7 +523,8 @@ impl LawFollower {
         self.ahead.ramp.as_ref().map_or(easing.min(self.arrives_in()), Ramp::left)
     }
 
-    /// s until the law leads to where the robot has to stop; infinitely many where it does not, or its speed changes meanwhile.
+    /// s until the law leads to where the robot has to stop; infinitely many where it does not, or its speed changes
+    /// meanwhile.
     fn arrives_in(&self) -> f64 {
         match &self.ahead {
             Ahead { main: Some(main), share, easing: None, ramp: None } if main.found.stops => main.left() / share,

@@ -1,8 +1,9 @@
 //! Laws that were found before, for programs that do the same again and again.
 //!
-//! A law is a function of what it was found from, so one that is remembered is the one that would be found. What it was found from is
-//! known by a fingerprint of 128 bits: places, the derivatives and limits of all that moves there, the state at the start, and the
-//! law before. Two ways that are the same in all of these to the last bit, and yet another between the places, do not come up.
+//! A law is a function of what it was found from, so one that is remembered is the one that would be found. What it was
+//! found from is known by a fingerprint of 128 bits: places, the derivatives and limits of all that moves there, the
+//! state at the start, and the law before. Two ways that are the same in all of these to the last bit, and yet another
+//! between the places, do not come up.
 
 use std::collections::hash_map::DefaultHasher;
 use std::collections::{HashMap, VecDeque};
@@ -17,8 +18,8 @@ const MOST_STRETCHES: usize = 60_000;
 /// What was not found takes as much room as a law of so many stretches.
 const ROOM_OF_NOTHING: usize = 10;
 
-/// So many requests are remembered with what was found, of no more segments than this each: a loop has some, a dense chain has thousands and is
-/// not gone twice.
+/// So many requests are remembered with what was found, of no more segments than this each: a loop has some, a dense
+/// chain has thousands and is not gone twice.
 const MOST_REQUESTS: usize = 1024;
 const MOST_SEGMENTS: usize = 512;
 /// So much room they take together, in rows of limits of 48 bytes.
@@ -73,7 +74,8 @@ impl LawMemory {
     }
 }
 
-/// The last requests for laws from a state on, where all that may be seen of the path is the same: then it is not looked at.
+/// The last requests for laws from a state on, where all that may be seen of the path is the same: then it is not
+/// looked at.
 #[derive(Default)]
 pub(crate) struct RequestMemory<F> {
     known: VecDeque<Request<F>>,
@@ -98,7 +100,8 @@ impl<F: Clone> RequestMemory<F> {
         self.known.iter().find(is_same).map(|known| known.found.clone())
     }
 
-    /// Remembers what was found for a request that was not known, if that takes little memory: as much as `rows` rows of limits, beside the path.
+    /// Remembers what was found for a request that was not known, if that takes little memory: as much as `rows` rows
+    /// of limits, beside the path.
     pub(crate) fn remember(
         &mut self,
         sampler: ConstraintSampler,

@@ -1,8 +1,8 @@
 //! Finds laws beside the cycle: on a thread of its own, from a copy of what there is to know.
 //!
-//! A law is asked for in one cycle and taken over a fixed number of cycles later, whenever it was really found: so a run is the
-//! same at every clock, and on every machine. If it is not found by then, that cycle waits for it; but not in real time, where the
-//! robot does without it, and the next ones are asked for earlier.
+//! A law is asked for in one cycle and taken over a fixed number of cycles later, whenever it was really found: so a
+//! run is the same at every clock, and on every machine. If it is not found by then, that cycle waits for it; but not
+//! in real time, where the robot does without it, and the next ones are asked for earlier.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,8 +21,8 @@ use crate::time_optimal::stop_prediction::StopPrediction;
 /// How long finding a law may take, in s of controller time; and along very many motions.
 const SOLVING_TIME_S: f64 = 0.02;
 const SOLVING_TIME_ON_DENSE_CHAIN_S: f64 = 0.06;
-/// After one that came too late it may take this factor more, up to so many s; what it may take more gets less again with each one that
-/// came in time.
+/// After one that came too late it may take this factor more, up to so many s; what it may take more gets less again
+/// with each one that came in time.
 const LATE_FACTOR: f64 = 2.0;
 const LONGEST_SOLVING_TIME_S: f64 = 0.3;
 const SLOWNESS_DECAY: f64 = 0.97;
@@ -33,21 +33,23 @@ const LEAST_LAW_S: f64 = 1.5;
 const AIMED_LAW_S: f64 = 2.0;
 /// Behind another law, so many times as far as that leads.
 const BEHIND_LAW_FACTOR: f64 = 1.2;
-/// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the limits: where
-/// they change much between the places, closer ones are needed.
+/// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the
+/// limits: where they change much between the places, closer ones are needed.
 const SHARES_AND_DENSITIES: [(f64, f64); 5] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0), (0.15, 6.0)];
 /// The same for all of the way, behind a first attempt.
 const DENSITIES: [f64; 3] = [2.0, 3.0, 6.0];
 /// How often the limits are lowered where a law uses too much of them.
 const MOST_TEMPERINGS: i32 = 6;
-/// So much of the limits a law may use; a stop may use a little more, so that there is one from any state of a law, and what uses more than
-/// that is no law.
+/// So much of the limits a law may use; a stop may use a little more, so that there is one from any state of a law, and
+/// what uses more than that is no law.
 const TEMPERED_USE: f64 = 1.006;
-/// They are lowered by more than it takes, each time by the square of this more, where no more than so much of them is used.
+/// They are lowered by more than it takes, each time by the square of this more, where no more than so much of them is
+/// used.
 const TEMPERED_SHARE: f64 = 0.998;
 const MOST_TEMPERED_USE: f64 = 4.0;
-/// A stop has a little more acceleration and jerk to go by than a law, so that there is one from any state of a law; it is looked
-/// for at so many places at most, so much farther ahead each time, until one is known to be so near the shortest.
+/// A stop has a little more acceleration and jerk to go by than a law, so that there is one from any state of a law; it
+/// is looked for at so many places at most, so much farther ahead each time, until one is known to be so near the
+/// shortest.
 const STOP_LIMIT_FACTOR: f64 = 1.004;
 const MOST_STOP_PLACES_TRIED: usize = 12;
 const STOP_STEP_FACTOR: f64 = 1.4;
@@ -55,8 +57,8 @@ const SHORTEST_STOP_SHARE: f64 = 0.96;
 const STOP_DENSITIES: [f64; 2] = [1.0, 2.0];
 /// With so many places on all the paths that were tried, it has to do what was found.
 const MOST_STOP_SAMPLES: usize = 1500;
-/// A stop that the governor does within so many s is short; another one has to take less than this part of its time, and is looked
-/// for at this part of its path first.
+/// A stop that the governor does within so many s is short; another one has to take less than this part of its time,
+/// and is looked for at this part of its path first.
 const SHORT_STOP_S: f64 = 0.1;
 const SHORTER_STOP_SHARE_OF_TIME: f64 = 0.8;
 const SHORTER_STOP_SHARE_OF_WAY: f64 = 0.5;
@@ -104,13 +106,13 @@ struct Task {
 
 /// What is looked for.
 pub(crate) enum LawRequest {
-    /// The fastest law from a state to rest at the end of what the sampler sees or as far as is looked ahead, with the law that leads
-    /// to that state.
+    /// The fastest law from a state to rest at the end of what the sampler sees or as far as is looked ahead, with the
+    /// law that leads to that state.
     Fastest(Edge, Option<Arc<Law>>),
     /// The shortest one from a state to rest, about so far ahead, with acceleration and jerk `harder` times as high.
     Shortest { start: Edge, about: f64, harder: f64 },
-    /// The shortest one to rest, from the state that the robot has so many cycles from now, if that is much sooner than the
-    /// governor would rest.
+    /// The shortest one to rest, from the state that the robot has so many cycles from now, if that is much sooner than
+    /// the governor would rest.
     ShorterStop(Box<StopPrediction>, u32),
 }
 
@@ -234,8 +236,8 @@ struct Memory {
     requests: RequestMemory<Option<Found>>,
 }
 
-/// What threads remembered that have ended: the next run of this process may ask for the same. A request is known again by all that may be seen of
-/// the path, so that what is found depends on nothing that was before.
+/// What threads remembered that have ended: the next run of this process may ask for the same. A request is known again
+/// by all that may be seen of the path, so that what is found depends on nothing that was before.
 static LEFT: Left = Mutex::new(Vec::new());
 type Left = Mutex<Vec<RequestMemory<Option<Found>>>>;
 /// So many of them are kept.
@@ -371,8 +373,8 @@ fn find(
     None
 }
 
-/// How long the fastest motion along all that the sampler sees takes, from rest to rest, in s, looked for at the places of `first`, which
-/// go to the end, then at closer ones; `None` where no law keeps the limits.
+/// How long the fastest motion along all that the sampler sees takes, from rest to rest, in s, looked for at the places
+/// of `first`, which go to the end, then at closer ones; `None` where no law keeps the limits.
 pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: Prospect) -> Option<f64> {
     let closer = DENSITIES.iter().filter_map(|density| {
         let prospect = sampler.look(sampler.end, *density, Edge::REST, Edge::REST)?;
@@ -385,8 +387,8 @@ pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: Prospect) -> 
     })
 }
 
-/// The fastest law along a path that keeps the limits by its places, with the share of them that its set-points use. Where that
-/// is a little too much, the limits are lowered.
+/// The fastest law along a path that keeps the limits by its places, with the share of them that its set-points use.
+/// Where that is a little too much, the limits are lowered.
 fn temperate(
     sampler: &ConstraintSampler,
     way: &Way,

@@ -6,11 +6,11 @@ use crate::time_optimal::solver::{Law, Moment, Row, Way};
 /// A motion is looked at every so many s, and may use so much of the limits.
 const SAMPLE_S: f64 = 0.001;
 pub(crate) const MOST_USED_SHARE: f64 = 1.008;
-/// By the limits at its places a motion that is known to be within them may use so much: set-points smear out what is shorter than
-/// they are apart.
+/// By the limits at its places a motion that is known to be within them may use so much: set-points smear out what is
+/// shorter than they are apart.
 const MOST_KNOWN_SHARE: f64 = 1.0095;
-/// Beside its ends, for so many s, a law is looked at closer by this factor, for what is far beyond the limits: where it rests, what changes
-/// most does so within less than a set-point, and nobody sees it before the next law goes off.
+/// Beside its ends, for so many s, a law is looked at closer by this factor, for what is far beyond the limits: where
+/// it rests, what changes most does so within less than a set-point, and nobody sees it before the next law goes off.
 const BESIDE_END_S: f64 = 0.004;
 const CLOSER_BESIDE_END: u32 = 10;
 const FAR_BEYOND: f64 = 1.1;
@@ -96,8 +96,8 @@ impl LimitCheck {
         Self { straight: (0..way.places().len()).map(least).collect(), way }
     }
 
-    /// Whether a law that is followed at another share of its speed keeps its limits, those of acceleration and jerk times
-    /// `harder`.
+    /// Whether a law that is followed at another share of its speed keeps its limits, those of acceleration and jerk
+    /// times `harder`.
     pub(crate) fn keeps(&self, motion: &impl Timed, harder: f64) -> bool {
         keeps(&Look { way: &self.way, harder, between: Between::Even }, motion)
     }
@@ -145,7 +145,8 @@ fn used(rows: &[Row], now: &Moment, harder: f64) -> f64 {
     })
 }
 
-/// How much of the limits a law uses, of `allowed`, along the path that it was found for; `None` where it goes backwards.
+/// How much of the limits a law uses, of `allowed`, along the path that it was found for; `None` where it goes
+/// backwards.
 pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
     let looked = Look { way, harder: 1.0, between: Between::Least };
     let mut used = Used::of(allowed);

@@ -1,5 +1,5 @@
-//! Ramps beside time laws: ways to rest with constant limits, which need neither a look along the path nor a solver; and in
-//! their place the shortest way to rest, where it has been found.
+//! Ramps beside time laws: ways to rest with constant limits, which need neither a look along the path nor a solver;
+//! and in their place the shortest way to rest, where it has been found.
 
 use std::sync::Arc;
 
@@ -11,12 +11,12 @@ use crate::time_optimal::solver::{Law, Moment};
 /// Shares of the acceleration and the jerk at rest that are tried.
 const TRIED_SHARES_OF_LIMITS: [f64; 14] =
     [1.0, 0.95, 0.9, 0.85, 0.8, 0.72, 0.64, 0.56, 0.48, 0.4, 0.32, 0.24, 0.16, 0.08];
-/// A law that begins while the robot is slowed down begins at this part of the speed of the law in hand, there and so many s
-/// later.
+/// A law that begins while the robot is slowed down begins at this part of the speed of the law in hand, there and so
+/// many s later.
 const LATER_LAW_SHARE_OF_SPEED: f64 = 0.9;
 const LATER_LAW_AFTER_S: f64 = 0.15;
-/// A robot that sets off uses so much of the speed, the acceleration and the jerk at most, a little less than the law that it
-/// will join; and so many shares of these are tried.
+/// A robot that sets off uses so much of the speed, the acceleration and the jerk at most, a little less than the law
+/// that it will join; and so many shares of these are tried.
 const MOST_SHARE_OF_SPEED: f64 = 0.9;
 const MOST_SHARE_OF_ACCELERATION: f64 = 0.95;
 const MOST_SHARE_OF_JERK: f64 = 0.98;
@@ -109,8 +109,8 @@ impl Ramp {
         Self { first: None, stopping: Stopping::Law(law), calm: 0.0, time: 0.0, end, arrives: stops, check }
     }
 
-    /// One that sets off from rest, speeds up for `time` s, or as long as the way up to `end` allows, and rests before `end`: with
-    /// the limits of the path at a share of the speed.
+    /// One that sets off from rest, speeds up for `time` s, or as long as the way up to `end` allows, and rests before
+    /// `end`: with the limits of the path at a share of the speed.
     pub(crate) fn setting_off(start: State, check: &Arc<LimitCheck>, end: f64, share: f64, time: f64) -> Option<Self> {
         let sets_off = |hardness: &f64| {
             let ramp = |limits: &Limits, time: f64| {
@@ -159,8 +159,8 @@ impl Ramp {
         Leg::new(start, 0.0, &scaled(check.straight(start.at, start.at), harder)).end() - start.at
     }
 
-    /// The hardest one that first leads to a speed at which another law can begin, `search` s from now at the earliest, at a
-    /// share of its speed; from `time` s on the law `found`.
+    /// The hardest one that first leads to a speed at which another law can begin, `search` s from now at the earliest,
+    /// at a share of its speed; from `time` s on the law `found`.
     pub(crate) fn slower(start: State, found: &Found, time: f64, share: f64, search: f64) -> Option<Self> {
         let Found { law, check, end, .. } = found;
         let limits = braking(start, check, *end, 1.0);
@@ -214,7 +214,8 @@ impl Timed for Ramp {
     }
 }
 
-/// Acceleration and jerk for braking to rest, times `harder`: those of the whole way to rest, and not of what lies behind it.
+/// Acceleration and jerk for braking to rest, times `harder`: those of the whole way to rest, and not of what lies
+/// behind it.
 fn braking(start: State, check: &LimitCheck, end: f64, harder: f64) -> Limits {
     let over = |to: f64| scaled(check.straight(start.at, to), harder);
     let mut limits = over(start.at);

@@ -20,8 +20,9 @@ const SET_POINTS_AT_REST: i32 = 3;
 /// Limits of speed, acceleration and jerk.
 type Limits = [f64; 3];
 
-/// The share of what motions may have of speed, acceleration and jerk, the latter two `harder` times as high, that set-points
-/// along a law use, by their differences: of each axis, and of the TCP along its path and its turning where that is led.
+/// The share of what motions may have of speed, acceleration and jerk, the latter two `harder` times as high, that
+/// set-points along a law use, by their differences: of each axis, and of the TCP along its path and its turning where
+/// that is led.
 pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, harder: f64, allowed: f64) -> Used {
     let mut sample_coarsely = sampler.sample_coarsely();
     let mut last: VecDeque<Point> = VecDeque::with_capacity(3 * PHASES_OF_CYCLE + 1);
@@ -46,7 +47,8 @@ pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, harder:
     used
 }
 
-/// The largest share of an axis's limits by four set-points. Where one motion leads into another, the higher limits count.
+/// The largest share of an axis's limits by four set-points. Where one motion leads into another, the higher limits
+/// count.
 fn used_by_axes(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -> f64 {
     let own = sampler.robot.own_axes().iter().enumerate();
     let own = own.map(|(index, axis)| {
@@ -83,8 +85,9 @@ fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -
     by_way.max(used_along(turns, highest(limits), harder))
 }
 
-/// The share of limits along a path that three steps in a row use. Where a path all but turns back, its speed falls and rises at once, and
-/// has no jerk to speak of: the part of the jerk along the path counts where that is smaller, as in [`Constraints`].
+/// The share of limits along a path that three steps in a row use. Where a path all but turns back, its speed falls and
+/// rises at once, and has no jerk to speak of: the part of the jerk along the path counts where that is smaller, as in
+/// [`Constraints`].
 ///
 /// [`Constraints`]: crate::plan::constraints::Constraints
 fn used_along(ways: [Vector3<f64>; 3], limits: Limits, harder: f64) -> f64 {

@@ -46,7 +46,8 @@ impl StopPrediction {
         Some(way)
     }
 
-    /// How far it still is to rest, in s of nominal time, and how many s that takes. `None` where nobody wants to know any more.
+    /// How far it still is to rest, in s of nominal time, and how many s that takes. `None` where nobody wants to know
+    /// any more.
     pub(crate) fn rest(mut self, wanted: impl Fn() -> bool) -> Option<[f64; 2]> {
         let mut way = 0.0;
         for cycles in 1..MOST_PREDICTED_CYCLES {

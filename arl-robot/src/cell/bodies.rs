@@ -52,7 +52,8 @@ pub struct Body {
     pub at: Frame,
     /// What it is fixed to.
     pub holder: Holder,
-    /// It is there only while this digital input or output has this level; what a robot takes along, until it is taken for the first time.
+    /// It is there only while this digital input or output has this level; what a robot takes along, until it is taken
+    /// for the first time.
     pub when: Option<(Signal, bool)>,
     /// How it is taken along by a robot and put down again, if it is. It stands in the world at first.
     pub grip: Option<Grip>,
@@ -333,7 +334,8 @@ fn is_near(values: &[f64], most: f64) -> bool {
     values.iter().all(|value| value.abs() <= most)
 }
 
-/// What the parts of robots are called in a cell with so many of them. Where there are several, a name without a channel is that part of all.
+/// What the parts of robots are called in a cell with so many of them. Where there are several, a name without a
+/// channel is that part of all.
 fn parts_of_robots(robots: u32) -> impl Iterator<Item = String> {
     let channels = if robots > 1 { robots } else { 0 };
     let of_channel = |channel: u32| LIMB_NAMES.iter().map(move |name| format!("{name} of channel {channel}"));

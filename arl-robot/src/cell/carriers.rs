@@ -16,8 +16,8 @@ pub struct Carrier {
     pub number: usize,
     /// The channel, from 1, of the robot that has the axis.
     pub channel: u32,
-    /// Where it is while the axis is at 0, in the world or in what it is on, translation in mm. It turns about z, or slides along z where the
-    /// axis is linear.
+    /// Where it is while the axis is at 0, in the world or in what it is on, translation in mm. It turns about z, or
+    /// slides along z where the axis is linear.
     pub at: Frame,
     /// Which of the cell's carriers it is on, one that comes before it; `None`: it is fixed to the world.
     pub on: Option<usize>,

@@ -1,5 +1,5 @@
-//! What moves a robot: `[driver]` of a cell file, or of one of its channels. It counts only where a run is told to drive
-//! robots; otherwise they are simulated.
+//! What moves a robot: `[driver]` of a cell file, or of one of its channels. It counts only where a run is told to
+//! drive robots; otherwise they are simulated.
 
 use std::net::IpAddr;
 

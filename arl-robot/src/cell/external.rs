@@ -104,7 +104,8 @@ impl Wiring {
         Ok(wiring)
     }
 
-    /// The system variables that are set, by their names in small letters, each with its value; `at_home_do` has up to five.
+    /// The system variables that are set, by their names in small letters, each with its value; `at_home_do` has up to
+    /// five.
     pub fn given(&self) -> impl Iterator<Item = (&'static str, &[i32])> {
         self.given.iter().map(|(name, values)| (*name, values.as_slice()))
     }

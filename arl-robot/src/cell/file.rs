@@ -2,7 +2,8 @@
 //!
 //! ```toml
 //! urdf = "arm.urdf"            # how the robot looks: without it as capsules along its links
-//! base = [0, 0, 500]           # where it stands in the world, mm, with a, b, c in deg if it is turned: `$BASE[0]` at the start
+//! base = [0, 0, 500]           # where it stands in the world, mm, with a, b, c in deg if it is turned: `$BASE[0]` at
+//!                              # the start
 //!
 //! [controller]
 //! cycle = 1.0                  # ms, 0.1 to 100
@@ -55,12 +56,14 @@
 //! di = [{ channel = 1, count = 8, discrete_input = 0 }]
 //!
 //! [[carrier]]                  # what an external axis of a robot moves: a turntable, a slide
-//! axis = "ej1"                 # it turns about z, slides along z where the axis is linear; `channel`: whose axis, without it 1
+//! axis = "ej1"                 # it turns about z, slides along z where the axis is linear; `channel`: whose axis,
+//!                              # without it 1
 //! at = [1200, 0, 400]          # where it is while the axis is at 0; `on = "ej2"`: on the carrier of that axis
 //!
 //! [[body]]                     # what the robots can run into, or carry
 //! name = "table"
-//! box = [800, 600, 40]         # edges in mm; or cylinder = [radius, length], sphere = radius, mesh = "FILE.stl", urdf = "FILE.urdf"
+//! box = [800, 600, 40]         # edges in mm; or cylinder = [radius, length], sphere = radius, mesh = "FILE.stl",
+//!                              # urdf = "FILE.urdf"
 //! at = [900, 0, -20]           # its middle in the world, mm, with a, b, c in deg behind if it is turned
 //!
 //! [[body]]
@@ -131,7 +134,8 @@ pub struct Cell {
     pub homes: Homes,
     /// How a PLC is wired to the controller.
     pub external: Wiring,
-    /// The conditions of `startdetect` of the first channel's robot by their numbers; of those that are not there, 20 %.
+    /// The conditions of `startdetect` of the first channel's robot by their numbers; of those that are not there, 20
+    /// %.
     pub collisions: Vec<(u8, Sensitivity)>,
     /// The field buses.
     pub buses: BusSettings,

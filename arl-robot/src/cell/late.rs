@@ -2,9 +2,9 @@
 
 use crate::settings::{Section, SettingsError};
 
-/// What becomes of the points of time at which cycles begin where one is a whole cycle late, or more, since the one before took too long or the
-/// computer did something else. Cycles whose points have passed are lost and not made up for: nothing comes faster than it should, and the time
-/// of the controller lags behind that of the world.
+/// What becomes of the points of time at which cycles begin where one is a whole cycle late, or more, since the one
+/// before took too long or the computer did something else. Cycles whose points have passed are lost and not made up
+/// for: nothing comes faster than it should, and the time of the controller lags behind that of the world.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 #[non_exhaustive]
 pub enum Late {
@@ -20,8 +20,8 @@ pub enum Late {
 pub struct LateCycles {
     /// What becomes of them; `None`: what the clock does by itself.
     pub late: Option<Late>,
-    /// How many cycles may be lost within a second, before the robots are stopped; `None`: 20 where a robot is driven, any number where it
-    /// is simulated.
+    /// How many cycles may be lost within a second, before the robots are stopped; `None`: 20 where a robot is driven,
+    /// any number where it is simulated.
     pub limit: Option<u32>,
 }
 

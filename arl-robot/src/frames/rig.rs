@@ -7,9 +7,9 @@ use crate::kinematics::{Frame, Twist};
 
 /// What is on the flange and meets the other: the tool, or the workpiece that is held to a tool that stands.
 ///
-/// A way of the TCP is the tool's frame seen from whatever the workpiece stands still in: from the robot's base where the
-/// robot carries the tool, from the flange where it carries the workpiece. So speeds along a way are those of the TCP
-/// against the workpiece. Translations are mm.
+/// A way of the TCP is the tool's frame seen from whatever the workpiece stands still in: from the robot's base where
+/// the robot carries the tool, from the flange where it carries the workpiece. So speeds along a way are those of the
+/// TCP against the workpiece. Translations are mm.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Carried {
     /// The tool, at this frame of the flange.
@@ -43,9 +43,9 @@ impl Carried {
         }
     }
 
-    /// How the flange moves in the robot's base when the tool's frame on its way is `way` and moves there with the first
-    /// three derivatives `moving` of its place (mm per unit of the path parameter, its square, its cube) while it turns
-    /// with the speed and its first two derivatives `turning` (rad).
+    /// How the flange moves in the robot's base when the tool's frame on its way is `way` and moves there with the
+    /// first three derivatives `moving` of its place (mm per unit of the path parameter, its square, its cube) while it
+    /// turns with the speed and its first two derivatives `turning` (rad).
     pub fn twist(&self, way: &Frame, moving: &[Vector3<f64>; 3], turning: &[Vector3<f64>; 3]) -> Twist {
         let Carried::Workpiece(_) = self else { return Twist::of_point(&way.translation.vector, moving, turning) };
         // The tool stands; the flange goes the opposite way. Its origin, along its own axes, which move with it.

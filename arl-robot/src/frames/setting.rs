@@ -1,5 +1,5 @@
-//! What carries what: the tool on the flange or standing in the world, the workpiece in the world or held by the robot, the
-//! base under the robot, and the offsets of all tools and workpieces.
+//! What carries what: the tool on the flange or standing in the world, the workpiece in the world or held by the robot,
+//! the base under the robot, and the offsets of all tools and workpieces.
 
 use std::fmt;
 
@@ -17,9 +17,9 @@ pub struct Mount {
 
 /// The frames between a programmed pose and the flange. Translations are mm, as in all frames.
 ///
-/// A pose is the tool's frame seen from the workpiece frame. `tool` is seen from the flange, or in the world where the tool
-/// is stationary; `wobj` is in the world, or seen from the flange where the robot holds the workpiece; `base` is where the
-/// robot stands in the world.
+/// A pose is the tool's frame seen from the workpiece frame. `tool` is seen from the flange, or in the world where the
+/// tool is stationary; `wobj` is in the world, or seen from the flange where the robot holds the workpiece; `base` is
+/// where the robot stands in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Setting {
     tool: Frame,
@@ -68,8 +68,8 @@ impl Setting {
         }
     }
 
-    /// With `$TOOL_OFFSET` and `$WOBJ_OFFSET` (mm, deg), which motions add and queries do not: each shifts and turns its
-    /// frame along and about that frame's own axes.
+    /// With `$TOOL_OFFSET` and `$WOBJ_OFFSET` (mm, deg), which motions add and queries do not: each shifts and turns
+    /// its frame along and about that frame's own axes.
     pub fn with_offsets(self, tool: &[f64; 6], wobj: &[f64; 6]) -> Self {
         Self { tool: self.tool * frame(*tool), wobj: self.wobj * frame(*wobj), ..self }
     }

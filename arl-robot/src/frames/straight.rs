@@ -8,15 +8,16 @@ use crate::robot::Robot;
 
 /// Where a way is far from singular points at so many places, and at its start, it is not looked at closely.
 const GLANCES: u32 = 16;
-/// Close to a singular point the steps are this part of what the axes' motion changes over, so that none is stepped over.
+/// Close to a singular point the steps are this part of what the axes' motion changes over, so that none is stepped
+/// over.
 const STEP_OF_SCALE: f64 = 0.04;
 const LONGEST_STEP: f64 = 1.0 / 16.0;
 /// Nearer to a singular point than this rounding spoils the derivatives.
 const SPOILT: f64 = 1e-5;
 /// A step where the derivatives of the axes are not known.
 const BLIND_STEP: f64 = 1e-3;
-/// A place with less than this margin of speed (see [`Rates::speed_margin`]) is singular without doubt: the planner's walk looks
-/// at other places, which differ by less.
+/// A place with less than this margin of speed (see [`Rates::speed_margin`]) is singular without doubt: the planner's
+/// walk looks at other places, which differ by less.
 const SURE: f64 = 0.99;
 /// An axis that is so far (deg) from where it was a step before has not turned but jumped.
 const JUMP: f64 = 90.0;
@@ -38,9 +39,9 @@ impl StraightWay {
         Self { carried, start, travel, turning }
     }
 
-    /// Where the way passes a singular point, as part of it, and the axes there: surely, so that no robot goes along it but
-    /// with another orientation. `start` are the axes where it begins, in configuration `cfg`. `None` says little: only ways
-    /// that come near a singular point are looked at closely.
+    /// Where the way passes a singular point, as part of it, and the axes there: surely, so that no robot goes along it
+    /// but with another orientation. `start` are the axes where it begins, in configuration `cfg`. `None` says little:
+    /// only ways that come near a singular point are looked at closely.
     pub fn singular_point(&self, robot: &Robot, cfg: u8, start: &Axes) -> Option<(f64, Axes)> {
         let mut near = *start;
         let mut clear = |at: f64| {
@@ -67,8 +68,8 @@ impl StraightWay {
         }
     }
 
-    /// Goes on to `next`, or less far where an axis jumps on the way there; or says where the axis has to turn at once: in the very
-    /// singular point, which the way meets as straight as that the axes stand still in it.
+    /// Goes on to `next`, or less far where an axis jumps on the way there; or says where the axis has to turn at once:
+    /// in the very singular point, which the way meets as straight as that the axes stand still in it.
     fn step(
         &self,
         robot: &Robot,

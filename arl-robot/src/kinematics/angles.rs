@@ -1,11 +1,11 @@
 //! Sines, cosines and arc tangents of several angles at once, in deg.
 //!
 //! The loops have no branches, so that the compiler handles several angles with one instruction; that is most of the
-//! speed of the closed forms. Results are within 2 units in the last place, exact at multiples of 90 deg, and, other than
-//! those of the system's functions, the same on every machine.
+//! speed of the closed forms. Results are within 2 units in the last place, exact at multiples of 90 deg, and, other
+//! than those of the system's functions, the same on every machine.
 
-/// Polynomials in the square of the angle (rad), lowest power first, interpolated at the Chebyshev points of 0 to 45 deg
-/// (arc tangent: of 0 to tan 22.5 deg): sine = r + r^3 S, cosine = 1 - r^2 / 2 + r^4 C, arc tangent = r + r^3 T.
+/// Polynomials in the square of the angle (rad), lowest power first, interpolated at the Chebyshev points of 0 to 45
+/// deg (arc tangent: of 0 to tan 22.5 deg): sine = r + r^3 S, cosine = 1 - r^2 / 2 + r^4 C, arc tangent = r + r^3 T.
 mod polynomials {
     pub(super) const S: [f64; 6] = [
         -0.16666666666666666,
@@ -47,7 +47,8 @@ const RADIAN: f64 = 180.0 / std::f64::consts::PI;
 /// The tangent of 22.5 deg: up to it the polynomial serves, above it the angle to 45 deg is taken.
 const EIGHTH: f64 = 0.414_213_562_373_095_05;
 
-/// The powers are dealt out to `WAYS` (2 or 4) sums that do not wait for each other: the processor works at all at once.
+/// The powers are dealt out to `WAYS` (2 or 4) sums that do not wait for each other: the processor works at all at
+/// once.
 #[inline(always)]
 fn polynomial<const WAYS: usize, const N: usize>(coefficients: &[f64; N], at: f64) -> f64 {
     let square = at * at;

@@ -11,8 +11,8 @@ use crate::robot::Axis;
 pub struct Wanted {
     /// The configuration; `None`: the one whose axes are nearest to the start.
     pub cfg: Option<u8>,
-    /// -1: every axis as near to the start as its range allows. Else bit i asks axis i + 1 for an angle below 0 (set) or
-    /// from 0 on (clear), which matters where whole turns leave a choice.
+    /// -1: every axis as near to the start as its range allows. Else bit i asks axis i + 1 for an angle below 0 (set)
+    /// or from 0 on (clear), which matters where whole turns leave a choice.
     pub turn: i32,
 }
 

@@ -24,8 +24,8 @@ fn half(angle: f64) -> (f64, f64) {
     (angle.to_radians() * 0.5).sin_cos()
 }
 
-/// The components x, y, z (mm), a, b, c (deg) of a frame: a and c above -180 to 180, b within -90..90, c = 0 where b is 90
-/// or -90.
+/// The components x, y, z (mm), a, b, c (deg) of a frame: a and c above -180 to 180, b within -90..90, c = 0 where b is
+/// 90 or -90.
 pub fn frame_components(frame: &Frame) -> [f64; 6] {
     let rotation = frame.rotation.to_rotation_matrix();
     let r = |row: usize, column: usize| rotation[(row, column)];

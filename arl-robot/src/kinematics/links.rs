@@ -1,8 +1,9 @@
 //! The links of a robot as a chain of joints: for pictures, shapes and robot descriptions.
 //!
-//! Six axes: at zero of all inner angles (see [`Opw`]) every link's frame points as the base; link 1 has its origin on axis 1 at the height of
-//! axis 2, link 2 on axis 2 in the arm's plane, link 3 on axis 3, links 4 to 6 in the wrist centre. SCARA: x points along the arm; link 1
-//! has its origin on axis 1 at the height of the base, link 2 on axis 2 at that height, links 3 and 4 in the flange.
+//! Six axes: at zero of all inner angles (see [`Opw`]) every link's frame points as the base; link 1 has its origin on
+//! axis 1 at the height of axis 2, link 2 on axis 2 in the arm's plane, link 3 on axis 3, links 4 to 6 in the wrist
+//! centre. SCARA: x points along the arm; link 1 has its origin on axis 1 at the height of the base, link 2 on axis 2
+//! at that height, links 3 and 4 in the flange.
 
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 

@@ -1,9 +1,9 @@
 //! Six axes with a spherical wrist, described by the seven OPW lengths.
 //!
-//! At zero of all inner angles the arm stands straight up and the flange frame points as the base. Axis 1 turns about z,
-//! axes 2 and 3 about y, the wrist about z, y, z. The wrist centre, seen in the plane that axis 1 turns, lies `a1` in
-//! front and `c1` above the base, then `c2` along the upper arm, then `c3` along and `a2` beside the forearm; the whole
-//! plane is `b` off axis 1. An axis angle is sign * (inner angle + offset).
+//! At zero of all inner angles the arm stands straight up and the flange frame points as the base. Axis 1 turns about
+//! z, axes 2 and 3 about y, the wrist about z, y, z. The wrist centre, seen in the plane that axis 1 turns, lies `a1`
+//! in front and `c1` above the base, then `c2` along the upper arm, then `c3` along and `a2` beside the forearm; the
+//! whole plane is `b` off axis 1. An axis angle is sign * (inner angle + offset).
 
 use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
@@ -64,7 +64,8 @@ pub struct Solutions {
 }
 
 impl Solutions {
-    /// The axes in deg, each within (-180, 180], in configuration `cfg` (0 to 7); `None` where it does not reach the pose.
+    /// The axes in deg, each within (-180, 180], in configuration `cfg` (0 to 7); `None` where it does not reach the
+    /// pose.
     pub fn get(&self, cfg: u8) -> Option<&Axes> {
         if cfg < 8 && self.found & (1 << cfg) != 0 { self.axes.get(usize::from(cfg)) } else { None }
     }
@@ -314,8 +315,8 @@ impl Opw {
         2 * pair.map_or(0, |(pair, _)| pair) + u8::from(negative)
     }
 
-    /// How clear the axes are of a singular point, 0 to 1: the least of the sines of the wrist's middle angle and of the
-    /// angle at the elbow, and of the wrist centre's distance from axis 1 as part of the arm's length.
+    /// How clear the axes are of a singular point, 0 to 1: the least of the sines of the wrist's middle angle and of
+    /// the angle at the elbow, and of the wrist centre's distance from axis 1 as part of the arm's length.
     pub fn clearance(&self, axes: &Axes) -> f64 {
         let [wrist, elbow, shoulder] = self.clearances(axes);
         wrist.min(elbow).min(shoulder)

@@ -1,7 +1,7 @@
-//! Passing the wrist singularity: where the middle axis of the wrist stands near 0, axes 4 and 6 turn about nearly the same
-//! line, and an exact orientation would have axis 4 swing round at once. A passage leads axis 4 evenly from where it stands
-//! before that stretch to where it has to be behind it; the TCP stays exactly on its path, and the orientation gives way by
-//! at most as much as the middle axis is away from 0.
+//! Passing the wrist singularity: where the middle axis of the wrist stands near 0, axes 4 and 6 turn about nearly the
+//! same line, and an exact orientation would have axis 4 swing round at once. A passage leads axis 4 evenly from where
+//! it stands before that stretch to where it has to be behind it; the TCP stays exactly on its path, and the
+//! orientation gives way by at most as much as the middle axis is away from 0.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
@@ -10,7 +10,8 @@ use super::frame::Frame;
 use super::{Axes, Kinematics, wrap_degrees};
 use crate::robot::Axis;
 
-/// A passage is where the sine of the wrist's middle axis is below this: 4 deg, the most that the orientation gives way.
+/// A passage is where the sine of the wrist's middle axis is below this: 4 deg, the most that the orientation gives
+/// way.
 pub const PASSAGE: f64 = 0.07;
 
 /// Below this part of that, axis 4 stands where a path begins or ends.
@@ -47,10 +48,10 @@ impl Passage {
 }
 
 impl Kinematics {
-    /// The axes with axis 4 at `axis4` (deg) that bring the TCP of `tool` (seen from the flange) to the place of `tcp` (in
-    /// the base) exactly, and its orientation as near as that axis allows: what is missing is a turn about the line that
-    /// is at right angles to axes 5 and 6. `near` are the axes shortly before; the result is the one that continues them.
-    /// `None` for a SCARA, and where no axes lead there.
+    /// The axes with axis 4 at `axis4` (deg) that bring the TCP of `tool` (seen from the flange) to the place of `tcp`
+    /// (in the base) exactly, and its orientation as near as that axis allows: what is missing is a turn about the line
+    /// that is at right angles to axes 5 and 6. `near` are the axes shortly before; the result is the one that
+    /// continues them. `None` for a SCARA, and where no axes lead there.
     pub fn inverse_at_axis4(&self, tcp: &Frame, tool: &Frame, axis4: f64, near: &Axes) -> Option<Axes> {
         let Kinematics::SixAxis(_) = self else { return None };
         let mut axes = *near;
@@ -86,9 +87,10 @@ impl Kinematics {
         None
     }
 
-    /// The stretches of a path that pass the wrist singularity, in order. `flange` gives the frame of the flange in the base
-    /// for a path parameter from 0 to 1, `start` are the axes where the path begins, in configuration `cfg`, and `axes` the
-    /// robot's own, within whose ranges axis 4 is led. On a path that has none, and with a SCARA, there are none.
+    /// The stretches of a path that pass the wrist singularity, in order. `flange` gives the frame of the flange in the
+    /// base for a path parameter from 0 to 1, `start` are the axes where the path begins, in configuration `cfg`, and
+    /// `axes` the robot's own, within whose ranges axis 4 is led. On a path that has none, and with a SCARA, there are
+    /// none.
     pub fn passages(&self, flange: impl Fn(f64) -> Frame, cfg: u8, start: &Axes, axes: &[Axis]) -> Vec<Passage> {
         let Kinematics::SixAxis(opw) = self else { return Vec::new() };
         // The exact axes 4 and 5 of the arm's present configuration.
@@ -127,11 +129,12 @@ impl Kinematics {
                 let to = if is_inside { 1.0 } else { border(next, at.max(from), cfg, &near) };
                 let Some(end) = exact(to, cfg, &near) else { break };
                 let first = if from == 0.0 { fourth(start) } else { fourth(&near) };
-                // Half a turn of axis 4 more or less, with the middle axis on the other side, gives the same orientation.
+                // Half a turn of axis 4 more or less, with the middle axis on the other side, gives the same
+                // orientation.
                 let least = end_of_axis4(fourth(&end), first, range);
                 let flips = (wrap_degrees(least - fourth(&end))).abs() > 90.0;
-                // At an end of the path axis 4 goes as it would exactly, less the nearer the middle axis is to 0: what the path
-                // goes on with there does the same.
+                // At an end of the path axis 4 goes as it would exactly, less the nearer the middle axis is to 0: what
+                // the path goes on with there does the same.
                 let at_end = |border: f64, value: f64| {
                     let Some(here) = exact(border, cfg, &near) else { return [value, 0.0, 0.0] };
                     let share = share_kept(sine(&here));
@@ -182,8 +185,8 @@ impl Kinematics {
     }
 }
 
-/// How much of its exact motion axis 4 keeps where the path begins or ends inside a passage: all of it at the border, none near the
-/// singular point.
+/// How much of its exact motion axis 4 keeps where the path begins or ends inside a passage: all of it at the border,
+/// none near the singular point.
 fn share_kept(sine: f64) -> f64 {
     let part = ((sine / PASSAGE - STILL) / (1.0 - STILL)).clamp(0.0, 1.0);
     part * part * (3.0 - 2.0 * part)
@@ -202,8 +205,8 @@ fn end_of_axis4(end: f64, start: f64, (min, max): (f64, f64)) -> f64 {
     fits.min_by(|a, b| (a - start).abs().total_cmp(&(b - start).abs())).unwrap_or(first)
 }
 
-/// The coefficients by the part of a stretch of length `length` that begins and ends with these values, first and second
-/// derivatives.
+/// The coefficients by the part of a stretch of length `length` that begins and ends with these values, first and
+/// second derivatives.
 fn quintic(start: [f64; 3], end: [f64; 3], length: f64) -> [f64; 6] {
     let [p, v, a] = start;
     let [q, w, b] = end;

@@ -69,27 +69,29 @@ pub struct Rates {
     pub third: Axes,
 }
 
-/// The lowest speed of the TCP (mm/s) and of the tool's turning (deg/s) that makes sense along a path: a place that the axes
-/// cannot pass even so slowly is singular. A path that moves and turns the tool is as slow as that where neither is faster.
+/// The lowest speed of the TCP (mm/s) and of the tool's turning (deg/s) that makes sense along a path: a place that the
+/// axes cannot pass even so slowly is singular. A path that moves and turns the tool is as slow as that where neither
+/// is faster.
 pub const LOWEST_TRAVEL_MM_S: f64 = 1.0;
 /// See [`LOWEST_TRAVEL_MM_S`].
 pub const LOWEST_TURNING_DEG_S: f64 = 0.1;
-/// Farther from singular points than this (see [`Kinematics::clearance`]) every place is passed at the lowest speed that makes
-/// sense.
+/// Farther from singular points than this (see [`Kinematics::clearance`]) every place is passed at the lowest speed
+/// that makes sense.
 pub const CLEAR_OF_SINGULAR: f64 = 0.15;
-/// Over less time than this (s) at the lowest speed that makes sense no way is looked at: an axis that has jumped by then would
-/// have to turn at once.
+/// Over less time than this (s) at the lowest speed that makes sense no way is looked at: an axis that has jumped by
+/// then would have to turn at once.
 pub const SHORTEST_STEP_S: f64 = 1e-3;
 
-/// How long a path takes at the lowest speed that makes sense (see [`LOWEST_TRAVEL_MM_S`]), in s per unit of its parameter, at a
-/// place where the TCP goes by `travel` (mm) and the tool turns by `turning` (rad) per unit. However a way is cut into paths,
-/// this is the same for the same piece of it.
+/// How long a path takes at the lowest speed that makes sense (see [`LOWEST_TRAVEL_MM_S`]), in s per unit of its
+/// parameter, at a place where the TCP goes by `travel` (mm) and the tool turns by `turning` (rad) per unit. However a
+/// way is cut into paths, this is the same for the same piece of it.
 pub fn lowest_pace(travel: &Vector3<f64>, turning: &Vector3<f64>) -> f64 {
     (travel.norm() / LOWEST_TRAVEL_MM_S).max(turning.norm().to_degrees() / LOWEST_TURNING_DEG_S)
 }
 
 impl Rates {
-    /// Over which part of the path the motion of `axes`, the robot's, changes substantially: infinity where it does not.
+    /// Over which part of the path the motion of `axes`, the robot's, changes substantially: infinity where it does
+    /// not.
     pub fn scale(&self, axes: &[Axis]) -> f64 {
         let size = |rates: &Axes| {
             let by_speed = rates.iter().zip(axes).map(|(rate, axis)| rate.abs() / axis.vel);
@@ -100,9 +102,9 @@ impl Rates {
         if scale.is_nan() { f64::INFINITY } else { scale }
     }
 
-    /// How many times faster than at the lowest speed that makes sense `axes`, the robot's, can follow by their speeds and
-    /// accelerations, where these are the rates of a straight path with this [`lowest_pace`]: below 1 the place is singular in that
-    /// direction. With the axis that has the least margin.
+    /// How many times faster than at the lowest speed that makes sense `axes`, the robot's, can follow by their speeds
+    /// and accelerations, where these are the rates of a straight path with this [`lowest_pace`]: below 1 the place is
+    /// singular in that direction. With the axis that has the least margin.
     pub fn speed_margin(&self, axes: &[Axis], pace: f64) -> (f64, usize) {
         let rates = self.first.iter().zip(&self.second).zip(axes);
         let margin = |(rates, axis): ((&f64, &f64), &Axis)| {
@@ -114,7 +116,8 @@ impl Rates {
     }
 }
 
-/// Whether one of `axes`, the robot's, would have to be faster than it can to go from `from` to `to` (deg or mm) in so many s.
+/// Whether one of `axes`, the robot's, would have to be faster than it can to go from `from` to `to` (deg or mm) in so
+/// many s.
 pub fn outruns(axes: &[Axis], from: &Axes, to: &Axes, seconds: f64) -> bool {
     axes.iter().zip(from.iter().zip(to)).any(|(axis, (from, to))| (to - from).abs() > axis.vel * seconds)
 }
@@ -287,9 +290,9 @@ impl Scara {
 }
 
 impl Kinematics {
-    /// The derivatives of the axes when the flange moves with `twist`; the unused axes of a SCARA stay at rest. `None` at
-    /// a singular point (near one the rates are large: see [`Kinematics::clearance`]), and where a SCARA would have to
-    /// tilt its flange.
+    /// The derivatives of the axes when the flange moves with `twist`; the unused axes of a SCARA stay at rest. `None`
+    /// at a singular point (near one the rates are large: see [`Kinematics::clearance`]), and where a SCARA would have
+    /// to tilt its flange.
     pub fn rates(&self, axes: &Axes, twist: &Twist) -> Option<Rates> {
         match self {
             Kinematics::SixAxis(opw) => opw.rates(axes, twist),
@@ -297,9 +300,9 @@ impl Kinematics {
         }
     }
 
-    /// How a body on the flange moves when each axis moves alone: column i is what axis i + 1 does, its speed being 1 rad
-    /// (1 mm where linear). The first three rows are the turning (rad) in the base, the last three the velocity (mm) of
-    /// `point` (mm, given in the base, fixed to the flange). The columns of axes that a SCARA has not are zero.
+    /// How a body on the flange moves when each axis moves alone: column i is what axis i + 1 does, its speed being 1
+    /// rad (1 mm where linear). The first three rows are the turning (rad) in the base, the last three the velocity
+    /// (mm) of `point` (mm, given in the base, fixed to the flange). The columns of axes that a SCARA has not are zero.
     pub fn jacobian(&self, axes: &Axes, point: &Vector3<f64>) -> Matrix6<f64> {
         let mut jacobian = Matrix6::zeros();
         let point = point / 1000.0;
@@ -311,8 +314,8 @@ impl Kinematics {
         jacobian
     }
 
-    /// The velocity of `point` (mm, fixed to the flange, given in the base) in mm per unit, when the axes move by `rates`
-    /// (deg or mm per unit).
+    /// The velocity of `point` (mm, fixed to the flange, given in the base) in mm per unit, when the axes move by
+    /// `rates` (deg or mm per unit).
     pub fn point_velocity(&self, axes: &Axes, rates: &Axes, point: &Vector3<f64>) -> Vector3<f64> {
         let (turning, moving) = self.velocity(axes, rates);
         moving + turning.cross(point)
@@ -345,9 +348,9 @@ impl Kinematics {
         }
     }
 
-    /// How clear the axes are of a singular point, 0 to 1: for six axes the least of the sines of the wrist's middle angle
-    /// and of the angle at the elbow, and of the wrist centre's distance from axis 1 as part of the arm's length; for a
-    /// SCARA the sine of the angle at the elbow.
+    /// How clear the axes are of a singular point, 0 to 1: for six axes the least of the sines of the wrist's middle
+    /// angle and of the angle at the elbow, and of the wrist centre's distance from axis 1 as part of the arm's length;
+    /// for a SCARA the sine of the angle at the elbow.
     pub fn clearance(&self, axes: &Axes) -> f64 {
         match self {
             Kinematics::SixAxis(opw) => opw.clearance(axes),

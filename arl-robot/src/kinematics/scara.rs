@@ -37,8 +37,8 @@ impl Scara {
         if wrap_degrees(j2) < -1e-9 { 4 } else { 0 }
     }
 
-    /// The axes for a flange frame (translation in mm) with hand `cfg`, 0 or 4; where the arm is folded upon itself, axis 1
-    /// stays as in `near`. `None`: out of reach, or not upright.
+    /// The axes for a flange frame (translation in mm) with hand `cfg`, 0 or 4; where the arm is folded upon itself,
+    /// axis 1 stays as in `near`. `None`: out of reach, or not upright.
     pub fn inverse(&self, flange: &Frame, cfg: u8, near: &Axes) -> Option<Axes> {
         if self.tilt(flange) > 0.0 || !matches!(cfg, 0 | 4) {
             return None;

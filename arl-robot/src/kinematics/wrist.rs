@@ -7,7 +7,8 @@ use super::angles::sin_cos;
 /// Below this sine of the middle angle the first angle is open, and stays where it was.
 const SINGULAR: f64 = 1e-10;
 
-/// The three wrist angles, each as sine and cosine (or a multiple of them): the solution whose middle angle is positive.
+/// The three wrist angles, each as sine and cosine (or a multiple of them): the solution whose middle angle is
+/// positive.
 #[derive(Clone, Copy)]
 pub(super) struct Hand {
     pub(super) t4: (f64, f64),
@@ -17,8 +18,8 @@ pub(super) struct Hand {
     pub(super) open: bool,
 }
 
-/// The wrist angles for `rotation` behind an arm that stands at `t1` (about z) and `t23` (about y), each given by sine and
-/// cosine. `near4` (deg) is the first angle where the middle one is 0.
+/// The wrist angles for `rotation` behind an arm that stands at `t1` (about z) and `t23` (about y), each given by sine
+/// and cosine. `near4` (deg) is the first angle where the middle one is 0.
 #[inline]
 pub(super) fn hand(rotation: &Matrix3<f64>, t1: (f64, f64), t23: (f64, f64), near4: f64) -> Hand {
     let ((s1, c1), (s23, c23)) = (t1, t23);
@@ -38,7 +39,8 @@ pub(super) fn hand(rotation: &Matrix3<f64>, t1: (f64, f64), t23: (f64, f64), nea
         let by_sine = 1.0 / sine;
         (third.y * by_sine, third.x * by_sine)
     };
-    // The other two angles belong to the t4 that was taken, so that together they are exact also near the singular point.
+    // The other two angles belong to the t4 that was taken, so that together they are exact also near the singular
+    // point.
     Hand {
         t4: (s4, c4),
         t5: (c4 * third.x + s4 * third.y, third.z),

@@ -5,8 +5,8 @@ use super::{
 };
 use crate::kinematics::{Kinematics, Opw, Scara};
 
-/// What a robot is made of: plain data, which [`Robot::new`] checks. Whoever wants a robot of other values takes the description of
-/// one, changes that, and makes another robot of it:
+/// What a robot is made of: plain data, which [`Robot::new`] checks. Whoever wants a robot of other values takes the
+/// description of one, changes that, and makes another robot of it:
 ///
 /// ```
 /// # #[cfg(feature = "files")] {
@@ -186,7 +186,9 @@ fn four_axes(scara: &Scara) -> Result<(), String> {
 
 fn all_within(of: &str, values: &[(&str, f64)], most: f64) -> Result<(), String> {
     match values.iter().find(|(_, value)| value.is_nan() || value.abs() > most) {
-        Some((key, value)) => Err(format!("`{key}` of {of} is {value:?}: expected a number from -{most} to {most}")),
+        Some((key, value)) => {
+            Err(format!("`{key}` of {of} is {value:?}: expected a number from -{most:?} to {most:?}"))
+        }
         None => Ok(()),
     }
 }
@@ -204,8 +206,8 @@ impl Robot {
     /// The robot that a description is of.
     ///
     /// # Errors
-    /// It is no robot: a length or an angle is beyond 1e6 mm (deg), a limit, a mass or the length of an arm is not above 1e-6 or too
-    /// large, a range is empty, or there are too few or too many of something.
+    /// It is no robot: a length or an angle is beyond 1e6 mm (deg), a limit, a mass or the length of an arm is not
+    /// above 1e-6 or too large, a range is empty, or there are too few or too many of something.
     pub fn new(description: Description) -> Result<Robot, RobotError> {
         description.check()?;
         Ok(Robot(description))

@@ -26,7 +26,8 @@ pub const LIMB_NAMES: [&str; 9] = [
     "the spindle",
 ];
 
-/// A capsule that belongs to a link: all places that are no farther than `radius` from the straight line between its ends.
+/// A capsule that belongs to a link: all places that are no farther than `radius` from the straight line between its
+/// ends.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limb {
     /// What people call it: `the forearm`.

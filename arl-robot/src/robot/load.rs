@@ -1,6 +1,7 @@
 //! Robots that are built in, and robots from files.
 
 use std::borrow::Cow;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use super::{Robot, RobotError, builtin, read};
@@ -44,15 +45,20 @@ impl Robot {
         Robot::parse(name_or_path, &text)
     }
 
-    /// The robot file of a robot that is built in, or that at this path.
-    fn source(name_or_path: &str) -> Result<Cow<'static, str>, RobotError> {
+    /// The text of the robot file of a robot that is built in, or of that at this path.
+    ///
+    /// # Errors
+    /// Nothing of this name is built in, and no such file can be read.
+    pub fn source(name_or_path: &str) -> Result<Cow<'static, str>, RobotError> {
         if let Some(text) = Robot::text(name_or_path) {
             return Ok(Cow::Borrowed(text));
         }
         let looks_like_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
         match regular_file::read_text(Path::new(name_or_path)) {
             Ok(text) => Ok(Cow::Owned(text)),
-            Err(_) if !looks_like_path => Err(builtin::unknown(name_or_path)),
+            Err(error) if error.kind() == ErrorKind::NotFound && !looks_like_path => {
+                Err(builtin::unknown(name_or_path))
+            }
             Err(error) => Err(RobotError::of_file(name_or_path, format!("cannot read the robot file: {error}"))),
         }
     }

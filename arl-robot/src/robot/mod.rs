@@ -77,8 +77,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// The position nearest to the range among those that differ from `value` by whole turns only, and how far beyond the
-    /// range it is; 0 within. A linear axis has no other position.
+    /// The position nearest to the range among those that differ from `value` by whole turns only, and how far beyond
+    /// the range it is; 0 within. A linear axis has no other position.
     pub fn nearest_to_range(&self, value: f64) -> (f64, f64) {
         let beyond = |value: f64| (self.min - value).max(value - self.max).max(0.0);
         if self.linear {

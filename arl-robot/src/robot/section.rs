@@ -110,8 +110,7 @@ impl<'a> Section<'a> {
         if (SMALLEST..=most).contains(&number) {
             return Ok(number);
         }
-        let range = if number <= 0.0 { "above 0".to_owned() } else { format!("from {SMALLEST:?} to {most:?}") };
-        let message = format!("`{key}` of {} is {number:?}: expected {what}, {range}", self.name);
+        let message = format!("`{key}` of {} is {number:?}: expected {what}, from {SMALLEST:?} to {most:?}", self.name);
         Err(self.source.error(value.span(), message))
     }
 
@@ -119,7 +118,7 @@ impl<'a> Section<'a> {
         if number.abs() <= most {
             return Ok(number);
         }
-        let message = format!("`{key}` of {} is {number:?}: expected {what}, from -{most} to {most}", self.name);
+        let message = format!("`{key}` of {} is {number:?}: expected {what}, from -{most:?} to {most:?}", self.name);
         Err(self.source.error(self.span_of(key), message))
     }
 

@@ -73,7 +73,7 @@ fn an_unknown_key_names_its_place_and_a_near_name() {
 fn wrong_values_say_what_was_expected() {
     for (from, to, line, words) in [
         ("\"six-axis\"", "\"sixaxis\"", 4, "expected \"six-axis\" or \"scara\""),
-        ("acc = 8000.0", "acc = -1", 21, "above 0"),
+        ("acc = 8000.0", "acc = -1", 21, "from 1e-6 to 1000000000000.0"),
         ("acc = 8000.0", "acc = \"fast\"", 21, "found the text \"fast\""),
         ("min = -170.0", "min = 171.0", 29, "less than its `max`, 170"),
         ("signs = [1, 1,", "signs = [2, 1,", 17, "1 or -1"),
@@ -90,9 +90,9 @@ fn wrong_values_say_what_was_expected() {
         ),
         ("acc = 8000.0", "acc = 1e-300", 21, "is 1e-300: expected an acceleration in mm/s2, from 1e-6 to"),
         ("c2 = 705.0", "c2 = 2e6", 13, "expected the length of the upper arm in mm, from 1e-6 to 1000000.0"),
-        ("c1 = 615.0", "c1 = -1e7", 12, "expected a length in mm, from -1000000 to 1000000"),
+        ("c1 = 615.0", "c1 = -1e7", 12, "expected a length in mm, from -1000000.0 to 1000000.0"),
         ("min = -170.0", "min = -1e7", 29, "`min` of [[axis]] is -10000000.0: expected the lowest position, from"),
-        ("offsets = [0,", "offsets = [1e9,", 16, "six angles in deg, from -1000000"),
+        ("offsets = [0,", "offsets = [1e9,", 16, "six angles in deg, from -1000000.0"),
         ("home = [0, 0, 0, 0, 90, 0]", "home = [0, 0, 200, 0, 0, 0]", 6, "`home` of j3 is 200"),
         ("home = [0, 0, 0, 0, 90, 0]", "home = [0]", 6, "expected 6 positions"),
         ("profile = \"S\"", "profile = ", 5, "no TOML"),

@@ -48,8 +48,9 @@ pub(crate) fn number(function: &'static str, channel: u32) -> Result<i32, Fault>
     }
 }
 
-/// `switcharl`: ends the program of a foreground channel, whose robot stops on its path, and starts another one of those that
-/// the controller can load there; whether it worked. It does so at once, and goes on when the other program is there.
+/// `switcharl`: ends the program of a foreground channel, whose robot stops on its path, and starts another one of
+/// those that the controller can load there; whether it worked. It does so at once, and goes on when the other program
+/// is there.
 ///
 /// # Errors
 /// The channel is not within 1 to 6, or this is no background channel.
@@ -139,8 +140,8 @@ impl Foreground<'_> {
     }
 }
 
-/// `cjttq`: the torques of the axes in Nm (N of linear axes), as the motion is commanded or as they are measured. Those of
-/// external axes are unset: their masses are not known.
+/// `cjttq`: the torques of the axes in Nm (N of linear axes), as the motion is commanded or as they are measured. Those
+/// of external axes are unset: their masses are not known.
 ///
 /// # Errors
 /// There is no such channel, or the robot file has no masses.
@@ -152,8 +153,8 @@ pub fn cjttq(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jttq, Fault> {
     })
 }
 
-/// `cjtci`: the currents of the motors in A, as the motion is commanded or as they are measured. Those of external axes are
-/// unset.
+/// `cjtci`: the currents of the motors in A, as the motion is commanded or as they are measured. Those of external axes
+/// are unset.
 ///
 /// # Errors
 /// There is no such channel, or the robot file has no masses.
@@ -233,8 +234,8 @@ pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> 
     })
 }
 
-/// `ctcpforce`: the force (N) and the torque (Nm) with which the robot presses on what is outside, at the TCP and along the
-/// axes of the workpiece frame. What the axes cannot feel at a singular point is 0.
+/// `ctcpforce`: the force (N) and the torque (Nm) with which the robot presses on what is outside, at the TCP and along
+/// the axes of the workpiece frame. What the axes cannot feel at a singular point is 0.
 ///
 /// # Errors
 /// There is no such channel, the robot file has no masses, or the tool or the workpiece frame holds what is no number.
@@ -260,8 +261,8 @@ pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, F
     })
 }
 
-/// `curmpfile`: the file of the motion that is being executed, or was last, if only before the controller was switched on;
-/// before the first one ever the program's own.
+/// `curmpfile`: the file of the motion that is being executed, or was last, if only before the controller was switched
+/// on; before the first one ever the program's own.
 ///
 /// # Errors
 /// There is no such channel.
@@ -269,8 +270,8 @@ pub fn curmpfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
     foreground(cx, "curmpfile", channel_index, |channel| Ok(channel.motion_pointer().file))
 }
 
-/// `curmpline`: the line of the motion that is being executed, or was last, if only before the controller was switched on;
-/// before the first one ever 0.
+/// `curmpline`: the line of the motion that is being executed, or was last, if only before the controller was switched
+/// on; before the first one ever 0.
 ///
 /// # Errors
 /// There is no such channel.
@@ -278,8 +279,8 @@ pub fn curmpline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
     foreground(cx, "curmpline", channel_index, |channel| Ok(channel.motion_pointer().line as i32))
 }
 
-/// `curppfile`: the file that the program stands in; until it runs, the one in which the channel's program stood when the
-/// controller was switched off.
+/// `curppfile`: the file that the program stands in; until it runs, the one in which the channel's program stood when
+/// the controller was switched off.
 ///
 /// # Errors
 /// There is no such channel.
@@ -287,8 +288,8 @@ pub fn curppfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
     foreground(cx, "curppfile", channel_index, |channel| Ok(channel.program_pointer().file))
 }
 
-/// `curppline`: the line that the program stands on; until it runs, the one on which the channel's program stood when the
-/// controller was switched off.
+/// `curppline`: the line that the program stands on; until it runs, the one on which the channel's program stood when
+/// the controller was switched off.
 ///
 /// # Errors
 /// There is no such channel.

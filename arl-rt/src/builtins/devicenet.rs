@@ -10,8 +10,8 @@ const OUTSIDE_BUFFER: i32 = 1;
 /// The program's array has fewer bytes than the length says.
 const ARRAY_TOO_SHORT: i32 = 2;
 
-/// Writes bytes into the bus's buffer. 0: done; 1: offset or length outside the buffer; 2: the array is shorter than the
-/// length; others: the bus's own.
+/// Writes bytes into the bus's buffer. 0: done; 1: offset or length outside the buffer; 2: the array is shorter than
+/// the length; others: the bus's own.
 ///
 /// # Errors
 /// None: what goes wrong is told by the result.

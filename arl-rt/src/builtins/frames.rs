@@ -224,8 +224,8 @@ pub fn offset(p: Pose, dx: f64, dy: f64, dz: f64, rz: f64, ry: f64, rx: f64) -> 
     p.with_components([shift(p.x, dx), shift(p.y, dy), shift(p.z, dz), a, b, c])
 }
 
-/// A target moved by `dx`, `dy`, `dz` (mm) and turned by `rz`, `ry`, `rx` (deg: z first, then the new y, then the new x)
-/// along and about the axes of its tool.
+/// A target moved by `dx`, `dy`, `dz` (mm) and turned by `rz`, `ry`, `rx` (deg: z first, then the new y, then the new
+/// x) along and about the axes of its tool.
 pub fn reltool(p: Pose, dx: f64, dy: f64, dz: f64, rz: f64, ry: f64, rx: f64) -> Pose {
     let moved = Transform::of_pose(&p).then(&Transform::of_frame(&Frame { x: dx, y: dy, z: dz, a: rz, b: ry, c: rx }));
     let [x, y, z, a, b, c] = moved.components();

@@ -54,8 +54,8 @@ pub async fn writeregisters_bytes(cx: &Cx, data: &[u8], start: i32, len: i32) ->
     Ok(written.await.is_some())
 }
 
-/// Reads `length` coils from `start` on, eight a byte, the first in the lowest bit; bits left over become 0, the rest of
-/// the array stays.
+/// Reads `length` coils from `start` on, eight a byte, the first in the lowest bit; bits left over become 0, the rest
+/// of the array stays.
 ///
 /// # Errors
 /// None: false where the coils do not exist, or the array has no room for them.

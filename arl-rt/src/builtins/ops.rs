@@ -25,8 +25,8 @@ pub fn fits(text: Str) -> Result<Str, Fault> {
     within(text.len()).map(|()| text)
 }
 
-/// About how many steps make up a way: as many as there are, at most twice as many. A division would take longer than the
-/// short loops whose rounds are counted by it.
+/// About how many steps make up a way: as many as there are, at most twice as many. A division would take longer than
+/// the short loops whose rounds are counted by it.
 #[inline]
 pub fn steps(way: i32, step: i32) -> i32 {
     way >> (31 - (step | 1).leading_zeros())

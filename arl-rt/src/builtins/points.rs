@@ -18,8 +18,8 @@ use crate::fault::Fault;
 use crate::values::{Joint, Pose, Str, UNSET};
 use arl_robot::atomic_file;
 
-/// Copies a program file in the script directory; whether it worked. A kill at any moment leaves the old or the new copy, whole.
-/// The work is done beside the cycle, and the program goes on when it is.
+/// Copies a program file in the script directory; whether it worked. A kill at any moment leaves the old or the new
+/// copy, whole. The work is done beside the cycle, and the program goes on when it is.
 ///
 /// # Errors
 /// A path leads out of the script directory.
@@ -76,7 +76,8 @@ fn clear_beside(path: &Path) {
     atomic_file::remove_leftovers(atomic_file::directory_of(path));
 }
 
-/// Writes a pose to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next load on.
+/// Writes a pose to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next
+/// load on.
 ///
 /// # Errors
 /// The path leads out of the script directory.
@@ -98,7 +99,8 @@ fn of_pose(p: Pose) -> Components {
     value
 }
 
-/// Writes a joint to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next load on.
+/// Writes a joint to a point of a data file, whose other text stays as it is; whether it worked. It counts from the
+/// next load on.
 ///
 /// # Errors
 /// The path leads out of the script directory.
@@ -172,8 +174,8 @@ impl Components {
     }
 }
 
-/// Puts a value in place of the one that a variable of this type has in a file. Fails where there is no such file or variable, where
-/// the file has mistakes, and where it cannot be written.
+/// Puts a value in place of the one that a variable of this type has in a file. Fails where there is no such file or
+/// variable, where the file has mistakes, and where it cannot be written.
 fn replace(path: &Path, ty: &str, variable: &str, value: &str) -> Result<(), Failure> {
     clear_beside(path);
     let changed = atomic_file::change(path, |content| arl_lang::with_value(content, ty, variable, value));

@@ -53,11 +53,12 @@ pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     Ok(pose(cx, &unit, &axes, &j, t, w))
 }
 
-/// The axes that bring the tool to a pose in the workpiece frame, in the configuration that the pose names; its external
-/// axes stay.
+/// The axes that bring the tool to a pose in the workpiece frame, in the configuration that the pose names; its
+/// external axes stay.
 ///
 /// # Errors
-/// Components of the pose are unset, it, the tool or the workpiece frame hold what is no number, or it cannot be reached so.
+/// Components of the pose are unset, it, the tool or the workpiece frame hold what is no number, or it cannot be
+/// reached so.
 pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     let components = p.components();
     if components.iter().any(|component| is_open(*component)) {

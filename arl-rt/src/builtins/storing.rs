@@ -4,8 +4,8 @@ use crate::context::cx::Cx;
 use crate::storage::disk::{Stage, Work};
 use crate::storage::state::{Saved, StateError};
 
-/// Waits for the end of a piece of work, one cycle at least, while the robots go on. On the virtual clock it is one cycle,
-/// however long the work takes. `None`: it has panicked.
+/// Waits for the end of a piece of work, one cycle at least, while the robots go on. On the virtual clock it is one
+/// cycle, however long the work takes. `None`: it has panicked.
 pub(super) async fn done<T>(work: Work<T>, cx: &Cx) -> Option<T> {
     loop {
         cx.shared().disk.wait_for();

@@ -6,8 +6,8 @@ use crate::context::{system, wiring};
 use crate::fault::Fault;
 use crate::values::Str;
 
-/// `savesv`: saves a system variable, so that its value is there again at the next start. It is stored beside the cycle, and
-/// the program goes on when it is; robots go on meanwhile.
+/// `savesv`: saves a system variable, so that its value is there again at the next start. It is stored beside the
+/// cycle, and the program goes on when it is; robots go on meanwhile.
 ///
 /// # Errors
 /// There is no such variable, it is none of those that are saved, or it cannot be written.

@@ -18,8 +18,8 @@ pub(crate) trait Between {
     /// A cycle is about to begin.
     fn cycle_begins(&mut self, controller: &mut Controller) -> Beat;
 
-    /// Nothing can change any more: the programs wait for what these words say. Whether somebody changed something, so that
-    /// the run goes on.
+    /// Nothing can change any more: the programs wait for what these words say. Whether somebody changed something, so
+    /// that the run goes on.
     fn nothing_can_change(&mut self, _controller: &mut Controller, _waiting: &str) -> bool {
         false
     }

@@ -77,8 +77,8 @@ impl Between for Coverage {
 }
 
 impl Coverage {
-    /// A line for each statement that ran: folder and main file of its program, file, line, how often; then the same for
-    /// functions, with the name in place of the line.
+    /// A line for each statement that ran: folder and main file of its program, file, line, how often; then the same
+    /// for functions, with the name in place of the line.
     fn write(&mut self) -> std::io::Result<()> {
         let mut out = BufWriter::new(&self.file);
         for Program { folder, main, counts, entered } in &*self.counter.0.borrow() {

@@ -59,8 +59,9 @@ impl Run {
     /// Their names, with commas between.
     pub const HEADER: &str = trace::HEADER;
 
-    /// A run at the start of its first cycle. The arguments are those of a compiled program's command line; `script_dir` is the folder
-    /// of its files where they name none. With `traced` it keeps the trace of the first robot.
+    /// A run at the start of its first cycle. The arguments are those of a compiled program's command line;
+    /// `script_dir` is the folder of its files where they name none. With `traced` it keeps the trace of the first
+    /// robot.
     ///
     /// # Errors
     /// What is wrong with the arguments, or why there is no controller, in words.
@@ -213,8 +214,9 @@ impl Run {
         line
     }
 
-    /// The rows of the trace since the last call, one behind the other; axes that are not there are no numbers. With `--trace-columns file`
-    /// each has one number more at its end: which of [`files`](Self::files) its line is of, from 0; no number where no motion is executed.
+    /// The rows of the trace since the last call, one behind the other; axes that are not there are no numbers. With
+    /// `--trace-columns file` each has one number more at its end: which of [`files`](Self::files) its line is of, from
+    /// 0; no number where no motion is executed.
     pub fn take_rows(&mut self) -> Vec<f64> {
         self.rows.as_mut().map(std::mem::take).unwrap_or_default()
     }
@@ -224,8 +226,8 @@ impl Run {
         self.files.iter().flatten().map(|file| file.name()).collect()
     }
 
-    /// What came of it, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s, the alarms, and with `--report` what
-    /// the motions of the first robot were together.
+    /// What came of it, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s, the
+    /// alarms, and with `--report` what the motions of the first robot were together.
     pub fn summary(&self) -> String {
         summary(&self.controller, self.ended, &self.alarms)
     }

@@ -17,8 +17,8 @@ enum Watched {
 }
 
 impl Observation {
-    /// Looks at these from now on, a name a line: signals (`do.1`, or what the cell calls them) and global variables that are numbers or truth
-    /// values (`global.placed`).
+    /// Looks at these from now on, a name a line: signals (`do.1`, or what the cell calls them) and global variables
+    /// that are numbers or truth values (`global.placed`).
     ///
     /// # Errors
     /// Something is not there, or no number; then everything stays as it was.

@@ -56,8 +56,8 @@ pub(super) const EXIT_INTERRUPTED: u8 = 130;
 /// What makes drivers for `--drive`.
 static CONNECT: OnceLock<Connect> = OnceLock::new();
 
-/// Says what makes the drivers that a cell file asks for, before `main` runs a program: `arl_drivers::connect`. Without it
-/// `--drive` is refused.
+/// Says what makes the drivers that a cell file asks for, before `main` runs a program: `arl_drivers::connect`. Without
+/// it `--drive` is refused.
 pub fn drivers(connect: Connect) {
     let _ = CONNECT.set(connect);
 }
@@ -79,7 +79,8 @@ pub fn main_with<P: Program + 'static>(
     start(program, others, script_dir, None)
 }
 
-/// The same for programs that were made for a debugger, which `--debug` connects to. Nothing of it is in other programs.
+/// The same for programs that were made for a debugger, which `--debug` connects to. Nothing of it is in other
+/// programs.
 pub fn main_watched<P: Program + 'static>(
     program: impl FnOnce() -> P + Send,
     others: &[Other],
@@ -119,8 +120,8 @@ impl Watching {
     }
 }
 
-/// The same for programs that were compiled with the names of their variables. With `--serve` such a program makes run after run, each as a line of
-/// the standard input asks for, and answers with a line: for `arl2rs sweep`.
+/// The same for programs that were compiled with the names of their variables. With `--serve` such a program makes run
+/// after run, each as a line of the standard input asks for, and answers with a line: for `arl2rs sweep`.
 pub fn main_named<P: Program + 'static>(
     program: impl Fn() -> P + Send,
     others: &[Other],
@@ -316,7 +317,8 @@ fn say_standstill(controller: &Controller, sources: &Path, waiting: &[Standstill
     }
 }
 
-/// A controller for a run in this process, with the same options as on a command line, after how many s it ends at the latest, and whether it is asked to be in real time.
+/// A controller for a run in this process, with the same options as on a command line, after how many s it ends at the
+/// latest, and whether it is asked to be in real time.
 pub(super) fn in_process(
     program: Box<dyn Program>,
     (others, script_dir): (&[Other], &str),

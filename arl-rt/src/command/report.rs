@@ -35,7 +35,8 @@ pub(crate) fn all_json(robots: &[Recorded]) -> String {
     robots.iter().enumerate().map(|(at, robot)| json(at + 1, robot)).collect()
 }
 
-/// A table with one row for each line of the program, in the order of their first motions, and the figures of the cycle time.
+/// A table with one row for each line of the program, in the order of their first motions, and the figures of the cycle
+/// time.
 fn table(recorded: &Recorded) -> String {
     let mut lines: Vec<Line<'_>> = Vec::new();
     for (file, record) in recorded.executed() {

@@ -1,4 +1,5 @@
-//! Says on the standard error what came up in a run: warnings, and alarms with the lines of the program that they are about.
+//! Says on the standard error what came up in a run: warnings, and alarms with the lines of the program that they are
+//! about.
 
 use std::path::Path;
 
@@ -13,7 +14,8 @@ use arl_robot::cell::{Signal, SignalKind};
 /// Files that are longer are not looked into.
 const LARGEST_FILE: u64 = 16 << 20;
 
-/// Says on the standard error what came up, and to who records it; `sources` is the folder that programs were compiled from.
+/// Says on the standard error what came up, and to who records it; `sources` is the folder that programs were compiled
+/// from.
 pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<&Recording>) {
     for text in controller.take_warnings() {
         tell(format_args!("warning: {text}"));

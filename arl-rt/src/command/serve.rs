@@ -1,4 +1,5 @@
-//! A program that makes run after run: a line of the standard input asks for one, a line of the standard output answers.
+//! A program that makes run after run: a line of the standard input asks for one, a line of the standard output
+//! answers.
 //!
 //! A question is the words of a command line with tabs between; `\t`, `\n`, `\r` and `\\` stand for themselves in a
 //! word. An answer is a JSON object: `{"summary": {..}, "said": [..]}` with what [`Run::summary`] and

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::command::json::{number, push_array, quoted};
 use crate::command::program_main::{EXIT_ALARM, EXIT_ENDED, EXIT_INTERRUPTED, EXIT_MAX_TIME};
 use crate::command::report;
-use crate::controller::Controller;
+use crate::controller::{Controller, Outcome};
 use crate::fault::Alarm;
 use crate::motion::MotionRecord;
 
@@ -46,8 +46,9 @@ impl Ending {
     }
 }
 
-/// A JSON object without newline: the ending, the exit code, the time in s, what the first robot's motions were together, and the alarms.
-/// The figures of motions are 0 where the controller does not record them.
+/// A JSON object without newline: the ending, the exit code, the time in s, what the first robot's motions were
+/// together, the alarms, and the one that ended it, or null. The figures of motions are 0 where the controller does not
+/// record them.
 pub(crate) fn summary(controller: &Controller, ending: Option<Ending>, alarms: &[Alarm]) -> String {
     let mut text = String::new();
     let outcome = ending.map_or("runs", Ending::word);
@@ -62,6 +63,11 @@ pub(crate) fn summary(controller: &Controller, ending: Option<Ending>, alarms: &
     text.push_str(&of_first.unwrap_or_default());
     text.push_str(",\"alarms\":");
     push_array(&mut text, alarms, push_alarm);
+    text.push_str(",\"ended_by\":");
+    match controller.outcome().filter(|_| ending == Some(Ending::Alarm)) {
+        Some(Outcome::Alarm(alarm)) => push_alarm(&mut text, alarm),
+        _ => text.push_str("null"),
+    }
     text.push('}');
     text
 }

@@ -23,8 +23,8 @@ const MAX_CLOSING: usize = 32;
 #[derive(Default, Debug)]
 pub(crate) struct Connections(RefCell<Vec<Arc<Shared>>>);
 
-/// The thread that opens the connections of all programs. To ask the system for a thread and descriptors, and to give them
-/// back, takes longer than a cycle should. It ends with whoever sends it orders.
+/// The thread that opens the connections of all programs. To ask the system for a thread and descriptors, and to give
+/// them back, takes longer than a cycle should. It ends with whoever sends it orders.
 #[derive(Default, Debug)]
 pub(crate) struct Opener(RefCell<Option<Sender<Order>>>);
 
@@ -73,8 +73,8 @@ impl Connections {
         Ok(())
     }
 
-    /// Whether so many are on their way to being closed that new ones have to wait: a program that opens and closes in a
-    /// loop does not pile up threads.
+    /// Whether so many are on their way to being closed that new ones have to wait: a program that opens and closes in
+    /// a loop does not pile up threads.
     pub(crate) fn are_too_many(&self) -> bool {
         let closing = |shared: &&Arc<Shared>| shared.is_closing() && !shared.is_over();
         self.0.borrow().iter().filter(closing).count() >= MAX_CLOSING

@@ -48,8 +48,8 @@ impl Link {
         Some(result)
     }
 
-    /// Sends bytes behind those sent before. False, and nothing is sent, where they have no room yet; nothing at all where
-    /// the thread has the bytes just now.
+    /// Sends bytes behind those sent before. False, and nothing is sent, where they have no room yet; nothing at all
+    /// where the thread has the bytes just now.
     pub(crate) fn send(&self, bytes: &[u8]) -> Option<bool> {
         let sent = self.0.try_lock()?.put(bytes);
         if sent {

@@ -14,8 +14,8 @@ pub struct PortSettings {
     pub mask: Ipv4Addr,
 }
 
-/// Sets up the network ports of the host. Without one the controller keeps the settings in its state directory, and changes
-/// nothing on the host.
+/// Sets up the network ports of the host. Without one the controller keeps the settings in its state directory, and
+/// changes nothing on the host.
 pub trait NetworkDriver {
     /// Sets a port up: `eth1` to `eth3`.
     ///

@@ -25,8 +25,8 @@ pub(crate) enum LinkState {
 /// What the user is told of a connection whose thread has panicked.
 pub(super) const PANICKED: &str = "its thread has panicked";
 
-/// What the cycle and the thread of a connection share. The bytes are behind a lock that both hold for copying only, and that
-/// the cycle does not wait for; how far the connection has come is seen without it.
+/// What the cycle and the thread of a connection share. The bytes are behind a lock that both hold for copying only,
+/// and that the cycle does not wait for; how far the connection has come is seen without it.
 #[derive(Debug)]
 pub(super) struct Shared {
     bytes: Mutex<Bytes>,
@@ -92,8 +92,8 @@ impl Shared {
         self.end.get_or_init(|| state);
     }
 
-    /// Serves the connection until it ends, and notes how. Where the thread panics, the connection is over as well: nobody
-    /// waits for it.
+    /// Serves the connection until it ends, and notes how. Where the thread panics, the connection is over as well:
+    /// nobody waits for it.
     pub(super) fn end_after(&self, serve: impl FnOnce() -> LinkState) {
         let panicked = || match self.open.load(Ordering::Acquire) {
             true => LinkState::Lost(PANICKED.into()),

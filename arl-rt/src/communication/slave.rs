@@ -14,8 +14,8 @@ use crate::fieldbus::modbus::pdu::{self, Answer};
 use crate::fieldbus::modbus::rtu::{self, LONGEST_FRAME, ReceiveBuffer, Request};
 use crate::values::{Parity, Stopbits};
 
-/// How long the rest of a request may take. Adapters hand over what they got in pieces, so that 3.5 characters between two
-/// pieces do not mean that a request is over.
+/// How long the rest of a request may take. Adapters hand over what they got in pieces, so that 3.5 characters between
+/// two pieces do not mean that a request is over.
 const REQUEST_TIMEOUT: Duration = Duration::from_millis(50);
 
 /// How long the line may take for an answer, at the lowest speed twice over.

@@ -181,8 +181,8 @@ impl ChannelState {
         given.map_or(Sensitivity::Percent(SENSITIVITY), |(_, sensitivity)| sensitivity.clone())
     }
 
-    /// The collision of this cycle, if there was one, as the alarm of the motion that met it; where the robot stands, as that of
-    /// the instruction that the program is at. The robot is told to stop.
+    /// The collision of this cycle, if there was one, as the alarm of the motion that met it; where the robot stands,
+    /// as that of the instruction that the program is at. The robot is told to stop.
     pub(crate) fn collision(&self, place: (File, u32)) -> Option<Alarm> {
         let mut unit = self.robot_mut()?;
         let Collision { axis, surplus, allowed } = unit.take_collision()?;
@@ -201,8 +201,8 @@ impl ChannelState {
         Some(Alarm::new(Fault::Collision(text.into()), file, line))
     }
 
-    /// What is wrong with the robot, if that is new, as the alarm of the motion that it was in; where it stands, as that of the
-    /// instruction that the program is at.
+    /// What is wrong with the robot, if that is new, as the alarm of the motion that it was in; where it stands, as
+    /// that of the instruction that the program is at.
     pub(crate) fn trouble(&self, place: (File, u32)) -> Option<Alarm> {
         let (fault, motion) = self.robot_mut()?.take_trouble()?;
         let (file, line) = motion.unwrap_or(place);
@@ -244,7 +244,8 @@ impl ChannelState {
         self.robot().is_none_or(|unit| unit.ended_for(level))
     }
 
-    /// Whether the motion with this running number has ended, and the robot has settled, unless there are others behind it.
+    /// Whether the motion with this running number has ended, and the robot has settled, unless there are others behind
+    /// it.
     pub(crate) fn has_motion_ended(&self, motion: u64) -> bool {
         let Some(unit) = self.robot() else { return true };
         unit.has_ended(motion) && (unit.motions().0 > motion || unit.moves() || unit.is_settled())

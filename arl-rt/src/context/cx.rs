@@ -1,7 +1,7 @@
 //! What a running program sees of the controller.
 //!
-//! A program is told the context, and the context knows the program, the other programs and the events that it has declared:
-//! so this file, `program.rs`, `programs.rs` and `events.rs` name each other.
+//! A program is told the context, and the context knows the program, the other programs and the events that it has
+//! declared: so this file, `program.rs`, `programs.rs` and `events.rs` name each other.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -177,7 +177,8 @@ impl Cx {
         left < 0
     }
 
-    /// Counts so many turns of loops that have run without being counted. Whoever counts next waits if they were too many.
+    /// Counts so many turns of loops that have run without being counted. Whoever counts next waits if they were too
+    /// many.
     #[inline]
     pub fn charge(&self, rounds: i32) {
         // Never far below 0, however often it is called before something waits: whoever counts next must not wrap.
@@ -196,8 +197,8 @@ impl Cx {
         NextCycle { cx: self, from: self.cycle() }
     }
 
-    /// Waits for the next cycle, in a loop that ends when somebody else changes something: `waituntil` with a condition that
-    /// changes nothing itself. A run whose programs all wait like this and that nobody can change is at its end.
+    /// Waits for the next cycle, in a loop that ends when somebody else changes something: `waituntil` with a condition
+    /// that changes nothing itself. A run whose programs all wait like this and that nobody can change is at its end.
     #[inline]
     pub fn change(&self) -> NextCycle<'_> {
         self.wait_for(WaitsFor::Condition)
@@ -217,8 +218,8 @@ impl Cx {
         self.next_cycle()
     }
 
-    /// Says that something goes on in this cycle: the program does something, begins to wait, or looks at what changes by
-    /// itself, like time.
+    /// Says that something goes on in this cycle: the program does something, begins to wait, or looks at what changes
+    /// by itself, like time.
     #[inline]
     pub fn goes_on(&self) {
         self.waiting.note_action(self.cycle());
@@ -272,8 +273,8 @@ impl Cx {
         if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(()) }
     }
 
-    /// Enters a function that may call itself, to which strings and arrays of so many bytes were handed; they count as held
-    /// until the result is dropped.
+    /// Enters a function that may call itself, to which strings and arrays of so many bytes were handed; they count as
+    /// held until the result is dropped.
     ///
     /// # Errors
     /// [`Fault::Depth`], and [`Fault::DepthBytes`]: the functions that call each other hold more than 256 MiB.
@@ -287,8 +288,8 @@ impl Cx {
         Ok(Held { held: &self.held, bytes })
     }
 
-    /// The global variables of the program that runs: what `G` is must be known, as conditions and actions do that outlive
-    /// the function that declares them.
+    /// The global variables of the program that runs: what `G` is must be known, as conditions and actions do that
+    /// outlive the function that declares them.
     ///
     /// # Errors
     /// They are not a `G`.
@@ -463,8 +464,8 @@ impl Cx {
         (&self.print_to, &self.print_file)
     }
 
-    /// The running number of the motion that the next instruction comes behind; 0: there is none. An action knows of its own
-    /// motions only.
+    /// The running number of the motion that the next instruction comes behind; 0: there is none. An action knows of
+    /// its own motions only.
     pub(crate) fn last_motion(&self) -> u64 {
         self.level.get().own_motion.unwrap_or_else(|| self.channel_state.motions().0)
     }
@@ -478,8 +479,8 @@ impl Cx {
         }
     }
 
-    /// Before an instruction that moves, waits or touches the outside: in single steps the program waits here until the one before
-    /// it is done, and for the button.
+    /// Before an instruction that moves, waits or touches the outside: in single steps the program waits here until the
+    /// one before it is done, and for the button.
     pub(crate) async fn step_point(&self) {
         let stepping = &self.channel_state.stepping;
         if !stepping.on.get() || self.level.get().number != 0 || self.stepped.replace(true) {
@@ -503,8 +504,8 @@ impl Cx {
         self.step_point().await;
     }
 
-    /// Waits until all motion that the program has planned has ended; in the action of an event, all of its own. Where there
-    /// is none, it still counts as a turn of a loop, so that a loop of such calls cannot hold up the controller.
+    /// Waits until all motion that the program has planned has ended; in the action of an event, all of its own. Where
+    /// there is none, it still counts as a turn of a loop, so that a loop of such calls cannot hold up the controller.
     #[inline]
     pub(crate) async fn motion_end(&self) {
         if self.channel_state.stepping.on.get() {

@@ -25,7 +25,8 @@ pub(crate) trait Code {
     fn room(self: Rc<Self>) -> Box<dyn Act>;
 }
 
-/// An action and the memory that it runs in: it runs as often as its event comes, once at a time, and takes no more memory.
+/// An action and the memory that it runs in: it runs as often as its event comes, once at a time, and takes no more
+/// memory.
 pub(crate) trait Act {
     /// Puts the action at its beginning.
     fn begin(&mut self, cx: Rc<Cx>);
@@ -41,8 +42,8 @@ pub(crate) enum Source {
     Condition { held: bool },
     /// Time.
     Time(Ticking),
-    /// A condition that counts while a motion is executed, whether it held when it was looked at last, and whether the motion
-    /// is over.
+    /// A condition that counts while a motion is executed, whether it held when it was looked at last, and whether the
+    /// motion is over.
     Motion { number: u64, held: bool, over: bool },
 }
 

@@ -1,5 +1,5 @@
-//! The functions that run, with their variables, as a debugger sees them. Only programs that were emitted for a debugger have
-//! frames.
+//! The functions that run, with their variables, as a debugger sees them. Only programs that were emitted for a
+//! debugger have frames.
 
 use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
@@ -114,8 +114,8 @@ impl Frames {
         self.moved.get() != 0
     }
 
-    /// Whether a function does not go on any more, as it begins anew, or one that has called it. What runs on top meanwhile,
-    /// the action of an event or its condition, goes on.
+    /// Whether a function does not go on any more, as it begins anew, or one that has called it. What runs on top
+    /// meanwhile, the action of an event or its condition, goes on.
     pub(super) fn is_left(&self, id: u64) -> bool {
         let moved = self.moved.get();
         self.is_any_moved() && (moved == id || !self.records.borrow().iter().any(|record| record.id == id))

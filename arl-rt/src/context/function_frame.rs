@@ -148,8 +148,8 @@ impl<'a> Frame<'a> {
         self.target.set(line.unwrap_or_default());
     }
 
-    /// Whether the statement of a line runs, and halts before it does where a debugger wants that. It does not run where the
-    /// program pointer was set to another line.
+    /// Whether the statement of a line runs, and halts before it does where a debugger wants that. It does not run
+    /// where the program pointer was set to another line.
     pub fn runs(&self, line: u32) -> Runs<'a> {
         let state = match self.target.get() {
             0 => Asking::NotYet,
@@ -179,7 +179,8 @@ impl<'a> Frame<'a> {
         arms.iter().position(|(first, last)| self.leads_to(*first, *last))
     }
 
-    /// The state that a function with `goto` begins in: that of the line that the program pointer was set to, or the first.
+    /// The state that a function with `goto` begins in: that of the line that the program pointer was set to, or the
+    /// first.
     pub fn begins_in<S, const N: usize>(&self, first: S, states: [(u32, u32, S); N]) -> S {
         let led = states.into_iter().find(|(first, last, _)| self.leads_to(*first, *last));
         led.map_or(first, |(_, _, state)| state)

@@ -1,5 +1,5 @@
-//! What a running program sees of the controller: the context that emitted code passes on, the state of its channel, what
-//! all channels share, and the system variables.
+//! What a running program sees of the controller: the context that emitted code passes on, the state of its channel,
+//! what all channels share, and the system variables.
 //!
 //! It imports the rooms of what it holds: `unit`, `communication`, `fieldbus`, `io`, `storage`, `motion`, `values`,
 //! `fault` and `cycle`.

@@ -52,7 +52,8 @@ impl<W: Write> Stream<W> {
         Self { stream: BufWriter::new(stream), name: None }
     }
 
-    /// Nobody may read the other end any more, or the disk be full: a robot does not stop for that. People are told once.
+    /// Nobody may read the other end any more, or the disk be full: a robot does not stop for that. People are told
+    /// once.
     fn note(&mut self, written: io::Result<()>) {
         if let Err(error) = written
             && let Some(name) = self.name.take()

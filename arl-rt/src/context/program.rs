@@ -37,7 +37,8 @@ pub trait Program: AsAny {
     /// The build of robot that the program was checked for.
     fn family(&self) -> Family;
 
-    /// Sets every global variable to its start value, then runs the initialisers in file order. Without variables there is nothing to do.
+    /// Sets every global variable to its start value, then runs the initialisers in file order. Without variables there
+    /// is nothing to do.
     fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         let _ = cx;
         Box::pin(async { Ok(()) })
@@ -46,8 +47,8 @@ pub trait Program: AsAny {
     /// Runs `main` once.
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a>;
 
-    /// The global variables, which the conditions and actions of interrupts ask for: the program itself, unless it is made
-    /// around another one.
+    /// The global variables, which the conditions and actions of interrupts ask for: the program itself, unless it is
+    /// made around another one.
     fn globals(&self) -> &dyn Any {
         self.as_any()
     }
@@ -181,11 +182,11 @@ impl<P: Program> fmt::Debug for Elsewhere<P> {
 /// What runs beside the cycle, as far as programs use it.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct Beside {
-    /// Sockets, serial lines, Modbus RTU or Melsec: the thread that opens connections. Without it, it is started when the
-    /// first one is opened.
+    /// Sockets, serial lines, Modbus RTU or Melsec: the thread that opens connections. Without it, it is started when
+    /// the first one is opened.
     pub connections: bool,
-    /// Registers and coils of the controller's Modbus TCP server. Without it, and where the cell has none, they are there, but
-    /// nobody else sees them.
+    /// Registers and coils of the controller's Modbus TCP server. Without it, and where the cell has none, they are
+    /// there, but nobody else sees them.
     pub modbus_tcp: bool,
 }
 

@@ -4,8 +4,8 @@ use std::cell::Cell;
 
 /// The turns that loops may make in this cycle. What is left goes back to the context when this is dropped.
 ///
-/// It lives between two waits, so that the number is in a register: in the context, and in what lives across a wait, it is in
-/// memory, and so is all else that the loop uses.
+/// It lives between two waits, so that the number is in a register: in the context, and in what lives across a wait, it
+/// is in memory, and so is all else that the loop uses.
 #[derive(Debug)]
 pub struct Rounds<'a> {
     pub(super) budget: &'a Cell<i32>,
@@ -25,7 +25,8 @@ impl Rounds<'_> {
     /// Counts rounds that have taken place without being counted: less than 2^30.
     #[inline(always)]
     pub fn charge(&mut self, rounds: i32) {
-        // A subtraction that saturates takes four instructions more. This one cannot wrap: a round took place, so none is owed.
+        // A subtraction that saturates takes four instructions more. This one cannot wrap: a round took place, so none
+        // is owed.
         self.left = self.left.wrapping_sub(rounds).max(0);
     }
 

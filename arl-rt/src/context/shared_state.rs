@@ -21,8 +21,8 @@ use crate::storage::state::State;
 use arl_robot::cell::Rate;
 use arl_robot::cell::Wiring;
 
-/// What all channels of a controller share: time, io, files, messages, alarms. Borrows of the cells end within the call that
-/// makes them.
+/// What all channels of a controller share: time, io, files, messages, alarms. Borrows of the cells end within the call
+/// that makes them.
 pub(crate) struct SharedState {
     /// The running number of the cycle.
     pub(crate) now: Cell<u64>,
@@ -127,8 +127,8 @@ impl SharedState {
         self.hearers.tell(|| Event::Message { time, channel, text: String::from_utf8_lossy(text).into_owned() });
     }
 
-    /// Lets somebody outside hear of something. Where that panics, it is what they did not hear that is lost, and the cycle goes on; the
-    /// first time is a warning.
+    /// Lets somebody outside hear of something. Where that panics, it is what they did not hear that is lost, and the
+    /// cycle goes on; the first time is a warning.
     fn let_hear(&self, who: &'static str, tell: impl FnOnce()) {
         let lost = catch_panic(tell).is_none();
         if lost && !self.panicked.borrow().contains(&who) {

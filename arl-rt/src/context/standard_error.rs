@@ -1,4 +1,5 @@
-//! What people are told beside a run, on standard error. Where nobody can read it, it is lost: a robot does not stop for that.
+//! What people are told beside a run, on standard error. Where nobody can read it, it is lost: a robot does not stop
+//! for that.
 
 use std::fmt;
 use std::io::{self, Write};

@@ -52,8 +52,8 @@ impl fmt::Display for Standstill {
     }
 }
 
-/// Notes of a program, from which follows whether it only waits: in every cycle it says that it does, and for what. Whoever
-/// begins to wait, or does anything else, says that, too.
+/// Notes of a program, from which follows whether it only waits: in every cycle it says that it does, and for what.
+/// Whoever begins to wait, or does anything else, says that, too.
 #[derive(Default, Debug)]
 pub(crate) struct Waiting {
     /// The last cycle in which it waited.

@@ -172,14 +172,15 @@ system! {
     at_aut_do: Cell<i32> = 0, "AT_AUT_DO", Saved;
     /// Output of the lowest bit of the program number that was taken; 0: none.
     pgno_ack_fbit_do: Cell<i32> = 0, "PGNO_ACK_FBIT_DO", Saved;
-    /// First of the two outputs that show the channel's state: 00 not loaded, 10 running, 01 paused, 11 stopped; 0: none.
+    /// First of the two outputs that show the channel's state: 00 not loaded, 10 running, 01 paused, 11 stopped; 0:
+    /// none.
     chan_state_do: Cell<i32> = 0, "CHAN_STATE_DO", Saved;
 }
 
 system! {
-    /// The system variables as a channel's program sees them: its own ones, and by [`Deref`] those that all channels share.
-    /// Programs read and write them like their own global variables; what is said to be read-only is kept current by the
-    /// controller.
+    /// The system variables as a channel's program sees them: its own ones, and by [`Deref`] those that all channels
+    /// share. Programs read and write them like their own global variables; what is said to be read-only is kept
+    /// current by the controller.
     pub struct System {
         /// Those that all channels share.
         common: Rc<Common>,
@@ -255,8 +256,8 @@ impl System {
         Self::at_defaults(common, channel)
     }
 
-    /// Sets what chapter 10.2 describes to its defaults, except what the controller keeps current. What all channels share is
-    /// the first channel's to reset.
+    /// Sets what chapter 10.2 describes to its defaults, except what the controller keeps current. What all channels
+    /// share is the first channel's to reset.
     pub(crate) fn reset(&self) {
         self.reset_own();
         if self.channel == ChannelId::FIRST {
@@ -446,8 +447,8 @@ pub(crate) fn load(variables: &[RetainedVariable<'_>], state: &mut State) -> Res
     Ok(())
 }
 
-/// Sets the variables of chapter 10.1 to what was saved last, and the names and program numbers of chapter 10.2 to their
-/// defaults.
+/// Sets the variables of chapter 10.1 to what was saved last, and the names and program numbers of chapter 10.2 to
+/// their defaults.
 pub(crate) fn restore(system: &System, state: &State) {
     system.pgno.set(NO_PROGRAM_NUMBER);
     for kept in system.kept() {

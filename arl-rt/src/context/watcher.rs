@@ -14,7 +14,8 @@ pub(crate) enum Go {
 
 /// Who is told of each statement, and may halt the program there.
 ///
-/// Where time is the controller's own, it may come back late: all stands still in the meantime, and the run is the same.
+/// Where time is the controller's own, it may come back late: all stands still in the meantime, and the run is the
+/// same.
 pub(crate) trait Watcher {
     /// A statement is about to run, in the frame with this number.
     fn statement(&self, cx: &Cx, frame: u64) -> Go;

@@ -1,4 +1,5 @@
-//! The system variables that `[external]` of the cell file sets: how a PLC is wired to the controller (manual, chapter 9).
+//! The system variables that `[external]` of the cell file sets: how a PLC is wired to the controller (manual, chapter
+//! 9).
 
 use crate::context::system::Common;
 use arl_robot::cell::Wiring;

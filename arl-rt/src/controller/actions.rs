@@ -51,8 +51,8 @@ impl Actions {
         self.stack.push(Action { event, level, pointer: cx.pointer() });
     }
 
-    /// Lets the action on top run until it waits; one that has ended makes room for what it interrupted. `None`: no action
-    /// runs.
+    /// Lets the action on top run until it waits; one that has ended makes room for what it interrupted. `None`: no
+    /// action runs.
     pub(super) fn poll(&mut self, cx: &Cx, context: &mut Context<'_>) -> Option<Poll<Done<()>>> {
         let top = self.stack.last_mut()?;
         let polled = top.event.action.poll(context);

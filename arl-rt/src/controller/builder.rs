@@ -139,8 +139,9 @@ impl Builder {
         self
     }
 
-    /// What sets global variables: it is called each time that a program with globals of this type has given them their first values
-    /// and those of its data files, at its start and after a reset, before `main` runs. It runs within a cycle and must be quick.
+    /// What sets global variables: it is called each time that a program with globals of this type has given them their
+    /// first values and those of its data files, at its start and after a reset, before `main` runs. It runs within a
+    /// cycle and must be quick.
     ///
     /// `docs/embedding.md` has an example.
     pub fn on_init<G: 'static>(mut self, set: impl Fn(&G) + 'static) -> Self {
@@ -148,9 +149,10 @@ impl Builder {
         self
     }
 
-    /// Gives a global variable another first value, by its name in any case and as a literal of ARL: `("pitch", "80.5")`, `("feeder", "{z 120}")`.
-    /// Components that the literal leaves out keep theirs. It comes when [`Builder::on_init`] does, and only to programs that were
-    /// compiled with the names of their variables. A name that several files have is written `FILE::NAME`.
+    /// Gives a global variable another first value, by its name in any case and as a literal of ARL: `("pitch",
+    /// "80.5")`, `("feeder", "{z 120}")`. Components that the literal leaves out keep theirs. It comes when
+    /// [`Builder::on_init`] does, and only to programs that were compiled with the names of their variables. A name
+    /// that several files have is written `FILE::NAME`.
     pub fn global(mut self, name: impl Into<String>, literal: impl Into<String>) -> Self {
         self.named.push(Named::new(name.into(), literal.into()));
         self
@@ -180,8 +182,9 @@ impl Builder {
         self
     }
 
-    /// Drives the robots that the cell has a `[driver]` for, with what this makes of it: `arl_drivers::connect`. Without it the cell's
-    /// drivers do not count, and its robots are simulated. A [driver](Builder::robot_driver) of one's own goes before that of the cell.
+    /// Drives the robots that the cell has a `[driver]` for, with what this makes of it: `arl_drivers::connect`.
+    /// Without it the cell's drivers do not count, and its robots are simulated. A [driver](Builder::robot_driver) of
+    /// one's own goes before that of the cell.
     pub fn drivers(mut self, connect: Connect) -> Self {
         self.connect = Some(connect);
         self
@@ -219,8 +222,8 @@ impl Builder {
         self
     }
 
-    /// What is told every alarm, of all channels, in the cycle in which it comes up. It runs within that cycle and must be quick.
-    /// [`Controller::take_alarms`] gives them as well.
+    /// What is told every alarm, of all channels, in the cycle in which it comes up. It runs within that cycle and must
+    /// be quick. [`Controller::take_alarms`] gives them as well.
     ///
     /// ```
     /// use arl_rt::emit::*;
@@ -268,8 +271,8 @@ impl Builder {
         self
     }
 
-    /// Where all that happens goes, for other threads, from the very start: messages, warnings, alarms, and each change of the state. They
-    /// wait in the channel until somebody takes them.
+    /// Where all that happens goes, for other threads, from the very start: messages, warnings, alarms, and each change
+    /// of the state. They wait in the channel until somebody takes them.
     pub fn events(mut self, tell: Sender<Event>) -> Self {
         self.hearers.push(tell);
         self
@@ -300,8 +303,8 @@ impl Builder {
         self
     }
 
-    /// The traces of all robots have a column `file` behind the others: the file that the line of the motion is of, empty
-    /// where none is executed.
+    /// The traces of all robots have a column `file` behind the others: the file that the line of the motion is of,
+    /// empty where none is executed.
     pub fn trace_files(mut self) -> Self {
         self.trace_more.file = true;
         self
@@ -503,8 +506,8 @@ fn load_pointers(state: &mut State) -> Result<Table, SetupError> {
     }
 }
 
-/// Starts the threads that open connections and write files, before a cycle needs them. Where the system has no thread for it now,
-/// whoever opens the first connection, or writes the first file, tries again.
+/// Starts the threads that open connections and write files, before a cycle needs them. Where the system has no thread
+/// for it now, whoever opens the first connection, or writes the first file, tries again.
 fn start_threads(shared: &SharedState, opens_connections: bool, writes_files: bool) {
     if opens_connections {
         let _ = shared.opener.start();

@@ -21,7 +21,8 @@ use crate::unit::Beat;
 /// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
 pub(super) const PROGRAM_STACK_BYTES: usize = 1 << 20;
 
-/// After so many cycles of rest the program has seen that its robot rests: the one in which it came to rest, and one more.
+/// After so many cycles of rest the program has seen that its robot rests: the one in which it came to rest, and one
+/// more.
 const SEEN_AT_REST: u32 = 2;
 
 /// After so many cycles of rest a robot has settled, and each further cycle leaves all that it knows of it as it was.
@@ -106,8 +107,8 @@ impl Channel {
         }
     }
 
-    /// Starts the program from its beginning, global variables included. Pulses end, and the system variables of the manual's
-    /// chapter 10.2 are at their defaults; the robot stays where it is.
+    /// Starts the program from its beginning, global variables included. Pulses end, and the system variables of the
+    /// manual's chapter 10.2 are at their defaults; the robot stays where it is.
     pub(super) fn reset(&mut self) {
         self.channel_state.shared.io.borrow_mut().end_pulses(self.channel_state.index);
         if let Some(mut unit) = self.channel_state.robot_mut() {
@@ -379,8 +380,8 @@ impl Channel {
         }
     }
 
-    /// Does something of the program. What panics, in a program in Rust, ends the program before the panic goes on to whoever steps
-    /// the controller: it would panic in every cycle.
+    /// Does something of the program. What panics, in a program in Rust, ends the program before the panic goes on to
+    /// whoever steps the controller: it would panic in every cycle.
     fn or_end<T>(&mut self, run: impl FnOnce(&mut Self) -> T) -> T {
         catch_unwind(AssertUnwindSafe(|| run(self))).unwrap_or_else(|panic| {
             self.end(Outcome::Stopped);

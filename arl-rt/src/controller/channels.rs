@@ -52,8 +52,8 @@ impl Channels {
         self.others.iter_mut().for_each(act);
     }
 
-    /// How the programs ended, when those of all foreground channels have: with the alarm of the first channel that has one,
-    /// otherwise as that of the first channel did.
+    /// How the programs ended, when those of all foreground channels have: with the alarm of the first channel that has
+    /// one, otherwise as that of the first channel did.
     pub(super) fn outcome(&self) -> Option<&Outcome> {
         let first = self.first.outcome()?;
         if self.foreground().any(|channel| channel.outcome().is_none()) {

@@ -5,8 +5,8 @@ use super::foreground::Body;
 use crate::cycle::clock_source::Clock;
 use crate::unit::robot_driver::{Connect, Driven, DrivenTime};
 
-/// Gives the robots of channels, from 1, the drivers that their settings ask for. A robot that gives the beat becomes the clock. Returns whether
-/// one of them lives in the time of the world, which has to be that of the cycles then.
+/// Gives the robots of channels, from 1, the drivers that their settings ask for. A robot that gives the beat becomes
+/// the clock. Returns whether one of them lives in the time of the world, which has to be that of the cycles then.
 ///
 /// # Errors
 /// There is no such driver, or none at all, or one that gives the beat is not alone, or their times do not go together.

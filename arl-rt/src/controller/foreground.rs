@@ -95,8 +95,8 @@ impl Foreground {
         self
     }
 
-    /// Where the robot's base stands in the world, in mm and deg: `$BASE[0]` from the start on, whatever was saved. Without it that is what was
-    /// saved, or the world's origin.
+    /// Where the robot's base stands in the world, in mm and deg: `$BASE[0]` from the start on, whatever was saved.
+    /// Without it that is what was saved, or the world's origin.
     pub fn base(mut self, base: values::Frame) -> Self {
         self.body.base = Some(base);
         self

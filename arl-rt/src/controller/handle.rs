@@ -22,9 +22,10 @@ type Call = Box<dyn FnOnce(&mut Controller) + Send>;
 
 /// A controller as other threads have it: buttons, inputs and outputs, how everything stands, what happens.
 ///
-/// It can be cloned and sent. All that it does is done by the thread of the controller, at the beginning of its next cycle,
-/// in the order in which it was asked. So two threads never disturb each other, and a program sees inputs change between its
-/// cycles only. As long as a handle is there, a program that waits is no [standstill](Controller::standstill).
+/// It can be cloned and sent. All that it does is done by the thread of the controller, at the beginning of its next
+/// cycle, in the order in which it was asked. So two threads never disturb each other, and a program sees inputs change
+/// between its cycles only. As long as a handle is there, a program that waits is no
+/// [standstill](Controller::standstill).
 ///
 /// ```
 /// use arl_rt::clock::RealClock;
@@ -36,7 +37,9 @@ type Call = Box<dyn FnOnce(&mut Controller) + Send>;
 /// #     fn family(&self) -> Family { Family::SixAxis }
 /// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
 /// #         Box::pin(async move {
-/// #             while !io::getdi(cx, 1).await.at(self.file(), 2)? { flow::waittime(0.001).run(cx).await.at(self.file(), 2)?; }
+/// #             while !io::getdi(cx, 1).await.at(self.file(), 2)? {
+/// #                 flow::waittime(0.001).run(cx).await.at(self.file(), 2)?;
+/// #             }
 /// #             io::setdo(cx, 1, true).await.at(self.file(), 3)
 /// #         })
 /// #     }
@@ -45,8 +48,8 @@ type Call = Box<dyn FnOnce(&mut Controller) + Send>;
 /// // A controller in a thread of its own, which waits for input 1.
 /// let running = Controller::spawn(|| Controller::builder().clock(RealClock::new()).build(Box::new(Fill)))?;
 /// let handle = running.handle();
-/// assert!(!handle.dout(1)?);
-/// handle.set_di(1, true)?;
+/// assert!(!handle.digital_output(1)?);
+/// handle.set_digital_input(1, true)?;
 /// assert_eq!(running.join(), Outcome::Ended);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -65,12 +68,12 @@ impl Handle {
         self
     }
 
-    /// Lets the controller's thread do something between two cycles, and waits for what comes of it. The cycle waits, too, so it
-    /// has to be quick. A panic in it is this thread's loss only.
+    /// Lets the controller's thread do something between two cycles, and waits for what comes of it. The cycle waits,
+    /// too, so it has to be quick. A panic in it is this thread's loss only.
     ///
     /// # Errors
-    /// The controller is gone, or was not stepped in time; or this is its own thread, as in a closure that it calls. Then nothing
-    /// was done. Or the question panicked.
+    /// The controller is gone, or was not stepped in time; or this is its own thread, as in a closure that it calls.
+    /// Then nothing was done. Or the question panicked.
     pub fn ask<R: Send + 'static>(
         &self,
         question: impl FnOnce(&mut Controller) -> R + Send + 'static,
@@ -131,32 +134,32 @@ impl Handle {
     ///
     /// # Errors
     /// As [`ask`](Handle::ask); or there is no such channel.
-    pub fn set_di(&self, channel: i32, level: bool) -> Result<(), HandleError> {
-        Ok(self.ask(move |controller| controller.set_di(channel, level))??)
+    pub fn set_digital_input(&self, channel: i32, level: bool) -> Result<(), HandleError> {
+        Ok(self.ask(move |controller| controller.set_digital_input(channel, level))??)
     }
 
     /// Sets an analog input, from 1, in V or mA.
     ///
     /// # Errors
     /// As [`ask`](Handle::ask); or there is no such channel, or its type cannot carry the value.
-    pub fn set_ai(&self, channel: i32, value: f64) -> Result<(), HandleError> {
-        Ok(self.ask(move |controller| controller.set_ai(channel, value))??)
+    pub fn set_analog_input(&self, channel: i32, value: f64) -> Result<(), HandleError> {
+        Ok(self.ask(move |controller| controller.set_analog_input(channel, value))??)
     }
 
     /// The level of a digital output, from 1.
     ///
     /// # Errors
     /// As [`ask`](Handle::ask); or there is no such channel.
-    pub fn dout(&self, channel: i32) -> Result<bool, HandleError> {
-        Ok(self.ask(move |controller| controller.dout(channel))??)
+    pub fn digital_output(&self, channel: i32) -> Result<bool, HandleError> {
+        Ok(self.ask(move |controller| controller.digital_output(channel))??)
     }
 
     /// The value of an analog output, from 1, in V or mA.
     ///
     /// # Errors
     /// As [`ask`](Handle::ask); or there is no such channel.
-    pub fn ao(&self, channel: i32) -> Result<f64, HandleError> {
-        Ok(self.ask(move |controller| controller.ao(channel))??)
+    pub fn analog_output(&self, channel: i32) -> Result<f64, HandleError> {
+        Ok(self.ask(move |controller| controller.analog_output(channel))??)
     }
 
     /// How everything stands.
@@ -183,8 +186,8 @@ impl Handle {
         self.ask(Controller::emergency_stop)
     }
 
-    /// What happens from now on: messages, warnings, alarms, and each change of the state. They are kept until somebody takes
-    /// them; dropping the receiver ends it. [`Builder::events`](super::Builder::events) has all from the start.
+    /// What happens from now on: messages, warnings, alarms, and each change of the state. They are kept until somebody
+    /// takes them; dropping the receiver ends it. [`Builder::events`](super::Builder::events) has all from the start.
     ///
     /// # Errors
     /// As [`ask`](Handle::ask).
@@ -293,8 +296,8 @@ impl Controller {
         Handle { desk: Arc::downgrade(&self.calls.0), thread: thread::current().id(), patience: PATIENCE }
     }
 
-    /// Does what handles have asked for until now. What they ask next, having an answer, waits for the next cycle: a thread that asks
-    /// without end does not hold up this one.
+    /// Does what handles have asked for until now. What they ask next, having an answer, waits for the next cycle: a
+    /// thread that asks without end does not hold up this one.
     pub(super) fn answer_handles(&mut self) {
         self.calls.take().into_iter().for_each(|call| call(self));
     }

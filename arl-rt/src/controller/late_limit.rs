@@ -83,7 +83,8 @@ impl LateLimit {
         self.parts.fill(Lost::default());
     }
 
-    /// Takes in how many cycles were lost until this one; how many were within a second, where those are too many. They are told once.
+    /// Takes in how many cycles were lost until this one; how many were within a second, where those are too many. They
+    /// are told once.
     #[inline]
     pub(super) fn look(&mut self, lost: Lost, cycle: u64) -> Option<Lost> {
         let new = lost.since(std::mem::replace(&mut self.seen, lost));

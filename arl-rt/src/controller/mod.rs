@@ -72,11 +72,11 @@ const STORE_INTERVAL_S: f64 = 1.0;
 /// 2. what other threads ask for is done ([`Handle`]); inputs are read, pulses that are over end, the scenario plays;
 /// 3. the pendant's buttons count, then what a PLC says (external auto control); programs with robots end with an alarm
 ///    where inputs are lost that they need, or too many cycles;
-/// 4. the conditions of interrupts, timers and triggers are looked at; then the program runs until it waits, the action of
-///    an event on top of what it interrupts;
+/// 4. the conditions of interrupts, timers and triggers are looked at; then the program runs until it waits, the action
+///    of an event on top of what it interrupts;
 /// 5. the motion goes one step: set-point to the robot's driver, feedback back, variables like `$TRAJ_LEFT_DIS`;
-/// 6. outputs that waited for a motion change, those that tell a PLC the state follow, all outputs are written, a collision stops robot and program, messages are
-///    passed on;
+/// 6. outputs that waited for a motion change, those that tell a PLC the state follow, all outputs are written, a
+///    collision stops robot and program, messages are passed on;
 /// 7. the trace gets its row.
 ///
 /// ```
@@ -107,9 +107,9 @@ const STORE_INTERVAL_S: f64 = 1.0;
 /// let messages = arl_rt::Captured::new();
 /// let mut controller = arl_rt::Controller::builder().output(messages.clone()).build(Box::new(Blink))?;
 /// controller.run_for(0.1);
-/// assert!(controller.dout(1)?);
+/// assert!(controller.digital_output(1)?);
 /// controller.run_for(1.2);
-/// controller.set_di(1, true)?;
+/// controller.set_digital_input(1, true)?;
 /// assert_eq!(controller.run(), arl_rt::Outcome::Ended);
 /// assert_eq!(messages.text(), "done after 1.5\n");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -214,8 +214,8 @@ impl Controller {
         state
     }
 
-    /// Takes note of what was stored beside the cycles. Where cycles take no time of the world, what programs wait for is
-    /// stored before the next one, so that a run does not depend on the disk.
+    /// Takes note of what was stored beside the cycles. Where cycles take no time of the world, what programs wait for
+    /// is stored before the next one, so that a run does not depend on the disk.
     fn finish_disk_work(&mut self) {
         let shared = &self.shared;
         if shared.disk.is_waited_for() && !self.clock.is_real() {
@@ -262,9 +262,9 @@ impl Controller {
         }
     }
 
-    /// Waits until everything is stored that is stored beside the cycles: system variables, points of programs, and where the
-    /// programs stand. What goes wrong is a warning. [`run`](Controller::run) does so at its end; dropping the controller does,
-    /// too, but then nobody hears of it.
+    /// Waits until everything is stored that is stored beside the cycles: system variables, points of programs, and
+    /// where the programs stand. What goes wrong is a warning. [`run`](Controller::run) does so at its end; dropping
+    /// the controller does, too, but then nobody hears of it.
     pub fn settle_state(&mut self) {
         self.shared.disk.settle();
         self.collect_saved();
@@ -353,8 +353,8 @@ impl Controller {
         self.external.show(&mut self.shared.io.borrow_mut(), system, state, servo_on);
     }
 
-    /// Runs until it [is over](Controller::is_over), or at a [standstill](Controller::standstill): for ever, where a program
-    /// does not end.
+    /// Runs until it [is over](Controller::is_over), or at a [standstill](Controller::standstill): for ever, where a
+    /// program does not end.
     pub fn run(&mut self) -> Outcome {
         let outcome = self.step_to_end();
         self.settle_state();
@@ -395,9 +395,9 @@ impl Controller {
         self.channels.state()
     }
 
-    /// Whether the programs have ended, those of all foreground channels where there are several, and nothing will start them
-    /// again. The scenario does where it presses the pendant's reset button, or plays a PLC that is wired to start programs
-    /// (external auto control): as long as an event of it is on its way, the run is not over.
+    /// Whether the programs have ended, those of all foreground channels where there are several, and nothing will
+    /// start them again. The scenario does where it presses the pendant's reset button, or plays a PLC that is wired to
+    /// start programs (external auto control): as long as an event of it is on its way, the run is not over.
     pub fn is_over(&self) -> bool {
         self.channels.outcome().is_some()
             && !(self.can_begin_again() && self.scenario.goes_on(&self.shared.io.borrow()))
@@ -413,7 +413,8 @@ impl Controller {
         self.channels.outcome()
     }
 
-    /// Ends the programs, also those that wait to be loaded: the robots stop on their paths within the cycles that follow.
+    /// Ends the programs, also those that wait to be loaded: the robots stop on their paths within the cycles that
+    /// follow.
     pub fn stop(&mut self) {
         self.channels.each(Channel::stop);
     }
@@ -484,8 +485,9 @@ impl Controller {
         self.clock.lateness()
     }
 
-    /// How many parts of the motion ahead (time laws, blends) were found too late, on the real clock: the robot then goes on with what
-    /// it has, and comes to rest on its path at the end of that. 0 on the virtual clock, which waits for them.
+    /// How many parts of the motion ahead (time laws, blends) were found too late, on the real clock: the robot then
+    /// goes on with what it has, and comes to rest on its path at the end of that. 0 on the virtual clock, which waits
+    /// for them.
     pub fn found_late(&self) -> u64 {
         self.channels.iter().filter_map(|channel| Some(channel.channel_state().robot()?.found_late())).sum()
     }
@@ -510,9 +512,9 @@ impl Controller {
         self.channels.first().cx().program()
     }
 
-    /// The global variables of the first channel's program, where they are of this type: the `Globals` of an emitted program. They can be
-    /// read at any time, and set between two cycles. A program sets them itself when it starts or is reset:
-    /// [`Builder::on_init`] comes after that.
+    /// The global variables of the first channel's program, where they are of this type: the `Globals` of an emitted
+    /// program. They can be read at any time, and set between two cycles. A program sets them itself when it starts or
+    /// is reset: [`Builder::on_init`] comes after that.
     ///
     /// `docs/embedding.md` has an example.
     pub fn globals<G: 'static>(&self) -> Option<&G> {
@@ -524,7 +526,8 @@ impl Controller {
         self.channels.iter().find(|it| it.channel_state().id == channel)?.globals()
     }
 
-    /// The value of a global variable of the first program, as a literal of ARL; by its name, as [`Builder::global`] takes it.
+    /// The value of a global variable of the first program, as a literal of ARL; by its name, as [`Builder::global`]
+    /// takes it.
     ///
     /// # Errors
     /// There is no such variable, or the program was compiled without the names.
@@ -534,7 +537,8 @@ impl Controller {
         value.ok_or_else(|| named::unknown(name, &[program]))
     }
 
-    /// Gives a global variable of the first program a value, between two cycles. Components that the literal leaves out keep theirs.
+    /// Gives a global variable of the first program a value, between two cycles. Components that the literal leaves out
+    /// keep theirs.
     ///
     /// # Errors
     /// As [`Controller::global`], or the value does not fit.
@@ -581,7 +585,7 @@ impl Controller {
     ///
     /// # Errors
     /// There is no such channel.
-    pub fn set_di(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
+    pub fn set_digital_input(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
         self.shared.io.borrow_mut().set_digital(Digital::Di, channel, level)
     }
 
@@ -589,7 +593,7 @@ impl Controller {
     ///
     /// # Errors
     /// There is no such channel.
-    pub fn di(&self, channel: i32) -> Result<bool, Fault> {
+    pub fn digital_input(&self, channel: i32) -> Result<bool, Fault> {
         self.shared.io.borrow().digital(Digital::Di, channel)
     }
 
@@ -597,7 +601,7 @@ impl Controller {
     ///
     /// # Errors
     /// There is no such channel.
-    pub fn dout(&self, channel: i32) -> Result<bool, Fault> {
+    pub fn digital_output(&self, channel: i32) -> Result<bool, Fault> {
         self.shared.io.borrow().digital(Digital::Do, channel)
     }
 
@@ -605,16 +609,16 @@ impl Controller {
     ///
     /// # Errors
     /// There is no such channel, or its type cannot carry the value.
-    pub fn set_ai(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
-        self.shared.io.borrow_mut().set_ai(channel, value)
+    pub fn set_analog_input(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
+        self.shared.io.borrow_mut().set_analog_input(channel, value)
     }
 
     /// The value of an analog output, from 1, in V or mA.
     ///
     /// # Errors
     /// There is no such channel.
-    pub fn ao(&self, channel: i32) -> Result<f64, Fault> {
-        self.shared.io.borrow().ao(channel)
+    pub fn analog_output(&self, channel: i32) -> Result<f64, Fault> {
+        self.shared.io.borrow().analog_output(channel)
     }
 
     /// What a PWM output does, from 1.
@@ -629,7 +633,7 @@ impl Controller {
     ///
     /// # Errors
     /// There is no such channel.
-    pub fn set_internal(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
+    pub fn set_internal_input(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
         self.shared.io.borrow_mut().set_digital(Digital::InternalIn, channel, level)
     }
 
@@ -645,12 +649,13 @@ impl Controller {
     ///
     /// # Errors
     /// There is no such channel.
-    pub fn internal(&self, channel: i32) -> Result<bool, Fault> {
+    pub fn internal_output(&self, channel: i32) -> Result<bool, Fault> {
         self.shared.io.borrow().digital(Digital::InternalOut, channel)
     }
 
-    /// Lets go of the robots: the last cycle was. One that moves is cut off; from then on none of them says anything. Whoever drives a real one
-    /// and does something slow after its last cycle calls this before; otherwise it comes when the controller is dropped.
+    /// Lets go of the robots: the last cycle was. One that moves is cut off; from then on none of them says anything.
+    /// Whoever drives a real one and does something slow after its last cycle calls this before; otherwise it comes
+    /// when the controller is dropped.
     pub fn close_robots(&mut self) {
         self.channels.units().for_each(|unit| unit.borrow_mut().close());
     }

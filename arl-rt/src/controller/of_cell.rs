@@ -40,7 +40,8 @@ impl Builder {
         Ok(self.cell(cell))
     }
 
-    /// Where the trace of the robot of a foreground channel goes, as CSV. Of a channel that there is not, none is written.
+    /// Where the trace of the robot of a foreground channel goes, as CSV. Of a channel that there is not, none is
+    /// written.
     pub fn trace_of(mut self, number: u8, writer: impl Write + 'static) -> Self {
         if number == 1 {
             return self.trace(writer);

@@ -13,8 +13,8 @@ impl Controller {
     }
 
     /// Does now what an event of an io [`Scenario`](crate::io::Scenario) does, in the same words: `di.5 = true`,
-    /// `ai.2 = 4.2`, `pendant = "start"`, `override = 50`; several of them stand on lines of their own. Signals may be called by
-    /// the names that the cell has for them.
+    /// `ai.2 = 4.2`, `pendant = "start"`, `override = 50`; several of them stand on lines of their own. Signals may be
+    /// called by the names that the cell has for them.
     ///
     /// # Errors
     /// The text is no order, or it names what is not there; then nothing of it was done.

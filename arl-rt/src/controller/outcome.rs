@@ -15,8 +15,8 @@ pub enum Outcome {
     Alarm(Alarm),
     /// [`Controller::stop`](super::Controller::stop) stopped it.
     Stopped,
-    /// It waits, and nothing can change any more: [`Controller::standstill`](super::Controller::standstill). It has not ended:
-    /// whoever changes an input or presses a button can let it run on.
+    /// It waits, and nothing can change any more: [`Controller::standstill`](super::Controller::standstill). It has not
+    /// ended: whoever changes an input or presses a button can let it run on.
     Standstill(Vec<Standstill>),
 }
 

@@ -100,7 +100,9 @@ impl Controller {
     /// #     fn family(&self) -> Family { Family::SixAxis }
     /// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
     /// #         Box::pin(async move {
-    /// #             text::print().argtoprint(&cx.time()).argtoprint(&" ").argtoprint(&cx.system().dfspeed.get().tcp).run(cx).at(self.file(), 1)?;
+    /// #             let speed = cx.system().dfspeed.get().tcp;
+    /// #             let line = text::print().argtoprint(&cx.time()).argtoprint(&" ").argtoprint(&speed);
+    /// #             line.run(cx).at(self.file(), 1)?;
     /// #             cx.system().dfspeed.set(Speed { tcp: 70.0, ..cx.system().dfspeed.get() });
     /// #             flow::waittime(1.0).run(cx).await.at(self.file(), 2)
     /// #         })
@@ -121,9 +123,9 @@ impl Controller {
         self.channels.each(|channel| channel.channel_state().repeats.set(on));
     }
 
-    /// Jogs an axis of the first channel's robot, from 1 (external axes come behind its own), by so many deg (mm), at manual speed,
-    /// while the program is paused or has ended. What cannot be is a warning and changes nothing. For other robots there is
-    /// [`Controller::order`].
+    /// Jogs an axis of the first channel's robot, from 1 (external axes come behind its own), by so many deg (mm), at
+    /// manual speed, while the program is paused or has ended. What cannot be is a warning and changes nothing. For
+    /// other robots there is [`Controller::order`].
     pub fn jog(&mut self, axis: usize, by: f64) {
         jog(self.channels.first(), axis, by);
     }
@@ -156,15 +158,15 @@ impl Controller {
         }
     }
 
-    /// Switches the motors of all robots off at once, whatever they do: an emergency. The robots brake by themselves; programs are
-    /// paused. Motors come on again by [`Pendant::ServoOn`](crate::io::Pendant::ServoOn), and programs go on by the start button, the
-    /// robots back on their paths first.
+    /// Switches the motors of all robots off at once, whatever they do: an emergency. The robots brake by themselves;
+    /// programs are paused. Motors come on again by [`Pendant::ServoOn`](crate::io::Pendant::ServoOn), and programs go
+    /// on by the start button, the robots back on their paths first.
     pub fn emergency_stop(&mut self) {
         self.press(Pendant::EmergencyStop);
     }
 
-    /// Says that somebody has moved an axis of the first channel's robot by hand, by so many deg (mm), while its servo is off. With
-    /// a real robot nobody has to say so: its driver reports it.
+    /// Says that somebody has moved an axis of the first channel's robot by hand, by so many deg (mm), while its servo
+    /// is off. With a real robot nobody has to say so: its driver reports it.
     pub fn move_by_hand(&mut self, axis: usize, by: f64) {
         move_by_hand(self.channels.first(), axis, by);
     }

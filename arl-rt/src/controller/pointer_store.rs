@@ -18,7 +18,8 @@ const STORE_INTERVAL: Duration = Duration::from_secs(1);
 /// How often who waits for the thread looks whether it is still there.
 const THREAD_CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Stores the pointers of the foreground channels on a thread of its own. The cycle leaves there what they are and goes on.
+/// Stores the pointers of the foreground channels on a thread of its own. The cycle leaves there what they are and goes
+/// on.
 pub(super) struct PointerStore {
     exchange: Arc<Exchange>,
     thread: Option<JoinHandle<()>>,
@@ -109,8 +110,8 @@ impl PointerStore {
         Ok(Self { exchange, thread: Some(thread), noted, news: false, hurried: false })
     }
 
-    /// Notes the pointers as they are at the end of a cycle, of each channel from the first; `ended`: no program with a robot
-    /// runs. Never waits. Gives what went wrong since the last call.
+    /// Notes the pointers as they are at the end of a cycle, of each channel from the first; `ended`: no program with a
+    /// robot runs. Never waits. Gives what went wrong since the last call.
     #[inline]
     pub(super) fn note(&mut self, now: impl Iterator<Item = CurrentPointers>, ended: bool) -> Option<String> {
         for (noted, now) in self.noted.iter_mut().zip(now) {

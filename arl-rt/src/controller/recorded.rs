@@ -16,7 +16,8 @@ pub(crate) struct Recorded {
     pub(crate) robot: Arc<Robot>,
     /// The file that has the `main` of the channel's program.
     pub(crate) program: File,
-    /// When its program ended, in s of the controller, or now where it has not.
+    /// When its program ended, in s of the controller, or now where it has not; later where the robot was jogged behind
+    /// that.
     pub(crate) ended: f64,
     /// Each with the file that its line is of.
     pub(crate) motions: Vec<(File, MotionRecord)>,
@@ -36,8 +37,8 @@ impl Controller {
         self.channels.units().map(|unit| of_unit(&unit.borrow())).collect()
     }
 
-    /// The file that the line of a motion is of: [`MotionRecord::line`] is of this file. `None`: the channel has no robot, or no motion of
-    /// it with this running number is recorded.
+    /// The file that the line of a motion is of: [`MotionRecord::line`] is of this file. `None`: the channel has no
+    /// robot, or no motion of it with this running number is recorded.
     pub fn file_of_motion(&self, channel: ChannelId, motion: u64) -> Option<File> {
         let channel = self.channels.iter().find(|it| it.channel_state().id == channel)?;
         channel.channel_state().robot()?.recorded_file(motion)
@@ -52,7 +53,11 @@ impl Controller {
             let mut motions: Vec<_> = unit.records().iter().map(motion).collect();
             // A way back, or what is jogged, is planned behind what was planned before it.
             motions.sort_by(|(_, one), (_, other)| one.start.partial_cmp(&other.start).unwrap_or(Ordering::Equal));
-            let ended = channel.ended_after().map_or_else(|| self.time(), |cycles| self.shared.rate.time(cycles));
+            let program_ended =
+                channel.ended_after().map_or_else(|| self.time(), |cycles| self.shared.rate.time(cycles));
+            // Who jogs behind the end of the program has the robot move.
+            let ends = motions.iter().filter_map(|(_, record)| Some(record.start? + record.duration));
+            let ended = ends.fold(program_ended, f64::max);
             Some(Recorded { robot: unit.shared_robot(), program, ended, motions })
         };
         self.channels.foreground().filter_map(of_channel).collect()

@@ -21,8 +21,8 @@ const IDLE: Duration = Duration::from_millis(1);
 
 /// A controller that runs in a thread of its own, from [`Controller::spawn`].
 ///
-/// It holds its robots when the programs have ended, until somebody [joins](Running::join) it: a handle can let them begin anew.
-/// Dropping it stops the programs, and waits until the robots have come to rest on their paths.
+/// It holds its robots when the programs have ended, until somebody [joins](Running::join) it: a handle can let them
+/// begin anew. Dropping it stops the programs, and waits until the robots have come to rest on their paths.
 #[derive(Debug)]
 pub struct Running {
     handle: Handle,
@@ -73,10 +73,11 @@ impl Drop for Running {
 }
 
 impl Controller {
-    /// Makes a controller in a thread of its own, and runs it there: on the real clock as a rule, since on the virtual one
-    /// cycles follow each other as fast as they can. [`Handle`] has an example.
+    /// Makes a controller in a thread of its own, and runs it there: on the real clock as a rule, since on the virtual
+    /// one cycles follow each other as fast as they can. [`Handle`] has an example.
     ///
-    /// The thread has the usual stack, of 2 MiB, which is too little for more than the usual [`Builder::stack`](super::Builder::stack).
+    /// The thread has the usual stack, of 2 MiB, which is too little for more than the usual
+    /// [`Builder::stack`](super::Builder::stack).
     ///
     /// # Errors
     /// The controller cannot be made, or there is no thread for it.

@@ -8,10 +8,11 @@ use crate::context::standstill::Standstill;
 const PLC_DELAY_S: f64 = 1.0;
 
 impl Controller {
-    /// The programs that wait in vain, if nothing can change any more: all programs wait for conditions, for the start button,
-    /// for stopped motion or for motion at an override of 0 %, nothing moves, no timer runs, no pulse is on, no event of the
-    /// scenario is left, and there is no outside: no driver of your own, no bus, no connection, no real clock, and no
-    /// [`Handle`](super::Handle). `None` where something may still happen, and when the programs have ended.
+    /// The programs that wait in vain, if nothing can change any more: all programs wait for conditions, for the start
+    /// button, for stopped motion or for motion at an override of 0 %, nothing moves, no timer runs, no pulse is on, no
+    /// event of the scenario is left, and there is no outside: no driver of your own, no bus, no connection, no real
+    /// clock, and no [`Handle`](super::Handle). `None` where something may still happen, and when the programs have
+    /// ended.
     ///
     /// Whoever holds the controller can still change an input or press a button; then it goes on.
     pub fn standstill(&self) -> Option<Vec<Standstill>> {

@@ -92,8 +92,8 @@ impl Controller {
         }
     }
 
-    /// Where the robots are: of each channel the place of its motion, where something has moved, the base (x, y, z in mm, a, b, c in deg) and
-    /// the axes that there are; none of a background channel.
+    /// Where the robots are: of each channel the place of its motion, where something has moved, the base (x, y, z in
+    /// mm, a, b, c in deg) and the axes that there are; none of a background channel.
     pub(crate) fn each_robot(&self, mut each: impl FnMut(Option<(File, u32)>, &[f64], &[f64], &[f64])) {
         for channel in self.channels.iter() {
             let Some(unit) = channel.channel_state().robot() else {

@@ -9,7 +9,8 @@ use crate::unit::Unit;
 /// How many columns a trace has.
 pub(crate) const COLUMNS: usize = 21;
 
-/// Their names: the start of the cycle in s, the line and the number of the motion, the axes in deg (mm), the TCP in mm and deg.
+/// Their names: the start of the cycle in s, the line and the number of the motion, the axes in deg (mm), the TCP in mm
+/// and deg.
 pub(crate) const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
 
 /// The column behind them with the file that the line is of, where it is asked for.

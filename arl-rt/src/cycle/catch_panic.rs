@@ -1,5 +1,5 @@
-//! Threads beside the cycle go on after a panic, and so does the cycle where others hear of something: it costs the work in which it
-//! happens, and no more.
+//! Threads beside the cycle go on after a panic, and so does the cycle where others hear of something: it costs the
+//! work in which it happens, and no more.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

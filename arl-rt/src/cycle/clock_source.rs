@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 pub use super::lateness::Lateness;
 pub use arl_robot::cell::Late;
 
-/// Says when the next cycle may begin: [`VirtualClock`], [`RealClock`], or what a bus gives, whose beat the cycles then follow.
+/// Says when the next cycle may begin: [`VirtualClock`], [`RealClock`], or what a bus gives, whose beat the cycles then
+/// follow.
 ///
 /// ```
 /// use arl_rt::clock::{Clock, Lateness};
@@ -69,7 +70,8 @@ pub trait Clock {
         None
     }
 
-    /// The program begins to talk to the world: from the next cycle on its time counts. Returns what the user should know.
+    /// The program begins to talk to the world: from the next cycle on its time counts. Returns what the user should
+    /// know.
     fn follow_real_time(&mut self) -> Option<&'static str> {
         None
     }
@@ -155,8 +157,8 @@ impl Clock for VirtualClock {
     }
 }
 
-/// Each cycle begins at its own point of real time, so that errors do not add up. What becomes of those whose points have passed, [`Late`]
-/// says; two cycles never begin less than half a cycle after each other.
+/// Each cycle begins at its own point of real time, so that errors do not add up. What becomes of those whose points
+/// have passed, [`Late`] says; two cycles never begin less than half a cycle after each other.
 #[derive(Default, Debug)]
 pub struct RealClock {
     /// When the first cycle began, or would have, had none been lost.
@@ -253,8 +255,8 @@ mod tests {
     const PERIOD_S: f64 = 0.01;
     const PERIOD: Duration = Duration::from_millis(10);
 
-    /// A clock whose cycle 5 begins so late, and how far its grid has moved, and when that cycle and the next one began, counted from the first
-    /// one.
+    /// A clock whose cycle 5 begins so late, and how far its grid has moved, and when that cycle and the next one
+    /// began, counted from the first one.
     fn after_a_delay(late: Late, delay: Duration) -> (RealClock, [Duration; 3]) {
         let mut clock = RealClock::new().late(late);
         clock.wait_for(0, PERIOD_S);

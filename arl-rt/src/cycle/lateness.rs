@@ -48,7 +48,8 @@ impl Lateness {
         self.lost = self.lost.saturating_add(cycles);
     }
 
-    /// So many beats never came from whom cycles follow (a robot that sends, a bus): their cycles are lost, and the computer is not to blame.
+    /// So many beats never came from whom cycles follow (a robot that sends, a bus): their cycles are lost, and the
+    /// computer is not to blame.
     pub fn note_missing(&mut self, beats: u64) {
         self.missing = self.missing.saturating_add(beats);
         self.lost = self.lost.saturating_add(beats);
@@ -79,8 +80,8 @@ impl Lateness {
         self.longest
     }
 
-    /// How many cycles began within a time, but not within that of the step before, where there are any. What is later than half a second is
-    /// in the last step, whose time is that of the latest cycle.
+    /// How many cycles began within a time, but not within that of the step before, where there are any. What is later
+    /// than half a second is in the last step, whose time is that of the latest cycle.
     pub fn histogram(&self) -> impl Iterator<Item = (Duration, u64)> {
         let steps = STEPS_US.iter().map(|most| Duration::from_micros(*most)).chain([self.longest]);
         steps.zip(self.counts).filter(|(_, count)| *count > 0)

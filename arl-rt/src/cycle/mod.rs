@@ -1,5 +1,5 @@
-//! The control cycle: how long it is, where its time comes from and how late it may be, what it has of the operating system, which channels
-//! run in it, and what it shares with threads beside it.
+//! The control cycle: how long it is, where its time comes from and how late it may be, what it has of the operating
+//! system, which channels run in it, and what it shares with threads beside it.
 //!
 //! It imports no other room.
 

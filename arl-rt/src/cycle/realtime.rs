@@ -1,10 +1,10 @@
 //! What the operating system is asked for, so that cycles begin in time.
 
-/// What the thread of the cycle has of the operating system: it goes before all others, its memory stays, its core is its own. Linux does so,
-/// where it is allowed; `docs/drivers.md` says how to allow it.
+/// What the thread of the cycle has of the operating system: it goes before all others, its memory stays, its core is
+/// its own. Linux does so, where it is allowed; `docs/drivers.md` says how to allow it.
 ///
-/// [`begin`](Realtime::begin) is for the thread that steps the controller, before that is built: what works beside the cycle (laws, blends, the
-/// disk, connections) begins after it, and takes second place.
+/// [`begin`](Realtime::begin) is for the thread that steps the controller, before that is built: what works beside the
+/// cycle (laws, blends, the disk, connections) begins after it, and takes second place.
 ///
 /// ```
 /// use arl_rt::clock::Realtime;
@@ -130,7 +130,8 @@ mod system {
         Ok(())
     }
 
-    /// With a limit the memory that comes later could not be had at all, so that it is not locked then. For the superuser there is none.
+    /// With a limit the memory that comes later could not be had at all, so that it is not locked then. For the
+    /// superuser there is none.
     fn lock_memory() -> Result<(), String> {
         if let (Some(most), false) = (getrlimit(Resource::Memlock).current, geteuid().is_root()) {
             return Err(format!("only {} KiB may be (`ulimit -l`): it has to be unlimited", most / 1024));

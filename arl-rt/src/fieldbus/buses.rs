@@ -47,9 +47,9 @@ impl Buses {
         self.modbus_tcp.get_or_init(ModbusTcp::default)
     }
 
-    /// Starts what the cell asks for, whether a program uses it or not. Where the cell says nothing of it, a server with all
-    /// defaults is tried, if programs want one. What the user should know: where the server listens, if the cell left that
-    /// open; why there is none.
+    /// Starts what the cell asks for, whether a program uses it or not. Where the cell says nothing of it, a server
+    /// with all defaults is tried, if programs want one. What the user should know: where the server listens, if the
+    /// cell left that open; why there is none.
     ///
     /// # Errors
     /// Why some of what the cell asks for cannot be had.

@@ -4,8 +4,8 @@ use std::fmt;
 
 use arl_robot::outline;
 
-/// What stands between programs and a DeviceNet bus: the bytes that it exchanges with its devices. The calls must return
-/// at once; the exchange happens beside them.
+/// What stands between programs and a DeviceNet bus: the bytes that it exchanges with its devices. The calls must
+/// return at once; the exchange happens beside them.
 pub trait DeviceNet {
     /// How many bytes are exchanged: programs reach the offsets below.
     fn size(&self) -> usize;

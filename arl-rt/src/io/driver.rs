@@ -24,12 +24,12 @@ use super::image::{Inputs, Outputs};
 ///     fn read(&mut self, mut inputs: Inputs<'_>) {
 ///         // Called once a cycle, of 1 ms here.
 ///         self.litres += if self.open { 0.05 } else { 0.0 };
-///         inputs.set_di(1, self.litres >= 10.0);
-///         inputs.set_ai(1, self.litres.min(10.0));
+///         inputs.set_digital_input(1, self.litres >= 10.0);
+///         inputs.set_analog_input(1, self.litres.min(10.0));
 ///     }
 ///
 ///     fn write(&mut self, outputs: Outputs<'_>) {
-///         self.open = outputs.dout(1);
+///         self.open = outputs.digital_output(1);
 ///     }
 /// }
 ///
@@ -75,8 +75,8 @@ pub trait IoDriver {
     /// Passes the outputs on, at the end of a cycle.
     fn write(&mut self, outputs: Outputs<'_>);
 
-    /// Whether an output of this cycle ([`Outputs::cycle`]), or of a later one, has got to where it goes: `syncdo` and `syncao`
-    /// wait for it. Asked after [`read`](IoDriver::read).
+    /// Whether an output of this cycle ([`Outputs::cycle`]), or of a later one, has got to where it goes: `syncdo` and
+    /// `syncao` wait for it. Asked after [`read`](IoDriver::read).
     fn has_reached(&self, _output: Output, _cycle: u64) -> bool {
         true
     }
@@ -86,8 +86,8 @@ pub trait IoDriver {
         None
     }
 
-    /// Why no robot may move on, as long as that is so: the inputs are not those of the outside any more. It is alarm 20051
-    /// for each program with a robot, as soon as it runs.
+    /// Why no robot may move on, as long as that is so: the inputs are not those of the outside any more. It is alarm
+    /// 20051 for each program with a robot, as soon as it runs.
     fn fault(&self) -> Option<&str> {
         None
     }
@@ -108,7 +108,8 @@ impl IoDriver for SimulatedIo {
     fn write(&mut self, _outputs: Outputs<'_>) {}
 }
 
-/// Why a driver cannot be had: of a robot, or of inputs and outputs. A text becomes one, and so does an error of the system (`?`).
+/// Why a driver cannot be had: of a robot, or of inputs and outputs. A text becomes one, and so does an error of the
+/// system (`?`).
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum DriverError {

@@ -236,7 +236,7 @@ impl Image {
     }
 
     /// The value of an analog input in V or mA.
-    pub(crate) fn ai(&self, channel: i32) -> Result<f64, Fault> {
+    pub(crate) fn analog_input(&self, channel: i32) -> Result<f64, Fault> {
         self.ai.get(channel)
     }
 
@@ -246,17 +246,17 @@ impl Image {
     }
 
     /// Sets an analog input, in V or mA.
-    pub(crate) fn set_ai(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
+    pub(crate) fn set_analog_input(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
         self.ai.set(channel, value)
     }
 
     /// The value of an analog output in V or mA.
-    pub(crate) fn ao(&self, channel: i32) -> Result<f64, Fault> {
+    pub(crate) fn analog_output(&self, channel: i32) -> Result<f64, Fault> {
         self.ao.get(channel)
     }
 
     /// Sets an analog output, in V or mA.
-    pub(crate) fn set_ao(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
+    pub(crate) fn set_analog_output(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
         self.ao.set(channel, value)
     }
 
@@ -314,8 +314,8 @@ impl Image {
         Ok(())
     }
 
-    /// Sets the channels that waited for motions of the program's channel `owner` that have ended, in the order in which they
-    /// were told to.
+    /// Sets the channels that waited for motions of the program's channel `owner` that have ended, in the order in
+    /// which they were told to.
     pub(crate) fn motions_ended(&mut self, owner: usize, ended: impl Fn(u64) -> bool) {
         let mut at = 0;
         while let Some(waiting) = self.after_motion.get_mut(owner)
@@ -386,22 +386,22 @@ pub struct Inputs<'a> {
 
 impl Inputs<'_> {
     /// Sets a digital input; channels that do not exist are left out.
-    pub fn set_di(&mut self, channel: usize, level: bool) {
+    pub fn set_digital_input(&mut self, channel: usize, level: bool) {
         self.di.set(channel.wrapping_sub(1), level);
     }
 
     /// Sets an analog input in V or mA, whatever is measured; channels that do not exist are left out.
-    pub fn set_ai(&mut self, channel: usize, value: f64) {
+    pub fn set_analog_input(&mut self, channel: usize, value: f64) {
         self.ai.put(channel.wrapping_sub(1), value);
     }
 
     /// Sets an internal input; channels that do not exist are left out.
-    pub fn set_internal(&mut self, channel: usize, level: bool) {
+    pub fn set_internal_input(&mut self, channel: usize, level: bool) {
         self.internal.set(channel.wrapping_sub(1), level);
     }
 
-    /// Sets an internal output, which programs can only read: it is the internal PLC's; channels that do not exist are left
-    /// out.
+    /// Sets an internal output, which programs can only read: it is the internal PLC's; channels that do not exist are
+    /// left out.
     pub fn set_internal_output(&mut self, channel: usize, level: bool) {
         self.internal_outputs.set(channel.wrapping_sub(1), level);
     }
@@ -424,12 +424,12 @@ impl Outputs<'_> {
     }
 
     /// The level of a digital output; false where there is none.
-    pub fn dout(&self, channel: usize) -> bool {
+    pub fn digital_output(&self, channel: usize) -> bool {
         self.dout.get(channel.wrapping_sub(1))
     }
 
     /// An analog output in V or mA; 0 where there is none.
-    pub fn ao(&self, channel: usize) -> f64 {
+    pub fn analog_output(&self, channel: usize) -> f64 {
         self.ao.get(channel.wrapping_sub(1)).copied().unwrap_or_default()
     }
 
@@ -439,7 +439,7 @@ impl Outputs<'_> {
     }
 
     /// The level of an internal output; false where there is none.
-    pub fn internal(&self, channel: usize) -> bool {
+    pub fn internal_output(&self, channel: usize) -> bool {
         self.internal.get(channel.wrapping_sub(1))
     }
 }
@@ -473,7 +473,7 @@ mod tests {
             image.digital(Digital::Do, 65).unwrap_err().to_string(),
             image.digitals(Digital::Di, 8, 5).unwrap_err().to_string(),
             image.set_digitals(Digital::Do, 1, 33, 0).unwrap_err().to_string(),
-            image.ao(9).unwrap_err().to_string(),
+            image.analog_output(9).unwrap_err().to_string(),
         ];
         assert_eq!(texts[0], "DI 0 does not exist: channels 1 to 64 are there");
         assert_eq!(texts[1], "DO 65 does not exist: channels 1 to 64 are there");

@@ -1,4 +1,5 @@
-//! Inputs and outputs: the image that programs work on, the border to real ones, and the scenario that plays the outside.
+//! Inputs and outputs: the image that programs work on, the border to real ones, and the scenario that plays the
+//! outside.
 //!
 //! It imports `cycle` and `fault`.
 

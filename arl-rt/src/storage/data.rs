@@ -32,9 +32,9 @@ pub struct DataVar<'a> {
     pub slot: &'a dyn Teach,
 }
 
-/// Reads data files in the folder of their program again and gives their variables the values that stand there. A file that
-/// is not there leaves the values that were compiled in. What is wrong comes back as alarms; variables that it concerns stay
-/// as they were.
+/// Reads data files in the folder of their program again and gives their variables the values that stand there. A file
+/// that is not there leaves the values that were compiled in. What is wrong comes back as alarms; variables that it
+/// concerns stay as they were.
 pub(crate) fn reload(files: &[DataFile<'_>], folder: &Path) -> Vec<Alarm> {
     files.iter().flat_map(|data| file(data, folder)).collect()
 }
@@ -49,8 +49,8 @@ fn file(data: &DataFile<'_>, folder: &Path) -> Vec<Alarm> {
     teach_file(data, &content)
 }
 
-/// Gives the variables of a data file the values that stand in `content`. What is wrong comes back as alarms; variables that
-/// it concerns stay as they were.
+/// Gives the variables of a data file the values that stand in `content`. What is wrong comes back as alarms; variables
+/// that it concerns stay as they were.
 pub(crate) fn teach_file(data: &DataFile<'_>, content: &[u8]) -> Vec<Alarm> {
     let alarm = |line: u32, text: String| Alarm::new(Fault::Data(text.into()), File::new(data.file), line);
     let text = match arl_lang::text::decode(content) {
@@ -99,8 +99,8 @@ fn teach(
         .map_err(|error| (Some(error.span), format!("{name}: {error}")))
 }
 
-/// Where a data file may lie: at its own path where that is absolute, else in the folder of its program; there also by its
-/// bare name.
+/// Where a data file may lie: at its own path where that is absolute, else in the folder of its program; there also by
+/// its bare name.
 pub(crate) fn places(name: &str, folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     let path = Path::new(name);
     let bare = path.file_name().map(|bare| folder.join(bare));

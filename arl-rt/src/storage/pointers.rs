@@ -1,5 +1,5 @@
-//! The program pointer and the motion pointer of the foreground channels, as they are kept when the controller is switched
-//! off (manual 5.12.8 to 5.12.11).
+//! The program pointer and the motion pointer of the foreground channels, as they are kept when the controller is
+//! switched off (manual 5.12.8 to 5.12.11).
 
 use std::fmt::Write;
 

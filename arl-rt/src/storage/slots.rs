@@ -1,5 +1,5 @@
-//! Many global variables of one type: cells in a row, which a program of many points is compiled with sooner than with a
-//! field for each.
+//! Many global variables of one type: cells in a row, which a program of many points is compiled with sooner than with
+//! a field for each.
 
 use std::cell::Cell;
 use std::fmt;

@@ -1,4 +1,5 @@
-//! What is kept when the controller is switched off: one file for each system variable, and one for where the programs stand.
+//! What is kept when the controller is switched off: one file for each system variable, and one for where the programs
+//! stand.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -16,7 +17,8 @@ use arl_robot::atomic_file;
 
 /// Where kept values live, by name.
 pub trait Storage {
-    /// Called when a controller starts, before anything is loaded: removes what a process that was killed has left behind.
+    /// Called when a controller starts, before anything is loaded: removes what a process that was killed has left
+    /// behind.
     fn begin(&mut self) {}
 
     /// What was stored under this name last; nothing where nothing was.
@@ -31,8 +33,8 @@ pub trait Storage {
     /// It cannot be stored; then the old content is still there.
     fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()>;
 
-    /// Another way to the same values, for threads that store beside the cycle. Without one, values are stored in the cycle that
-    /// saves them, and what changes all the time is not kept: where the programs stand.
+    /// Another way to the same values, for threads that store beside the cycle. Without one, values are stored in the
+    /// cycle that saves them, and what changes all the time is not kept: where the programs stand.
     fn another(&self) -> Option<Box<dyn Storage + Send>> {
         None
     }

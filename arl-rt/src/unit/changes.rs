@@ -83,8 +83,8 @@ impl Changes {
         self.now.allowed = None;
     }
 
-    /// Sets aside or takes up again what belongs to motions, until it is done for as many stops as for the motions; `planned` is
-    /// the motion planned last.
+    /// Sets aside or takes up again what belongs to motions, until it is done for as many stops as for the motions;
+    /// `planned` is the motion planned last.
     pub(super) fn follow(&mut self, stops: usize, planned: u64, effort: &mut Effort) {
         while self.aside.len() < stops {
             // What was said since the stop is for the motions that come in between.

@@ -12,8 +12,8 @@ use arl_robot::robot::{ROBOT_AXES, Robot};
 /// The part of what an axis asks for at most by which it may differ, in %, where the cell file says nothing.
 pub(crate) const SENSITIVITY: f64 = 20.0;
 
-/// What the flange is taken to carry, as part of the weight of all links: about what makers of robots rate. Without a load the
-/// last axes would need next to nothing, and every touch would be a collision.
+/// What the flange is taken to carry, as part of the weight of all links: about what makers of robots rate. Without a
+/// load the last axes would need next to nothing, and every touch would be a collision.
 const PAYLOAD: f64 = 0.08;
 /// Where its centre of mass is, seen from the flange, in mm, and how far it reaches from there.
 const PAYLOAD_AT: [f64; 3] = [50.0, 0.0, 100.0];

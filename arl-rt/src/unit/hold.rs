@@ -11,7 +11,8 @@ use arl_robot::kinematics::{Frame, frame_components};
 /// The speeds of the TCP while it is jogged, in mm/s and deg/s.
 const TCP_MM_S: f64 = 100.0;
 const TCP_DEG_S: f64 = 20.0;
-/// How far it is to go at most, in mm and deg: the first of these to which there is a way. Who still holds the button goes on from there.
+/// How far it is to go at most, in mm and deg: the first of these to which there is a way. Who still holds the button
+/// goes on from there.
 const WAYS_MM: [f64; 9] = [500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0];
 const WAYS_DEG: [f64; 7] = [90.0, 45.0, 20.0, 10.0, 5.0, 2.0, 1.0];
 /// An axis this near to where it is to go is there, in deg (mm).

@@ -169,7 +169,7 @@ impl Unit {
     pub(crate) fn set_base(&mut self, base: Frame) {
         if base != self.base {
             self.base = base;
-            self.tcp = self.tcp_by_axes();
+            self.tcp = self.tcp_where(&self.commanded.at);
             self.effort.set_base(&base);
         }
     }
@@ -186,14 +186,14 @@ impl Unit {
 
     /// The file of a motion whose record is kept.
     pub(crate) fn recorded_file(&self, number: u64) -> Option<File> {
-        self.records().last().filter(|last| number <= last.number)?;
+        self.recorder.as_ref().filter(|_| number <= self.planned)?;
         let behind = self.recorded_files.partition_point(|(from, _)| *from <= number);
         let (_, file) = self.recorded_files.get(behind.checked_sub(1)?)?;
         Some(*file)
     }
 
-    /// The targets that should be rounded off but are not, each with the file of the motion behind it; between the same lines for the same
-    /// reason only the first one of a run.
+    /// The targets that should be rounded off but are not, each with the file of the motion behind it; between the same
+    /// lines for the same reason only the first one of a run.
     pub(crate) fn take_unblended(&mut self) -> Vec<(File, UnblendedTarget)> {
         let mut new = Vec::new();
         for target in self.queue.take_unblended() {
@@ -281,9 +281,10 @@ impl Unit {
         Rig { base: self.base, ..*self.queue.rig() }
     }
 
-    /// Where the TCP is in the world: the base may be another one than that of the last motion, as before the first.
-    fn tcp_by_axes(&self) -> Frame {
-        self.rig().tcp_at(&self.robot.kinematics.forward(&self.setpoint().axes))
+    /// Where the TCP is in the world while the axes are there. The base may be another one than that of the last
+    /// motion, as before the first.
+    fn tcp_where(&self, joints: &Joints) -> Frame {
+        self.rig().tcp_at(&self.robot.kinematics.forward(&joints.axes))
     }
 
     /// What pushes the robot.
@@ -296,8 +297,8 @@ impl Unit {
         self.change(Change::Load(load));
     }
 
-    /// Looks for collisions during the motions that follow, or no longer does. Returns whether it can: whether the robot
-    /// file has masses.
+    /// Looks for collisions during the motions that follow, or no longer does. Returns whether it can: whether the
+    /// robot file has masses.
     pub(crate) fn detect(&mut self, sensitivity: Option<&Sensitivity>) -> bool {
         let allowed = sensitivity.map(|sensitivity| self.effort.allowed(&self.robot, sensitivity));
         let able = allowed != Some(None);
@@ -417,8 +418,8 @@ impl Unit {
         started
     }
 
-    /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on its
-    /// way goes on to rest.
+    /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on
+    /// its way goes on to rest.
     pub(crate) fn drop_aside(&mut self) -> bool {
         self.queue.drop_suspended()
     }
@@ -451,8 +452,8 @@ impl Unit {
         }
     }
 
-    /// Plans a motion of a program file, under [`Unit::settings`] with the changes that it brings along; the alarm where
-    /// that, or a motion before it, cannot be.
+    /// Plans a motion of a program file, under [`Unit::settings`] with the changes that it brings along; the alarm
+    /// where that, or a motion before it, cannot be.
     pub(crate) fn plan(
         &mut self,
         command: &Command,
@@ -497,8 +498,8 @@ impl Unit {
         self.changes.make(self.finished + 1, &mut self.effort);
     }
 
-    /// Whether all planned motion has ended and the robot has settled: it stands where it shall, or has been near enough
-    /// for some cycles.
+    /// Whether all planned motion has ended and the robot has settled: it stands where it shall, or has been near
+    /// enough for some cycles.
     #[inline]
     pub(crate) fn ended(&self) -> bool {
         self.queue.idle() && self.is_settled()
@@ -555,7 +556,8 @@ impl Unit {
         self.finished = step.finished;
         self.note_rest();
         self.note_start();
-        // The first half of a blend still counts as the motion before it there; to programs a blend is the next motion's.
+        // The first half of a blend still counts as the motion before it there; to programs a blend is the next
+        // motion's.
         match self.queue.progress() {
             Some(next) if step.motion != 0 && next.motion > step.motion => self.point_at(next.motion, next.line),
             _ => self.point_at(step.motion, step.line),
@@ -563,7 +565,7 @@ impl Unit {
         if step.motion != 0 {
             self.set_base(self.queue.rig().base);
         }
-        self.tcp = if self.queue.rig().base == self.base { step.tcp } else { self.tcp_by_axes() };
+        self.tcp = if self.queue.rig().base == self.base { step.tcp } else { self.tcp_where(&step.joints) };
         self.change_due();
         self.commanded.go_to(step.joints, period);
         self.exchange(beat);
@@ -679,7 +681,8 @@ impl Unit {
         if self.closed { None } else { self.driver.take_warning() }
     }
 
-    /// Lets go of the robot, once, with its motors off: one that moves is cut off. Nothing is called of its driver any more.
+    /// Lets go of the robot, once, with its motors off: one that moves is cut off. Nothing is called of its driver any
+    /// more.
     pub(crate) fn close(&mut self) {
         if std::mem::replace(&mut self.closed, true) {
             return;

@@ -3,7 +3,8 @@
 use crate::motion::Joints;
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
-/// Where the axes are, in deg (mm), and how they move: differences of the last cycles, per s and s2, where nobody measures it.
+/// Where the axes are, in deg (mm), and how they move: differences of the last cycles, per s and s2, where nobody
+/// measures it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moving {
     pub(crate) at: Joints,

@@ -1,6 +1,7 @@
 //! The border to the robot: set-points out, feedback in, once a cycle.
 //!
-//! What the controller makes of what a driver says, and when it switches the motors on and off, stands in `docs/drivers.md`.
+//! What the controller makes of what a driver says, and when it switches the motors on and off, stands in
+//! `docs/drivers.md`.
 
 use std::time::Instant;
 
@@ -60,8 +61,8 @@ pub struct Setpoint {
     pub velocity: Joints,
     /// The accelerations of its own axes, in deg/s2 (mm/s2), likewise.
     pub acceleration: [f64; ROBOT_AXES],
-    /// The torques (Nm; N of linear axes) that the motion asks for by the masses of the robot file and the load: for feed-forward.
-    /// `None`: the file has no masses, or the driver does not [want](RobotDriver::wants_torque) them.
+    /// The torques (Nm; N of linear axes) that the motion asks for by the masses of the robot file and the load: for
+    /// feed-forward. `None`: the file has no masses, or the driver does not [want](RobotDriver::wants_torque) them.
     pub torque: Option<[f64; ROBOT_AXES]>,
     /// The length of the cycle in s.
     pub period: f64,
@@ -77,8 +78,9 @@ pub struct Feedback {
     pub position: Option<Joints>,
     /// How fast they move, in deg/s (mm/s); `None`: it does not measure that. Then it is what the positions make.
     pub velocity: Option<Joints>,
-    /// The torques (Nm; N of linear axes) that the motors of its own axes give at the axes; `None`: it does not measure them.
-    /// Then the controller takes what its model asks for the motion that the robot reports, and what a scenario does to it.
+    /// The torques (Nm; N of linear axes) that the motors of its own axes give at the axes; `None`: it does not measure
+    /// them. Then the controller takes what its model asks for the motion that the robot reports, and what a scenario
+    /// does to it.
     pub torque: Option<[f64; ROBOT_AXES]>,
     /// How its drives are; `None`: nothing new has come.
     pub drives: Option<Drives>,
@@ -169,8 +171,8 @@ pub enum Power {
 /// # let _ = builder;
 /// ```
 pub trait RobotDriver {
-    /// Connects to the robot and switches its motors on, once, before the first cycle. It may take its time. Says where the robot is,
-    /// in deg (mm); [`Start::begin_at`] says whether it may be there, before motors are switched on.
+    /// Connects to the robot and switches its motors on, once, before the first cycle. It may take its time. Says where
+    /// the robot is, in deg (mm); [`Start::begin_at`] says whether it may be there, before motors are switched on.
     ///
     /// # Errors
     /// Why there is no robot: the controller is not built.
@@ -179,8 +181,8 @@ pub trait RobotDriver {
     /// Takes the set-point of a cycle; gives what the robot has said last.
     fn exchange(&mut self, setpoint: &Setpoint) -> Feedback;
 
-    /// Switches the motors; says how the drives are now. While they are off, set-points are where the robot reports to be. Drives that
-    /// are not [on](Drives::On) at once are waited for after [`Power::On`], five seconds at most.
+    /// Switches the motors; says how the drives are now. While they are off, set-points are where the robot reports to
+    /// be. Drives that are not [on](Drives::On) at once are waited for after [`Power::On`], five seconds at most.
     fn switch(&mut self, power: Power) -> Drives;
 
     /// Whether set-points are to have torques: they take some time to compute.
@@ -198,8 +200,8 @@ pub trait RobotDriver {
         None
     }
 
-    /// The controller ends; nothing is called any more. It may take its time. A controller that ends while the robot moves has cut the
-    /// power before. It is not called after a start that failed.
+    /// The controller ends; nothing is called any more. It may take its time. A controller that ends while the robot
+    /// moves has cut the power before. It is not called after a start that failed.
     fn close(&mut self) {}
 }
 
@@ -226,8 +228,8 @@ pub enum DrivenTime {
 pub type Connect = fn(&DriverSettings) -> Result<Driven, DriverError>;
 
 /// A robot that follows its set-point with a lag: it is where the mean of its last set-points is, those of 8 ms and at
-/// least two. So it moves no more jerkily than it is told to, half of that time late, and stands exactly on its set-point
-/// when that has rested for as long.
+/// least two. So it moves no more jerkily than it is told to, half of that time late, and stands exactly on its
+/// set-point when that has rested for as long.
 #[derive(Clone, Debug, Default)]
 pub struct SimulatedRobot {
     last: Option<[Joints; KEPT]>,

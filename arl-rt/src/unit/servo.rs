@@ -57,8 +57,8 @@ impl Unit {
         self.halted = true;
     }
 
-    /// Goes on after a pause; back to the path first, at manual speed, where the robot was moved. `place` stands for the way
-    /// back where no motion is under way.
+    /// Goes on after a pause; back to the path first, at manual speed, where the robot was moved. `place` stands for
+    /// the way back where no motion is under way.
     pub(crate) fn go_on(&mut self, place: (File, u32)) {
         if !std::mem::take(&mut self.halted) {
             return;
@@ -89,7 +89,8 @@ impl Unit {
         }
     }
 
-    /// Switches the motors off at once: an emergency, in which the robot brakes by itself. Its motions stop where they are.
+    /// Switches the motors off at once: an emergency, in which the robot brakes by itself. Its motions stop where they
+    /// are.
     pub(crate) fn cut_power(&mut self) {
         if self.motors != Motors::Off {
             self.motors = Motors::Off;
@@ -113,8 +114,8 @@ impl Unit {
         self.switch(Power::Off);
     }
 
-    /// Switches the motors on. The set-point is where the robot reports to be; with a threshold, in deg (mm), it stays what it
-    /// was where no axis is farther off than that. Returns whether that was so, where it was asked for.
+    /// Switches the motors on. The set-point is where the robot reports to be; with a threshold, in deg (mm), it stays
+    /// what it was where no axis is farther off than that. Returns whether that was so, where it was asked for.
     ///
     /// # Errors
     /// The robot moves, it is not known where it is, or it is where its axes cannot be.

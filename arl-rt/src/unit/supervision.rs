@@ -50,8 +50,8 @@ impl Supervision {
         self.found
     }
 
-    /// Looks at what a robot says whose motors are on, or should be: what is wrong. That is told once, but for drives that nobody is to
-    /// move against any more.
+    /// Looks at what a robot says whose motors are on, or should be: what is wrong. That is told once, but for drives
+    /// that nobody is to move against any more.
     pub(super) fn look(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
         let fault = self.trouble(feedback, now)?;
         let counts = !self.found || matches!(fault, Fault::Drives(_));

@@ -120,8 +120,8 @@ impl Str {
         }
     }
 
-    /// Two texts one after the other. What takes more than half of the room without an allocation will hardly stay there:
-    /// mostly a third text follows.
+    /// Two texts one after the other. What takes more than half of the room without an allocation will hardly stay
+    /// there: mostly a third text follows.
     fn sum(first: &[u8], second: &[u8]) -> Str {
         let length = first.len() + second.len();
         if length <= INLINE / 2 {

@@ -31,7 +31,8 @@ impl Manner {
         }
     }
 
-    /// Takes a question of so many bytes and answers it in this manner. Returns when the other side has gone, or goes itself.
+    /// Takes a question of so many bytes and answers it in this manner. Returns when the other side has gone, or goes
+    /// itself.
     pub(crate) fn play(self, mut stream: impl Read + Write, question: usize, answer: &[u8]) {
         let mut asked = vec![0; if self == Manner::Resets { 1 } else { question }];
         stream.read_exact(&mut asked).unwrap();

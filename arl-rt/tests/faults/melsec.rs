@@ -40,7 +40,8 @@ fn behave(mut stream: TcpStream) {
     }
 }
 
-/// Runs a program that asks twice against one peer, and then, from its beginning again, against one that answers as it should.
+/// Runs a program that asks twice against one peer, and then, from its beginning again, against one that answers as it
+/// should.
 fn ask_twice(peer: impl FnOnce(TcpStream) + Send + 'static) -> String {
     watched(|| {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
@@ -151,7 +152,8 @@ fn damaged(seed: u64) -> Vec<u8> {
     bytes
 }
 
-/// The PLC goes after each: what is no answer, or not all of one, is an alarm; of one that is whole the next question is.
+/// The PLC goes after each: what is no answer, or not all of one, is an alarm; of one that is whole the next question
+/// is.
 #[test]
 fn damaged_answers_are_told_and_nothing_is_left_of_them() {
     for seed in 0..60 {

@@ -41,8 +41,8 @@ fn behave(mut plug: Plug) {
     until_it_goes(plug);
 }
 
-/// Runs a program that asks on a line of this manner, and then, from its beginning again, on a new one that answers as it
-/// should.
+/// Runs a program that asks on a line of this manner, and then, from its beginning again, on a new one that answers as
+/// it should.
 fn ask_twice(manner: Manner) -> String {
     watched(|| {
         let outlet = Outlet::new();

@@ -11,8 +11,8 @@ use crate::common::{self, open};
 /// Descriptors, threads and memory belong to the process: one test at a time.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// How much memory may stay behind, in KiB: what threads and the allocator keep. A thousand connections that leave their
-/// buffers, or a flood that is kept, are far more.
+/// How much memory may stay behind, in KiB: what threads and the allocator keep. A thousand connections that leave
+/// their buffers, or a flood that is kept, are far more.
 const MOST_LEFT: u64 = 12 << 10;
 
 /// Does something after which descriptors and threads are as before, and memory is bounded.

@@ -37,8 +37,8 @@ pub(crate) fn rows() -> Rows {
             let planned = planned(&robot, from, to)?;
             apart = apart.max((planned / ruckig(&robot, from, to)? - 1.0).abs());
         }
-        // Limits that are not in proportion to each other: the straight way in the axes is then bound by different axes at
-        // different times, and takes longer than axes that only arrive together.
+        // Limits that are not in proportion to each other: the straight way in the axes is then bound by different axes
+        // at different times, and takes longer than axes that only arrive together.
         let uneven = uneven(&robot, &mut random)?;
         for [from, to] in &moves {
             let planned = planned(&uneven, from, to)?;

@@ -144,8 +144,8 @@ impl Track {
         jet
     }
 
-    /// The same as a problem for solvers, in m and rad, with the limits of lines: those of the axes, and those of the TCP
-    /// along its way, whose programmed speed is in mm/s.
+    /// The same as a problem for solvers, in m and rad, with the limits of lines: those of the axes, and those of the
+    /// TCP along its way, whose programmed speed is in mm/s.
     pub(crate) fn path(&self, robot: &Robot, places: &[f64], speed: f64) -> Path {
         let mut path = self.axes_path(robot, places, 100.0);
         for (jet, at) in path.jets.iter_mut().zip(&path.places) {
@@ -177,8 +177,8 @@ impl Track {
     }
 }
 
-/// What each sample at `places` counts in the value at `at` and its first three derivatives (Fornberg 1988, Generation of
-/// finite difference formulas on arbitrarily spaced grids).
+/// What each sample at `places` counts in the value at `at` and its first three derivatives (Fornberg 1988, Generation
+/// of finite difference formulas on arbitrarily spaced grids).
 fn weights(at: f64, places: &[f64]) -> [[f64; 4]; STENCIL] {
     let mut weights = [[0.0; 4]; STENCIL];
     weights[0][0] = 1.0;

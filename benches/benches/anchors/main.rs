@@ -1,9 +1,9 @@
 //! Kinematics, dynamics and motion beside the best that is known for each job, in one run and one table.
 //!
 //! `cargo bench -p arl-benches --bench anchors [-- JOB...]`, where a job is one of `kinematics`, `changes`, `replans`,
-//! `durations`, `corners`, `dense`. Without any all are measured, which takes some minutes. Times are processor time, the
-//! least of rounds in which the contenders take turns; the references run in the same process, so that ratios count.
-//! `scripts/anchors-python.py` measures what is not to be had from crates.io.
+//! `durations`, `corners`, `dense`. Without any all are measured, which takes some minutes. Times are processor time,
+//! the least of rounds in which the contenders take turns; the references run in the same process, so that ratios
+//! count. `scripts/anchors-python.py` measures what is not to be had from crates.io.
 
 mod changes;
 mod corners;

@@ -10,7 +10,8 @@ use copp::solver::topp2_ra::{ReachSet2OptionsBuilder, Topp2ProblemBuilder, s_to_
 use copp::solver::topp3_socp::{ClarabelOptionsBuilder, Topp3ProblemBuilder, s_to_t_topp3, topp3_socp};
 use nalgebra::DMatrix;
 
-/// Convex problems of TOPP3 are made one from the result of the other until the duration changes by less than this part.
+/// Convex problems of TOPP3 are made one from the result of the other until the duration changes by less than this
+/// part.
 const SETTLED: f64 = 1e-3;
 const MOST_ROUNDS: usize = 8;
 /// Our solver's time is the least of so many runs.

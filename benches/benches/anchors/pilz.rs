@@ -1,5 +1,6 @@
-//! A corner as MoveIt's Pilz planner passes it: two motions with trapezoids of speed, each from rest to rest, of which the
-//! end of one and the start of the other are blended into each other over time, by a polynomial of the fifth degree.
+//! A corner as MoveIt's Pilz planner passes it: two motions with trapezoids of speed, each from rest to rest, of which
+//! the end of one and the start of the other are blended into each other over time, by a polynomial of the fifth
+//! degree.
 
 use std::error::Error;
 
@@ -15,8 +16,8 @@ const STEP: f64 = 1e-4;
 /// Its path is sampled every so many mm.
 const SAMPLING: f64 = 0.05;
 
-/// How much longer such a motion takes than the optimum on its path, both without jerk limits, when it is slowed as a whole
-/// until neither an axis nor the TCP is beyond its speed or acceleration.
+/// How much longer such a motion takes than the optimum on its path, both without jerk limits, when it is slowed as a
+/// whole until neither an axis nor the TCP is beyond its speed or acceleration.
 pub(crate) fn excess(robot: &Robot, angle: f64, zone: f64) -> Result<f64, Box<dyn Error>> {
     let motion = Blended::new(robot, angle, zone);
     let count = (motion.duration / STEP).ceil() as usize;
@@ -78,7 +79,8 @@ impl Blended {
         }
     }
 
-    /// How much slower the TCP has to go for its speed and its acceleration along the way, which is looked at `count` times.
+    /// How much slower the TCP has to go for its speed and its acceleration along the way, which is looked at `count`
+    /// times.
     fn slower(&self, count: usize, step: f64) -> f64 {
         let way = |index: usize| (self.at((index + 1) as f64 * step) - self.at(index as f64 * step)).norm();
         let ways: Vec<f64> = (0..count).map(way).collect();

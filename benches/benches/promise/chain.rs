@@ -214,7 +214,8 @@ impl Grower<'_> {
         }
     }
 
-    /// Lines of one length in a plane, with corners of one angle to one side or in turns to both, flat or rising and sinking.
+    /// Lines of one length in a plane, with corners of one angle to one side or in turns to both, flat or rising and
+    /// sinking.
     fn corners(&mut self, kind: Kind) -> Vec<(Goal, [f64; 2])> {
         let (side, angle) = (self.of(&SIDES), self.of(&ANGLES));
         let (zigzag, slope) = (self.random.unit() < 0.5, self.of(&[0.0, 0.0, 0.15]));

@@ -3,7 +3,8 @@
 //! `cargo bench -p arl-benches --bench promise [-- CHAINS [SEED [ONE OF THEM]]]`
 //!
 //! The promise: with zones at most 1.003 times the time with exact stops, and two cycles, in T and S; O is S by
-//! another name. Times are those of the robot, so they do not depend on the machine. Of the chains, some 3200 unless told, the robot can go two thirds.
+//! another name. Times are those of the robot, so they do not depend on the machine. Of the chains, some 3200 unless
+//! told, the robot can go two thirds.
 
 mod chain;
 
@@ -80,8 +81,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// How long the chain takes in s, [`LONGEST_S`] at most, and the kept share of each zone that was asked for. `None` where the robot cannot
-/// go it, whatever the profile.
+/// How long the chain takes in s, [`LONGEST_S`] at most, and the kept share of each zone that was asked for. `None`
+/// where the robot cannot go it, whatever the profile.
 fn run(chain: &Chain, zones: bool, settings: &Settings) -> Option<(f64, Vec<f64>)> {
     let mut queue = Queue::repeatable(chain.robot.clone(), chain.start);
     let mut recorder = Recorder::new(chain.robot.clone(), &mut queue);

@@ -1,5 +1,6 @@
 //! `arl2rs new`: a folder with a program that works, its cell, a scenario and what it is to print.
 
+use arl_lang::files::is_data;
 use arl_terminal::answer;
 use arl_terminal::failure::Failure;
 use arl2rs::check::clean;
@@ -60,7 +61,7 @@ fn check_name(name: &str) -> Result<(), Failure> {
     if ["arl", "cell"].contains(&name.to_ascii_lowercase().as_str()) {
         return wrong("a file of this name beside it is about something else");
     }
-    if name.to_ascii_lowercase().ends_with("_data") {
+    if is_data(Path::new(name)) {
         return wrong("names with `_data` at the end are those of data files");
     }
     Ok(())

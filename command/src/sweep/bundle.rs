@@ -1,4 +1,5 @@
-//! All that runs depend on: the compiled program and the files that it reads, by paths that are the same on every machine.
+//! All that runs depend on: the compiled program and the files that it reads, by paths that are the same on every
+//! machine.
 
 use super::cell_files::CellFiles;
 use super::folder::{Folder, Spread};
@@ -200,7 +201,8 @@ impl Bundle {
         Ok(())
     }
 
-    /// Adds the files that a cell names, by the words that decide which these are; and sees to it that they are found where the runs are made.
+    /// Adds the files that a cell names, by the words that decide which these are; and sees to it that they are found
+    /// where the runs are made.
     fn add_cell_files(&mut self, files: CellFiles<'_>, all_words: &BTreeSet<Vec<String>>) -> Result<(), Failure> {
         let (mut counts, mut problem) = (Vec::new(), None);
         for words in all_words {

@@ -1,6 +1,8 @@
-//! The files that the cells of a sweep name, which differ where rows name others: robots of channels, and shapes where runs look at them.
+//! The files that the cells of a sweep name, which differ where rows name others: robots of channels, and shapes where
+//! runs look at them.
 //!
-//! A cell names files from its own folder, and so it does where the runs are made. So they lie there as far from the cell as here.
+//! A cell names files from its own folder, and so it does where the runs are made. So they lie there as far from the
+//! cell as here.
 
 use super::bundle::{SCRIPT, full, read, with_slashes};
 use arl_robot::Robot;

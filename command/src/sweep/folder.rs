@@ -19,8 +19,8 @@ pub struct Spread {
     root: Arc<Root>,
 }
 
-/// A folder that goes with its last owner. A file in it is locked as long as there is one: what an owner has left that was killed goes with the
-/// next folder that is made.
+/// A folder that goes with its last owner. A file in it is locked as long as there is one: what an owner has left that
+/// was killed goes with the next folder that is made.
 #[derive(Debug)]
 struct Root {
     folder: PrivateFolder,
@@ -49,8 +49,8 @@ impl Root {
     }
 }
 
-/// As long as this lives nobody else removes what was left: he would take a folder that is not locked yet for such. `None`
-/// where the file is somebody else's, who cannot remove ours either, or keeps it: no sweep waits for him.
+/// As long as this lives nobody else removes what was left: he would take a folder that is not locked yet for such.
+/// `None` where the file is somebody else's, who cannot remove ours either, or keeps it: no sweep waits for him.
 fn turn() -> Option<File> {
     let path = std::env::temp_dir().join(TURN);
     let file = File::options().write(true).create(true).truncate(false).open(path).ok()?;

@@ -1,4 +1,5 @@
-//! Looks for collisions in the runs of a worker: each of them connects to a listener of its own, and says in each cycle where the robots are.
+//! Looks for collisions in the runs of a worker: each of them connects to a listener of its own, and says in each cycle
+//! where the robots are.
 
 use crate::run;
 use arl_project::options::RunOptions;
@@ -56,7 +57,8 @@ impl Looking {
         Self { clearance, secret, folder: folder.to_owned(), last: None }
     }
 
-    /// Has `make` make the run of these words and of those that it is given besides; gives what touched with what it gives.
+    /// Has `make` make the run of these words and of those that it is given besides; gives what touched with what it
+    /// gives.
     ///
     /// # Errors
     /// What stands in the cell cannot be read, or this computer has no connection to itself; then nothing ran.
@@ -88,7 +90,8 @@ impl Looking {
         }))
     }
 
-    /// What stands in the cell of the run of these words. A robot whose shape cannot be read is told of, and has capsules.
+    /// What stands in the cell of the run of these words. A robot whose shape cannot be read is told of, and has
+    /// capsules.
     ///
     /// # Errors
     /// Something cannot be read, in words that do not name the folder of the worker.
@@ -110,7 +113,7 @@ impl Looking {
                 return Err(Failure::Usage(format!("{} {text}", file.display())));
             }
             let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;
-            Scene::of(&Scenery::with(&cell, robot, &tell)?, &tell)
+            Scene::of(&Scenery::of(&cell, &robots::of_cell(&cell, robot)?, &tell)?, &tell)
         };
         let scene = scene().map_err(|failure: Failure| without_folder(&failure.to_string()))?;
         Ok(self.last.insert((deciding, scene)).1.clone())

@@ -1,7 +1,8 @@
-//! `arl2rs sweep`: a program runs once for each row of a table of parameters, on all cores, and what came of it is a table again.
+//! `arl2rs sweep`: a program runs once for each row of a table of parameters, on all cores, and what came of it is a
+//! table again.
 //!
-//! Runs are functions of what they depend on. So each has a folder of its own with all files that it reads, its result is kept under a hash of
-//! them, and a process that is lost is asked again.
+//! Runs are functions of what they depend on. So each has a folder of its own with all files that it reads, its result
+//! is kept under a hash of them, and a process that is lost is asked again.
 
 mod bundle;
 mod cell_files;
@@ -18,7 +19,7 @@ mod worker;
 use crate::args::SweepOptions;
 use arl_project::cache::Cache;
 use arl_terminal::exit::Exit;
-use arl_terminal::failure::{Failure, INTERRUPTED};
+use arl_terminal::failure::Failure;
 use arl_terminal::interrupt;
 use arl_terminal::{answer, show};
 use bundle::not_written;
@@ -89,7 +90,7 @@ pub(crate) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
     }
     if interrupt::was_pressed() {
         show::warning("interrupted: what was done is kept, and will not be done again");
-        return Ok(Exit::from(INTERRUPTED));
+        return Ok(Exit::INTERRUPTED);
     }
     if lost > 0 {
         let runs = if lost == 1 { "1 run".to_owned() } else { format!("{lost} runs") };

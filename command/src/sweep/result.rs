@@ -20,7 +20,8 @@ pub struct Row {
 /// What came of a run.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct RunResult {
-    /// `ended`, `alarm`, `time_over`, `stuck`; `refused` where it could not begin, `crashed` and `hung` where its process was lost.
+    /// `ended`, `alarm`, `time_over`, `stuck`; `refused` where it could not begin, `crashed` and `hung` where its
+    /// process was lost.
     pub outcome: String,
     /// The exit code that a run by itself would have.
     pub code: Option<u8>,
@@ -118,7 +119,8 @@ struct Message {
 }
 
 impl RunResult {
-    /// The result that a program's answer tells, with what was found in its run where that was looked for, and whether the same run gives it again.
+    /// The result that a program's answer tells, with what was found in its run where that was looked for, and whether
+    /// the same run gives it again.
     ///
     /// # Errors
     /// This is no answer, or the run was not heard to its end.

@@ -100,6 +100,9 @@ struct File {
 
 impl Sweep {
     /// Reads the file. Its paths count from its own folder.
+    ///
+    /// # Errors
+    /// It cannot be read, or is not as a sweep is written: its line.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let text = regular_file::read_text(path).map_err(|error| Failure::io("read", path, &error))?;
         let name = show::path(path).display().to_string();

@@ -48,7 +48,8 @@ enum Lost {
 }
 
 impl Worker {
-    /// A worker for a bundle that lies on the disk; its process begins with the first run. With a clearance, in mm, it looks for collisions.
+    /// A worker for a bundle that lies on the disk; its process begins with the first run. With a clearance, in mm, it
+    /// looks for collisions.
     ///
     /// # Errors
     /// Its folder cannot be made, in words.
@@ -61,8 +62,9 @@ impl Worker {
         Ok(Self { folder, timeout, process: None, secret, looking })
     }
 
-    /// Makes the run of these words: its result, and whether the same run gives it again. A process that is lost is begun anew, and asked once more
-    /// unless it hung: somebody may have ended it. `None` where `is_enough` said so in between.
+    /// Makes the run of these words: its result, and whether the same run gives it again. A process that is lost is
+    /// begun anew, and asked once more unless it hung: somebody may have ended it. `None` where `is_enough` said so in
+    /// between.
     pub fn run(&mut self, words: &[String], is_enough: &dyn Fn() -> bool) -> Option<(RunResult, bool)> {
         let mut why = String::new();
         for _ in 0..2 {

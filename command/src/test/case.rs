@@ -79,7 +79,8 @@ struct Group {
 /// Endings of sidecars with settings.
 const SETTINGS: [&str; 2] = [".io.toml", ".toml"];
 
-/// Finds all cases below a folder, in the order of their paths; with `new` those, too, of which nothing is expected yet.
+/// Finds all cases below a folder, in the order of their paths; with `new` those, too, of which nothing is expected
+/// yet.
 pub(super) fn find(folder: &Path, new: bool) -> std::io::Result<Vec<Found>> {
     let mut found = Vec::new();
     let mut groups: BTreeMap<String, Group> = BTreeMap::new();

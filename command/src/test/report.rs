@@ -5,7 +5,7 @@ use super::{Done, Verdict};
 use crate::args::TestFormat;
 use arl_terminal::answer;
 use arl_terminal::exit::Exit;
-use arl_terminal::failure::{COMPILE_ERRORS, Failure};
+use arl_terminal::failure::Failure;
 use arl_terminal::show;
 use serde_json::json;
 use std::fmt::Write;
@@ -38,7 +38,7 @@ pub(super) fn report(found: &[Found], done: &[Done], format: TestFormat) -> Resu
         TestFormat::Jsonl => told.iter().try_for_each(|case| answer::write(&format!("{}\n", object(case))))?,
         TestFormat::Junit => answer::write(&junit(&told, failed))?,
     }
-    Ok(if failed == 0 { Exit::SUCCESS } else { Exit::from(COMPILE_ERRORS) })
+    Ok(if failed == 0 { Exit::SUCCESS } else { Exit::FAILURE })
 }
 
 /// What failed, then how many.

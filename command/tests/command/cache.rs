@@ -202,7 +202,7 @@ fn who_looks_at_no_terminal_is_told_what_takes_long() {
     let cached = Cached::new("told");
     cached.0.write("b.arl", PRINTS);
     let first = cached.arl2rs(&["run", "a.arl"]);
-    first.is(0, "ran\n").says("compiling the runtime, once for all programs: this takes a minute or so\n");
+    first.is(0, "ran\n").says("compiling the runtime, once for all programs: this takes a minute or two\n");
     first.says("compiled in ");
     assert_eq!(cached.arl2rs(&["run", "b.arl"]).err, "", "the runtime is there");
 }

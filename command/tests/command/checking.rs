@@ -106,7 +106,10 @@ fn the_robot_decides_about_types() {
     folder.arl2rs(&["check", "--robot", "mine.toml", "a.arl"]).is(1, "").says("j5");
     folder.arl2rs(&["check", "--robot", "wrong.toml", "a.arl"]).is(2, "").says("wrong.toml:2: ").says("six-axis");
     folder.arl2rs(&["check", "--robot", "half.toml", "a.arl"]).is(2, "").says("half.toml:").says("`length`");
-    folder.arl2rs(&["check", "--robot", "nothing", "a.arl"]).is(2, "").says("no robot `nothing`");
+    folder
+        .arl2rs(&["check", "--robot", "nothing", "a.arl"])
+        .is(2, "")
+        .says("nothing: no robot of this name is built in");
 }
 
 #[test]

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use super::Folder;
 
-/// Saves ever higher numbers: in a state file, in a pose, in a joint and as a copy of a program, and changes a variable of which
-/// every change is kept. Says which were there at first, and which have been saved.
+/// Saves ever higher numbers: in a state file, in a pose, in a joint and as a copy of a program, and changes a variable
+/// of which every change is kept. Says which were there at first, and which have been saved.
 const PROGRAM: &str = "\
 func void main()
     string f = \"points_data.arl\"

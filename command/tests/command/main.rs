@@ -1,5 +1,5 @@
 //! The command line, as users see it.
-#![allow(clippy::disallowed_methods, clippy::expect_used, reason = "tests read and write files, and may fail")]
+#![allow(clippy::expect_used, reason = "tests read and write files, and may fail")]
 
 mod cache;
 mod checking;

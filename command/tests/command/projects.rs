@@ -63,7 +63,7 @@ fn arl_toml_says_what_the_command_does_not() {
     folder.arl2rs(&["test", "src"]).is(0, "1 passed, 0 failed\n");
     for (text, words) in [
         ("robt = \"a\"", "arl.toml:1: unknown field `robt`"),
-        ("robot = \"none\"", "no robot `none`"),
+        ("robot = \"none\"", "none: no robot of this name is built in"),
         ("robot = \"none.toml\"", "none.toml"),
         ("\ncell = \"no.toml\"", "arl.toml:2: cell: there is no no.toml"),
         ("\nrobot = 3", "arl.toml:2: "),
@@ -108,8 +108,11 @@ fn a_scenario_tells_where_it_names_what_is_not_there() {
 fn what_arl_toml_names_and_is_not_there_is_told_with_its_line() {
     let folder = Folder::new("typos").with("a.arl", WAITS);
     for (text, words) in [
-        ("robot = \"six10\"\n", "arl.toml:1: robot: no robot `six10` is built in"),
-        ("# none\nrobot = \"my.toml\"\n", "arl.toml:2: robot: cannot read the robot file"),
+        (
+            "robot = \"six10\"\n",
+            "arl.toml:1: robot: six10: no robot of this name is built in, and no such file exists; did you mean `six-10`?",
+        ),
+        ("# none\nrobot = \"my.toml\"\n", "/my.toml: cannot read the robot file"),
         ("\ncell = \"cel.toml\"\n", "arl.toml:2: cell: there is no cel.toml"),
     ] {
         folder.write("arl.toml", text);

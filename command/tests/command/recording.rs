@@ -87,7 +87,8 @@ fn a_program_ends_when_who_records_it_is_killed() {
     }
 }
 
-/// What a script of the peers says of a recording; nothing where the modules that it needs are not installed, and nobody requires them.
+/// What a script of the peers says of a recording; nothing where the modules that it needs are not installed, and
+/// nobody requires them.
 fn read_by(script: &str, modules: &str, recording: &std::path::Path) -> Option<serde_json::Value> {
     let python = std::env::var_os("ARL_PEERS_PYTHON").unwrap_or_else(|| "python3".into());
     let import = std::process::Command::new(&python).args(["-c", &format!("import {modules}")]).output();

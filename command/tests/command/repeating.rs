@@ -1,5 +1,5 @@
-//! The same programs, cell and scenario give the same messages and traces, byte for byte: at every start, however busy the machine
-//! is, and however far the runtime and the programs are optimised.
+//! The same programs, cell and scenario give the same messages and traces, byte for byte: at every start, however busy
+//! the machine is, and however far the runtime and the programs are optimised.
 
 use super::{Answer, Folder, cache};
 use std::process::{Child, Stdio};

@@ -68,7 +68,7 @@ fn exit_codes_tell_how_it_ended() {
     );
     folder.arl2rs(&["run", "endless.arl", "--max-time", "0.1"]).is(4, "").says("the program calculates in endless.arl");
     folder.arl2rs(&["run", "wrong.arl"]).is(1, "").says("ARL0211");
-    folder.arl2rs(&["run", "endless.arl", "--robot", "none"]).is(2, "").says("no robot `none`");
+    folder.arl2rs(&["run", "endless.arl", "--robot", "none"]).is(2, "").says("none: no robot of this name is built in");
     folder.arl2rs(&["run", "endless.arl", "--io", "none.toml"]).is(2, "").says("none.toml");
 }
 
@@ -255,12 +255,44 @@ fn a_report_says_what_each_line_did() {
     assert_eq!(lines[4]["motions"], 4);
     assert!(lines[4]["standing"].as_f64().expect("a number") > 0.99);
 
+    // The report of the whole run has the same seconds for each line.
+    folder.arl2rs(&["run", "way.arl", "--report=way.json", "--format", "json"]).is(0, "");
+    let whole: serde_json::Value = serde_json::from_str(&folder.read("way.json")).expect("JSON");
+    for line in whole["channels"][0]["lines"].as_array().expect("lines") {
+        let of_line = lines.iter().filter(|motion| motion["line"] == line["line"]);
+        let seconds: f64 = of_line.filter_map(|motion| motion["duration"].as_f64()).sum();
+        assert!((line["moving"].as_f64().expect("a number") - seconds).abs() < 1e-5, "{line} {seconds}");
+    }
+
     folder
         .arl2rs(&["run", "still.arl", "--report"])
         .is(0, "1\n")
         .says(": 0.000 s moving (0 %)")
         .says("0 motions, 0.000 m");
     folder.arl2rs(&["run", "still.arl", "--report=none/a"]).is(2, "").says("none/a");
+}
+
+#[test]
+fn a_report_is_in_the_order_of_execution_and_counts_no_zone_that_was_not_reached() {
+    // What is planned ahead has the lower number, and comes behind what an interrupt does in between.
+    let program = "func void aside()\n    stopmove\n    lin reltool(cpose(),0,0,-30,0,0,0),vl:100mm/s\n    startmove\n\
+                   endfunc\nfunc void away()\n    stopmove\n    startmove 1\nendfunc\nfunc void main()\n    \
+                   movej j:{10,-90,90,0,90,0}\n    waittime 0\n    pose p = cpose($FLANGE,$WORLD)\n    \
+                   interrupt 1,when:getdi(1),do:aside()\n    interrupt 2,when:getdi(2),do:away()\n    setdo(1,true)\n    \
+                   lin offset(p,0,200,0,0,0,0),vl:200mm/s,sl:20mm\n    lin offset(p,0,200,-100,0,0,0),vl:200mm/s\n    \
+                   setdo(2,true)\n    lin offset(p,0,0,-100,0,0,0),vl:100mm/s,sl:20mm\n    lin p,vl:100mm/s\nendfunc\n";
+    let scenario = "[[event]]\nwhen = \"do.1\"\nafter = 0.2\ndi.1 = true\n\
+                    [[event]]\nwhen = \"do.2\"\nafter = 0.5\ndi.2 = true\n";
+    let folder = Folder::new("report_order").with("way.arl", program).with("io.toml", scenario);
+    folder.arl2rs(&["run", "way.arl", "--io", "io.toml", "--report=way.jsonl"]).is(0, "");
+    let text = folder.read("way.jsonl");
+    let motions: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let starts: Vec<f64> = motions.iter().filter_map(|motion| motion["start"].as_f64()).collect();
+    assert!(starts.len() > 5 && starts.is_sorted(), "{text}");
+    let numbers: Vec<i64> = motions.iter().filter_map(|motion| motion["motion"].as_i64()).collect();
+    assert!(!numbers.is_sorted(), "the interrupt's motion was planned later: {text}");
+    let left = motions.iter().find(|motion| motion["line"] == 20).expect("the line that was left");
+    assert_eq!((&left["blend"]["asked"], &left["blend"]["used"]), (&20.0.into(), &0.0.into()), "{text}");
 }
 
 #[test]

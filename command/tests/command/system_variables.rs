@@ -23,8 +23,8 @@ enum Restored {
 
 use Restored::{Never, ReadOnly, Reset, Saved, Start};
 
-/// Name, type as `typeof` tells it, what is looked at of it, what that prints at first, a value and how that is printed,
-/// when the default comes back.
+/// Name, type as `typeof` tells it, what is looked at of it, what that prints at first, a value and how that is
+/// printed, when the default comes back.
 type Row = (&'static str, &'static str, &'static str, &'static str, &'static str, &'static str, Restored);
 
 const TOOL: &str = "{{0,0,0,0,0,0},false}";
@@ -144,8 +144,8 @@ fn the_catalog_says_what_the_table_says() {
     assert!(rows.is_empty(), "{:?} are not in the catalog", rows.keys());
 }
 
-/// A program that tells all variables, writes them, and tells them again: by the inputs that are on, saves them (1), does
-/// nothing but tell them (2), sets them back by `init` (3). In the loop running mode it ends with its second run.
+/// A program that tells all variables, writes them, and tells them again: by the inputs that are on, saves them (1),
+/// does nothing but tell them (2), sets them back by `init` (3). In the loop running mode it ends with its second run.
 fn program() -> String {
     let mut tell = String::from("func void tell(string when)\n");
     let (mut write, mut save) = (String::new(), String::new());

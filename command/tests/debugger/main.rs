@@ -1,11 +1,6 @@
 //! `arl2rs dap`, as an editor uses it.
 
-#![allow(
-    clippy::disallowed_methods,
-    clippy::unwrap_used,
-    clippy::expect_used,
-    reason = "tests start processes, and may fail"
-)]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "tests start processes, and may fail")]
 
 mod client;
 #[path = "../support/messages.rs"]

@@ -1,5 +1,5 @@
 //! The language server, as editors see it: `arl2rs lsp`, spoken to over its standard input and output.
-#![allow(clippy::disallowed_methods, clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test")]
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test")]
 
 mod client;
 mod completion;

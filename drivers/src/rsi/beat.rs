@@ -9,8 +9,8 @@ use arl_rt::clock::{Clock, Lateness};
 
 use super::link::Link;
 
-/// For so long the controller stands still where no message comes, and for so many cycles at least. A robot gives up soon after that, and
-/// the inputs and the pendant want to be heard.
+/// For so long the controller stands still where no message comes, and for so many cycles at least. A robot gives up
+/// soon after that, and the inputs and the pendant want to be heard.
 const PATIENT: Duration = Duration::from_millis(30);
 const PATIENT_CYCLES: f64 = 3.0;
 
@@ -19,8 +19,9 @@ pub(super) fn longest_wait(period: f64) -> Duration {
     PATIENT.max(Duration::from_secs_f64(period * PATIENT_CYCLES))
 }
 
-/// Cycles begin when the robot sends. A message that is missing is a cycle that is lost: the motion does not go on without it. Where none
-/// comes for 30 ms and three cycles, they go on at their own pace: then the controller finds that no position comes, and the run ends.
+/// Cycles begin when the robot sends. A message that is missing is a cycle that is lost: the motion does not go on
+/// without it. Where none comes for 30 ms and three cycles, they go on at their own pace: then the controller finds
+/// that no position comes, and the run ends.
 pub struct RsiBeat {
     link: Rc<RefCell<Link>>,
     /// When the last message should have come, or came.

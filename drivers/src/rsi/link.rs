@@ -122,7 +122,8 @@ impl Link {
         received
     }
 
-    /// Takes what has come: by how much the robot's time has gone on, 0 where it does not count; `None`: nothing has come.
+    /// Takes what has come: by how much the robot's time has gone on, 0 where it does not count; `None`: nothing has
+    /// come.
     fn take_packet(&mut self) -> Option<u64> {
         let mut bytes = [0; LONGEST];
         let (length, from) = match self.socket.as_ref()?.recv_from(&mut bytes) {

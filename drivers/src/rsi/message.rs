@@ -1,5 +1,5 @@
-//! The messages of RSI. Which elements there are says the configuration of the robot's controller; the order is free, and what is not known
-//! here is passed over.
+//! The messages of RSI. Which elements there are says the configuration of the robot's controller; the order is free,
+//! and what is not known here is passed over.
 
 use std::io::Write;
 

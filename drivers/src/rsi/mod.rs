@@ -1,5 +1,5 @@
-//! A KUKA robot whose controller runs RobotSensorInterface (RSI): it sends where the axes are in each of its cycles, 4 ms or 12 ms long, and
-//! takes corrections of the axes in the answer. So it gives the beat: our cycles are its own.
+//! A KUKA robot whose controller runs RobotSensorInterface (RSI): it sends where the axes are in each of its cycles, 4
+//! ms or 12 ms long, and takes corrections of the axes in the answer. So it gives the beat: our cycles are its own.
 
 mod beat;
 mod link;
@@ -31,7 +31,8 @@ const STANDS: f64 = 0.1;
 /// How many answers tell a robot to stop: a packet may be lost.
 const STOPS: u32 = 5;
 
-/// A robot that speaks RSI. Its [beat](RsiArm::beat) has to be the clock of the controller, whose cycles are as long as those of the robot.
+/// A robot that speaks RSI. Its [beat](RsiArm::beat) has to be the clock of the controller, whose cycles are as long as
+/// those of the robot.
 ///
 /// ```no_run
 /// use arl_drivers::rsi::RsiArm;
@@ -183,13 +184,14 @@ impl RobotDriver for RsiArm {
     }
 }
 
-/// By how many ms a message may come behind the one that was answered last. A robot has given up that had no answer for longer than the beat
-/// waits for a message.
+/// By how many ms a message may come behind the one that was answered last. A robot has given up that had no answer for
+/// longer than the beat waits for a message.
 fn given_up_ms(period: f64) -> u64 {
     ((beat::longest_wait(period).as_secs_f64() + period) * 1e3).ceil() as u64
 }
 
-/// The cycles of the robot, whose time counts in ms, have to be as long as ours. Messages may be lost: then a step is longer.
+/// The cycles of the robot, whose time counts in ms, have to be as long as ours. Messages may be lost: then a step is
+/// longer.
 fn fits(steps: &[u64], period: f64) -> Result<(), String> {
     let step = steps.iter().min().copied().unwrap_or_default();
     let own = period * 1e3;

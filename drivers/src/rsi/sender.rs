@@ -71,7 +71,9 @@ impl Sender {
     /// Why nothing that counts has come to `listen` for `seconds`, where anything has come at all.
     pub(super) fn missing(&self, listen: &str, seconds: u64) -> String {
         if let Some(robot) = self.followed {
-            return format!("nothing more has come from {robot} to {listen} within {seconds} s");
+            return format!(
+                "nothing more has come from {robot} to {listen} within {seconds} s: its program has left RSI, or was stopped"
+            );
         }
         match (&self.address, self.other) {
             (Some(address), Some(other)) => format!(
@@ -151,6 +153,9 @@ mod tests {
         assert!(first.missing("*:1", 30).starts_with("nothing has come to *:1 within 30 s: start RSI"));
         first.follow(at("10.0.0.1:5"));
         first.note_other(at("10.0.0.2:7"));
-        assert_eq!(first.missing("*:1", 30), "nothing more has come from 10.0.0.1:5 to *:1 within 30 s");
+        assert_eq!(
+            first.missing("*:1", 30),
+            "nothing more has come from 10.0.0.1:5 to *:1 within 30 s: its program has left RSI, or was stopped"
+        );
     }
 }

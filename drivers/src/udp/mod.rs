@@ -51,8 +51,8 @@ impl UdpArm {
         Self { address: address.into(), link: None, patience: None }
     }
 
-    /// An arm that is simulated, and whose time counts: each exchange waits for its answer, two seconds at most. So a run is the same
-    /// each time, if the simulator is.
+    /// An arm that is simulated, and whose time counts: each exchange waits for its answer, two seconds at most. So a
+    /// run is the same each time, if the simulator is.
     pub fn in_its_own_time(self) -> Self {
         Self { patience: Some(Patience::default()), ..self }
     }
@@ -164,7 +164,8 @@ impl Link {
         Err(format!("no arm answers at {address}: nothing that is an answer came within {} s", ANSWER.as_secs()))
     }
 
-    /// Switches the motors on, and waits until they are; where the arm is then. Until that it is asked to stay where it is.
+    /// Switches the motors on, and waits until they are; where the arm is then. Until that it is asked to stay where it
+    /// is.
     fn switch_on(&mut self, start: &Start<'_>, position: Joints) -> Result<Joints, String> {
         let mut here = start.begin_at(position)?;
         self.switch(Power::On);
@@ -211,7 +212,8 @@ impl Link {
         self.powered = self.sent + 1;
     }
 
-    /// Whether the arm has had what was sent lately: one that says only where it is, and hears nothing, is as good as lost.
+    /// Whether the arm has had what was sent lately: one that says only where it is, and hears nothing, is as good as
+    /// lost.
     fn is_of_now(&self, state: &State) -> bool {
         let late = (DEAF.as_secs_f64() / self.last.period).max(DEAF_CYCLES) as u64;
         state.answers.saturating_add(late) >= self.sent

@@ -1,4 +1,5 @@
-//! The session's own copy of the compiled program: others may compile it anew in the meantime, and the way back runs it again.
+//! The session's own copy of the compiled program: others may compile it anew in the meantime, and the way back runs it
+//! again.
 
 use super::remains::PREFIX;
 use arl_project::program::Ready;

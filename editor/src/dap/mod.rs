@@ -1,9 +1,9 @@
 //! `arl2rs dap`: a debug adapter on standard input and output.
 //!
-//! The program is compiled with hooks (`emit/hooks.rs`) and runs as a process of its own; it connects to the adapter and
-//! halts where that says (`arl-rt/src/command/debug/`). The adapter knows the editor's side: breakpoints with conditions,
-//! frames, variables and expressions. A step backward is a run from the start to one statement earlier: on the virtual clock
-//! a run repeats itself.
+//! The program is compiled with hooks (`emit/hooks.rs`) and runs as a process of its own; it connects to the adapter
+//! and halts where that says (`arl-rt/src/command/debug/`). The adapter knows the editor's side: breakpoints with
+//! conditions, frames, variables and expressions. A step backward is a run from the start to one statement earlier: on
+//! the virtual clock a run repeats itself.
 
 mod breakpoints;
 mod evaluate;
@@ -20,9 +20,8 @@ mod variables;
 
 pub use program::{FileKey, Key, Programs};
 
+use crate::framing::Messages;
 use arl_terminal::exit::Exit;
-use arl_terminal::failure::Failure;
-use arl_terminal::framing::Messages;
 use session::Session;
 use std::sync::mpsc::channel;
 
@@ -37,7 +36,7 @@ enum Event {
 }
 
 /// Serves one editor until it is gone or has said `disconnect`.
-pub fn dap() -> Result<Exit, Failure> {
+pub fn dap() -> Exit {
     let (sender, events) = channel();
     let requests = sender.clone();
     std::thread::spawn(move || {
@@ -53,5 +52,5 @@ pub fn dap() -> Result<Exit, Failure> {
         let _ = requests.send(Event::Gone);
     });
     Session::new(sender, events).serve();
-    Ok(Exit::SUCCESS)
+    Exit::SUCCESS
 }

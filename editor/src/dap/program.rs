@@ -1,4 +1,5 @@
-//! The programs that are debugged, as the checker knows them: files, functions, the lines that a program can be halted at.
+//! The programs that are debugged, as the checker knows them: files, functions, the lines that a program can be halted
+//! at.
 
 use arl_lang::span::LineIndex;
 use arl_lang::written;

@@ -1,6 +1,6 @@
 //! The messages of the debug adapter protocol.
 
-use arl_terminal::framing;
+use crate::framing;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::cell::Cell;
@@ -46,7 +46,8 @@ impl Outgoing {
         self.send(json!({"type": "event", "event": event, "body": body}));
     }
 
-    /// Shows a text: `stdout` what the program prints, `stderr` mistakes and alarms, `console` what the adapter has to say.
+    /// Shows a text: `stdout` what the program prints, `stderr` mistakes and alarms, `console` what the adapter has to
+    /// say.
     pub(super) fn output(&self, category: &str, text: &str) {
         self.event("output", json!({"category": category, "output": text}));
     }

@@ -1,5 +1,5 @@
-//! The state that the controller keeps between runs: each run of a session begins with a copy of what is there, so that runs
-//! repeat each other. What they keep goes with the session.
+//! The state that the controller keeps between runs: each run of a session begins with a copy of what is there, so that
+//! runs repeat each other. What they keep goes with the session.
 
 use super::remains::PREFIX;
 use arl_terminal::private_folder::PrivateFolder;

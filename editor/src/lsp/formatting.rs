@@ -47,8 +47,8 @@ fn lines(text: &str) -> Vec<&str> {
     text.split_inclusive('\n').collect()
 }
 
-/// After Enter behind a line that opens a block or a branch: the new line goes one level in, and where nothing closes the
-/// block, what closes it is put below.
+/// After Enter behind a line that opens a block or a branch: the new line goes one level in, and where nothing closes
+/// the block, what closes it is put below.
 pub(super) fn typed(server: &Server, params: DocumentOnTypeFormattingParams) -> Result<Option<Vec<TextEdit>>, Refusal> {
     let find = || {
         let document = server.documents.get(&path_of(&params.text_document.uri))?;

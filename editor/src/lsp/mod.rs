@@ -38,14 +38,13 @@ mod uri;
 mod workspace;
 
 use arl_terminal::exit::Exit;
-use arl_terminal::failure::Failure;
 
 /// Serves one client until it says `exit` or closes the connection.
-pub fn lsp() -> Result<Exit, Failure> {
+pub fn lsp() -> Exit {
     let incoming = transport::reader();
     let (outgoing, writer) = transport::writer();
     let ended_well = server::Server::new(outgoing).serve(&incoming);
     // What was said last is still written.
     let _ = writer.join();
-    Ok(if ended_well { Exit::SUCCESS } else { Exit::FAILURE })
+    if ended_well { Exit::SUCCESS } else { Exit::FAILURE }
 }

@@ -6,6 +6,7 @@
 use super::documents::Documents;
 use super::text::{Encoding, Text};
 use arl_lang::catalog::Family;
+use arl_lang::files::owner;
 use arl_robot::cell::Names;
 use arl2rs::check::clean;
 use arl2rs::compile::{Bug, check_program};
@@ -102,14 +103,7 @@ pub(super) struct Programs {
 impl Programs {
     /// The main file of the program that tells about a file: a data file is seen by the program beside it.
     pub(super) fn root(&self, path: &Path, documents: &Documents) -> PathBuf {
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        let end = stem.len().saturating_sub("_data".len());
-        let owner = match (stem.get(..end), stem.get(end..)) {
-            (Some(owner), Some("_data")) if !owner.is_empty() => owner,
-            _ => return path.to_path_buf(),
-        };
-        let owner = path.with_file_name(format!("{owner}.arl"));
-        if documents.exists(&owner) { owner } else { path.to_path_buf() }
+        owner(path).filter(|owner| documents.exists(owner)).unwrap_or_else(|| path.to_path_buf())
     }
 
     /// The program that tells about a file, checked now if it was not since the last change.

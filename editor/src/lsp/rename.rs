@@ -64,8 +64,8 @@ pub(super) fn rename(server: &Server, params: RenameParams) -> Result<Option<Wor
     Ok(Some(edits(server, &uses, name)))
 }
 
-/// Refuses where the old name stands somewhere that the checker did not get to, behind a mistake: nobody knows whether it
-/// means the same there.
+/// Refuses where the old name stands somewhere that the checker did not get to, behind a mistake: nobody knows whether
+/// it means the same there.
 fn is_known_everywhere(place: &Place, program: &Program) -> Result<(), Refusal> {
     let Some(mention) = place.mention() else { return Ok(()) };
     let (old, own) = (place.file.program.at(mention.at), place.file.index());

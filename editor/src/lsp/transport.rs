@@ -1,9 +1,9 @@
 //! Messages over standard input and output.
 //!
-//! A message that is no JSON, or not what the protocol allows, is answered and passed over: its header tells its length.
-//! What stands between messages and is no header is passed over, too.
+//! A message that is no JSON, or not what the protocol allows, is answered and passed over: its header tells its
+//! length. What stands between messages and is no header is passed over, too.
 
-use arl_terminal::framing::{self, Messages};
+use crate::framing::{self, Messages};
 use gen_lsp_types::ErrorCodes;
 use gen_lsp_types::json_rpc::Id;
 use serde::Serialize;

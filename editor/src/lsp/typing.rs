@@ -79,9 +79,9 @@ impl<'a> Typing<'a> {
         Some(File { program: Rc::new(program), id })
     }
 
-    /// The text with [`HERE`] at the cursor, in place of the rest of a name there, and with what may be missing to the end
-    /// of the line, where nothing but a comment follows there. `None` where something follows and something is to be put
-    /// between.
+    /// The text with [`HERE`] at the cursor, in place of the rest of a name there, and with what may be missing to the
+    /// end of the line, where nothing but a comment follows there. `None` where something follows and something is to
+    /// be put between.
     fn marked(&self, rest: &str) -> Option<String> {
         let (before, behind) = self.text.text.split_at(self.offset as usize);
         let behind = behind.trim_start_matches(|one: char| one.is_ascii_alphanumeric() || one == '_');

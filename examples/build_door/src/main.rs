@@ -26,8 +26,8 @@ fn main() -> Result<(), Failure> {
 
     let (messages, mut controller) = ready(filling::Globals::new())?;
     controller.run_for(4.0);
-    println!("inlet open: {}", controller.dout(1)?);
-    controller.set_di(1, true)?;
+    println!("inlet open: {}", controller.digital_output(1)?);
+    controller.set_digital_input(1, true)?;
     println!("fill: {:?}, {}", controller.run(), messages.text().trim());
 
     let (messages, mut controller) = ready(draining::Globals::new())?;
@@ -56,7 +56,7 @@ fn fill_at(rate: f64) -> Result<String, Failure> {
         .on_init(move |globals: &filling::Globals| globals.fill.rate.set(rate))
         .build(Box::new(filling::Globals::new()))?;
     controller.run_for(2.0);
-    controller.set_di(1, true)?;
+    controller.set_digital_input(1, true)?;
     controller.run();
     let switched = controller.globals::<filling::Globals>().map(|globals| globals.valves.switched.get());
     if switched == Some(2) { Ok(messages.text()) } else { Err("the valve was not switched twice".into()) }
@@ -70,8 +70,8 @@ fn fill_from_outside() -> Result<String, Failure> {
         builder.build(Box::new(filling::Globals::new()))
     })?;
     let handle = running.handle();
-    while !handle.dout(1)? {} // asks once a cycle
-    handle.set_di(1, true)?;
+    while !handle.digital_output(1)? {} // asks once a cycle
+    handle.set_digital_input(1, true)?;
     println!("fill: {}", running.join());
     let texts = events.iter().filter_map(|event| match event {
         Event::Message { text, .. } => Some(text),

@@ -66,7 +66,7 @@ mod tests {
         let mut before = false;
         while controller.outcome().is_none() {
             controller.step();
-            let now = controller.dout(1)?;
+            let now = controller.digital_output(1)?;
             offered += u32::from(now && !before);
             before = now;
             assert!(controller.time() < 120.0, "{}", messages.text());

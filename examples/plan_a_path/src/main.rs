@@ -1,5 +1,5 @@
-//! A path planned in Rust alone, without any ARL: a square with rounded corners, stopped once on its path. Prints a row a cycle:
-//! time in s, the axes in deg, the place of the TCP in mm.
+//! A path planned in Rust alone, without any ARL: a square with rounded corners, stopped once on its path. Prints a row
+//! a cycle: time in s, the axes in deg, the place of the TCP in mm.
 //!
 //! ```sh
 //! cargo run -p example-plan-a-path > path.csv

@@ -31,8 +31,8 @@ pub(super) fn read() -> Result<Option<u64>, Failure> {
 }
 
 impl Cache {
-    /// Removes programs, runtimes and results of sweeps, first what was not used for longest, until the rest is within the limit. The program
-    /// that was just made stays. Its runtime goes last: the next program then compiles it again.
+    /// Removes programs, runtimes and results of sweeps, first what was not used for longest, until the rest is within
+    /// the limit. The program that was just made stays. Its runtime goes last: the next program then compiles it again.
     pub fn keep_limit(&self, made: &Place, runtime: &Path) -> Removed {
         let mut removed = Removed::default();
         let Some(limit) = self.limit else { return removed };

@@ -15,7 +15,11 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// Locks a folder, which is made where there is none, and notes that it is used now. `words` say what is waited for.
+    /// Locks a folder, which is made where there is none, and notes that it is used now. `words` say what is waited
+    /// for.
+    ///
+    /// # Errors
+    /// The folder cannot be made, or not be locked.
     pub fn take(folder: &Path, shared: bool, words: &str) -> Result<Self, Failure> {
         loop {
             std::fs::create_dir_all(folder).map_err(|error| unusable("make the folder", folder, &error))?;
@@ -23,7 +27,8 @@ impl Lock {
             let lock = lock(&path, shared, words).map_err(|error| unusable("lock", &path, &error))?;
             // Who was waited for may have removed the folder.
             if path.exists() {
-                // Where the time cannot be set it is older than it should be: the folder goes earlier, and is made again.
+                // Where the time cannot be set it is older than it should be: the folder goes earlier, and is made
+                // again.
                 let _ = lock.set_modified(SystemTime::now());
                 return Ok(Self { _file: lock });
             }

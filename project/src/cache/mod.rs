@@ -1,5 +1,6 @@
-//! Where compiled programs are kept: a folder `programs` with one for each program, and a folder `runtime` with one for each
-//! runtime: its sources, where the command carries them, and what cargo made with it; and a folder `results` with what came of sweeps.
+//! Where compiled programs are kept: a folder `programs` with one for each program, and a folder `runtime` with one for
+//! each runtime: its sources, where the command carries them, and what cargo made with it; and a folder `results` with
+//! what came of sweeps.
 
 mod content;
 mod limit;
@@ -160,12 +161,18 @@ impl Place {
     }
 
     /// Waits until no other process compiles this program. `shared` is for starting it.
+    ///
+    /// # Errors
+    /// As for [`Lock::take`].
     pub fn lock(&self, shared: bool) -> Result<Lock, Failure> {
         Lock::take(&self.folder, shared, "waiting for another arl2rs that compiles this program")
     }
 }
 
 /// Writes a file unless it already has this content; says whether it wrote.
+///
+/// # Errors
+/// It can be neither read nor written.
 pub fn write_if_changed(path: &Path, content: &[u8]) -> Result<bool, Failure> {
     match arl2rs::sources::write_if_changed(path, content) {
         Ok(written) => Ok(written),

@@ -14,7 +14,7 @@ pub struct Removed {
     pub runtimes: usize,
     /// Files with results of sweeps.
     pub results: usize,
-    /// What they took.
+    /// What they took, in bytes.
     pub bytes: u64,
     /// The folders that were not: another process uses them, or they cannot be removed.
     pub kept: Vec<PathBuf>,
@@ -124,8 +124,9 @@ fn made_of(program: &Path, target: &Path) -> Vec<PathBuf> {
     paths.filter(|path| path.file_name().is_some_and(|name| is_made_of(&name.to_string_lossy(), &package))).collect()
 }
 
-/// Whether cargo gives this name to something that it makes of a package: `package`, `package-0123456789abcdef.d`, `libpackage.so`, or the
-/// parts of a program of tests, `package-part1`; not what it makes of the same program for something else, `package-debug`.
+/// Whether cargo gives this name to something that it makes of a package: `package`, `package-0123456789abcdef.d`,
+/// `libpackage.so`, or the parts of a program of tests, `package-part1`; not what it makes of the same program for
+/// something else, `package-debug`.
 fn is_made_of(name: &str, package: &str) -> bool {
     let name = name.strip_prefix(std::env::consts::DLL_PREFIX).unwrap_or(name);
     let is_other =

@@ -6,7 +6,8 @@ use parry3d_f64::math::{Pose, Rotation, Vector};
 
 use arl_wire::{Moves, Runs, placed};
 
-/// A robot's arm in its base, which stands in the world; or a carrier, with those that it is on as links. Lengths are mm.
+/// A robot's arm in its base, which stands in the world; or a carrier, with those that it is on as links. Lengths are
+/// mm.
 pub(super) struct Arm {
     /// The channel of the robot, from 0.
     channel: usize,
@@ -152,8 +153,8 @@ impl Arm {
         &self.axes
     }
 
-    /// The most that a place of the last of these links moves against the link before the first one, in mm, while the axes go from `before`
-    /// to where they are now. The place is no farther from its link's origin than `away`.
+    /// The most that a place of the last of these links moves against the link before the first one, in mm, while the
+    /// axes go from `before` to where they are now. The place is no farther from its link's origin than `away`.
     pub(super) fn moved(&self, before: &[f64], links: std::ops::Range<usize>, away: f64) -> f64 {
         // From the last joint on back, each one swings all that is behind it.
         let mut reach = away;

@@ -128,7 +128,8 @@ pub(super) fn of_link(channel: usize, (link, of): (usize, usize), looks: &Looks)
     looks.touched.iter().map(item).collect()
 }
 
-/// The forms of a body of the cell, which is number `number` of them. What a robot takes along is there twice, standing and held.
+/// The forms of a body of the cell, which is number `number` of them. What a robot takes along is there twice, standing
+/// and held.
 pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<Item>, String> {
     let holder = match body.holder {
         cell::Holder::World => Holder::World,

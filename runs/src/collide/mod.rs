@@ -1,8 +1,9 @@
-//! Collisions of a run: each cycle, robots with themselves, with each other, with the bodies of the cell, what they carry and what their
-//! external axes move.
+//! Collisions of a run: each cycle, robots with themselves, with each other, with the bodies of the cell, what they
+//! carry and what their external axes move.
 //!
-//! Each contact of a pair is told with the time and the place of the motion; once it has parted, the next one is another. With a clearance, so
-//! is the nearest that a pair that never touched comes to each other, where that is nearer.
+//! Each contact of a pair is told with the time and the place of the motion; once it has parted, the next one is
+//! another. With a clearance, so is the nearest that a pair that never touched comes to each other, where that is
+//! nearer.
 
 mod arm;
 mod item;
@@ -67,8 +68,8 @@ impl Scene {
         Ok(Self { parts, bodies, links, carriers: scenery.carriers.clone() })
     }
 
-    /// Who watches bodies that robots take along, and who looks for collisions, in this order, and what that will have found. With a clearance
-    /// above 0, in mm, what comes nearer is told, too; whether as it comes, `tells` says.
+    /// Who watches bodies that robots take along, and who looks for collisions, in this order, and what that will have
+    /// found. With a clearance above 0, in mm, what comes nearer is told, too; whether as it comes, `tells` says.
     pub fn watch(mut self, clearance: f64, tells: bool) -> (Watchers, Rc<RefCell<Found>>) {
         let mut watchers = Watchers::new();
         if let Some(parts) = self.parts.take() {
@@ -280,7 +281,8 @@ fn part(touching: &mut BTreeMap<[String; 2], usize>, items: [&Item; 2]) {
     }
 }
 
-/// How far two items are apart, in mm; 0: they touch. `None` for forms that the library cannot measure, of which there are none.
+/// How far two items are apart, in mm; 0: they touch. `None` for forms that the library cannot measure, of which there
+/// are none.
 fn distance((here, one): (&Pose, &Item), (there, other): (&Pose, &Item)) -> Option<f64> {
     let found = parry3d_f64::query::distance(here, &*one.shape, there, &*other.shape).ok()?.distance;
     // Where its search does not settle, the library says 0.
@@ -317,7 +319,8 @@ fn bodies(scenery: &Scenery) -> Result<Vec<Item>, Failure> {
     Ok(items)
 }
 
-/// The forms of the links of robots, by channels: none where a robot has no shape of its own, or where that cannot be read, which is told.
+/// The forms of the links of robots, by channels: none where a robot has no shape of its own, or where that cannot be
+/// read, which is told.
 fn links(scenery: &Scenery, tell: &dyn Fn(&str)) -> Vec<Vec<Item>> {
     let of_channel = |channel: usize| {
         let Some(shape) = scenery.shape(channel) else { return Vec::new() };

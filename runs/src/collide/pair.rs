@@ -1,7 +1,8 @@
 //! Two items that may touch, and when they have to be looked at again.
 //!
-//! A pair that is far apart cannot touch before its robots have moved as far: how far the places of a link move while the axes change is
-//! bounded by the lengths of the arm. So each pair is looked at in few cycles, and no contact is missed in any.
+//! A pair that is far apart cannot touch before its robots have moved as far: how far the places of a link move while
+//! the axes change is bounded by the lengths of the arm. So each pair is looked at in few cycles, and no contact is
+//! missed in any.
 
 use super::arm::Arm;
 use super::item::{Holder, Item, Limb};
@@ -75,8 +76,8 @@ struct Known {
     room: f64,
 }
 
-/// All pairs that count, in the order of their items: nothing that is built together, nothing that stands in the world with something else
-/// that does.
+/// All pairs that count, in the order of their items: nothing that is built together, nothing that stands in the world
+/// with something else that does.
 pub(super) fn pairs(items: &[Item], arms: &[Option<Arm>]) -> Vec<Pair> {
     let limbs: Vec<&Item> = items.iter().filter(|item| item.limb.is_some()).collect();
     // A cell may have many bodies that stand: they are looked at with what moves only.
@@ -119,7 +120,8 @@ fn counts(limbs: &[&Item], one: &Item, other: &Item) -> bool {
     }
 }
 
-/// Whether the first one is taken along by the second one, what is on the flange or the last limb: that it touches it is what it is for.
+/// Whether the first one is taken along by the second one, what is on the flange or the last limb: that it touches it
+/// is what it is for.
 fn takes(limbs: &[&Item], part: &Item, gripper: &Item) -> bool {
     let holds = |by: usize| match gripper.limb {
         Some(limb) => gripper.holder.arm() == Some(by) && is_last(limbs, gripper, limb),
@@ -205,7 +207,8 @@ impl Pair {
         self.leave()
     }
 
-    /// One of its items is not there, or elsewhere: it is looked at anew once both are there. Whether they touched until now.
+    /// One of its items is not there, or elsewhere: it is looked at anew once both are there. Whether they touched
+    /// until now.
     pub(super) fn leave(&mut self) -> bool {
         self.known = None;
         let touched = matches!(self.state, State::Touching);
@@ -241,7 +244,8 @@ impl Pair {
         }
     }
 
-    /// The most that the two have moved against each other since the axes were there, in mm: by what does not move both.
+    /// The most that the two have moved against each other since the axes were there, in mm: by what does not move
+    /// both.
     fn moved(&self, before: &[Vec<f64>; 2], arms: &[Option<Arm>]) -> f64 {
         let moved = |end: &End, before: &[f64]| {
             end.arm(arms).map_or(0.0, |arm| arm.moved(before, self.shared..end.link, end.farthest))

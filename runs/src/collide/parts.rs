@@ -14,7 +14,8 @@ use crate::scenery::Scenery;
 use arl_terminal::failure::Failure;
 use arl_wire::{Line, Place, Placing, Runs, State};
 
-/// The bodies with a grip. While its gripper is on and holds nothing, a robot takes the nearest one that its TCP is near to.
+/// The bodies with a grip. While its gripper is on and holds nothing, a robot takes the nearest one that its TCP is
+/// near to.
 #[derive(Clone)]
 pub(super) struct Parts {
     pub(super) parts: Vec<Part>,

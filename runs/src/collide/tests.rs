@@ -6,6 +6,7 @@ use arl_robot::robot::Robot;
 use serde_json::json;
 
 use super::*;
+use crate::scenery::tests::scenery_of;
 use crate::scenery::tests::{BALL, Files, ROD, arm};
 use arl_wire::{Cycle, Hello, Moves, State};
 
@@ -52,7 +53,7 @@ fn cycle(step: u32, axes: &[Vec<f64>]) -> Cycle {
 }
 
 fn scenery(text: &str) -> Scenery {
-    Scenery::of(&Cell::parse("cell.toml", text).unwrap(), None).unwrap()
+    scenery_of(&Cell::parse("cell.toml", text).unwrap()).unwrap()
 }
 
 fn scene(scenery: &Scenery) -> Result<Scene, Failure> {
@@ -79,7 +80,8 @@ fn motion(robot: &Robot, random: &mut Random) -> impl Fn(u32) -> Vec<f64> + use<
     }
 }
 
-/// Of each pair of a cell, the first cycle in which it touches, and the nearest that it comes before that, looked for in each cycle.
+/// Of each pair of a cell, the first cycle in which it touches, and the nearest that it comes before that, looked for
+/// in each cycle.
 fn by_looking_always(collisions: &mut Collisions, cycles: &[Cycle]) -> Vec<(String, String, Option<f64>, f64)> {
     let mut found: Vec<(String, String, Option<f64>, f64)> = collisions
         .pairs
@@ -156,7 +158,7 @@ const TABLE: &str = "[[carrier]]\naxis = \"ej1\"\nchannel = 2\nat = [700, 0, 500
 
 fn begun_with_table(clearance: f64) -> Collisions {
     let cell = Cell::parse("cell.toml", TABLE).unwrap();
-    let mut scenery = Scenery::of(&Cell { carriers: Vec::new(), ..cell.clone() }, None).unwrap();
+    let mut scenery = scenery_of(&Cell { carriers: Vec::new(), ..cell.clone() }).unwrap();
     scenery.carriers = cell.carriers;
     let mut hello = hello(&["kr10-r1420", "kr10-r1420"]);
     for (name, unit, most) in [("ej1", "deg", 120.0), ("ej2", "deg", 360.0), ("ej3", "mm", 800.0)] {
@@ -559,7 +561,8 @@ fn a_robot_with_a_shape_of_its_own_touches_by_its_links() {
         }
         found.into_iter().map(|contact| (contact.one, contact.other)).collect::<Vec<_>>()
     };
-    // The upper arm comes down on a bar beside the shoulder, and the hand, by its hull, on a block in front of the robot.
+    // The upper arm comes down on a bar beside the shoulder, and the hand, by its hull, on a block in front of the
+    // robot.
     let bar = "[[body]]\nname = \"bar\"\nbox = [20, 2000, 20]\nat = [500, 0, 600]\n";
     assert_eq!(touched(bar, [0.0, -20.0, 90.0, 0.0, 0.0, 0.0]), [("the upper arm".to_owned(), "bar".to_owned())]);
     let block = "[[body]]\nname = \"block\"\nbox = [50, 50, 50]\nat = [985, 0, 880]\n";

@@ -1,5 +1,5 @@
-//! The same doors without a fuzzer: good files, changed at random places, with fixed seeds. `ARL_FILES_ROUNDS=N` tries N of each kind,
-//! `ARL_FILES_SEED=N` moves on to others.
+//! The same doors without a fuzzer: good files, changed at random places, with fixed seeds. `ARL_FILES_ROUNDS=N` tries
+//! N of each kind, `ARL_FILES_SEED=N` moves on to others.
 
 use std::collections::BTreeMap;
 use std::io::Cursor;

@@ -1,7 +1,7 @@
 //! `arl2rs run --pendant`: a live screen of a program that runs.
 //!
-//! The program is a process of its own, driven by lines (`link.rs`): a screen that hangs does not hold up a robot, and when
-//! the screen goes, the robot stops on its path.
+//! The program is a process of its own, driven by lines (`link.rs`): a screen that hangs does not hold up a robot, and
+//! when the screen goes, the robot stops on its path.
 
 mod inside;
 mod keys;
@@ -18,7 +18,7 @@ use ratatui::crossterm::event::{self, Event};
 
 use crate::link::Link;
 use crate::listen::{self, Hears};
-use arl_terminal::failure::{Failure, INTERRUPTED};
+use arl_terminal::failure::Failure;
 use arl_terminal::show;
 use keys::Wish;
 use model::Model;
@@ -27,8 +27,11 @@ use sources::Sources;
 /// How long the screen waits for a key before it looks for news.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// Runs a program of these files behind a screen; its exit code. Others may hear what it does. Once it runs, `lock`, which kept it as
-/// it is, is let go.
+/// Runs a program of these files behind a screen; its exit code. Others may hear what it does. Once it runs, `lock`,
+/// which kept it as it is, is let go.
+///
+/// # Errors
+/// The program cannot be started, or there is no terminal to draw on.
 pub fn run<L>(
     mut command: Command,
     (files, lock): (&[PathBuf], L),
@@ -93,7 +96,7 @@ fn show(
             match keys::press(key, model) {
                 Some(Wish::Order(order)) => link.order(&order),
                 // Asked twice, it does not wait for the robot to stop.
-                Some(Wish::Leave) if model.leaving => return Ok(INTERRUPTED),
+                Some(Wish::Leave) if model.leaving => return Ok(Exit::INTERRUPTED.0),
                 Some(Wish::Leave) => {
                     model.leaving = true;
                     link.leave();

@@ -29,8 +29,8 @@ pub(super) struct Model {
     pub(super) sources: Sources,
     /// Messages, warnings and alarms, the newest last.
     pub(super) log: VecDeque<(Weight, String)>,
-    /// What the screen takes with it, and somebody may want to read or copy: alarms, what was said on the standard error, and by those who
-    /// hear the program, too.
+    /// What the screen takes with it, and somebody may want to read or copy: alarms, what was said on the standard
+    /// error, and by those who hear the program, too.
     pub(super) lasting: Vec<String>,
     /// The channel that is shown, from 0.
     pub(super) shown: usize,

@@ -45,7 +45,8 @@ pub(super) fn draw(lanes: &[Lane], time: [f64; 2], area: &Area, picture: &mut Pi
     }
 }
 
-/// The line of a lane: up and down between its lowest and its highest value. What is closer together than a part of a pixel is one stroke.
+/// The line of a lane: up and down between its lowest and its highest value. What is closer together than a part of a
+/// pixel is one stroke.
 fn outline(lane: &Lane, [from, to]: [f64; 2], across: &Scale, top: f64) -> Vec<Option<[f64; 2]>> {
     let values = || lane.changes.iter().map(|(_, value)| *value);
     let (least, most) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));

@@ -47,8 +47,8 @@ pub struct Ran {
 }
 
 impl Ran {
-    /// The text of a line of a file. Where the trace does not name the file, there is none but where the whole program is one file; data
-    /// files do not count.
+    /// The text of a line of a file. Where the trace does not name the file, there is none but where the whole program
+    /// is one file; data files do not count.
     fn text(&self, file: Option<&str>, line: u32) -> Option<&str> {
         let mut programs = self.sources.iter().filter(|one| !is_data(Path::new(&one.name)));
         let source = match file {
@@ -61,6 +61,9 @@ impl Ran {
 }
 
 /// Draws the trace at `trace` to the file `plot`; says whether there was a motion to draw.
+///
+/// # Errors
+/// The trace cannot be read, has a line that is none, or the plot cannot be written.
 pub fn plot(trace: &Path, plot: &Path, robot: arl_robot::Robot, ran: &Ran) -> Result<bool, Failure> {
     let robot = Robot::of(robot);
     let mut rows = Rows::open(trace)?;

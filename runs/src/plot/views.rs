@@ -16,7 +16,8 @@ const VIEWS: [(&str, usize, usize); 3] = [("Top", 0, 1), ("Front (against x)", 1
 /// The least extent of a view, mm.
 const LEAST: f64 = 10.0;
 
-/// Of more lines than these, neighbours are drawn as one: nobody could tell them apart, and each is a piece of the picture.
+/// Of more lines than these, neighbours are drawn as one: nobody could tell them apart, and each is a piece of the
+/// picture.
 const MOST_WAYS: usize = 1000;
 
 /// One view.
@@ -145,7 +146,8 @@ impl View {
 
     fn draw(mut self, outline: &Outline, step: f64, picture: &mut Picture) {
         self.ground(step, picture);
-        // Colours come again after some lines: next to each other they are distinct however many lines are drawn as one.
+        // Colours come again after some lines: next to each other they are distinct however many lines are drawn as
+        // one.
         for (at, line) in outline.lines.iter().step_by(self.together).enumerate() {
             let Some(way) = self.ways.remove(line) else { continue };
             let points = way.finish();

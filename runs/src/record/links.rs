@@ -1,4 +1,5 @@
-//! A robot's arm as viewers see it: frames from the world to the flange and the TCP, and of what its external axes move, in m and rad.
+//! A robot's arm as viewers see it: frames from the world to the flange and the TCP, and of what its external axes
+//! move, in m and rad.
 
 use arl_robot::cell::Carrier;
 use arl_robot::kinematics::{self, Frame, frame};

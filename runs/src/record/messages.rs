@@ -1,5 +1,5 @@
-//! The messages of a recording, in protocol buffers: those of Foxglove's schemas that viewers know (m, rad), and our own (mm, deg, as ARL has
-//! them). `schemas.rs` describes the same fields to readers; a test holds both together.
+//! The messages of a recording, in protocol buffers: those of Foxglove's schemas that viewers know (m, rad), and our
+//! own (mm, deg, as ARL has them). `schemas.rs` describes the same fields to readers; a test holds both together.
 
 use prost::Message;
 
@@ -302,8 +302,8 @@ pub(crate) struct Closest {
     pub(crate) percent: f64,
 }
 
-/// `arl2rs.v1.Contact`: two bodies begin to touch, or the nearest that they come to each other where that is nearer than asked
-/// for.
+/// `arl2rs.v1.Contact`: two bodies begin to touch, or the nearest that they come to each other where that is nearer
+/// than asked for.
 #[derive(Clone, PartialEq, Message)]
 pub(crate) struct Contact {
     #[prost(double, tag = "1")]

@@ -1,8 +1,8 @@
-//! `arl2rs run --record FILE.mcap`: writes what the program says into a file that viewers of robot data open, and a description of the robots
-//! beside it. What the recording holds stands in `docs/recordings.md`.
+//! `arl2rs run --record FILE.mcap`: writes what the program says into a file that viewers of robot data open, and a
+//! description of the robots beside it. What the recording holds stands in `docs/recordings.md`.
 
 mod links;
-pub mod messages;
+pub(crate) mod messages;
 mod parts;
 mod recorder;
 mod scene;
@@ -39,6 +39,9 @@ pub struct Recording {
 
 impl Recording {
     /// Makes the file: better to fail now than after a long run.
+    ///
+    /// # Errors
+    /// The file cannot be made.
     pub fn create(path: &Path, scenery: &Scenery, sources: &[PathBuf]) -> Result<Self, Failure> {
         let file = std::fs::File::create(path).map_err(|error| Failure::io("write", path, &error))?;
         let cannot = |error| Failure::Usage(format!("cannot write {}: {error}", path.display()));

@@ -150,8 +150,8 @@ fn capsules(arm: &Arm, limb: &Limb) -> SceneEntity {
     SceneEntity { frame_id, id, frame_locked: true, spheres, cylinders, ..timed(Timestamp::default()) }
 }
 
-/// The links of a robot that has a shape of its own. Links that people call the same are one thing to them: `the forearm`, and what axis 4
-/// turns of it; such a one has its link behind its name.
+/// The links of a robot that has a shape of its own. Links that people call the same are one thing to them: `the
+/// forearm`, and what axis 4 turns of it; such a one has its link behind its name.
 fn links(arm: &Arm, shape: &Shape, meshes: &mut Meshes) -> Vec<SceneEntity> {
     let mut entities: Vec<SceneEntity> = Vec::new();
     for (link, looks) in shape.links().filter(|(_, looks)| !looks.seen.is_empty()) {

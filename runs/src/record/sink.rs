@@ -9,7 +9,8 @@ use mcap::{Attachment, McapResult, WriteOptions, Writer};
 
 use super::schemas::Schema;
 
-/// What a file gathers before it is written as one piece that readers can look up, in bytes: so much is lost where a run is cut off.
+/// What a file gathers before it is written as one piece that readers can look up, in bytes: so much is lost where a
+/// run is cut off.
 const CHUNK_BYTES: u64 = 1 << 20;
 
 /// Takes messages.

@@ -13,6 +13,7 @@ use super::schemas::{self, Schema};
 use super::sink::File;
 use super::urdf::urdf;
 use crate::scenery::Scenery;
+use crate::scenery::tests::scenery_of;
 use arl_wire::{Line, Place, Placing};
 
 const HELLO: &str = r#"{"hello":{"channels":[{"program":"pick.arl","robot":"two-axes","axes":[
@@ -36,7 +37,7 @@ fn recorded(lines: &[String]) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
 }
 
 fn scenery(cell: &str) -> Scenery {
-    Scenery::of(&arl_robot::cell::Cell::parse("cell.toml", cell).unwrap(), None).unwrap()
+    scenery_of(&arl_robot::cell::Cell::parse("cell.toml", cell).unwrap()).unwrap()
 }
 
 fn recorded_in(lines: &[String], scenery: &Scenery) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
@@ -137,7 +138,7 @@ fn what_external_axes_move_is_a_frame_with_its_bodies() {
                 [[carrier]]\naxis = \"ej2\"\non = \"ej1\"\nat = [200, 0, 0, 0, 0, 0]\n\
                 [[body]]\nname = \"disc\"\ncylinder = [100, 10]\nat = [0, 0, 5]\non = \"ej2\"\n";
     let cell = arl_robot::cell::Cell::parse("cell.toml", text).unwrap();
-    let mut scenery = Scenery::of(&arl_robot::cell::Cell { carriers: Vec::new(), ..cell.clone() }, None).unwrap();
+    let mut scenery = scenery_of(&arl_robot::cell::Cell { carriers: Vec::new(), ..cell.clone() }).unwrap();
     scenery.carriers = cell.carriers;
     let more = ",{\"name\":\"ej1\",\"unit\":\"deg\",\"min\":-90,\"max\":90},\
                 {\"name\":\"ej2\",\"unit\":\"mm\",\"min\":0,\"max\":300}],\n    \"links\"";

@@ -1,5 +1,5 @@
-//! What a message of a recording may say: numbers that a run can have, and no more of anything than a cell has. A recording comes from
-//! anywhere; what is kept of it is shown in pages, which know no other numbers.
+//! What a message of a recording may say: numbers that a run can have, and no more of anything than a cell has. A
+//! recording comes from anywhere; what is kept of it is shown in pages, which know no other numbers.
 
 use arl_robot::channels::MOST_CHANNELS as MOST_SIGNALS;
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};

@@ -259,8 +259,8 @@ impl Track {
         Ok(())
     }
 
-    /// Adds the time since the last message to the lines: to that of the motion while one was executed, and to that of the program while the
-    /// robot stood.
+    /// Adds the time since the last message to the lines: to that of the motion while one was executed, and to that of
+    /// the program while the robot stood.
     fn count(&mut self, time: f64, now: Pointers) {
         let (Some(since), Some(before)) = (self.times.last(), self.pointers.last()) else { return };
         let apart = time - since;

@@ -37,6 +37,9 @@ pub struct Reporting {
 
 impl Reporting {
     /// Makes the file: better to fail now than after a long run.
+    ///
+    /// # Errors
+    /// The file cannot be made.
     pub fn create(file: &Path, format: ReportFormat, scenery: &Scenery) -> Result<Self, Failure> {
         let file = (file != Path::new(STANDARD_ERROR)).then(|| file.to_owned());
         if let Some(file) = &file {
@@ -82,6 +85,9 @@ impl Hears for Reporting {
 }
 
 /// Tells what differs between two runs; the exit code is 1 where anything does.
+///
+/// # Errors
+/// One of them cannot be read, or is neither a recording nor a summary.
 pub fn compare(one: &Path, other: &Path, format: Format) -> Result<Exit, Failure> {
     let differences = Differences::between(&summary(one)?, &summary(other)?);
     let text = match format {

@@ -143,7 +143,7 @@ fn of_channel(store: &Store, track: &Track, channel: usize) -> OfChannel {
     let own = |motion: &&Motion| motion.channel as usize == channel;
     let file = |number: u16| track.files.get(usize::from(number)).map_or("", |name| file_name(name)).to_owned();
     let mut lines: Vec<OfLine> = Vec::new();
-    // What each motion took is known once the run has ended; before that, and of older recordings, where the robot was seen.
+    // What each motion took is known once it has ended; without any that has, it is where the robot was seen.
     let are_known = store.motions.iter().any(|motion| own(&motion));
     for (&(number, line), took) in track.lines.iter().filter(|((_, line), _)| *line > 0) {
         let (moving, standing) = (if are_known { 0.0 } else { rounded(took.moving) }, rounded(took.standing));
@@ -152,7 +152,8 @@ fn of_channel(store: &Store, track: &Track, channel: usize) -> OfChannel {
     let main = file(track.pointers.iter().find(|at| at.motion_line > 0).map_or(0, |at| at.motion_file));
     for motion in store.motions.iter().filter(own) {
         let file = match &*motion.file {
-            // An old recording says it beside the motion; what is shorter than a step between two messages was not seen.
+            // An old recording says it beside the motion; what is shorter than a step between two messages was not
+            // seen.
             "" => {
                 let number = u32::try_from(motion.motion).ok().and_then(|number| track.motion_files.get(&number));
                 number.map_or_else(|| main.clone(), |number| file(*number))

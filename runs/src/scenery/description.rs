@@ -30,6 +30,9 @@ pub(super) fn of_body(file: &Path) -> Result<Looks, String> {
 }
 
 /// The same of a text; meshes count from the folder of `file`.
+///
+/// # Errors
+/// It is no URDF, or names a mesh that cannot be read.
 #[cfg(any(test, feature = "fuzzing"))]
 pub fn of_text(text: &str, file: &Path) -> Result<Looks, String> {
     of_description(&Description::of(text, file)?)

@@ -13,8 +13,8 @@ const SLACK_RAD: f64 = 0.003;
 /// Fractions of multiples of this are spread evenly.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// For the base of the URDF and each link that its joints move: the link of the robot, 0 is the base, that moves with it, and where it is in
-/// that; `None`: there is no such link.
+/// For the base of the URDF and each link that its joints move: the link of the robot, 0 is the base, that moves with
+/// it, and where it is in that; `None`: there is no such link.
 ///
 /// # Errors
 /// Their flanges are elsewhere.

@@ -13,7 +13,6 @@ use arl_robot::robot::Robot;
 use std::path::{Path, PathBuf};
 
 use arl_terminal::failure::Failure;
-use arl_terminal::show;
 #[cfg(any(test, feature = "fuzzing"))]
 pub use description::of_text;
 pub use shape::Shape;
@@ -21,7 +20,7 @@ pub use shape::Shape;
 /// The bodies of a cell and the shapes of its robots.
 #[derive(Clone, Default, Debug)]
 pub struct Scenery {
-    /// Its bodies, and how they look.
+    /// The bodies of the cell, and how they look.
     pub bodies: Vec<(Body, Looks)>,
     /// What takes bodies along.
     pub carriers: Vec<Carrier>,
@@ -41,7 +40,7 @@ pub struct Looks {
 /// A solid in the frame of what it belongs to.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Piece {
-    /// Where it is, in mm.
+    /// Its frame, in mm.
     pub at: Frame,
     /// Its form.
     pub solid: Solid,
@@ -50,19 +49,12 @@ pub struct Piece {
 }
 
 impl Scenery {
-    /// That of a cell in which `robot` is that of channel 1. A robot whose shape cannot be read is told of, and has capsules.
+    /// That of a cell whose channels have these robots, in the order of the channels. A robot whose shape cannot be
+    /// read has capsules; `tell` is told of it.
     ///
     /// # Errors
-    /// A URDF file of a body cannot be read, or a robot is none, or has not the axis of a carrier.
-    pub fn of(cell: &Cell, robot: Option<&str>) -> Result<Self, Failure> {
-        Self::with(cell, load(robot)?, &show::warning)
-    }
-
-    /// The same, with the robot of the first channel as it is; `tell` is told of shapes that cannot be read.
-    ///
-    /// # Errors
-    /// As for [`of`](Self::of).
-    pub fn with(cell: &Cell, robot: Robot, tell: &dyn Fn(&str)) -> Result<Self, Failure> {
+    /// A URDF file of a body cannot be read, or a robot has not the axis of a carrier.
+    pub fn of(cell: &Cell, robots: &[Robot], tell: &dyn Fn(&str)) -> Result<Self, Failure> {
         let looks = |body: &Body| match &body.form {
             Form::Solid(solid) => Ok((body.clone(), Looks::of(solid))),
             Form::Urdf(file) => {
@@ -71,10 +63,8 @@ impl Scenery {
             }
         };
         let bodies = cell.bodies.iter().map(looks).collect::<Result<_, Failure>>()?;
-        let others = cell.programs.channels.iter().filter(|channel| !channel.background);
-        let others = others.map(|channel| Ok((load(channel.robot.as_deref())?, &channel.stands)));
-        let all = std::iter::once(Ok((robot, &cell.stands))).chain(others);
-        let all: Vec<_> = all.collect::<Result<_, Failure>>()?;
+        let others = cell.programs.channels.iter().filter(|channel| !channel.background).map(|channel| &channel.stands);
+        let all: Vec<_> = robots.iter().zip(std::iter::once(&cell.stands).chain(others)).collect();
         for carrier in &cell.carriers {
             let Some((robot, _)) = all.get(carrier.channel as usize - 1) else { continue };
             has_axis(robot, carrier)?;
@@ -87,12 +77,6 @@ impl Scenery {
     pub fn shape(&self, channel: usize) -> Option<&Shape> {
         self.shapes.get(channel)?.as_ref()
     }
-}
-
-/// The robot of this name or file; the default one without.
-fn load(robot: Option<&str>) -> Result<Robot, Failure> {
-    let robot = robot.or_else(|| Robot::builtin_names().next()).unwrap_or_default();
-    Robot::load(robot).map_err(|error| Failure::Usage(error.to_string()))
 }
 
 /// The files that a cell names for how its robots and bodies look.

@@ -1,14 +1,15 @@
 //! Triangles of STL files, as text or as bytes.
 //!
-//! Text comes in many hands' spelling: solids without a name or without an end, capitals, blanks and a byte order mark before, names in any
-//! encoding, line ends of CR, normals that are no numbers. All of it is read, every solid of the file. Normals say nothing that corners do
-//! not say, and are passed over.
+//! Text comes in many hands' spelling: solids without a name or without an end, capitals, blanks and a byte order mark
+//! before, names in any encoding, line ends of CR, normals that are no numbers. All of it is read, every solid of the
+//! file. Normals say nothing that corners do not say, and are passed over.
 
 mod text;
 
 use std::collections::HashMap;
 
-/// What stands before the count of triangles, the count, and a triangle: a normal, three corners, two bytes that are anybody's.
+/// What stands before the count of triangles, the count, and a triangle: a normal, three corners, two bytes that are
+/// anybody's.
 const HEADER: usize = 80;
 const COUNT: usize = 4;
 const TRIANGLE: usize = 50;

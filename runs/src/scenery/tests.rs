@@ -65,6 +65,14 @@ pub(crate) const BALL: &str = "<collision><geometry><sphere radius=\"0.05\"/></g
 pub(crate) const ROD: &str = "<visual><origin xyz=\"0.3 0 0\" rpy=\"0 1.5707963267948966 0\"/><geometry><cylinder radius=\"0.04\" length=\"0.6\"/></geometry>\
                    <material name=\"paint\"/></visual>";
 
+/// The scenery of a cell whose first robot is the default one.
+pub(crate) fn scenery_of(cell: &Cell) -> Result<Scenery, Failure> {
+    let beside = cell.programs.channels.iter().filter(|channel| !channel.background);
+    let named = beside.map(|channel| Robot::load(channel.robot.as_deref().unwrap_or("kr10-r1420")).unwrap());
+    let robots: Vec<Robot> = std::iter::once(kr10()).chain(named).collect();
+    Scenery::of(cell, &robots, &|_| ())
+}
+
 fn kr10() -> Robot {
     Robot::builtin("kr10-r1420").unwrap()
 }
@@ -208,7 +216,7 @@ fn a_body_has_all_links_of_its_urdf() {
     let file = files.write("table.urdf", table);
     let cell = |file: &std::path::Path| {
         let text = format!("[[body]]\nname = \"table\"\nurdf = {:?}\nat = [800, 0, 0]\n", file.display().to_string());
-        Scenery::of(&Cell::parse("cell.toml", &text).unwrap(), None)
+        scenery_of(&Cell::parse("cell.toml", &text).unwrap())
     };
     let scenery = cell(&file).unwrap();
     let (_, looks) = &scenery.bodies[0];
@@ -227,7 +235,10 @@ fn a_carrier_has_an_axis_of_its_robot() {
     let (before, links) = built.split_at(built.find("\n[[link]]").unwrap() + 1);
     let file = files.write("arm.toml", &format!("{before}{axis}\n{links}"));
     let cell = |axis: &str| Cell::parse("cell.toml", &format!("[[carrier]]\naxis = \"{axis}\"\n")).unwrap();
-    let of = |axis: &str, robot: Option<&str>| Scenery::of(&cell(axis), robot);
+    let of = |axis: &str, robot: Option<&str>| {
+        let robot = Robot::load(robot.unwrap_or("kr10-r1420")).unwrap();
+        Scenery::of(&cell(axis), &[robot], &|_| ())
+    };
     let arm = file.display().to_string();
     assert_eq!(of("ej1", Some(&arm)).unwrap().carriers.len(), 1);
     for (axis, robot, words) in [
@@ -242,6 +253,6 @@ fn a_carrier_has_an_axis_of_its_robot() {
 #[test]
 fn a_robot_whose_urdf_is_wrong_has_capsules() {
     let cell = Cell::parse("cell.toml", "urdf = \"/no/such/arm.urdf\"\n").unwrap();
-    let scenery = Scenery::of(&cell, None).unwrap();
+    let scenery = scenery_of(&cell).unwrap();
     assert!(scenery.shape(0).is_none());
 }

@@ -69,7 +69,8 @@ impl Chain {
         Ok(chain)
     }
 
-    /// The frames that the joints move, then the flange, in the base, when the joints stand at these positions (rad, m).
+    /// The frames that the joints move, then the flange, in the base, when the joints stand at these positions (rad,
+    /// m).
     pub fn forward(&self, at: &[f64]) -> Vec<Place> {
         let mut place = Place::ORIGIN;
         let mut all = Vec::new();

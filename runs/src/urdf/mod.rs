@@ -1,4 +1,5 @@
-//! URDF files: the chain of their joints, and `arl2rs robots --import FILE.urdf`, which makes a robot file of one whose geometry fits.
+//! URDF files: the chain of their joints, and `arl2rs robots --import FILE.urdf`, which makes a robot file of one whose
+//! geometry fits.
 
 mod chain;
 mod fit;
@@ -30,6 +31,9 @@ ori_jerk = 20000.0
 ";
 
 /// The robot file of the robot in a URDF file.
+///
+/// # Errors
+/// It cannot be read, is no URDF, or of a robot that has no robot file: why.
 pub fn import(file: &Path) -> Result<String, Failure> {
     let text = regular_file::read_text(file)
         .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", file.display())))?;
@@ -84,6 +88,9 @@ pub fn robot_file(text: &str, from: &str) -> Result<String, String> {
 }
 
 /// For each axis, its joint: that of a SCARA's axes may come in another order.
+///
+/// # Errors
+/// The four joints are not those of a SCARA.
 pub fn order(chain: &Chain) -> Result<Vec<usize>, String> {
     if chain.joints.len() == 4 { Ok(fit::scara(chain)?.order.to_vec()) } else { Ok((0..chain.joints.len()).collect()) }
 }

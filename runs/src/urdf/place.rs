@@ -6,7 +6,7 @@ pub(super) type Vector = [f64; 3];
 /// A rotation (rows of its matrix) and a translation in m.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
-    /// Its axes.
+    /// The rows of its matrix.
     pub turn: [Vector; 3],
     /// Its origin, in m.
     pub at: Vector,

@@ -1,4 +1,5 @@
-//! The links of a URDF as a tree, each with the joints behind it. Whatever is asked of it takes time by its size, however deep it is.
+//! The links of a URDF as a tree, each with the joints behind it. Whatever is asked of it takes time by its size,
+//! however deep it is.
 
 use std::collections::HashMap;
 

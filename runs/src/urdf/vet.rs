@@ -1,5 +1,5 @@
-//! Looks over the text of a URDF before the library reads it: the library takes texts for numbers that are none, and goes into nested
-//! elements by recursion.
+//! Looks over the text of a URDF before the library reads it: the library takes texts for numbers that are none, and
+//! goes into nested elements by recursion.
 
 use arl_robot::cell::LARGEST_MM;
 use quick_xml::Reader;

@@ -189,10 +189,10 @@ fn signals(store: &Store, known: usize) -> Value {
     of.into_iter().map(told).collect()
 }
 
-/// Where the robot of a channel was from one time to another, in at most so many rows, and the row before the first. Numbers are little-endian:
-/// how many rows and axes there are (u32), times (f64), then row by row axes, TCP and speed (f32), then for each row the lines of program and
-/// motion, the number of the motion, and the numbers of the files, that of the motion above 16 bits (u32), and for each
-/// row whether another tool took over since the row before (u8).
+/// Where the robot of a channel was from one time to another, in at most so many rows, and the row before the first.
+/// Numbers are little-endian: how many rows and axes there are (u32), times (f64), then row by row axes, TCP and speed
+/// (f32), then for each row the lines of program and motion, the number of the motion, and the numbers of the files,
+/// that of the motion above 16 bits (u32), and for each row whether another tool took over since the row before (u8).
 pub(super) fn samples(track: &Track, [from, to]: [f64; 2], most: usize) -> Vec<u8> {
     let first = track.times.partition_point(|time| *time < from).saturating_sub(1);
     let end = track.times.partition_point(|time| *time <= to).max(first);

@@ -1,6 +1,7 @@
 //! A page in the browser that shows a run, of a recording or of a program that goes on.
 //!
-//! The page is in `runs/page/`. It asks this server for what it shows, and gives it orders where there is somebody to take them.
+//! The page is in `runs/page/`. It asks this server for what it shows, and gives it orders where there is somebody to
+//! take them.
 
 mod answer;
 mod http;

@@ -1,4 +1,5 @@
-//! Random programs of interrupts and timers do what a small model of the rules says: every note in the same order and cycle.
+//! Random programs of interrupts and timers do what a small model of the rules says: every note in the same order and
+//! cycle.
 
 mod model;
 mod plan;

@@ -165,7 +165,8 @@ fn main(random: &mut Random, count: usize) -> Vec<Step> {
     steps
 }
 
-/// What an action runs: functions are defined above their calls, so it declares actions of its own and later numbers only.
+/// What an action runs: functions are defined above their calls, so it declares actions of its own and later numbers
+/// only.
 fn handler(random: &mut Random, own: usize, count: usize, known: &[Declaration]) -> Vec<Step> {
     let mut steps = vec![Step::Note(own * 100)];
     for number in 1..1 + random.below(5) {

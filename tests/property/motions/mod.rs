@@ -1,5 +1,5 @@
-//! Random motion programs on robots that are built in, and on others with random limits: what the trace says about limits,
-//! paths, corners, targets, stops and overrides.
+//! Random motion programs on robots that are built in, and on others with random limits: what the trace says about
+//! limits, paths, corners, targets, stops and overrides.
 
 mod check;
 mod geometry;
@@ -118,8 +118,8 @@ impl Case {
         (!faults.is_empty()).then(|| self.failure(project, &faults))
     }
 
-    /// Tells what is wrong with the traces; returns the undisturbed one, unless it failed, and whether it is of this robot: not
-    /// where an axis had to turn freely for it.
+    /// Tells what is wrong with the traces; returns the undisturbed one, unless it failed, and whether it is of this
+    /// robot: not where an axis had to turn freely for it.
     fn examine(
         &self,
         project: &Project,
@@ -167,10 +167,11 @@ impl Case {
         (passes && matches!(axis, 3 | 5) && !range.contains(&to)).then_some(TurnedOut { axis, line })
     }
 
-    /// Where an axis ends the program, as its range ends, everything must hold of the same robot whose axis turns freely.
-    /// There the axis really leaves its range in that line, and up to the alarm the robots go the same way: unless it leaves it
-    /// earlier, on another way through the wrist, from where on they are not compared. Where the other axis has to turn freely as
-    /// well, that one may take another way through the wrist, on which this one stays within its range.
+    /// Where an axis ends the program, as its range ends, everything must hold of the same robot whose axis turns
+    /// freely. There the axis really leaves its range in that line, and up to the alarm the robots go the same way:
+    /// unless it leaves it earlier, on another way through the wrist, from where on they are not compared. Where the
+    /// other axis has to turn freely as well, that one may take another way through the wrist, on which this one stays
+    /// within its range.
     fn examine_turning_freely(
         &self,
         turned: &TurnedOut,
@@ -189,7 +190,8 @@ impl Case {
         let (rows, is_its_own) = free.examine(project, command, at, faults, tally)?;
         let range = self.robot.axes[axis].min..=self.robot.axes[axis].max;
         let left = rows.iter().position(|row| !range.contains(&row.axes[axis]));
-        // Where the free axis turns out already, the other one was turned to the other side: from there on they go apart.
+        // Where the free axis turns out already, the other one was turned to the other side: from there on they go
+        // apart.
         let apart = left.map(|at| rows[at].line).filter(|apart| self.comes_before(*apart, line));
         let apart_from = apart.map(|apart| self.led_into_from(apart));
         let many = apart_from.and_then(|from| stopped.iter().position(|row| row.line == from)).unwrap_or(stopped.len());
@@ -228,7 +230,8 @@ impl Case {
         pairs.into_iter().any(|pair| pair[0].line == line && !pair[0].rests && pair[1].line == next)
     }
 
-    /// Whether a row may be of the half of a blend that leads into a motion: of the one before, in the second half of its time.
+    /// Whether a row may be of the half of a blend that leads into a motion: of the one before, in the second half of
+    /// its time.
     fn leads_into(&self, line: usize, rows: &[Row], at: usize) -> bool {
         let motions = &self.plan.motions;
         let next = motions.iter().position(|motion| motion.line == line);

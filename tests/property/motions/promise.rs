@@ -65,7 +65,8 @@ impl Pair {
 }
 
 impl Case {
-    /// What is wrong with a run that failed: nothing where it went through the wrist by a way that ended an axis's range.
+    /// What is wrong with a run that failed: nothing where it went through the wrist by a way that ended an axis's
+    /// range.
     fn refused(&self, project: &Project, said: String, tally: &mut Tally) -> Option<String> {
         if self.turned_out(&said).is_some() {
             tally.note("promise: not compared, as an axis would leave its range", 0.0);

@@ -28,7 +28,8 @@ pub(crate) struct Tcp {
 /// A robot file, and its limits as this test reads them.
 #[derive(Clone, Debug)]
 pub(crate) struct Robot {
-    /// How this robot is made again: a built-in robot, the seed of its limits (0: its own), the number of external axes.
+    /// How this robot is made again: a built-in robot, the seed of its limits (0: its own), the number of external
+    /// axes.
     pub(crate) name: String,
     pub(crate) text: String,
     pub(crate) scara: bool,

@@ -208,7 +208,7 @@ impl Checker<'_> {
                     out.push(start_value(want.base, span));
                 }
             }
-            self.doubt_few(body, items.len(), rows, want.base, ("rows", span));
+            self.doubt_few(body, (items.len(), rows), want, (dims, "rows"), span);
             return Some(());
         }
         let mut good = true;
@@ -232,16 +232,31 @@ impl Checker<'_> {
             }
         }
         if good {
-            self.doubt_few(body, out.len() - begin, total, want.base, ("elements", span));
+            self.doubt_few(body, (out.len() - begin, total), want, (dims, "elements"), span);
         }
         good.then_some(())
     }
 
-    /// Warns of braces that give some elements of an array, or some of its rows, a value and the others none.
-    fn doubt_few(&mut self, body: &Body, given: usize, size: usize, base: Base, (of, span): (&'static str, Span)) {
+    /// Warns of braces that give some elements of an array, or some of its rows, a value and the others none. `dims`
+    /// are those of the part of the array that they are for.
+    fn doubt_few(
+        &mut self,
+        body: &Body,
+        (given, size): (usize, usize),
+        want: Type,
+        (dims, of): (&[u16], &'static str),
+        span: Span,
+    ) {
         if (2..size).contains(&given) {
-            let rest = start_words(base);
-            self.report::<()>(body, span, Doubt::TooFewValues { given, size, of, rest });
+            let is_whole = dims.len() == want.dims().len();
+            let help = match dims {
+                // Which sizes are meant is not known.
+                [_, _, ..] if of == "elements" => "give all values, or each row braces of its own".into(),
+                _ if is_whole => format!("give all values, or declare the array with {given} {of}"),
+                _ => format!("give values for all {size}"),
+            };
+            let rest = start_words(want.base);
+            self.report::<()>(body, span, Doubt::TooFewValues { given, size, of, rest, help });
         }
     }
 

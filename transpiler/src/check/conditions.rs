@@ -94,8 +94,8 @@ fn waits(entry: &Entry) -> bool {
     entry.kind == Kind::Instruction && (entry.effect.takes_time() || entry.effect == Effect::Ends)
 }
 
-/// Whether it waits, or is a function that takes cycles even where nothing is to be waited for: the condition of an event has
-/// one to itself.
+/// Whether it waits, or is a function that takes cycles even where nothing is to be waited for: the condition of an
+/// event has one to itself.
 fn takes_cycles(entry: &Entry) -> bool {
     waits(entry) || entry.effect == Effect::Lasts || entry.uses_disk
 }

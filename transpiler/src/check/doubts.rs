@@ -5,10 +5,11 @@ use super::convert::number;
 use super::first_motion::{Globals, known_structure};
 use crate::diagnostics::doubts::Doubt;
 use crate::diagnostics::{Diagnostic, Label, Location, Problem};
-use crate::hir::{Block, Builtin, Expr, ExprKind, Func, FuncId, ModuleId, Passed, Program, Stmt, StmtKind};
+use crate::effects::flow::blocks;
+use crate::hir::{Builtin, Expr, ExprKind, Func, FuncId, ModuleId, Passed, Program, Stmt, StmtKind};
 use crate::visit;
 use arl_lang::ast::{self, BinaryOp, UnaryOp};
-use arl_lang::catalog::{Base, Effect, Family, Form, Mode, Struct};
+use arl_lang::catalog::{Base, Effect, Entry, Family, Form, Mode, Struct};
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 use std::collections::HashSet;
@@ -169,7 +170,8 @@ fn fractions_below(numbers: &[f64], most: f64, least: f64, count: usize) -> Opti
     (fractions >= count && !others && largest.abs() >= least).then_some(largest)
 }
 
-/// Reports what the finished functions show: zones that never act, loops that only ask, handlers that may wait for ever.
+/// Reports what the finished functions show: zones that never act, loops that only ask, handlers that may wait for
+/// ever.
 pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Location) -> Vec<Diagnostic> {
     let mut out = Vec::new();
     for (at, func) in program.funcs.iter().enumerate() {
@@ -216,14 +218,14 @@ struct Zone {
 }
 
 /// Goes along the statements of a block, and of the blocks in them.
-fn idle_zones(block: &Block, is_main: bool, tell: &mut dyn FnMut(Span, &'static str, Span)) {
+fn idle_zones(block: &[Stmt], is_main: bool, tell: &mut dyn FnMut(Span, &'static str, Span)) {
     for (at, stmt) in block.iter().enumerate() {
         if let Step::Motion(Some(zone @ Zone { acts: true, .. })) = step(stmt)
             && let Some((culprit, waits)) = stop_behind(block.get(at + 1..).unwrap_or_default(), is_main)
         {
             tell(zone.span, culprit, waits);
         }
-        inner_blocks(stmt).for_each(|inner| idle_zones(inner, false, tell));
+        blocks(stmt).for_each(|inner| idle_zones(inner, false, tell));
     }
 }
 
@@ -242,7 +244,7 @@ fn stop_behind(rest: &[Stmt], is_main: bool) -> Option<(&'static str, Span)> {
 }
 
 fn step(stmt: &Stmt) -> Step {
-    if matches!(stmt.kind, StmtKind::Label(_)) || inner_blocks(stmt).next().is_some() {
+    if matches!(stmt.kind, StmtKind::Label(_)) || blocks(stmt).next().is_some() {
         return Step::Unknown;
     }
     if let StmtKind::Eval(Expr { kind: ExprKind::Builtin(builtin), .. }) = &stmt.kind
@@ -277,7 +279,7 @@ fn zone(motion: &Builtin) -> Option<Zone> {
 }
 
 /// Tells each `break` of a `switch` whose cases end with one, as they do in C: all of them, but perhaps the last.
-fn breaks_of_cases(block: &Block, tell: &mut dyn FnMut(Span)) {
+fn breaks_of_cases(block: &[Stmt], tell: &mut dyn FnMut(Span)) {
     for stmt in block {
         if let StmtKind::Switch(_, arms) = &stmt.kind {
             let ends = |stmt: &&Stmt| matches!(stmt.kind, StmtKind::Break);
@@ -288,12 +290,12 @@ fn breaks_of_cases(block: &Block, tell: &mut dyn FnMut(Span)) {
                 breaks.iter().for_each(|found| tell(found.span));
             }
         }
-        inner_blocks(stmt).for_each(|inner| breaks_of_cases(inner, tell));
+        blocks(stmt).for_each(|inner| breaks_of_cases(inner, tell));
     }
 }
 
 /// Tells each loop that only looks at inputs until they are as it wants them, and what it waits for.
-fn polls(source: &str, block: &Block, tell: &mut dyn FnMut(Span, String)) {
+fn polls(source: &str, block: &[Stmt], tell: &mut dyn FnMut(Span, String)) {
     for stmt in block {
         let found = match &stmt.kind {
             StmtKind::While(condition, body, _) => Some((condition, body, false)),
@@ -303,7 +305,7 @@ fn polls(source: &str, block: &Block, tell: &mut dyn FnMut(Span, String)) {
         if let Some((condition, body, ends_it)) = found
             && reads_input(condition)
             && is_quiet(stmt)
-            && goes_round(body)
+            && only_looks(body)
         {
             let wanted = match &condition.kind {
                 _ if ends_it => condition.span.text(source).to_string(),
@@ -312,7 +314,7 @@ fn polls(source: &str, block: &Block, tell: &mut dyn FnMut(Span, String)) {
             };
             tell(condition.span, wanted);
         }
-        inner_blocks(stmt).for_each(|inner| polls(source, inner, tell));
+        blocks(stmt).for_each(|inner| polls(source, inner, tell));
     }
 }
 
@@ -320,10 +322,14 @@ fn polls(source: &str, block: &Block, tell: &mut dyn FnMut(Span, String)) {
 fn reads_input(expr: &Expr) -> bool {
     let mut found = false;
     visit::exprs(expr, &mut |expr| {
-        found |= matches!(&expr.kind, ExprKind::Builtin(builtin)
-            if builtin.entry.looks && builtin.entry.effect == Effect::Waits);
+        found |= matches!(&expr.kind, ExprKind::Builtin(builtin) if is_signal(builtin.entry));
     });
     found
+}
+
+/// Whether a built-in looks at a signal, for which the robot stands.
+fn is_signal(entry: &Entry) -> bool {
+    entry.looks && entry.effect == Effect::Waits
 }
 
 /// Whether nothing in a statement does more than compute and look. What gives no value is there for what it does.
@@ -334,7 +340,7 @@ fn is_quiet(stmt: &Stmt) -> bool {
             ExprKind::Builtin(builtin) => {
                 let entry = builtin.entry;
                 let writes = builtin.args.iter().any(|bound| matches!(bound.value, Passed::Out(_)));
-                (entry.looks || entry.effect == Effect::Pure) && entry.result != Base::Void && !writes
+                (is_signal(entry) || entry.effect == Effect::Pure) && entry.result != Base::Void && !writes
             }
             ExprKind::Assign(_) | ExprKind::AssignOp(..) | ExprKind::Step(..) => false,
             ExprKind::Call(..) | ExprKind::Splice(_) => false,
@@ -345,23 +351,12 @@ fn is_quiet(stmt: &Stmt) -> bool {
 }
 
 /// Whether the statements of a round lead nowhere but to the next round.
-fn goes_round(block: &Block) -> bool {
+fn only_looks(block: &[Stmt]) -> bool {
     block.iter().all(|stmt| match &stmt.kind {
         StmtKind::Eval(_) | StmtKind::Continue => true,
-        StmtKind::If(..) => inner_blocks(stmt).all(goes_round),
+        StmtKind::If(..) => blocks(stmt).all(only_looks),
         _ => false,
     })
-}
-
-fn inner_blocks(stmt: &Stmt) -> impl Iterator<Item = &Block> {
-    let blocks: Vec<&Block> = match &stmt.kind {
-        StmtKind::If(arms, otherwise) => arms.iter().map(|(_, block)| block).chain(otherwise).collect(),
-        StmtKind::While(_, block, _) | StmtKind::Repeat(block, _, _) | StmtKind::Loop(block, _) => vec![block],
-        StmtKind::For(each) => vec![&each.body],
-        StmtKind::Switch(_, arms) => arms.iter().map(|arm| &arm.body).collect(),
-        _ => Vec::new(),
-    };
-    blocks.into_iter()
 }
 
 /// Tells each `waituntil` without a limit in a function that handles an event, or is called by one that does.

@@ -61,7 +61,10 @@ fn missing(program: &Program, main: &Func, motion: &Builtin) -> Option<String> {
 
 /// Which global variables count as known.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(not(feature = "tools"), expect(dead_code, reason = "only the command knows robots and their targets"))]
+#[cfg_attr(
+    not(feature = "tools"),
+    expect(dead_code, reason = "only the command and editors know robots and their targets")
+)]
 pub(super) enum Globals {
     /// Constants whose value no data file gives.
     Constant,

@@ -190,8 +190,8 @@ pub(crate) fn syntax_diagnostic(error: &arl_lang::syntax_error::SyntaxError, fil
     }
 }
 
-/// Where a path of an `import` leads: from the folder of the file that has it, or from the script folder, which is that of
-/// the main file where no other is named.
+/// Where a path of an `import` leads: from the folder of the file that has it, or from the script folder, which is that
+/// of the main file where no other is named.
 pub fn imported(written: &str, folder: &Path, root: &Path, script_dir: Option<&Path>) -> PathBuf {
     match written.strip_prefix(SCRIPT_DIR) {
         Some(rest) => script_dir.unwrap_or(root).join(rest),
@@ -320,7 +320,8 @@ impl Follow<'_> {
         clean(&path)
     }
 
-    /// The module at `path`, read if it is new. A missing file is an error only where somebody asked for it by `import`.
+    /// The module at `path`, read if it is new. A missing file is an error only where somebody asked for it by
+    /// `import`.
     fn open(&mut self, path: &Path, asked: Option<(&str, Location)>) -> Option<ModuleId> {
         let path = clean(path);
         if let Some(id) = self.loaded.by_path.get(&path) {

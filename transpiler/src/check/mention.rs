@@ -18,10 +18,10 @@ use arl_lang::symbol::Symbol;
 /// What is recorded while a program is checked.
 ///
 /// What may stand at the word `HERE` comes in two steps. Who reads arguments or braces that hold the word notes them
-/// first ([`Checker::expect_argument`], [`Checker::expect_in_braces`]); an inner call or inner braces note theirs later,
-/// and so in their place. Then whoever looks the word up and does not find it notes what was looked for
-/// ([`Checker::expect`]), and takes what was noted before with it. What is checked twice is noted twice; the second time
-/// a type is wanted, so the last note stays, with the arguments of the first.
+/// first ([`Checker::expect_argument`], [`Checker::expect_in_braces`]); an inner call or inner braces note theirs
+/// later, and so in their place. Then whoever looks the word up and does not find it notes what was looked for
+/// ([`Checker::expect`]), and takes what was noted before with it. What is checked twice is noted twice; the second
+/// time a type is wanted, so the last note stays, with the arguments of the first.
 #[derive(Default)]
 pub(crate) struct Recorder {
     index: Index,

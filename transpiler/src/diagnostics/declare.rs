@@ -1,5 +1,5 @@
-//! How the diagnostics of an area are declared: `problems!` takes variant, code, severity and title together, and embeds
-//! the page.
+//! How the diagnostics of an area are declared: `problems!` takes variant, code, severity and title together, and
+//! embeds the page.
 
 use super::{Code, Severity};
 

@@ -32,7 +32,7 @@ problems! {
         }
         warning 920 "Fewer values than elements" => {
             /// `int a[5] = {1,2,3}`, or rows of an array. `of`: what there are too few of, elements or rows.
-            TooFewValues { given: usize, size: usize, of: &'static str, rest: &'static str },
+            TooFewValues { given: usize, size: usize, of: &'static str, rest: &'static str, help: String },
         }
         warning 921 "A number that looks like another unit" => {
             /// `vl:0.15`: `found` is what it looks like, `right` the same in ARL's unit.
@@ -64,7 +64,7 @@ impl Problem for Doubt {
             Doubt::HiddenByCase { name, hidden, what } => {
                 format!("`{name}` hides the {what} `{hidden}`: names that differ in case alone are the same name")
             }
-            Doubt::TooFewValues { given, size, of, rest } => {
+            Doubt::TooFewValues { given, size, of, rest, .. } => {
                 let last =
                     if size - given == 1 { "the last one is".into() } else { format!("the last {} are", size - given) };
                 format!("values for {given} of {size} {of}: {last} {rest}")
@@ -100,9 +100,7 @@ impl Problem for Doubt {
             Doubt::HiddenByCase { hidden, .. } => {
                 format!("here `{hidden}` means the inner one, too: give one of them another name")
             }
-            Doubt::TooFewValues { given, of, .. } => {
-                format!("give all values, or declare the array with {given} {of}")
-            }
+            Doubt::TooFewValues { help, .. } => help.clone(),
             Doubt::OtherScale { right, .. } => right.clone(),
             Doubt::Polls { condition } => {
                 format!(

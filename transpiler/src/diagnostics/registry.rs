@@ -1,8 +1,9 @@
 //! The table of all diagnostics: code, severity, title and page of each kind.
 //!
 //! Each area declares its own with `problems!`. The mistakes of the syntax are declared in `arl-lang`. This file only
-//! joins them. The page of a code is `transpiler/docs/diagnostics/ARLnnnn.md`. The compiler embeds it for `arl2rs explain`, so a
-//! code without a page does not compile: "couldn't read ... ARLnnnn.md" asks for that file. Its parts are
+//! joins them. The page of a code is `transpiler/docs/diagnostics/ARLnnnn.md`. The compiler embeds it for `arl2rs
+//! explain`, so a code without a page does not compile: "couldn't read ... ARLnnnn.md" asks for that file. Its parts
+//! are
 //!
 //! ```text
 //! # ARLnnnn: the title as it is declared
@@ -18,7 +19,7 @@
 //! (a block ```arl with a program that raises nothing)
 //! ```
 //!
-//! and `cargo test -p arl2rs --test pages` runs both programs.
+//! and `cargo test --workspace --test pages` runs both programs.
 
 use super::Code;
 use super::declare::{CodeInfo, code_info};
@@ -31,7 +32,7 @@ macro_rules! syntax {
     };
 }
 
-/// The areas. Those behind the feature `cli` need a robot or a cell, which only the command knows.
+/// The areas. Those behind the feature `tools` need a robot or a cell, which only the command and editors know.
 const AREAS: &[&[CodeInfo]] = &[
     arl_lang::each_syntax_code!(syntax),
     super::names::CODES,

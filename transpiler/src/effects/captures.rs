@@ -1,5 +1,5 @@
-//! What events see of the function that declares them. Their conditions and actions run when the function may be over, so
-//! they keep what they need of its variables: a copy of what does not change any more, a share of what does.
+//! What events see of the function that declares them. Their conditions and actions run when the function may be over,
+//! so they keep what they need of its variables: a copy of what does not change any more, a share of what does.
 
 use super::{flow, loops};
 use crate::hir::{Bound, Builtin, Expr, ExprKind, Func, LocalId, Passed, Place, Root, Stmt, StmtKind};

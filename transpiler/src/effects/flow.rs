@@ -11,7 +11,7 @@ pub fn reachable(block: &[Stmt]) -> Vec<&Stmt> {
 }
 
 /// Whether the end of the block is never reached.
-pub fn block_diverges(block: &[Stmt]) -> bool {
+pub(crate) fn block_diverges(block: &[Stmt]) -> bool {
     !run_through(block, &mut |_| ())
 }
 
@@ -30,7 +30,7 @@ fn run_through<'a>(block: &'a [Stmt], see: &mut dyn FnMut(&'a Stmt)) -> bool {
 }
 
 /// Whether what follows the statement is never reached from it.
-pub fn diverges(stmt: &Stmt) -> bool {
+pub(crate) fn diverges(stmt: &Stmt) -> bool {
     match &stmt.kind {
         StmtKind::Return(_) | StmtKind::Break | StmtKind::Continue | StmtKind::Goto(_) => true,
         StmtKind::Eval(expr) => ends(expr),
@@ -50,12 +50,12 @@ pub fn diverges(stmt: &Stmt) -> bool {
 }
 
 /// Whether the expression is `exit` or `restart`.
-pub fn ends(expr: &Expr) -> bool {
+pub(crate) fn ends(expr: &Expr) -> bool {
     matches!(&expr.kind, ExprKind::Builtin(builtin) if builtin.entry.effect == Effect::Ends)
 }
 
 /// Whether a condition is `true`.
-pub fn always(condition: &Expr) -> bool {
+pub(crate) fn always(condition: &Expr) -> bool {
     matches!(condition.kind, ExprKind::Const(Value::Bool(true)))
 }
 
@@ -80,12 +80,12 @@ pub fn goes_round(body: &[Stmt]) -> bool {
 }
 
 /// Whether a `break` in the statements leaves the loop whose body they are.
-pub fn breaks(block: &[Stmt]) -> bool {
+pub(crate) fn breaks(block: &[Stmt]) -> bool {
     leaves(block, &|kind| matches!(kind, StmtKind::Break))
 }
 
 /// Whether a `continue` in the statements belongs to the loop whose body they are.
-pub fn continues(block: &[Stmt]) -> bool {
+pub(crate) fn continues(block: &[Stmt]) -> bool {
     leaves(block, &|kind| matches!(kind, StmtKind::Continue))
 }
 
@@ -100,7 +100,7 @@ fn leaves(block: &[Stmt], wanted: &dyn Fn(&StmtKind) -> bool) -> bool {
 }
 
 /// Whether a label stands in the statement.
-pub fn has_label(stmt: &Stmt) -> bool {
+pub(crate) fn has_label(stmt: &Stmt) -> bool {
     matches!(stmt.kind, StmtKind::Label(_)) || blocks(stmt).any(|block| block.iter().any(has_label))
 }
 
@@ -121,7 +121,7 @@ pub fn blocks(stmt: &Stmt) -> impl Iterator<Item = &[Stmt]> {
 }
 
 /// The expressions directly inside a statement.
-pub fn expressions(stmt: &Stmt) -> impl Iterator<Item = &Expr> {
+pub(crate) fn expressions(stmt: &Stmt) -> impl Iterator<Item = &Expr> {
     let mut conditional: &[(Expr, Block)] = &[];
     let mut plain: [Option<&Expr>; 2] = [None, None];
     match &stmt.kind {

@@ -1,6 +1,6 @@
 //! Strings that could grow without end. Where a sum of strings is kept, and a part of it has no limit of its own, it is
-//! checked whether a string may be that long. What is only looked at (printed, compared) needs no check: it is made of few
-//! strings, each of which may be that long.
+//! checked whether a string may be that long. What is only looked at (printed, compared) needs no check: it is made of
+//! few strings, each of which may be that long.
 
 use super::loops;
 use crate::hir::{Expr, ExprKind, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Value};

@@ -12,7 +12,8 @@ use arl_lang::catalog::{Base, Effect};
 /// The most rounds (of nested loops together) that may pass before they are counted and the cycle can be given back.
 pub(crate) const MOST_ROUNDS: u64 = 250_000;
 
-/// Drops labels that no `goto` names and `default`s that nothing reaches, then fills in [`LoopInfo`] of every loop of a function.
+/// Drops labels that no `goto` names and `default`s that nothing reaches, then fills in [`LoopInfo`] of every loop of a
+/// function.
 pub(super) fn judge(func: &mut Func) {
     let unused: Vec<bool> = func.labels.iter().map(|label| !label.used).collect();
     let any = unused.contains(&true);

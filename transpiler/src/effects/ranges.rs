@@ -1,5 +1,5 @@
-//! What values whole numbers may have, as far as that follows from the loops that count them: an index that cannot leave
-//! its array needs no check.
+//! What values whole numbers may have, as far as that follows from the loops that count them: an index that cannot
+//! leave its array needs no check.
 
 use super::{flow, loops};
 use crate::hir::{Expr, ExprKind, For, Func, LocalId, Root, Stmt, StmtKind, Type, Value};
@@ -43,8 +43,8 @@ impl Ranges {
         }
     }
 
-    /// The values in the rounds of a loop that climbs to a constant by steps that are not negative, and never so far that
-    /// the variable wraps.
+    /// The values in the rounds of a loop that climbs to a constant by steps that are not negative, and never so far
+    /// that the variable wraps.
     fn climbing(&self, each: &For) -> Option<(LocalId, Interval)> {
         let head = loops::Head::of(each)?;
         let (least, greatest) = limits(head.from.ty)?;

@@ -1,5 +1,5 @@
-//! `while` loops that end soon because a variable goes on in equal steps: up or down to a constant, or along an array as
-//! the index of an element that the condition looks at. Beyond the array's ends the condition is an alarm.
+//! `while` loops that end soon because a variable goes on in equal steps: up or down to a constant, or along an array
+//! as the index of an element that the condition looks at. Beyond the array's ends the condition is an alarm.
 
 use super::{flow, loops, parts};
 use crate::hir::{Expr, ExprKind, Func, LocalId, Place, Projection, Root, Stmt, StmtKind, Type, Walk};
@@ -158,8 +158,8 @@ fn to_constant(part: &Expr, walk: Walk, writes: Writes) -> Option<u64> {
     Some(way.max(0).unsigned_abs() + 1)
 }
 
-/// The length of an array of which the condition looks at an element that the variable, with a constant added or not, is
-/// the index of.
+/// The length of an array of which the condition looks at an element that the variable, with a constant added or not,
+/// is the index of.
 fn along_array(part: &Expr, local: LocalId) -> Option<u64> {
     // The right side of an `or`, and what a call of the program does, may be left out.
     let always = match &part.kind {

@@ -1,8 +1,9 @@
-//! Programs for a debugger: each function may be halted at each of its statements, and its variables can be looked at and
-//! set from outside there.
+//! Programs for a debugger: each function may be halted at each of its statements, and its variables can be looked at
+//! and set from outside there.
 //!
 //! Invariants:
-//! - what the program does, and in which cycles, is the same as without: rounds of loops are counted as they were judged;
+//! - what the program does, and in which cycles, is the same as without: rounds of loops are counted as they were
+//!   judged;
 //! - a variable may be set at any statement, so nothing is concluded from who writes it.
 
 use super::loops;

@@ -69,7 +69,8 @@ fn is_same(one: Root, other: Root) -> bool {
 }
 
 impl<'p> Body<'p, '_> {
-    /// The statements that look up the elements of the arrays that a loop with these parts uses, with the names of these.
+    /// The statements that look up the elements of the arrays that a loop with these parts uses, with the names of
+    /// these.
     pub(super) fn look_up(&mut self, blocks: &[&'p [Stmt]], exprs: &[&'p Expr]) -> Vec<(Ident, TokenStream)> {
         let mut uses = Uses::default();
         for stmt in blocks.iter().copied().flatten() {

@@ -1,5 +1,5 @@
-//! Interrupts, timers and triggers: their conditions and actions become async closures that own what they need, since they
-//! run when the function that declares them may be over.
+//! Interrupts, timers and triggers: their conditions and actions become async closures that own what they need, since
+//! they run when the function that declares them may be over.
 
 use super::body::{Body, Tail};
 use super::calls::{Argument, instruction_call};

@@ -4,11 +4,11 @@
 //! - A state begins at the start of the function, at each label, and where a decomposed statement goes on. Only
 //!   statements that contain a label are decomposed; any other one stays whole inside a state, so nothing is ever
 //!   jumped into but states.
-//! - The code of a state ends by setting the next state or by returning. A jump from inside a statement that stayed whole
-//!   sets the state and continues the machine's loop.
+//! - The code of a state ends by setting the next state or by returning. A jump from inside a statement that stayed
+//!   whole sets the state and continues the machine's loop.
 //! - A variable that more than one state mentions lives outside the loop (it is hoisted), with its start value; its
-//!   declaration becomes an assignment. A jump to a label gives every hoisted variable that is visible there but was not
-//!   visible where the jump stands its start value: its declaration is jumped over.
+//!   declaration becomes an assignment. A jump to a label gives every hoisted variable that is visible there but was
+//!   not visible where the jump stands its start value: its declaration is jumped over.
 //! - Names of locals are distinct in such functions, as all hoisted ones share a scope.
 //! - Each jump backwards gives the cycle back when the budget is used up, as each round of a loop does.
 

@@ -1,13 +1,13 @@
 //! Hooks for a debugger: a frame for each function, its variables, and a place to halt at before each statement.
 //!
-//! A debugger may also set the program pointer to another line of a function. Its statements are then gone through once more
-//! from the first one, and none of them runs before that line.
+//! A debugger may also set the program pointer to another line of a function. Its statements are then gone through once
+//! more from the first one, and none of them runs before that line.
 //!
 //! Invariants:
-//! - Each statement asks its frame whether it runs. One with blocks asks whether the pointer was set to a line in it, and
-//!   takes the way there without looking at its conditions.
-//! - Declarations are always gone through: a variable that is there already stays the same one, any other one has its start
-//!   value.
+//! - Each statement asks its frame whether it runs. One with blocks asks whether the pointer was set to a line in it,
+//!   and takes the way there without looking at its conditions.
+//! - Declarations are always gone through: a variable that is there already stays the same one, any other one has its
+//!   start value.
 //! - Nothing of all that is in programs that are not emitted for a debugger.
 
 use super::body::Body;
@@ -117,8 +117,8 @@ impl<'p> Body<'p, '_> {
         self.led(block, Fragment::new(quote!(#frame.runs(#line).await && #condition), Precedence::And))
     }
 
-    /// `frame.leads_to(13, 15) || condition`, where the block that it leads to has lines of its own: those of a compact `if`
-    /// hang on the condition.
+    /// `frame.leads_to(13, 15) || condition`, where the block that it leads to has lines of its own: those of a compact
+    /// `if` hang on the condition.
     pub(super) fn led(&self, block: &[Stmt], condition: Fragment) -> Fragment {
         let lines = self.lines_of_block(block).map(|(first, last)| (first.max(self.line + 1), last));
         match (&self.frame, lines.filter(|(first, last)| first <= last)) {

@@ -5,8 +5,9 @@
 //! labelled block around the body.
 //!
 //! What lives across an `.await` lies in the memory of the future, and the compiler cannot keep it in a register in
-//! between. Numbers that a loop changes are therefore handed to the wait and come back from it. Where nothing inside a loop
-//! counts rounds or waits, the wait is taken out of it altogether: an inner loop runs as long as there are rounds left.
+//! between. Numbers that a loop changes are therefore handed to the wait and come back from it. Where nothing inside a
+//! loop counts rounds or waits, the wait is taken out of it altogether: an inner loop runs as long as there are rounds
+//! left.
 
 use super::body::{Body, Exit, Loop, Tail, label};
 use super::fragment::{Fragment, Precedence};
@@ -63,8 +64,8 @@ impl<'p> Body<'p, '_> {
         quote!(let #first = #name; #turns #charged)
     }
 
-    /// A condition at the start of each round: for a `while`, or statements that break out where it does not fit into one.
-    /// A debugger may halt there, or only leads into the body.
+    /// A condition at the start of each round: for a `while`, or statements that break out where it does not fit into
+    /// one. A debugger may halt there, or only leads into the body.
     fn head(
         &mut self,
         condition: &'p Expr,
@@ -260,8 +261,8 @@ impl<'p> Body<'p, '_> {
         Turns { label, condition, round: quote!(#head #statements #rest) }
     }
 
-    /// The condition of a loop whose variable climbs from 0 or more, said so that rustc knows that, too, and leaves out its
-    /// own check of an index. With constants it finds out by itself.
+    /// The condition of a loop whose variable climbs from 0 or more, said so that rustc knows that, too, and leaves out
+    /// its own check of an index. With constants it finds out by itself.
     fn climbs_from_zero(&self, each: &For) -> Option<TokenStream> {
         let head = loops::Head::of(each)?;
         let (least, _) = self.ranges.of_local(head.local)?;
@@ -301,7 +302,8 @@ impl<'p> Body<'p, '_> {
         if self.is_shared(id) { quote!(#name.get()) } else { quote!(#name) }
     }
 
-    /// The statement that counts the rounds of a loop behind it, whose variable has gone a way in such steps, or in those of 1.
+    /// The statement that counts the rounds of a loop behind it, whose variable has gone a way in such steps, or in
+    /// those of 1.
     fn charged(&self, way: TokenStream, step: Option<TokenStream>, info: LoopInfo) -> TokenStream {
         let count = step.map_or_else(|| way.clone(), |step| quote!(steps(#way, #step)));
         let count = match info.rounds {

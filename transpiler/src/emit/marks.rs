@@ -131,7 +131,8 @@ fn put_rows(out: &mut String, indent: &str, front: &str, rows: &str) {
     out.extend([indent, "];\n"]);
 }
 
-/// A line of a program, fit for a comment: long ones are cut, control characters and those that turn the direction of text become `?`.
+/// A line of a program, fit for a comment: long ones are cut, control characters and those that turn the direction of
+/// text become `?`.
 pub(super) fn clean(line: &str) -> String {
     let unfit = |c: char| {
         c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}')

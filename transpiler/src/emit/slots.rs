@@ -1,7 +1,8 @@
 //! Many global variables of one type as one array: rustc is given a row for each, and not its code.
 //!
 //! Invariants:
-//! - the variables of an array are of one module and one type, their values are copied, and their first values are constant;
+//! - the variables of an array are of one module and one type, their values are copied, and their first values are
+//!   constant;
 //! - they are in the order of their declarations, and get their first values in that order among all others.
 
 use super::Sizes;

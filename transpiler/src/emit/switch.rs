@@ -67,7 +67,8 @@ impl<'p> Body<'p, '_> {
         out
     }
 
-    /// What a chain compares again and again: a local variable as it is, since the arm is chosen before any of them runs.
+    /// What a chain compares again and again: a local variable as it is, since the arm is chosen before any of them
+    /// runs.
     fn chain_subject(&mut self, subject: &'p Expr) -> Fragment {
         match &subject.kind {
             ExprKind::Place(place) if self.plain_local(place.root).is_some() && place.path.is_empty() => {

@@ -1,5 +1,5 @@
-//! Calls that are found often in a large program, and differ in constants and in local variables only, become one function
-//! each: what rustc is given grows by a line for each of them, not by the code around their wait.
+//! Calls that are found often in a large program, and differ in constants and in local variables only, become one
+//! function each: what rustc is given grows by a line for each of them, not by the code around their wait.
 //!
 //! Invariants:
 //! - a call of such a function does what the code in its place would do, in the same order and at the same line;

@@ -38,8 +38,8 @@ pub(super) struct Usage {
 }
 
 impl Usage {
-    /// Looks through a function; `waits` tells of which functions calls may wait, and `scattered` that its statements are
-    /// taken apart: then rustc cannot follow its flow.
+    /// Looks through a function; `waits` tells of which functions calls may wait, and `scattered` that its statements
+    /// are taken apart: then rustc cannot follow its flow.
     pub(super) fn of_function(func: &Func, scattered: bool, waits: &dyn Fn(FuncId) -> bool) -> Self {
         let mut usage = Self::of_plain_locals(func, scattered, waits);
         // What events see is a cell: nobody knows who reads it, and changing it does not change the variable.

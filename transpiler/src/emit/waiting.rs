@@ -104,8 +104,8 @@ impl<'p> Body<'p, '_> {
         quote!(#start #flag_before #write)
     }
 
-    /// Waits until the condition is looked at again. Where that changes something, or where time ends the wait, the program
-    /// does not only wait.
+    /// Waits until the condition is looked at again. Where that changes something, or where time ends the wait, the
+    /// program does not only wait.
     fn next_look(&self, condition: &Expr, is_limited: bool) -> TokenStream {
         match is_limited || self.changes_something(condition) {
             true => quote!(cx.next_cycle().await;),

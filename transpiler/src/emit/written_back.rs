@@ -90,8 +90,8 @@ impl<'p> Body<'p, '_> {
         self.plain_local(place.root).is_some() && !shared
     }
 
-    /// Whether two of the variables that a call writes by way of temporaries may be the same one, so that each has to be
-    /// written before the next one is read. `touched` are the locals that the call uses otherwise, too.
+    /// Whether two of the variables that a call writes by way of temporaries may be the same one, so that each has to
+    /// be written before the next one is read. `touched` are the locals that the call uses otherwise, too.
     pub(super) fn takes_turns(&self, builtin: &'p Builtin, touched: &HashSet<LocalId>) -> bool {
         let mut paths: HashMap<RootKey, Vec<Option<Vec<i64>>>> = HashMap::new();
         for arg in &builtin.args {
@@ -136,7 +136,8 @@ impl<'p> Body<'p, '_> {
         self.write(&back.reached, Written::Value(value), Calm::Local)
     }
 
-    /// `let scan = scan.argtosave(&mut out);` for each argument, and each variable is written before the next one is read.
+    /// `let scan = scan.argtosave(&mut out);` for each argument, and each variable is written before the next one is
+    /// read.
     pub(super) fn call_in_turn(
         &mut self,
         entry: &Entry,

@@ -122,8 +122,8 @@ fn innermost(stack: &[Frame], kind: BlockKind) -> Option<usize> {
     stack.iter().rposition(|frame| frame.kind == kind)
 }
 
-/// Which of the lines that may open an `if` do: those with a `{`, and as many of a function's as it has more `endif` than
-/// `if`, the first ones.
+/// Which of the lines that may open an `if` do: those with a `{`, and as many of a function's as it has more `endif`
+/// than `if`, the first ones.
 fn doubtful_openers(lines: &[Line<'_>]) -> Vec<bool> {
     let mut openers: Vec<bool> = Vec::new();
     let mut first = 0;

@@ -21,7 +21,8 @@ enum Kept<'a> {
     End,
 }
 
-/// Whether the lexemes, comments and lines of both texts are the same but for blanks, blank lines and the case of words.
+/// Whether the lexemes, comments and lines of both texts are the same but for blanks, blank lines and the case of
+/// words.
 pub(super) fn same(before: &[Line<'_>], after: &[Line<'_>]) -> bool {
     kept(before) == kept(after)
 }

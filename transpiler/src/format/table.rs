@@ -47,7 +47,8 @@ pub(super) fn row(line: &Line<'_>) -> Option<Row> {
     })
 }
 
-/// The values between commas; `None` where the braces do not end with the line, or a comma stands behind the last value.
+/// The values between commas; `None` where the braces do not end with the line, or a comma stands behind the last
+/// value.
 fn cells(items: &[Item<'_>]) -> Option<Vec<String>> {
     let mut cells = Vec::new();
     let mut depth = 0_usize;

@@ -1,9 +1,9 @@
-//! The reference: pages about the language, written by hand in `transpiler/docs/reference/`, and pages of everything built in,
-//! written from the catalog.
+//! The reference: pages about the language, written by hand in `transpiler/docs/reference/`, and pages of everything
+//! built in, written from the catalog.
 //!
-//! A page of the language is `transpiler/docs/reference/AREA/NAME.md`: its title, a paragraph whose first sentence stands in lists,
-//! rules, examples, and at its end the lines `Words:` (the names by which it is found), `See:` and `Manual:`.
-//! `cargo test -p arl2rs --test reference` runs the examples.
+//! A page of the language is `transpiler/docs/reference/AREA/NAME.md`: its title, a paragraph whose first sentence
+//! stands in lists, rules, examples, and at its end the lines `Words:` (the names by which it is found), `See:` and
+//! `Manual:`. `cargo test -p arl2rs-cli --test reference` runs the examples.
 
 mod find;
 mod list;

@@ -46,7 +46,8 @@ pub fn search(words: &[String]) -> Option<String> {
     Some(text)
 }
 
-/// How well a page fits a word: best in its name, then in what it is about, then anywhere; `None` where it does not stand.
+/// How well a page fits a word: best in its name, then in what it is about, then anywhere; `None` where it does not
+/// stand.
 fn score(page: &Candidate, word: &str) -> Option<usize> {
     let is_name = page.names.split('\n').any(|name| name == word);
     let stands_in = |text: &str| text.to_ascii_lowercase().contains(word);

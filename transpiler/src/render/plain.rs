@@ -12,7 +12,8 @@ pub fn plain(diagnostic: &Diagnostic, files: &Files) -> String {
     text.replace(['\n', '\r'], " ")
 }
 
-/// Several lines, without the word for the severity: what is wrong, the source line with a mark under the place, other places, what would be right.
+/// Several lines, without the word for the severity: what is wrong, the source line with a mark under the place, other
+/// places, what would be right.
 pub fn plain_block(diagnostic: &Diagnostic, files: &Files) -> String {
     let at = Position::of(diagnostic.primary.at, files);
     let mut text = format!("{}: {}\n", diagnostic.code, diagnostic.message);

@@ -1,4 +1,5 @@
-//! About how long a blend takes with given limits, and what the motions before and behind lose by it: enough to choose among several.
+//! About how long a blend takes with given limits, and what the motions before and behind lose by it: enough to choose
+//! among several.
 
 use crate::blend::blend_limits::{BlendLimits, PARTS};
 use crate::limits::profile::ALIKE_FACTOR;
@@ -67,7 +68,8 @@ fn duration_with_end_zones(blend_limits: &BlendLimits, [before, behind]: &[Appro
     own + came + went
 }
 
-/// A time in s that [`duration`] is no less than with these speeds, or lower ones, whatever the acceleration and the jerk.
+/// A time in s that [`duration`] is no less than with these speeds, or lower ones, whatever the acceleration and the
+/// jerk.
 pub(crate) fn shortest(speeds: &[f64; PARTS], approaches: &[Approach; 2]) -> f64 {
     let own: f64 = speeds.iter().map(|speed| 1.0 / speed).sum();
     let around: f64 = approaches.iter().map(|approach| approach.length / approach.limits.vel).sum();
@@ -89,8 +91,8 @@ impl Approach {
         APPROACH_SHARES.iter().map(|share| Part { length: self.length * share, speed: self.limits.vel })
     }
 
-    /// How long it takes with an arm, whose parts are given from the middle of the blend on, and how fast that one is there, with at
-    /// most this speed.
+    /// How long it takes with an arm, whose parts are given from the middle of the blend on, and how fast that one is
+    /// there, with at most this speed.
     fn with_end_zone<'a>(&self, arm: impl Iterator<Item = &'a Part>, outer: &Limits, speed: f64) -> (f64, f64) {
         let joined = alike(&self.limits, outer);
         let limits = if joined { lower(*outer, &self.limits) } else { *outer };
@@ -102,8 +104,8 @@ impl Approach {
         (time + self.outside(joined.then_some(&limits), outside), inside)
     }
 
-    /// What it adds to the time: where it shares the blend's limits, what the ramp at its other end loses by them; where it keeps
-    /// its own, all of it, when the blend is met at `speed`.
+    /// What it adds to the time: where it shares the blend's limits, what the ramp at its other end loses by them;
+    /// where it keeps its own, all of it, when the blend is met at `speed`.
     fn outside(&self, shared: Option<&Limits>, speed: f64) -> f64 {
         match shared {
             Some(shared) => {
@@ -163,8 +165,8 @@ fn time(parts: &[Part], [first, last]: [f64; 2], limits: &Limits) -> (f64, [f64;
     (whole, [speeds.first(), speeds.last()].map(|speed| speed.copied().unwrap_or(0.0)))
 }
 
-/// Lowers speeds one way from a place at the speed `slow`, each with what it would be without that, and with the way to it from
-/// the one before, to what can be reached from there; none is above `fastest`.
+/// Lowers speeds one way from a place at the speed `slow`, each with what it would be without that, and with the way to
+/// it from the one before, to what can be reached from there; none is above `fastest`.
 fn bind<'a>(
     slow: f64,
     speeds: impl Iterator<Item = ((&'a mut f64, &'a f64), &'a Part)>,

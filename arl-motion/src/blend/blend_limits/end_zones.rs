@@ -1,7 +1,8 @@
 //! Blends whose ends have limits like those of the ways before and behind.
 //!
-//! A blend that bends sharply leaves little acceleration and jerk to all of it, though its ends hardly bend. Where these keep
-//! what is there beside the blend, the robot slows down all the way to where it bends, and not before the blend begins.
+//! A blend that bends sharply leaves little acceleration and jerk to all of it, though its ends hardly bend. Where
+//! these keep what is there beside the blend, the robot slows down all the way to where it bends, and not before the
+//! blend begins.
 
 use crate::blend::blend_limits::duration::alike;
 use crate::blend::blend_limits::{BlendLimits, PARTS, Quickest, Site, lower_speeds};
@@ -22,8 +23,8 @@ const END_ZONE_PARTS: [usize; 4] = [2, 4, 5, 6];
 const END_ZONE_SHARES: [[f64; 2]; 2] = [[0.9, 0.6], [0.9, 0.9]];
 const MIDDLE_SHARES: [[f64; 2]; 4] = [[0.06, 0.35], [0.06, 0.6], [0.25, 0.35], [0.25, 0.6]];
 
-/// Tries limits with end zones, where some without have been found. `at_rest` is what all places leave of the acceleration and the
-/// jerk at rest.
+/// Tries limits with end zones, where some without have been found. `at_rest` is what all places leave of the
+/// acceleration and the jerk at rest.
 pub(crate) fn try_end_zones(quickest: &mut Quickest<'_>, sites: &[Site], fastest: f64, at_rest: &Limits) {
     if quickest.best.is_none() {
         return;

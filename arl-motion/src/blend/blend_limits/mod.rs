@@ -1,5 +1,5 @@
-//! How fast to cross a blend that bends: one acceleration and jerk for all of it, or for its middle and for both its ends, and a
-//! speed for each of its parts, so that not all of it is as slow as its sharpest place.
+//! How fast to cross a blend that bends: one acceleration and jerk for all of it, or for its middle and for both its
+//! ends, and a speed for each of its parts, so that not all of it is as slow as its sharpest place.
 
 mod duration;
 mod end_zones;
@@ -34,13 +34,13 @@ impl BlendLimits {
     }
 }
 
-/// Parts of the acceleration, and of the jerk, that are there at rest, among which the quickest are looked for. What is not
-/// taken of them is left for the bend.
+/// Parts of the acceleration, and of the jerk, that are there at rest, among which the quickest are looked for. What is
+/// not taken of them is left for the bend.
 const ACC_SHARES: [f64; 5] = [0.06, 0.12, 0.25, 0.5, 0.9];
 const JERK_SHARES: [f64; 4] = [0.15, 0.35, 0.6, 0.9];
 
-/// The quickest limits to pass a blend with, no faster than `fastest`, under which no constraint is broken, and about how long it and the
-/// approaches take with them, in s.
+/// The quickest limits to pass a blend with, no faster than `fastest`, under which no constraint is broken, and about
+/// how long it and the approaches take with them, in s.
 pub(crate) fn find_blend_limits(
     places: &[PlaceBounds],
     fastest: f64,
@@ -64,8 +64,8 @@ fn limits_at_rest(places: &[PlaceBounds]) -> Limits {
 
 /// Tries pairs of an acceleration and a jerk, the same for all of the blend.
 fn try_shares(quickest: &mut Quickest<'_>, sites: &[Site], fastest: f64, at_rest: &Limits) {
-    // Speeds only fall with the acceleration and the jerk: those of the pairs before are a bound, which is often enough to know
-    // that a pair is slower than another one.
+    // Speeds only fall with the acceleration and the jerk: those of the pairs before are a bound, which is often enough
+    // to know that a pair is slower than another one.
     let mut with_less_acc = [[fastest; PARTS]; JERK_SHARES.len()];
     for acc_share in ACC_SHARES {
         let mut with_less_jerk = [fastest; PARTS];

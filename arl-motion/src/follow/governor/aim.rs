@@ -1,12 +1,12 @@
 //! What the robot could do from a state if nothing better came up: the backup of the governor's invariant.
 //!
-//! There are two kinds. Either it brakes within its stretch: to the lowest of all speeds that the way up to the end of the
-//! stretch asks for, and its acceleration has faded before that end. Or its acceleration fades at once, across ends of
-//! stretches, with the lowest limits of all stretches on the way; where that leads to, without acceleration, the first kind
-//! must be possible. At the end of a backup, and on the even way behind it, the first kind is possible: what it braked for
-//! is done, what was too far away to look at is farther than a stop, and the speed at which the next stretch may be entered
-//! is such that, from there on, all it asks for can be done. So there is always a backup: as long as the one in hand goes on,
-//! that; behind it, a new one.
+//! There are two kinds. Either it brakes within its stretch: to the lowest of all speeds that the way up to the end of
+//! the stretch asks for, and its acceleration has faded before that end. Or its acceleration fades at once, across ends
+//! of stretches, with the lowest limits of all stretches on the way; where that leads to, without acceleration, the
+//! first kind must be possible. At the end of a backup, and on the even way behind it, the first kind is possible: what
+//! it braked for is done, what was too far away to look at is farther than a stop, and the speed at which the next
+//! stretch may be entered is such that, from there on, all it asks for can be done. So there is always a backup: as
+//! long as the one in hand goes on, that; behind it, a new one.
 
 use std::ops::ControlFlow;
 
@@ -37,8 +37,8 @@ impl Aim {
 }
 
 impl Governor<'_> {
-    /// What the robot could do from a state, as far as it concerns these cells' speeds, with a slack for speeds, as a share,
-    /// and for ways, in s of nominal time.
+    /// What the robot could do from a state, as far as it concerns these cells' speeds, with a slack for speeds, as a
+    /// share, and for ways, in s of nominal time.
     pub(crate) fn possible(&self, state: &State, scale: Scale, slack: f64, cells: &Cells) -> Option<Aim> {
         self.within(state, scale, slack, cells).or_else(|| self.across(state, scale, slack))
     }

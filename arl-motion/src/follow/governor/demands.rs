@@ -56,8 +56,8 @@ impl Demand {
 }
 
 impl Governor<'_> {
-    /// Tells what the rest of the stretch, with these of its `cells`, and the entry of the next one demand, as far as a stop
-    /// would reach.
+    /// Tells what the rest of the stretch, with these of its `cells`, and the entry of the next one demand, as far as a
+    /// stop would reach.
     pub(crate) fn demands(
         &self,
         state: &State,

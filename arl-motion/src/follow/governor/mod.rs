@@ -1,10 +1,10 @@
 //! The governor: how fast to go along the path, cycle by cycle.
 //!
-//! Invariant: there is a change of speed in hand, the backup, that keeps the limits of all the way that it goes, and at whose
-//! end, without acceleration, the robot can come to the speed of every segment ahead before it gets there, and to rest before
-//! the end, within the limits of the segments in between. So a stop, a change of the override or a motion that comes late never
-//! leads off the path or beyond a limit: each cycle takes the highest jerk behind which another backup is found, and where
-//! none is, goes on along the one in hand.
+//! Invariant: there is a change of speed in hand, the backup, that keeps the limits of all the way that it goes, and at
+//! whose end, without acceleration, the robot can come to the speed of every segment ahead before it gets there, and to
+//! rest before the end, within the limits of the segments in between. So a stop, a change of the override or a motion
+//! that comes late never leads off the path or beyond a limit: each cycle takes the highest jerk behind which another
+//! backup is found, and where none is, goes on along the one in hand.
 
 mod aim;
 mod demands;
@@ -67,14 +67,14 @@ pub(crate) struct Governor<'a> {
 }
 
 impl Governor<'_> {
-    /// A backup for the state, where it can go on; see the invariant. It is at the edge of that most of the time, but for
-    /// rounding.
+    /// A backup for the state, where it can go on; see the invariant. It is at the edge of that most of the time, but
+    /// for rounding.
     pub(crate) fn holds(&self, state: &State) -> Option<Change> {
         self.possible(state, FULL_LIMITS, EDGE_SLACK, &ALL_CELLS).map(|aim| aim.change(state))
     }
 
-    /// The state a cycle later, with a backup for that state in place of the one for this state. Beyond the end of the first
-    /// cell `at` goes on into the next ones.
+    /// The state a cycle later, with a backup for that state in place of the one for this state. Beyond the end of the
+    /// first cell `at` goes on into the next ones.
     pub(crate) fn next(&self, state: &State, backup: &mut Change, pacing: Pacing) -> State {
         let step = self.paced(state, backup, pacing);
         // Rounding must not carry it past a stop.
@@ -199,8 +199,8 @@ impl Governor<'_> {
         Some(Step { state, backup: aim.change(&state) })
     }
 
-    /// The highest jerk of a cycle, which ends about at `next`, behind which the acceleration can fade before the speed is
-    /// too high.
+    /// The highest jerk of a cycle, which ends about at `next`, behind which the acceleration can fade before the speed
+    /// is too high.
     fn highest_jerk(&self, state: &State, next: &State, scale: Scale) -> f64 {
         let fastest = |at: f64| self.at(at).map_or((0.0, f64::INFINITY), |(here, cell)| (cell.limits.vel, here.jerk));
         let (here, there) = (fastest(state.at), fastest(next.at));
@@ -209,8 +209,9 @@ impl Governor<'_> {
         let short = fastest - state.vel - state.acc * self.cycle / 2.0;
         let ramp = jerk * self.cycle;
         let acc = if short > 0.0 {
-            // It fades in whole cycles, the last of which may take less of the jerk: with n others, which leave the part p of a
-            // ramp to it, short = ramp cycle (n (n + 1) / 2 + (n + 1) p). So it comes to the speed and stays there.
+            // It fades in whole cycles, the last of which may take less of the jerk: with n others, which leave the
+            // part p of a ramp to it, short = ramp cycle (n (n + 1) / 2 + (n + 1) p). So it comes to the speed and
+            // stays there.
             let ramps = short / (ramp * self.cycle);
             let others = (((1.0 + 8.0 * ramps).sqrt() - 1.0) / 2.0).floor();
             ramp * (others + (ramps - others * (others + 1.0) / 2.0) / (others + 1.0))
@@ -255,7 +256,8 @@ impl Governor<'_> {
         next.or_else(|| self.hardest(state, backup, scale)).unwrap_or_else(|| self.along(state, backup))
     }
 
-    /// The state a cycle later with the lowest jerk that leaves a backup, where more than the backup in hand asks for does.
+    /// The state a cycle later with the lowest jerk that leaves a backup, where more than the backup in hand asks for
+    /// does.
     fn hardest(&self, state: &State, backup: &Change, scale: Scale) -> Option<Step> {
         let limits = self.touched(state, scale)?;
         let lowest = lowest_jerk(state, self.cycle, &limits)?;
@@ -265,8 +267,8 @@ impl Governor<'_> {
         self.step(next(found), scale, 0.0)
     }
 
-    /// The state a cycle later on the quickest way to a speed, with no more than `limits`: within those of all stretches that
-    /// the cycle touches, or of this one, where only that leaves it possible to go on.
+    /// The state a cycle later on the quickest way to a speed, with no more than `limits`: within those of all
+    /// stretches that the cycle touches, or of this one, where only that leaves it possible to go on.
     fn toward_within(&self, state: &State, goal: f64, limits: Limits, scale: Scale) -> Option<Step> {
         let all = self.touched(state, scale).map(|touched| lower(limits, touched));
         let found = all.into_iter().chain([limits]).map(|limits| self.toward(state, goal, &limits));

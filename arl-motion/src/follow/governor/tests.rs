@@ -144,7 +144,8 @@ struct Ride {
 const CYCLE: f64 = 0.001;
 
 impl Ride {
-    /// On random cells: speeds, accelerations and jerks over two orders of magnitude, lengths from less than a cycle on.
+    /// On random cells: speeds, accelerations and jerks over two orders of magnitude, lengths from less than a cycle
+    /// on.
     fn new(seed: u64, grows: bool) -> Self {
         let mut random = Random::new(seed);
         let lengths = [(-3.3, 0.0), (-3.0, -1.0), (-2.0, -1.0), (-2.5, -0.5), (-2.0, 0.0)][seed as usize % 5];
@@ -178,7 +179,8 @@ impl Ride {
         Governor { stretches: &self.timing.stretches, cycle: CYCLE }
     }
 
-    /// Appends the next cell without a stop before it, if that is still possible; behind the stop, where the robot is there.
+    /// Appends the next cell without a stop before it, if that is still possible; behind the stop, where the robot is
+    /// there.
     fn grow(&mut self) {
         if self.timing.stretches.is_empty()
             && let Some(next) = self.waiting.pop()
@@ -236,7 +238,8 @@ impl Ride {
         Pacing::Go(self.wanted)
     }
 
-    /// The highest speed, acceleration and jerk of all cells and stretches between two places, and whether there is a stop.
+    /// The highest speed, acceleration and jerk of all cells and stretches between two places, and whether there is a
+    /// stop.
     fn most(&self, from: f64, to: f64) -> (Limits, bool) {
         let mut most = Limits { vel: 0.0, acc: 0.0, jerk: 0.0 };
         let mut end = 0.0;

@@ -1,8 +1,8 @@
 //! How the follower leads the robot along the path, and how motions join the path meanwhile.
 //!
-//! Looking for a law takes some cycles. What changes the path where such a law may lead waits until it is there; what changes it
-//! under the law in hand is an offer: it joins the path when a law has been found for it. Where none is, the robot keeps to what it has
-//! and the offer is made again, until it would come too late.
+//! Looking for a law takes some cycles. What changes the path where such a law may lead waits until it is there; what
+//! changes it under the law in hand is an offer: it joins the path when a law has been found for it. Where none is, the
+//! robot keeps to what it has and the offer is made again, until it would come too late.
 
 use std::sync::Arc;
 
@@ -24,19 +24,20 @@ use arl_robot::robot::Robot;
 const FARTHEST_LOOK_S: f64 = 4.0 * FIRST_LOOK_AHEAD_S;
 /// With a part of this more than the first look ahead, the end of the path may be left out.
 const LOOK_AHEAD_FACTOR: f64 = 1.2;
-/// With so much path, in s of nominal time, laws that are no faster leave its end out; a little more, as they begin where the robot will be.
+/// With so much path, in s of nominal time, laws that are no faster leave its end out; a little more, as they begin
+/// where the robot will be.
 pub(crate) const LOOKED_AHEAD_S: f64 = LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S + 0.2;
 
-/// Of so many segments this part stays open behind a law that looks so many s ahead at least: each motion that joins what a law leads
-/// along waits for another law, and too many would.
+/// Of so many segments this part stays open behind a law that looks so many s ahead at least: each motion that joins
+/// what a law leads along waits for another law, and too many would.
 const SEGMENTS_OF_DENSE_CHAIN: usize = 1500;
 const OPEN_SHARE_OF_DENSE_CHAIN: f64 = 0.4;
 const LEAST_LAW_ON_DENSE_CHAIN_S: f64 = 0.4;
 /// An offer for which no law was found is made again so many s later.
 const OFFERED_AGAIN_AFTER_S: f64 = 0.01;
 
-/// How many times as fast as nominal time a law goes, in the mean; once at least. Where motions are slow at a few places only, it is looked
-/// as much farther.
+/// How many times as fast as nominal time a law goes, in the mean; once at least. Where motions are slow at a few
+/// places only, it is looked as much farther.
 pub(crate) fn faster(law: Option<&Law>) -> f64 {
     law.map_or(1.0, |law| law.mean_speed().max(1.0))
 }
@@ -183,8 +184,8 @@ impl PathBuffer {
         self.tail.as_ref().and_then(|tail| tail.joined.as_ref()).map_or(1, |joined| joined.segments.max(1))
     }
 
-    /// Offers motions to the path: they join it as soon as a law has been found that leads along them. At once where none is
-    /// needed.
+    /// Offers motions to the path: they join it as soon as a law has been found that leads along them. At once where
+    /// none is needed.
     pub(crate) fn offer<'a>(
         &mut self,
         (robot, here): (&Arc<Robot>, &Joints),
@@ -255,8 +256,8 @@ impl PathBuffer {
         self.is_led() || self.pending.is_some() || self.next.is_some()
     }
 
-    /// Whether segments may join the path as far as the follower is concerned: where nothing changes up to the end of its law. A
-    /// draft takes everything, and notes from where on it changes.
+    /// Whether segments may join the path as far as the follower is concerned: where nothing changes up to the end of
+    /// its law. A draft takes everything, and notes from where on it changes.
     pub(crate) fn may_change_from(&mut self, same_to: f64) -> bool {
         match &mut self.appending {
             Appending::Draft(unchanged) => {
@@ -288,8 +289,9 @@ impl PathBuffer {
         self.first_stop().and_then(|stop| self.ends.get(stop).copied()).unwrap_or(self.end())
     }
 
-    /// What a law from `at` on has to know: the path up to the next stop, or as far as a law looks; but for its last segments
-    /// where it is long enough without, and for a part of a dense chain, so that motions join that behind the law.
+    /// What a law from `at` on has to know: the path up to the next stop, or as far as a law looks; but for its last
+    /// segments where it is long enough without, and for a part of a dense chain, so that motions join that behind the
+    /// law.
     fn sampler(&self, robot: &Arc<Robot>, near: &Joints, at: f64, before: Option<&Law>) -> ConstraintSampler {
         let segments = self.segments.len();
         let faster = faster(before);
@@ -301,8 +303,8 @@ impl PathBuffer {
         self.sampler_up_to(robot, (at, near), at + faster * FARTHEST_LOOK_S, settled)
     }
 
-    /// The path from `at` to the next stop, or to `farthest`; without the segments from the index `settled` on where that begins behind
-    /// `room`.
+    /// The path from `at` to the next stop, or to `farthest`; without the segments from the index `settled` on where
+    /// that begins behind `room`.
     pub(crate) fn sampler_up_to(
         &self,
         robot: &Arc<Robot>,

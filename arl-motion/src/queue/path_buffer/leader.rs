@@ -34,7 +34,7 @@ pub(crate) enum Appending {
     Blended,
     /// They come behind a stop.
     BehindStop,
-    /// They join a draft of the path, whoever leads. Up to the time that it holds, in s of nominal time since the path began, nothing
-    /// has changed.
+    /// They join a draft of the path, whoever leads. Up to the time that it holds, in s of nominal time since the path
+    /// began, nothing has changed.
     Draft(f64),
 }

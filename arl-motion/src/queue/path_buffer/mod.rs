@@ -165,8 +165,8 @@ impl PathBuffer {
         rounded.then(|| Leaving { number: before.number, share: before.leave, less: before.less.clone() })
     }
 
-    /// The motion that counts as being executed, and the share of its path that is done. A blend belongs to the motion that
-    /// is joined (manual 7.3), whose path still counts from the target that is rounded off.
+    /// The motion that counts as being executed, and the share of its path that is done. A blend belongs to the motion
+    /// that is joined (manual 7.3), whose path still counts from the target that is rounded off.
     pub(crate) fn current(&self) -> Option<(&Segment, f64)> {
         let first = self.segments.front()?;
         match self.segments.get(1).filter(|_| first.leaves()) {
@@ -198,7 +198,8 @@ impl PathBuffer {
         self.at
     }
 
-    /// How fast all axes move, and how that changes, where the robot is and they are at `joints`; `None` at a singular point.
+    /// How fast all axes move, and how that changes, where the robot is and they are at `joints`; `None` at a singular
+    /// point.
     pub(crate) fn rates(&self, kinematics: &Kinematics, joints: &Joints) -> Option<[Joints; 2]> {
         let Some(first) = self.segments.front().filter(|_| !self.rests()) else { return Some([Joints::ZERO; 2]) };
         let [first, second] = first.rates(kinematics, self.at, joints)?;
@@ -218,8 +219,8 @@ impl PathBuffer {
         self.timing.length() - self.state.at
     }
 
-    /// For how many s, at its full speed, the robot can go on before it may have to brake for the next motion: or rather for the end
-    /// of what that one does not change. Where laws lead, one has to lead that far.
+    /// For how many s, at its full speed, the robot can go on before it may have to brake for the next motion: or
+    /// rather for the end of what that one does not change. Where laws lead, one has to lead that far.
     pub(crate) fn spare(&self) -> f64 {
         let Some(last) = self.segments.back() else { return 0.0 };
         if self.wants_laws() {
@@ -245,8 +246,8 @@ impl PathBuffer {
         self.tail.as_ref().and_then(|tail| tail.joined.as_ref()?.before.clone())
     }
 
-    /// Appends a motion that [`limit_rise`] has made ready, with what has been prepared for it. Returns why the motion before it is not
-    /// rounded off, where that was asked for.
+    /// Appends a motion that [`limit_rise`] has made ready, with what has been prepared for it. Returns why the motion
+    /// before it is not rounded off, where that was asked for.
     pub(crate) fn append(
         &mut self,
         robot: &Robot,
@@ -302,7 +303,8 @@ impl PathBuffer {
         unblended
     }
 
-    /// How the last motion bends towards the next one; `None` where it does not, or the robot is on the blend before already.
+    /// How the last motion bends towards the next one; `None` where it does not, or the robot is on the blend before
+    /// already.
     fn curved(
         &self,
         robot: &Robot,
@@ -318,8 +320,8 @@ impl PathBuffer {
         junction::curved(robot, known, (before, *curvature), (&tail.motion, motion))
     }
 
-    /// Puts a blend behind the last one where the two meet in the middle of the last motion, and bends both there; returns
-    /// how many segments there are from the new blend on. `None` where that is not possible any more.
+    /// Puts a blend behind the last one where the two meet in the middle of the last motion, and bends both there;
+    /// returns how many segments there are from the new blend on. `None` where that is not possible any more.
     fn join_curved(
         &mut self,
         tail: &Tail,
@@ -349,8 +351,8 @@ impl PathBuffer {
         None
     }
 
-    /// Puts a blend in place of the end of the last motion and the start of the next; returns how many segments there are
-    /// from the blend on, `None` where the robot is not able to take it any more.
+    /// Puts a blend in place of the end of the last motion and the start of the next; returns how many segments there
+    /// are from the blend on, `None` where the robot is not able to take it any more.
     fn round_off(&mut self, blended: &Blended, number: u64, cycle: f64) -> Option<usize> {
         let Blended { from: before, to: motion, blend, until } = blended;
         let (before_limits, limits) = (before.limits?, motion.limits?);
@@ -381,9 +383,9 @@ impl PathBuffer {
         None
     }
 
-    /// Appends segments in whatever way the robot is able to keep to them; returns whether there is one. `own`: the first of them
-    /// is of the motion that the robot may be on, and did a stretch begin with that? Up to `same_to`, in s of nominal time since
-    /// the path began, nothing changes by them.
+    /// Appends segments in whatever way the robot is able to keep to them; returns whether there is one. `own`: the
+    /// first of them is of the motion that the robot may be on, and did a stretch begin with that? Up to `same_to`, in
+    /// s of nominal time since the path began, nothing changes by them.
     fn lay_any(&mut self, segments: &[Arc<Segment>], own: Option<bool>, same_to: f64, cycle: f64) -> bool {
         let may = self.may_change_from(same_to);
         if self.is_led() {
@@ -433,7 +435,8 @@ impl PathBuffer {
         self.leader.follower().is_some() || matches!(self.appending, Appending::Draft(_))
     }
 
-    /// Appends segments if the robot is able to keep to them, and returns whether it is; which of them `may` join the stretch before?
+    /// Appends segments if the robot is able to keep to them, and returns whether it is; which of them `may` join the
+    /// stretch before?
     fn lay(&mut self, segments: &[Arc<Segment>], may: impl Fn(usize) -> bool, cycle: f64) -> bool {
         // Nobody counts on the path yet.
         if self.state.rests() {
@@ -469,7 +472,8 @@ impl PathBuffer {
 
     /// Segments as they can be pushed.
     fn ready(&self, segments: impl IntoIterator<Item = Segment>) -> Vec<Arc<Segment>> {
-        // Set-points are those of whole cycles: an acceleration takes a few of them to rise, also without a limit of the jerk.
+        // Set-points are those of whole cycles: an acceleration takes a few of them to rise, also without a limit of
+        // the jerk.
         let rise = ACCELERATION_RISE_CYCLES * self.cycle;
         segments.into_iter().map(|segment| Arc::new(segment.rising_in(rise))).collect()
     }
@@ -522,7 +526,8 @@ impl PathBuffer {
         }
     }
 
-    /// Finds what the governor has to know of the path ahead, if it has changed; where a law leads, nobody asks for that.
+    /// Finds what the governor has to know of the path ahead, if it has changed; where a law leads, nobody asks for
+    /// that.
     fn find_entries(&mut self) {
         self.timing.find_entries(LOOK_AHEAD_MARGIN, self.cycle);
     }
@@ -536,8 +541,8 @@ impl PathBuffer {
         self.is_last = is_last;
     }
 
-    /// Goes on for a cycle; tells of each segment that is left behind. Returns whether the robot has arrived where it had
-    /// to stop: at the end of the last segment that was told of.
+    /// Goes on for a cycle; tells of each segment that is left behind. Returns whether the robot has arrived where it
+    /// had to stop: at the end of the last segment that was told of.
     pub(crate) fn advance(
         &mut self,
         (robot, here): (&Arc<Robot>, &Joints),
@@ -600,8 +605,9 @@ impl PathBuffer {
         }
     }
 
-    /// Whoever leads the robot from rest leads it until it stops: laws where the first motion is free, but for one with the
-    /// same limits everywhere that is to be gone from rest to rest. For that one the governor needs no search, and no law is faster.
+    /// Whoever leads the robot from rest leads it until it stops: laws where the first motion is free, but for one with
+    /// the same limits everywhere that is to be gone from rest to rest. For that one the governor needs no search, and
+    /// no law is faster.
     fn choose_leader(&mut self, robot: &Robot) {
         let is_free = || self.segments.front().is_some_and(|first| first.is_free);
         if self.state.rests() && matches!(self.leader, Leader::Governor) && is_free() && !self.is_alone(robot, 0) {
@@ -609,7 +615,8 @@ impl PathBuffer {
         }
     }
 
-    /// Whether the segment of an index, at whose start the robot rests, is an even motion that will not be blended with the next one.
+    /// Whether the segment of an index, at whose start the robot rests, is an even motion that will not be blended with
+    /// the next one.
     fn is_alone(&self, robot: &Robot, index: usize) -> bool {
         let Some(segment) = self.segments.get(index) else { return false };
         let ends_exactly = || self.tail.as_ref().is_some_and(|tail| !asks(robot, &tail.motion));

@@ -1,9 +1,10 @@
 //! Shorter stops where the governor leads.
 //!
-//! The governor knows one acceleration and one jerk for each part of the path: those of its hardest place at full speed. Where the
-//! robot is slower, or elsewhere on that part, it could brake harder. So when it stops, the shortest way to rest is looked
-//! for beside the cycle, with the limits of each place, from the state that the governor's stop leads to meanwhile. If that is
-//! much shorter, a follower takes over and leads to rest; from there the governor goes on as before.
+//! The governor knows one acceleration and one jerk for each part of the path: those of its hardest place at full
+//! speed. Where the robot is slower, or elsewhere on that part, it could brake harder. So when it stops, the shortest
+//! way to rest is looked for beside the cycle, with the limits of each place, from the state that the governor's stop
+//! leads to meanwhile. If that is much shorter, a follower takes over and leads to rest; from there the governor goes
+//! on as before.
 
 use crate::command::joints::Joints;
 use crate::follow::governor::Pacing;
@@ -17,7 +18,8 @@ use crate::time_optimal::stop_prediction::StopPrediction;
 use arl_robot::robot::Robot;
 use std::sync::Arc;
 
-/// How far the state may be from what was foreseen, as rounding leaves it: s of nominal time, full speeds, and these per s.
+/// How far the state may be from what was foreseen, as rounding leaves it: s of nominal time, full speeds, and these
+/// per s.
 const STATE_TOLERANCES: [f64; 3] = [1e-9, 1e-9, 1e-6];
 
 impl PathBuffer {

@@ -21,8 +21,8 @@ impl PathBuffer {
         self.segments.iter().zip(starts).take_while(|(_, start)| *start < to).map(time).sum()
     }
 
-    /// How long the motion that counts as being executed still takes, in s, when it has run for `elapsed` s at full speed:
-    /// exact where it begins and ends at rest, else as its segments and those behind them allow.
+    /// How long the motion that counts as being executed still takes, in s, when it has run for `elapsed` s at full
+    /// speed: exact where it begins and ends at rest, else as its segments and those behind them allow.
     pub(crate) fn time_to_end(&mut self, elapsed: f64) -> f64 {
         let (Some(first), Some((current, _))) = (self.segments.front(), self.current()) else { return 0.0 };
         if let Some(duration) = current.duration().filter(|_| self.leader.follower().is_none()) {

@@ -1,7 +1,7 @@
 //! The speed that a motion reached by itself.
 
-/// The highest speed outside of the zones at both ends of a motion. Where they take all of it, the speed where the one ends and the other
-/// begins: there it goes along its own path for a moment.
+/// The highest speed outside of the zones at both ends of a motion. Where they take all of it, the speed where the one
+/// ends and the other begins: there it goes along its own path for a moment.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]
 pub(super) struct Reached {
     outside: Option<f64>,

@@ -1,7 +1,7 @@
 //! Symmetric linear equations in which every unknown meets only the next two.
 
-/// A symmetric positive definite matrix with two diagonals beside the main one, by columns: the diagonal element and the
-/// two below. After [`Banded::factor`] it holds its factors.
+/// A symmetric positive definite matrix with two diagonals beside the main one, by columns: the diagonal element and
+/// the two below. After [`Banded::factor`] it holds its factors.
 #[derive(Default, Debug)]
 pub(crate) struct Banded {
     columns: Vec<[f64; 3]>,

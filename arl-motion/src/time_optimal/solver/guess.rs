@@ -5,13 +5,13 @@ use crate::time_optimal::solver::warp::Warp;
 use crate::time_optimal::solver::warped_row::WarpedRow;
 use crate::time_optimal::solver::{Edge, Way};
 
-/// Of the fastest rise from rest with limited jerk the power 3/4 of the speed's square grows evenly with the way, by so much with the
-/// root of the jerk; a part of it leaves room for accelerations to begin and end.
+/// Of the fastest rise from rest with limited jerk the power 3/4 of the speed's square grows evenly with the way, by so
+/// much with the root of the jerk; a part of it leaves room for accelerations to begin and end.
 const RISE: f64 = 2.12;
 const GUESSED_SHARE_OF_RISE: f64 = 0.5;
 
-/// About how fast the warped parameter can go at the places, `places` in its own terms: as the limits leave it at an even speed,
-/// and as it can be reached from their neighbours.
+/// About how fast the warped parameter can go at the places, `places` in its own terms: as the limits leave it at an
+/// even speed, and as it can be reached from their neighbours.
 pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Edge; 2]) -> Vec<f64> {
     let last = places.len().saturating_sub(1);
     let mut squares = Vec::with_capacity(places.len());
@@ -82,7 +82,8 @@ pub(crate) fn guess_steps(way: &Way, edges: [Edge; 2]) -> Option<Vec<f64>> {
 struct Thinning {
     /// Places are so far apart in time, in s, ...
     closest: f64,
-    /// ... but for those behind which the motion is so many times as fast as behind the last one that is kept, or as slow; ...
+    /// ... but for those behind which the motion is so many times as fast as behind the last one that is kept, or as
+    /// slow; ...
     change: f64,
     /// ... for those so soon behind the start, in s; ...
     begun: f64,
@@ -90,13 +91,14 @@ struct Thinning {
     keeps_jumps: bool,
 }
 
-/// The way without places that are closer together than so many s by these steps, but for those where derivatives jump or the speed
-/// changes much; `None` where it has few of them.
+/// The way without places that are closer together than so many s by these steps, but for those where derivatives jump
+/// or the speed changes much; `None` where it has few of them.
 pub(crate) fn thinned(way: &Way, steps: &[f64], closest: f64) -> Option<Way> {
     keep(way, steps, &Thinning { closest, change: CHANGE_OF_SPEED, begun: 0.0, keeps_jumps: true })
 }
 
-/// The way with a third of its places or so, from which the pace of a law can be told, but not the law; `None` where it has few of them.
+/// The way with a third of its places or so, from which the pace of a law can be told, but not the law; `None` where it
+/// has few of them.
 pub(crate) fn coarse(way: &Way, edges: [Edge; 2]) -> Option<Way> {
     let steps = guess_steps(way, edges)?;
     keep(way, &steps, &COARSE)

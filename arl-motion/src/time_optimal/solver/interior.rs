@@ -1,8 +1,8 @@
 //! The interior point method for the problem with jerk limits.
 //!
-//! Primal and dual unknowns take Newton steps together, each first without and then with a correction for what the first
-//! leaves (Mehrotra). A jerk limit enters with its tangent at the current point, which is stricter than the limit itself:
-//! what a step keeps of the tangent, it keeps of the limit.
+//! Primal and dual unknowns take Newton steps together, each first without and then with a correction for what the
+//! first leaves (Mehrotra). A jerk limit enters with its tangent at the current point, which is stricter than the limit
+//! itself: what a step keeps of the tangent, it keeps of the limit.
 //!
 //! Indices: there are two coefficients more than stretches, and the stretch i has those from i to i + 2; the ranges of
 //! limits and prices are those that the program numbered when it made them.
@@ -22,10 +22,11 @@ const STEPS: usize = 80;
 const ROUNDS: usize = 4;
 /// By so much a given speed and acceleration at an end may exceed the limits.
 const TOLERANCE: f64 = 1.003;
-/// The same where the motion is about known: whether it keeps them as its set-points go is looked at anyway, and else there is none that is
-/// nearly as fast.
+/// The same where the motion is about known: whether it keeps them as its set-points go is looked at anyway, and else
+/// there is none that is nearly as fast.
 const TOLERANCE_OF_KNOWN: f64 = 1.006;
-/// The duration is so close to what it can be at best, as a share of it; the second where it is found again over its own pace then.
+/// The duration is so close to what it can be at best, as a share of it; the second where it is found again over its
+/// own pace then.
 const GAP: f64 = 5e-4;
 const ROUGH_GAP: f64 = 0.02;
 /// By so much limits may be exceeded, as a share of them.
@@ -51,22 +52,24 @@ const MOST_APPROACHES: usize = 6;
 /// The same where it is found roughly.
 const LEAST_ROUGH_GAIN: f64 = 0.02;
 const MOST_ROUGH_APPROACHES: usize = 4;
-/// Over the pace of a rough law a law takes by less than this part less time where its own pace is as good: the next one would take by a
-/// thirtieth of that less.
+/// Over the pace of a rough law a law takes by less than this part less time where its own pace is as good: the next
+/// one would take by a thirtieth of that less.
 const LEAST_GAIN_ON_ROUGH: f64 = 0.01;
 /// One that takes longer than this many times the rough law has found no good way.
 const MOST_ON_ROUGH: f64 = 1.05;
 /// One that takes longer than this many times as long as it could is none.
 pub(crate) const CREEPING: f64 = 1.2;
 
-/// The coefficients of the fastest motion, with all limits kept, of which the duration is so close to what it can be at best.
+/// The coefficients of the fastest motion, with all limits kept, of which the duration is so close to what it can be at
+/// best.
 fn settle(program: &mut Program, gap: f64) -> Result<Vec<f64>, Refusal> {
     let free = program.given.is_empty();
     let tolerance = if program.beginning == Beginning::Known { TOLERANCE_OF_KNOWN } else { TOLERANCE };
     let mut coefficients = program.first.clone();
     let mut used = 0.0;
     for round in 0..=ROUNDS {
-        // Where all else fails there is the motion to begin with; from rest to rest it is slowed down below as far as it takes.
+        // Where all else fails there is the motion to begin with; from rest to rest it is slowed down below as far as
+        // it takes.
         coefficients.clone_from(&program.first);
         if round < ROUNDS {
             let mut climb = Climb::new(program);
@@ -102,12 +105,12 @@ struct Prices {
 
 /// The fastest motion within all limits of `way`, behind a law if there is one.
 ///
-/// Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough; a guess is
-/// not that near. So a law is found over the pace of another one, until that is as good as its own.
+/// Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is
+/// enough; a guess is not that near. So a law is found over the pace of another one, until that is as good as its own.
 pub(crate) fn solve(way: &Way, edges: [Edge; 2], before: Option<&Law>) -> Result<Law, Refusal> {
     let Some(before) = before else { return solve_alone(way, edges) };
-    // Few places tell the pace sooner, but not always where the start leaves hardly a way on. And where it has to slow down for what the
-    // law before has not seen, the pace of that may lead nowhere.
+    // Few places tell the pace sooner, but not always where the start leaves hardly a way on. And where it has to slow
+    // down for what the law before has not seen, the pace of that may lead nowhere.
     let coarse = coarse(way, edges);
     let mut best: Result<Law, Refusal> = Err(Refusal::Fast);
     let mut quickest = f64::INFINITY;
@@ -145,7 +148,8 @@ fn solve_alone(way: &Way, edges: [Edge; 2]) -> Result<Law, Refusal> {
     Ok(approach(way, edges, find(&mut program, gap)?))
 }
 
-/// As the law before goes, as far as that is known; with the rough law, over a way with fewer places, that its pace is of.
+/// As the law before goes, as far as that is known; with the rough law, over a way with fewer places, that its pace is
+/// of.
 fn solve_behind(way: &Way, edges: [Edge; 2], (before, sparse): (&Law, &Way)) -> Result<(Law, Law), Refusal> {
     let rough = solve_roughly(sparse, edges, before)?;
     let pace = rough.pace_at(way.places()).ok_or(Refusal::Fast)?;
@@ -197,7 +201,8 @@ fn program(way: &Way, edges: [Edge; 2], known: Known) -> Result<Program, Refusal
     if way.places().len() < 3 { Err(Refusal::Short) } else { Program::new(way, edges, known) }
 }
 
-/// The fastest motion, from the first beginning that leads to one, of which the duration is so close to what it can be at best.
+/// The fastest motion, from the first beginning that leads to one, of which the duration is so close to what it can be
+/// at best.
 fn find(program: &mut Program, gap: f64) -> Result<Law, Refusal> {
     for beginning in program.beginnings() {
         program.begin(beginning);

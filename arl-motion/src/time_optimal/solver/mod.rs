@@ -1,14 +1,14 @@
 //! The fastest speed along a given path that keeps every axis's velocity, acceleration and jerk within limits.
 //!
-//! The unknown is x, the square of the path parameter's speed, as a function of the parameter. Velocity and acceleration
-//! limits are linear in x and its slope; without jerk limits the optimum is found by one pass back and one pass forth over
-//! the places (`reach`). A jerk limit bounds a linear form of x, its slope and its bend by 1/sqrt(x); the tangent of
-//! that bound is always below it, so every convex problem made with it is safe, and an interior point method that renews
-//! the tangents with every step (`interior`) climbs to the optimum.
+//! The unknown is x, the square of the path parameter's speed, as a function of the parameter. Velocity and
+//! acceleration limits are linear in x and its slope; without jerk limits the optimum is found by one pass back and one
+//! pass forth over the places (`reach`). A jerk limit bounds a linear form of x, its slope and its bend by 1/sqrt(x);
+//! the tangent of that bound is always below it, so every convex problem made with it is safe, and an interior point
+//! method that renews the tangents with every step (`interior`) climbs to the optimum.
 //!
 //! At rest, x as a function of the path parameter has an infinite bend. The problem is therefore stated over a warped
-//! parameter (`warp`) of which the path parameter is the cube near rest: constant jerk is then constant speed. Over that one
-//! a first guess of the speed makes a parameter that goes about as the time does (`paced_warp`).
+//! parameter (`warp`) of which the path parameter is the cube near rest: constant jerk is then constant speed. Over
+//! that one a first guess of the speed makes a parameter that goes about as the time does (`paced_warp`).
 
 mod banded;
 mod error;
@@ -65,13 +65,14 @@ pub fn places(from: f64, to: f64, count: usize, start: Edge, end: Edge) -> Vec<f
 
 /// The fastest motion along `way` from `start` to `end`.
 ///
-/// Limits are kept at the places of the path, and between them as far as the places are close: some 100 where the path bends
-/// once. From rest to rest there always is a motion. Without jerk limits the acceleration jumps, and that of the edges does
-/// not count.
+/// Limits are kept at the places of the path, and between them as far as the places are close: some 100 where the path
+/// bends once. From rest to rest there always is a motion. Without jerk limits the acceleration jumps, and that of the
+/// edges does not count.
 ///
-/// A motion that starts on the way of another one has half a percent of acceleration and jerk more to go by, and up to 0.3 % of
-/// all limits more at its first 50 places. What the state there uses beyond the limits, up to 1 %, comes on top. Where only braking
-/// is left that is still not always enough, and the start is refused as too fast: the old law remains valid.
+/// A motion that starts on the way of another one has half a percent of acceleration and jerk more to go by, and up to
+/// 0.3 % of all limits more at its first 50 places. What the state there uses beyond the limits, up to 1 %, comes on
+/// top. Where only braking is left that is still not always enough, and the start is refused as too fast: the old law
+/// remains valid.
 ///
 /// # Errors
 /// A way of fewer than two places or without order, rows that are no numbers or without positive limits, a way along

@@ -22,8 +22,8 @@ impl Pace {
         Some(Self { times, ends: [*speeds.first()?, *speeds.last()?] })
     }
 
-    /// Of a motion that goes on along a law from the first of the places, `at` in the path parameter: as that goes until it slows down
-    /// for its end, then as guessed.
+    /// Of a motion that goes on along a law from the first of the places, `at` in the path parameter: as that goes
+    /// until it slows down for its end, then as guessed.
     pub(crate) fn behind(law: &Law, (at, places): (&[f64], &[f64]), warp: &Warp, guess: &[f64]) -> Option<Self> {
         let times: Vec<f64> = at.iter().map(|at| law.time_at(*at)).collect();
         let on = |index: usize| Some(law.at(*times.get(index)?).vel / warp.place(*places.get(index)?).first);

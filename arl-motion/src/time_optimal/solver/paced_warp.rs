@@ -1,9 +1,9 @@
 //! A parameter that goes about as the time does.
 //!
-//! Where the path bends sharply the motion is slower by orders of magnitude than elsewhere, over a way that is as much shorter. Over
-//! the path parameter such a problem cannot be solved with numbers of a computer. So a first guess of the speed makes another
-//! parameter, of which all places are about as far apart as they are in time, and in which the speed is about the same
-//! everywhere.
+//! Where the path bends sharply the motion is slower by orders of magnitude than elsewhere, over a way that is as much
+//! shorter. Over the path parameter such a problem cannot be solved with numbers of a computer. So a first guess of the
+//! speed makes another parameter, of which all places are about as far apart as they are in time, and in which the
+//! speed is about the same everywhere.
 //!
 //! Invariant: the path parameter is a function of it with two continuous derivatives that only grows. Third derivatives
 //! jump at the places.
@@ -34,8 +34,8 @@ pub(crate) struct PacedWarp {
     is_even: bool,
 }
 
-/// How many times as fast it is at one place as at another, at least, for a parameter of its own to be worth while, and at
-/// neighbouring places at most.
+/// How many times as fast it is at one place as at another, at least, for a parameter of its own to be worth while, and
+/// at neighbouring places at most.
 const LEAST_RANGE: f64 = 20.0;
 const FARTHEST_APART: f64 = 5.0;
 /// How many times guessed speeds are smoothed at most, because the paced parameter would turn back otherwise.
@@ -44,8 +44,8 @@ const ATTEMPTS: usize = 4;
 const LEAST_GROWTH: f64 = 0.1;
 
 impl PacedWarp {
-    /// With the warped places, and a guess how fast the warped parameter goes at each. Where that is not much slower anywhere than
-    /// elsewhere, or the places are too far apart to tell, it is the warped parameter itself.
+    /// With the warped places, and a guess how fast the warped parameter goes at each. Where that is not much slower
+    /// anywhere than elsewhere, or the places are too far apart to tell, it is the warped parameter itself.
     pub(crate) fn guessed(warp: Warp, places: &[f64], speeds: Vec<f64>) -> Self {
         let (least, most) =
             speeds.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), speed| (least.min(*speed), most.max(*speed)));
@@ -63,7 +63,8 @@ impl PacedWarp {
         Self::even(warp, places)
     }
 
-    /// How fast the warped parameter goes at the places where this one has these speeds; `None` where the two are the same.
+    /// How fast the warped parameter goes at the places where this one has these speeds; `None` where the two are the
+    /// same.
     pub(crate) fn speeds(&self, own: impl Iterator<Item = f64>) -> Option<Vec<f64>> {
         (!self.is_even).then(|| self.knots.iter().zip(own).map(|(knot, own)| knot.first * own).collect())
     }

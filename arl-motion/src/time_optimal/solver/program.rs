@@ -1,9 +1,9 @@
 //! The problem with jerk limits, stated over the paced parameter.
 //!
 //! The square x of the speed is a quadratic spline: the acceleration, half its slope, is continuous and changes evenly
-//! from place to place. Its coefficients are the corners of the spline's control polygon, one for each stretch, in whose
-//! middle it lies, and one at either end of the path. The three that count in a stretch give x and the acceleration at its
-//! ends, and its bend; every limit is a function of these.
+//! from place to place. Its coefficients are the corners of the spline's control polygon, one for each stretch, in
+//! whose middle it lies, and one at either end of the path. The three that count in a stretch give x and the
+//! acceleration at its ends, and its bend; every limit is a function of these.
 //!
 //! Indices: a path that is timed here has three places or more; there is one stretch less, and one coefficient more.
 
@@ -81,8 +81,8 @@ pub(crate) struct Program {
     jumps: Vec<bool>,
 }
 
-/// Where the screen has the rows of a place for the side before it, and for the one behind; behind those of all places it
-/// has those of the middles.
+/// Where the screen has the rows of a place for the side before it, and for the one behind; behind those of all places
+/// it has those of the middles.
 fn before(place: usize) -> usize {
     2 * place
 }
@@ -94,7 +94,8 @@ fn behind(place: usize) -> usize {
 /// The motion to begin with.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Beginning {
-    /// At an even speed that all limits allow everywhere, whatever is chosen; states at the ends are come to on the way up.
+    /// At an even speed that all limits allow everywhere, whatever is chosen; states at the ends are come to on the way
+    /// up.
     Even,
     /// Smoothly from end to end.
     Smooth,
@@ -116,18 +117,19 @@ pub(crate) enum Known<'a> {
 
 /// A state at an end is come to from an even speed if the square of its own is no higher by more than so many times.
 const HIGHEST_FROM_EVEN: f64 = 6.0;
-/// What is known begins with this share of the square of the speed, but for the time beside a given state, in s, where that counts.
+/// What is known begins with this share of the square of the speed, but for the time beside a given state, in s, where
+/// that counts.
 const SHARE_OF_KNOWN: f64 = 0.97;
 const GIVEN_STATE_S: f64 = 0.1;
 
-/// By so much acceleration and jerk are limited more strictly, for what happens between the places, and to leave room for
-/// a motion that starts on the way of another; that one has no such reserve.
+/// By so much acceleration and jerk are limited more strictly, for what happens between the places, and to leave room
+/// for a motion that starts on the way of another; that one has no such reserve.
 const RESERVE: f64 = 1.005;
 /// The same for the square of the speed, whatever is at the ends.
 const RESERVE_OF_SPEED: f64 = 1.0008;
-/// At a given start limits are as much higher as it takes for the state there, and by so much more; this fades out over so many
-/// places. The law before it was found over other places, where it may have used all that there is. Hardly so the limit of the square
-/// of the speed, which is programmed.
+/// At a given start limits are as much higher as it takes for the state there, and by so much more; this fades out over
+/// so many places. The law before it was found over other places, where it may have used all that there is. Hardly so
+/// the limit of the square of the speed, which is programmed.
 const START_RESERVE: f64 = 0.003;
 const START_RESERVE_OF_SPEED: f64 = 2e-4;
 /// No state that a law leads to uses more of them.
@@ -137,8 +139,8 @@ const START_PLACES: usize = 50;
 const MOST_EXCESS_AT_START: f64 = 1.02;
 /// How many stretches next to rest have all limits in the middle.
 const MIDDLES: usize = 4;
-/// A stretch has speed limits in its middle where the square of the speed may come as near to them as this part of it: what is as fast
-/// as it may be at all places would be faster between them.
+/// A stretch has speed limits in its middle where the square of the speed may come as near to them as this part of it:
+/// what is as fast as it may be at all places would be faster between them.
 const NEAR_SPEED_LIMIT: f64 = 0.8;
 
 /// A share of the highest square of the paced parameter's speed that no motion comes down to, but for one that fails.
@@ -424,8 +426,8 @@ enum Counting {
     Speed,
 }
 
-/// The stretches with limits in their middles: those close to rest, where rows change so much, and those of the highest speed; `most` is
-/// the highest square of the speed at each place.
+/// The stretches with limits in their middles: those close to rest, where rows change so much, and those of the highest
+/// speed; `most` is the highest square of the speed at each place.
 fn middles(way: &Way, warp: &PacedWarp, places: &[f64], ([start, end], most): ([Edge; 2], &[f64])) -> Vec<Middle> {
     let last = places.len() - 1;
     let count = MIDDLES.min(last / 2);
@@ -465,8 +467,8 @@ fn given(warp: &PacedWarp, places: &[f64], [start, end]: [Edge; 2], unit: f64) -
     both.into_iter().flatten().flatten().collect()
 }
 
-/// Raises the limits of the first places, and of the stretches between them, for the state at the start, x and its slope; not for one
-/// that is far beyond them.
+/// Raises the limits of the first places, and of the stretches between them, for the state at the start, x and its
+/// slope; not for one that is far beyond them.
 fn ease(
     rows: &mut [WarpedRow],
     ends: &[usize],

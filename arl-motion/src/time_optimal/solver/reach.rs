@@ -1,5 +1,5 @@
-//! The fastest motion without jerk limits: one pass back for the speeds from which the end can be reached, and one forth
-//! that takes the highest of them.
+//! The fastest motion without jerk limits: one pass back for the speeds from which the end can be reached, and one
+//! forth that takes the highest of them.
 
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::paced_warp::PacedWarp;

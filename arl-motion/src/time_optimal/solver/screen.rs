@@ -43,8 +43,8 @@ struct Doubt {
 }
 
 impl Screen {
-    /// With the rows, where those of each place begin, and the highest x that each place can have; or what x is about everywhere,
-    /// where that is known.
+    /// With the rows, where those of each place begin, and the highest x that each place can have; or what x is about
+    /// everywhere, where that is known.
     pub(crate) fn new(
         rows: Vec<WarpedRow>,
         ends: Vec<usize>,

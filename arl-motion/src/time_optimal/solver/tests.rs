@@ -14,8 +14,8 @@ fn line(count: usize, limits: Limits) -> Way {
     way
 }
 
-/// A cubic spline through random points of all axes of a robot, at rest in its curvature at both ends; its parameter goes
-/// from 0 to the number of points less one.
+/// A cubic spline through random points of all axes of a robot, at rest in its curvature at both ends; its parameter
+/// goes from 0 to the number of points less one.
 struct Spline {
     points: Vec<Vec<f64>>,
     /// The second derivative at each point.

@@ -29,8 +29,8 @@ impl WarpedRow {
         }
     }
 
-    /// Over the squares of speed in units of `unit`, with limits that are so many times as strict: on the square of the speed, and on
-    /// acceleration and jerk.
+    /// Over the squares of speed in units of `unit`, with limits that are so many times as strict: on the square of the
+    /// speed, and on acceleration and jerk.
     pub(crate) fn scale(&mut self, unit: f64, [speed, hold]: [f64; 2]) {
         let turn = unit * unit.sqrt() * hold;
         self.vel *= unit * speed;

@@ -11,8 +11,8 @@ const BESIDE_REST_S: f64 = 0.006;
 /// One quantity that moves with the path parameter, at one place: its derivatives by the parameter and its limits.
 ///
 /// A parameter that moves with speed v, acceleration a and jerk j moves the quantity with speed `first` v, acceleration
-/// `first` a + `second` v2 and jerk `first` j + 3 `second` v a + `third` v3. Units are the caller's, the same in all rows
-/// of one quantity; time is in s.
+/// `first` a + `second` v2 and jerk `first` j + 3 `second` v a + `third` v3. Units are the caller's, the same in all
+/// rows of one quantity; time is in s.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Row {
     /// First derivative by the path parameter.
@@ -51,8 +51,8 @@ impl Row {
 
 /// A path as places along its parameter, each with the rows that hold there.
 ///
-/// Where a derivative jumps, the place has the rows of both sides. Limits hold at the places; between them as far as the
-/// derivatives change evenly from place to place.
+/// Where a derivative jumps, the place has the rows of both sides. Limits hold at the places; between them as far as
+/// the derivatives change evenly from place to place.
 #[derive(Clone, Default, Debug)]
 pub struct Way {
     at: Vec<f64>,
@@ -90,8 +90,8 @@ impl Way {
         self.sides.push([self.rows.len(), start]);
     }
 
-    /// Adds the next place, where derivatives jump: with the rows of the side before it, then of the one behind it, of which
-    /// the first has so many.
+    /// Adds the next place, where derivatives jump: with the rows of the side before it, then of the one behind it, of
+    /// which the first has so many.
     pub fn push_jump(&mut self, at: f64, rows: impl IntoIterator<Item = Row>, before: usize) {
         let start = self.rows.len();
         self.push(at, rows);
@@ -152,9 +152,9 @@ impl Way {
         way
     }
 
-    /// Makes limits lower that a motion uses too much of: for the stretch from one parameter to another, with the share that is
-    /// used there, those at its places and at the places beside it, so that `most` of them would be used. The first place stays: the
-    /// state there is what it is.
+    /// Makes limits lower that a motion uses too much of: for the stretch from one parameter to another, with the share
+    /// that is used there, those at its places and at the places beside it, so that `most` of them would be used. The
+    /// first place stays: the state there is what it is.
     pub fn lower(&mut self, used: &[([f64; 2], f64)], most: f64) {
         let mut factors = vec![1.0_f64; self.at.len()];
         for ([from, to], share) in used {
@@ -173,8 +173,8 @@ impl Way {
         }
     }
 
-    /// The way as it is timed with limits on the jerk: none of its accelerations rises at once beside rest. The square of the warped
-    /// parameter's speed would have a pole there.
+    /// The way as it is timed with limits on the jerk: none of its accelerations rises at once beside rest. The square
+    /// of the warped parameter's speed would have a pole there.
     pub(crate) fn rising_beside_rest(&self, edges: [Edge; 2]) -> Cow<'_, Self> {
         let mut way = Cow::Borrowed(self);
         let last = self.at.len().saturating_sub(1);

@@ -43,7 +43,8 @@ impl fmt::Display for Flaw {
     }
 }
 
-/// The frame with its origin at the first point, the second on its +x axis, and the third in its xy plane on the +y side.
+/// The frame with its origin at the first point, the second on its +x axis, and the third in its xy plane on the +y
+/// side.
 ///
 /// # Errors
 /// The points are too near to each other, or in a line.
@@ -72,8 +73,8 @@ pub(super) fn axes(x: Vector3<f64>, y: Vector3<f64>, z: Vector3<f64>) -> UnitQua
     UnitQuaternion::from_rotation_matrix(&matrix)
 }
 
-/// The orientation with this unit vector as z, and x as near to the world's x axis as can be; where z is along that, y is
-/// as near to the world's y axis as can be.
+/// The orientation with this unit vector as z, and x as near to the world's x axis as can be; where z is along that, y
+/// is as near to the world's y axis as can be.
 pub(super) fn around(z: Vector3<f64>) -> UnitQuaternion<f64> {
     let x = Vector3::x() - z * z.x;
     if x.norm() > ALONG_X {
@@ -93,8 +94,8 @@ pub(super) enum Triangle {
     Found,
 }
 
-/// The frame in which points that were `found` have the coordinates `known`, and how far, in mm, the worst of them is from
-/// where it should be. What does not fit is spread over the points so that the sum of the squares is least.
+/// The frame in which points that were `found` have the coordinates `known`, and how far, in mm, the worst of them is
+/// from where it should be. What does not fit is spread over the points so that the sum of the squares is least.
 ///
 /// # Errors
 /// Points of one of the triangles are too near to each other, or in a line.

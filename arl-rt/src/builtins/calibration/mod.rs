@@ -1,7 +1,7 @@
 //! Frames of tools, workpieces and the base from places that were taught (manual 5.9).
 //!
-//! A place is given by the axes that the robot had there. Places too near to each other, or in a line, give no frame, and
-//! neither does what is not set or no number: an alarm.
+//! A place is given by the axes that the robot had there. Places too near to each other, or in a line, give no frame,
+//! and neither does what is not set or no number: an alarm.
 
 mod geometry;
 
@@ -21,8 +21,8 @@ const MAX_MISFIT_MM: f64 = 1.0;
 /// How many mechanical units a channel has.
 const MECHANICAL_UNITS: i32 = 1;
 
-/// The workpiece frame with its origin at the first place of the tool, the second on its +x axis, and the third in its xy
-/// plane on the +y side.
+/// The workpiece frame with its origin at the first place of the tool, the second on its +x axis, and the third in its
+/// xy plane on the +y side.
 ///
 /// # Errors
 /// Axes are unset, the tool is stationary, or the places are too near to each other or in a line.
@@ -72,7 +72,8 @@ pub fn getwobj_indi(
 }
 
 /// The frame with its origin at the first place of the tool (only the tool's x, y and z count), and its z along that of
-/// the flange at the second. With `xydefault` x is as near to the world's as can be, otherwise x and y are the flange's too.
+/// the flange at the second. With `xydefault` x is as near to the world's as can be, otherwise x and y are the flange's
+/// too.
 ///
 /// # Errors
 /// Axes are unset, or the tool is stationary.
@@ -84,8 +85,8 @@ pub fn getwobj_flange(cx: &Cx, j1: Joint, j2: Joint, t: Tool, xydefault: bool) -
     Ok(workpiece(&Frame::from_parts(origin.into(), rotation)))
 }
 
-/// Writes x, y and z of a tool that touched at `j2` the point that the tool `reference`, of which only x, y and z count,
-/// touched at `j1`.
+/// Writes x, y and z of a tool that touched at `j2` the point that the tool `reference`, of which only x, y and z
+/// count, touched at `j1`.
 ///
 /// # Errors
 /// Axes are unset, or the known tool is stationary.
@@ -110,8 +111,8 @@ pub fn gettoolrot_world(cx: &Cx, j: Joint, t: &mut Tool) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Writes a, b and c of a tool whose x, y and z are right: at `j1` its TCP touched a point, at `j2` a place on its -x axis
-/// did, at `j3` one in its xy plane on the -y side.
+/// Writes a, b and c of a tool whose x, y and z are right: at `j1` its TCP touched a point, at `j2` a place on its -x
+/// axis did, at `j3` one in its xy plane on the -y side.
 ///
 /// # Errors
 /// Axes are unset, the tool is stationary, or the places are too near to each other or in a line.
@@ -128,8 +129,8 @@ pub fn gettoolrot_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: &mut Tool) -> 
     Ok(())
 }
 
-/// The frame of a tool, or of a workpiece that the robot holds, with three places that touched the point of the world that
-/// `w` gives (only its x, y and z count): its origin, one on its +x axis, and one in its xy plane on the +y side.
+/// The frame of a tool, or of a workpiece that the robot holds, with three places that touched the point of the world
+/// that `w` gives (only its x, y and z count): its origin, one on its +x axis, and one in its xy plane on the +y side.
 ///
 /// # Errors
 /// Axes are unset, the robot holds `w`, or the places are too near to each other or in a line.
@@ -148,7 +149,8 @@ pub fn gettool_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, w: &Wobj) -> Result<
 /// origin, on the world's +x axis, and in its xy plane on the +y side.
 ///
 /// # Errors
-/// There is no such unit, axes are unset, the tool is stationary, or the places are too near to each other or in a line.
+/// There is no such unit, axes are unset, the tool is stationary, or the places are too near to each other or in a
+/// line.
 pub fn getbase_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: Tool, index: i32) -> Result<(), Fault> {
     let taught = Taught { base: Frame::identity(), ..Taught::new(cx, "getbase_3p") };
     if !(1..=MECHANICAL_UNITS).contains(&index) {

@@ -184,8 +184,8 @@ impl Handle {
         })
     }
 
-    /// Sends bytes. Where the thread has the buffer, they are sent in the next cycle: many programs do not ask whether a
-    /// message has gone, and it is not lost for a thread that was interrupted.
+    /// Sends bytes. Where the thread has the buffer, they are sent in the next cycle: many programs do not ask whether
+    /// a message has gone, and it is not lost for a thread that was interrupted.
     pub(super) async fn send(&self, cx: &Cx, function: &'static str, bytes: &[u8]) -> Result<Found<()>, Fault> {
         loop {
             match self.try_send(function, bytes)? {

@@ -1,4 +1,5 @@
-//! Modbus RTU (manual 5.6.6): the controller is a slave on a serial line; these functions work on its holding registers.
+//! Modbus RTU (manual 5.6.6): the controller is a slave on a serial line; these functions work on its holding
+//! registers.
 
 use std::rc::Rc;
 
@@ -103,7 +104,8 @@ pub async fn read_bytes(cx: &Cx, dev: &ModbusDev, data: &mut [u8], start: i32, l
     Ok(dev.with(cx, "read", start, len, room, take).await?.is_some())
 }
 
-/// Writes a text into the holding registers from byte `start` on, high bytes first. True: the master reads it from now on.
+/// Writes a text into the holding registers from byte `start` on, high bytes first. True: the master reads it from now
+/// on.
 ///
 /// # Errors
 /// Bytes that no register has; the line is not open, or lost.
@@ -112,8 +114,8 @@ pub async fn write_string(cx: &Cx, dev: &ModbusDev, data: &Str, start: i32) -> R
     write_bytes(cx, dev, data.as_bytes(), start, len).await
 }
 
-/// Writes `len` bytes into the holding registers from byte `start` on, high bytes first. True: the master reads them from
-/// now on.
+/// Writes `len` bytes into the holding registers from byte `start` on, high bytes first. True: the master reads them
+/// from now on.
 ///
 /// # Errors
 /// Bytes that no register has, a length beyond the array; the line is not open, or lost.
@@ -135,8 +137,8 @@ pub async fn clearbuff(cx: &Cx, dev: &ModbusDev) -> Result<bool, Fault> {
     Ok(dev.with(cx, "clearbuff", 0, all, usize::MAX, |bytes| bytes.fill(0)).await?.is_some())
 }
 
-/// Sets how often registers and line are exchanged, at least: they are exchanged with each request of the master, so that
-/// nothing changes.
+/// Sets how often registers and line are exchanged, at least: they are exchanged with each request of the master, so
+/// that nothing changes.
 ///
 /// # Errors
 /// A period below 500000 us; the line is not open, or lost.

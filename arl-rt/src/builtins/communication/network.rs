@@ -18,8 +18,8 @@ const KEPT: &str = "NETWORK";
 /// The network ports of a SCARA robot's cabinet. The others have the first one only.
 const PORTS: [&str; 3] = ["eth1", "eth2", "eth3"];
 
-/// Sets address, gateway and mask of a network port. False where one of them is no address, the mask is none, or there is no
-/// such port.
+/// Sets address, gateway and mask of a network port. False where one of them is no address, the mask is none, or there
+/// is no such port.
 ///
 /// # Errors
 /// None.

@@ -93,7 +93,8 @@ pub async fn read_string(cx: &Cx, s: &Socket, data: &mut Str, len: i32) -> Resul
 /// Takes exactly `len` bytes when so many have come.
 ///
 /// # Errors
-/// The socket is not connected, or the other side has closed it before so many came; a length below 0 or beyond the array.
+/// The socket is not connected, or the other side has closed it before so many came; a length below 0 or beyond the
+/// array.
 pub async fn read_bytes(cx: &Cx, s: &Socket, data: &mut [u8], len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     done(cx, transfer::read_bytes(&s.0, data, len)?)

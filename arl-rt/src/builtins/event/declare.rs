@@ -86,8 +86,8 @@ where
         self
     }
 
-    /// Watches the condition from the next cycle on, until the program ends or `delint`. One that holds now must first be
-    /// false.
+    /// Watches the condition from the next cycle on, until the program ends or `delint`. One that holds now must first
+    /// be false.
     ///
     /// # Errors
     /// The name is taken or empty, the priority is not within 0 to 255, there are too many events; the alarm of the
@@ -122,8 +122,8 @@ where
     /// Counts from now on.
     ///
     /// # Errors
-    /// The name is taken or empty, the priority is not within 0 to 255, the interval is below 0 s (below 0.001 s where it
-    /// repeats) or no number, there are too many events.
+    /// The name is taken or empty, the priority is not within 0 to 255, the interval is below 0 s (below 0.001 s where
+    /// it repeats) or no number, there are too many events.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         const FUNCTION: &str = "timer";
         let priority = priority(self.priority, FUNCTION)?;

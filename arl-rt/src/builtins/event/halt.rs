@@ -27,8 +27,8 @@ impl StopMove {
         self
     }
 
-    /// Begins to brake, and does not wait for the end of it. Motions that what runs now, or what interrupts it, plans from
-    /// here on come before the stopped ones go on.
+    /// Begins to brake, and does not wait for the end of it. Motions that what runs now, or what interrupts it, plans
+    /// from here on come before the stopped ones go on.
     ///
     /// # Errors
     /// The channel has no robot.

@@ -21,7 +21,8 @@ pub fn elapsed_distance(cx: &Cx, s: f64) -> bool {
     s >= 0.0 && line(cx).is_some_and(|progress| progress.elapsed_distance >= s - ROUNDING_MM)
 }
 
-/// `StoEnd`: whether the TCP has at most `s` mm of its line left. Never on axis motions, and not where the line is shorter.
+/// `StoEnd`: whether the TCP has at most `s` mm of its line left. Never on axis motions, and not where the line is
+/// shorter.
 pub fn left_distance(cx: &Cx, s: f64) -> bool {
     let within = |progress: &Progress| s <= progress.elapsed_distance + progress.left_distance + ROUNDING_MM;
     s >= 0.0 && line(cx).filter(within).is_some_and(|progress| progress.left_distance <= s + ROUNDING_MM)

@@ -43,8 +43,8 @@ impl Unknown {
     }
 }
 
-/// Whether a condition holds. It has the turns of loops of a whole cycle for itself, waits for no motion, and leaves the
-/// program pointer where it is.
+/// Whether a condition holds. It has the turns of loops of a whole cycle for itself, waits for no motion, and leaves
+/// the program pointer where it is.
 pub(super) fn evaluate(cx: &Cx, code: &dyn Code) -> Result<bool, Unknown> {
     let (pointer, level) = (cx.pointer(), cx.enter_level(Level::LOOKING));
     let budget = cx.renew_budget();

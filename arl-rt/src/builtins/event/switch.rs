@@ -59,7 +59,8 @@ switch! {
 }
 
 switch! {
-    /// `disableint`: interrupts go on watching their conditions, but lose their events, also those that wait to be handled.
+    /// `disableint`: interrupts go on watching their conditions, but lose their events, also those that wait to be
+    /// handled.
     disableint DisableInt |table, found, _now| table.disable(&found)
 }
 

@@ -11,7 +11,7 @@ use crate::io::Output;
 /// There is no such channel.
 pub async fn getai(cx: &Cx, chan: i32) -> Result<f64, Fault> {
     cx.motion_end().await;
-    cx.shared().io.borrow().ai(chan)
+    cx.shared().io.borrow().analog_input(chan)
 }
 
 /// Sets an analog output, in V or mA.
@@ -20,11 +20,11 @@ pub async fn getai(cx: &Cx, chan: i32) -> Result<f64, Fault> {
 /// There is no such channel; a value outside -10 to 10 V or 4 to 20 mA.
 pub async fn setao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
     cx.motion_end().await;
-    cx.shared().io.borrow_mut().set_ao(chan, value)
+    cx.shared().io.borrow_mut().set_analog_output(chan, value)
 }
 
-/// Sets an analog output, in V or mA, and goes on when it has been sent: in the next cycle, or when the island that has it
-/// has taken it.
+/// Sets an analog output, in V or mA, and goes on when it has been sent: in the next cycle, or when the island that has
+/// it has taken it.
 ///
 /// # Errors
 /// There is no such channel; a value outside -10 to 10 V or 4 to 20 mA.
@@ -40,5 +40,5 @@ pub async fn syncao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
 /// There is no such channel.
 pub async fn getao(cx: &Cx, chan: i32) -> Result<f64, Fault> {
     cx.motion_end().await;
-    cx.shared().io.borrow().ao(chan)
+    cx.shared().io.borrow().analog_output(chan)
 }

@@ -29,7 +29,8 @@ pub async fn setdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> R
     cx.shared().io.borrow_mut().set_digitals(Digital::Do, from_chan, to_chan, value)
 }
 
-/// Sets a digital output and goes on when it has been sent: in the next cycle, or when the island that has it has taken it.
+/// Sets a digital output and goes on when it has been sent: in the next cycle, or when the island that has it has taken
+/// it.
 ///
 /// # Errors
 /// There is no such channel.
@@ -66,8 +67,8 @@ pub async fn syncdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> 
 /// The shortest pulse that an output can give, in s.
 const SHORTEST_PULSE_S: f64 = 0.025;
 
-/// Puts a pulse on a digital output: the level for `width` seconds, but at least 25 ms, then the opposite level. The program
-/// goes on at once.
+/// Puts a pulse on a digital output: the level for `width` seconds, but at least 25 ms, then the opposite level. The
+/// program goes on at once.
 ///
 /// # Errors
 /// There is no such channel; the width is negative or not a number.

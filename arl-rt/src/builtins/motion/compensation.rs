@@ -146,8 +146,8 @@ impl Compen {
     /// Holds from the next motion on.
     ///
     /// # Errors
-    /// No compensation has been started, the frame is unknown, a value is no number, or more than 90 deg would be turned in
-    /// all.
+    /// No compensation has been started, the frame is unknown, a value is no number, or more than 90 deg would be
+    /// turned in all.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let reference = self.frame.reference()?;
         if let Some(value) = self.by.iter().find(|value| !value.is_finite() || is_unset(value.abs())) {

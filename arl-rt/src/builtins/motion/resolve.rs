@@ -88,8 +88,8 @@ fn there<'a>(unit: &Unit, external: &'a [f64]) -> &'a [f64] {
     external.get(..unit.robot().external_axes().len()).unwrap_or_default()
 }
 
-/// A component that is not set stays as it is, but nothing can be calculated with it: a sum of it would be left out of the
-/// target in silence, a difference would turn the tool to wherever it leads.
+/// A component that is not set stays as it is, but nothing can be calculated with it: a sum of it would be left out of
+/// the target in silence, a difference would turn the tool to wherever it leads.
 fn sensible(components: &[f64]) -> Result<(), Fault> {
     let calculated = |value: &f64| is_set(*value) && value.is_finite() && value.abs() > FARTHEST;
     match components.iter().copied().find(calculated) {

@@ -23,7 +23,8 @@ impl StartWeave {
     /// Holds from the next motion on, in place of a weave that holds already.
     ///
     /// # Errors
-    /// A component is out of its range, or asks for what there is not: weld tracking, vibration, a weave of a SCARA robot.
+    /// A component is out of its range, or asks for what there is not: weld tracking, vibration, a weave of a SCARA
+    /// robot.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let weave = figure(&self.weave)?;
         cx.channel_state().unit_mut("startweave")?.settings.weave = Some(weave);

@@ -13,7 +13,8 @@ use crate::storage::data::{DataFile, DataVar};
 use crate::values::{Joint, Pose, Str};
 
 /// Writes a pose to a point of the program that a foreground channel runs, in its data file and in the program itself,
-/// where it counts as soon as it is in the file; whether it worked. It does not wait for motion, and the robot goes on meanwhile.
+/// where it counts as soon as it is in the file; whether it worked. It does not wait for motion, and the robot goes on
+/// meanwhile.
 ///
 /// # Errors
 /// The channel is not within 1 to 6.
@@ -22,7 +23,8 @@ pub async fn saveposenow(cx: &Cx, channel: u32, file_name: &Str, pose_name: &Str
 }
 
 /// Writes a joint to a point of the program that a foreground channel runs, in its data file and in the program itself,
-/// where it counts as soon as it is in the file; whether it worked. It does not wait for motion, and the robot goes on meanwhile.
+/// where it counts as soon as it is in the file; whether it worked. It does not wait for motion, and the robot goes on
+/// meanwhile.
 ///
 /// # Errors
 /// The channel is not within 1 to 6.
@@ -98,7 +100,8 @@ fn teach(var: &DataVar<'_>, value: &str) -> Option<()> {
     var.slot.teach(&parsed.expr, &names).ok()
 }
 
-/// Whether a data file is meant by a name: its own, or that of the program that it belongs to; with its folders, or without.
+/// Whether a data file is meant by a name: its own, or that of the program that it belongs to; with its folders, or
+/// without.
 fn is_meant(name: &str, data: &str) -> bool {
     let plain = |name: &str| name.replace('\\', "/").to_ascii_lowercase();
     let (name, data) = (plain(name), plain(data));

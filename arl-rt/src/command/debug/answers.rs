@@ -92,8 +92,8 @@ pub(super) fn inside(cx: &Cx) -> String {
     format!("{},{locals},{}", stack(cx, &frames), globals(cx, Detail::Brief))
 }
 
-/// The fields that say which program a channel runs: its main file, and the folder of its files, counted from the script
-/// directory.
+/// The fields that say which program a channel runs: its main file, and the folder of its files, counted from the
+/// script directory.
 fn program(cx: &Cx) -> String {
     let folder = cx.program_itself().folder().display().to_string();
     format!("\"program\":{},\"folder\":{}", quoted(cx.program().name()), quoted(&folder))
@@ -267,8 +267,8 @@ fn set_signal(cx: &Cx, kind: &str, channel: &str, value: &str) -> Result<String,
     let set: Result<(), Fault> = match kind {
         "di" => io.set_digital(Digital::Di, channel, level()?),
         "do" => io.set_digital(Digital::Do, channel, level()?),
-        "ai" => io.set_ai(channel, amount()?),
-        "ao" => io.set_ao(channel, amount()?),
+        "ai" => io.set_analog_input(channel, amount()?),
+        "ao" => io.set_analog_output(channel, amount()?),
         _ => return Err(format!("there are no signals `{kind}`: expected di, do, ai or ao")),
     };
     set.map_err(|fault| fault.to_string())?;

@@ -259,7 +259,8 @@ impl Debugger {
                     }
                     Err(why) => format!("\"error\":{}", quoted(&why)),
                 };
-                // A program that is halted at a statement goes there at once: its variables are those of the place then.
+                // A program that is halted at a statement goes there at once: its variables are those of the place
+                // then.
                 let arrives =
                     request.word == "pointer" && self.is_moved(channel) && self.stands_in.get() == Some(channel);
                 self.arriving.set(Some(channel).filter(|_| arrives));

@@ -8,7 +8,8 @@ use crate::values::{Joint, Literal, NumBase, Pos, Pose, Str, Tool, Wobj};
 use arl_lang::catalog;
 use arl_lang::symbol::Interner;
 
-/// What a call gives: the type and the value, both as text. Nothing where the arguments are not of the parameters' types.
+/// What a call gives: the type and the value, both as text. Nothing where the arguments are not of the parameters'
+/// types.
 type Called = Option<Result<(String, String), Fault>>;
 
 /// A function for arguments that are literals.

@@ -86,7 +86,8 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// Halts at these lines of a file, and no others of it: the folder and the main file of its program, its name, lines.
+    /// Halts at these lines of a file, and no others of it: the folder and the main file of its program, its name,
+    /// lines.
     pub(super) fn set_lines(&mut self, request: &Request) {
         let lines = request.values.iter().skip(3).filter_map(|line| line.parse().ok()).collect();
         let [folder, program, file] = [0, 1, 2].map(|at| request.value(at).to_owned());
@@ -109,7 +110,8 @@ impl Plan {
         self.way.unwrap_or(Way::On)
     }
 
-    /// Whether it halts before a statement, and why. A debugger may let it pass a breakpoint: then the second reason counts.
+    /// Whether it halts before a statement, and why. A debugger may let it pass a breakpoint: then the second reason
+    /// counts.
     pub(super) fn halts_at(&self, statement: &Statement<'_>) -> Option<(Why, Option<Why>)> {
         let Statement { number, channel, depth, .. } = *statement;
         let arrived = match self.way() {
@@ -126,8 +128,8 @@ impl Plan {
         if breaks() { Some(("breakpoint", other)) } else { other.map(|why| (why, None)) }
     }
 
-    /// Whether it halts before a cycle, behind so many statements, where the robot of the channel executes this motion. A pause before the first
-    /// statement halts there: before it there is no place to show.
+    /// Whether it halts before a cycle, behind so many statements, where the robot of the channel executes this motion.
+    /// A pause before the first statement halts there: before it there is no place to show.
     pub(super) fn halts_between(&self, cycle: u64, statements: u64, motion_of: impl Fn(usize) -> u64) -> Option<Why> {
         match self.way() {
             Way::Pause => (statements > 0).then_some("pause"),

@@ -1,8 +1,9 @@
 //! Buttons that move a robot as long as they are held: `hold = "j1+"`, again and again while it is so.
 //!
-//! `hold.2` is the robot of channel 2. A direction is `j1+`, `x-` (in the world), `tool z+`, `rx+` (about x), `frame 0 0 90 x+` (in a frame turned by a, b, c in deg),
-//! or `to 0 -90 90 0 90 0` for all axes; nothing lets go. Where the order does not come again in time, the button counts as let go: a page
-//! that is lost, or a process, stops the robot on its path.
+//! `hold.2` is the robot of channel 2. A direction is `j1+`, `x-` (in the world), `tool z+`, `rx+` (about x), `frame 0
+//! 0 90 x+` (in a frame turned by a, b, c in deg), or `to 0 -90 90 0 90 0` for all axes; nothing lets go. Where the
+//! order does not come again in time, the button counts as let go: a page that is lost, or a process, stops the robot
+//! on its path.
 
 use arl_robot::kinematics::frame;
 use nalgebra::Vector3;

@@ -227,8 +227,9 @@ fn shape(limb: &Limb) -> String {
     format!("{{\"name\":{name},\"link\":{},\"ends\":{ends},\"radius\":{}}}", limb.link, number(limb.radius))
 }
 
-/// The chain of the robot's links: where the frame of each is in that of the one before while its axis is at 0, and what it turns about or
-/// moves along; and the flange in the last one. A frame is x, y, z in mm and a quaternion x, y, z, w.
+/// The chain of the robot's links: where the frame of each is in that of the one before while its axis is at 0, and
+/// what it turns about or moves along; and the flange in the last one. A frame is x, y, z in mm and a quaternion x, y,
+/// z, w.
 fn links(kinematics: &Kinematics) -> String {
     let (joints, flange) = kinematics.links();
     let frame = |frame: &Frame| {
@@ -291,8 +292,8 @@ pub(crate) fn push_state(out: &mut String, controller: &Controller, time: f64) {
     out.push_str("}}\n");
 }
 
-/// Adds a line that says where the robots are: of each channel the place of its motion, the base and the axes; with the inputs and outputs, as
-/// these say which bodies are there.
+/// Adds a line that says where the robots are: of each channel the place of its motion, the base and the axes; with the
+/// inputs and outputs, as these say which bodies are there.
 pub(super) fn push_cycle(out: &mut String, controller: &Controller) {
     out.push_str("{\"cycle\":{\"time\":");
     push_number(out, controller.last_time());

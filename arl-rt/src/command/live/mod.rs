@@ -1,22 +1,23 @@
 //! A run that another program drives: orders come in, a line each, and what happens goes out, a JSON object a line.
 //!
-//! This is what `--live` of a compiled program is, and what `arl2rs run --pendant` sits on. Orders are what an event of an
-//! io scenario does, in the same words: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`. When the orders
-//! end, the robot stops on its path and the program with it.
+//! This is what `--live` of a compiled program is, and what `arl2rs run --pendant` sits on. Orders are what an event of
+//! an io scenario does, in the same words: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`. When the
+//! orders end, the robot stops on its path and the program with it.
 //!
-//! `inside = 1` lets lines with the functions and variables of channel 1 go out, where the program was made for a debugger;
-//! `inside = 0` ends that.
+//! `inside = 1` lets lines with the functions and variables of channel 1 go out, where the program was made for a
+//! debugger; `inside = 0` ends that.
 //!
 //! `hold = "j1+"`, said again and again, moves an axis or the TCP as long as it is said (`holding.rs`).
 //!
-//! The first line that goes out is `{"hello":...}`: the channels with their programs, robots, axes and links, and the names of
-//! signals. Then come `state` (20 times a second), `inside` (4 times a second), `message`, `warning`, `alarm`, and `refused`
-//! for an order that could not be carried out.
+//! The first line that goes out is `{"hello":...}`: the channels with their programs, robots, axes and links, and the
+//! names of signals. Then come `state` (20 times a second), `inside` (4 times a second), `message`, `warning`, `alarm`,
+//! and `refused` for an order that could not be carried out.
 //!
-//! `--state-interval S` has states come more often. With `--each-cycle`, `cycle` says in each cycle where the robots are, and the levels of inputs
-//! and outputs; with `--each-motion`, `report` says what a motion did, once it has ended.
+//! `--state-interval S` has states come more often. With `--each-cycle`, `cycle` says in each cycle where the robots
+//! are, and the levels of inputs and outputs; with `--each-motion`, `report` says what a motion did, once it has ended.
 //!
-//! Who only listens (`--listener`) hears the same, reports at the end, and at last `ended` with how often something was left out.
+//! Who only listens (`--listener`) hears the same, reports at the end, and at last `ended` with how often something was
+//! left out.
 
 mod holding;
 mod line_writer;

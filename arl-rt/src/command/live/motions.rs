@@ -44,8 +44,8 @@ impl EndedMotions {
 }
 
 impl OfRobot {
-    /// The motions that have ended and were not said, or have gone on since they were. There are `count`; `of` says when one began, if it has,
-    /// and how long it has taken so far.
+    /// The motions that have ended and were not said, or have gone on since they were. There are `count`; `of` says
+    /// when one began, if it has, and how long it has taken so far.
     fn ended(&mut self, count: usize, of: impl Fn(usize) -> (Option<f64>, f64), moves: bool) -> Vec<usize> {
         if count < self.seen {
             *self = Self::default();
@@ -102,7 +102,8 @@ mod tests {
         motions.push((Some(1.0), 0.3));
         assert_eq!(ended(&mut said, &motions, true), []);
         assert_eq!(ended(&mut said, &motions, false), [2]);
-        // Then the first one goes on, which was said before its end, and the second one, which was there before the jogging.
+        // Then the first one goes on, which was said before its end, and the second one, which was there before the
+        // jogging.
         motions[0].1 = 0.6;
         assert_eq!(ended(&mut said, &motions, true), []);
         motions[1] = (Some(2.0), 0.4);

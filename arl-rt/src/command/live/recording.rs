@@ -1,8 +1,10 @@
-//! A run that somebody listens to: what `--live` says goes out to an address, in virtual time, too, and nothing comes in.
+//! A run that somebody listens to: what `--live` says goes out to an address, in virtual time, too, and nothing comes
+//! in.
 //!
-//! A state goes out every 4 ms of controller time. Who asks for it hears in each cycle where the robots are, and at the end what the motions
-//! did. On the virtual clock the run waits where the listener is slower, so that nothing is lost; in real time no cycle waits, and what is not
-//! taken in time is left out and counted. When the listener is gone, the robot stops on its path.
+//! A state goes out every 4 ms of controller time. Who asks for it hears in each cycle where the robots are, and at the
+//! end what the motions did. On the virtual clock the run waits where the listener is slower, so that nothing is lost;
+//! in real time no cycle waits, and what is not taken in time is left out and counted. When the listener is gone, the
+//! robot stops on its path.
 
 use std::cell::RefCell;
 use std::io;

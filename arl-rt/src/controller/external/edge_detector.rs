@@ -40,8 +40,8 @@ pub(super) struct EdgeDetector {
 }
 
 impl EdgeDetector {
-    /// Looks at the input. Edges count while `active` only, and only after a look at the same input: one that is on when it
-    /// begins to count must go off first.
+    /// Looks at the input. Edges count while `active` only, and only after a look at the same input: one that is on
+    /// when it begins to count must go off first.
     pub(super) fn look(&mut self, io: &Image, channel: i32, cycle: u64, active: bool) -> InputState {
         let Some(on) = io.input(channel) else {
             *self = Self::default();

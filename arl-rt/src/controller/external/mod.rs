@@ -1,7 +1,7 @@
 //! External auto control (chapter 9): a PLC that works the controller through inputs and outputs.
 //!
-//! System variables say which channels mean what. Inputs are looked at when they have been read, outputs follow before they
-//! are written; in between lies the cycle.
+//! System variables say which channels mean what. Inputs are looked at when they have been read, outputs follow before
+//! they are written; in between lies the cycle.
 
 mod buttons;
 mod edge_detector;
@@ -72,7 +72,8 @@ impl External {
     }
 }
 
-/// Whether the PLC may work the controller: in automatic mode, while its activation input is on, or where none is wired.
+/// Whether the PLC may work the controller: in automatic mode, while its activation input is on, or where none is
+/// wired.
 fn is_activated(io: &Image, system: &System) -> bool {
     let asked = match system.ext_ctl_act_di.get() {
         0 => true,

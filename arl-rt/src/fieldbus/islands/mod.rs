@@ -1,5 +1,5 @@
-//! Io islands: servers of Modbus TCP that have inputs and outputs of the cell. A thread for each exchanges them; the cycle
-//! copies images.
+//! Io islands: servers of Modbus TCP that have inputs and outputs of the cell. A thread for each exchanges them; the
+//! cycle copies images.
 
 mod link;
 mod plan;
@@ -151,10 +151,10 @@ impl Port {
             }
         }
         for (bit, level) in self.island.points.di.iter().zip(&self.inputs.bits) {
-            inputs.set_di(bit.channel + 1, *level);
+            inputs.set_digital_input(bit.channel + 1, *level);
         }
         for (analog, value) in self.island.points.ai.iter().zip(&self.inputs.values) {
-            inputs.set_ai(analog.channel + 1, *value);
+            inputs.set_analog_input(analog.channel + 1, *value);
         }
     }
 
@@ -163,10 +163,10 @@ impl Port {
         let Some(mut state) = self.shared.try_lock() else { return };
         let points = &self.island.points;
         for (bit, level) in points.dout.iter().zip(&mut state.outputs.bits) {
-            *level = outputs.dout(bit.channel + 1);
+            *level = outputs.digital_output(bit.channel + 1);
         }
         for (analog, value) in points.ao.iter().zip(&mut state.outputs.values) {
-            *value = outputs.ao(analog.channel + 1);
+            *value = outputs.analog_output(analog.channel + 1);
         }
         state.given = Some(outputs.cycle());
     }

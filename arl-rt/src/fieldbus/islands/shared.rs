@@ -5,8 +5,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use super::plan::Signals;
 
-/// The images of an island's signals between its thread and the cycle. The lock is held for copying them only; the cycle
-/// does not wait for it, it tries again in the next cycle.
+/// The images of an island's signals between its thread and the cycle. The lock is held for copying them only; the
+/// cycle does not wait for it, it tries again in the next cycle.
 pub(super) struct Shared {
     state: Mutex<State>,
     changed: Condvar,

@@ -59,7 +59,7 @@ impl Run {
     }
 
     fn inputs(&self) -> (i32, f64) {
-        (self.image.digitals(Digital::Di, 1, 3).unwrap(), self.image.ai(2).unwrap())
+        (self.image.digitals(Digital::Di, 1, 3).unwrap(), self.image.analog_input(2).unwrap())
     }
 }
 
@@ -85,7 +85,7 @@ fn signals_go_both_ways() {
     run.cycle();
     assert_eq!(run.inputs(), (0b101, 10.0), "they are there in the first cycle");
     run.image.set_digitals(Digital::Do, 1, 3, 0b110).unwrap();
-    run.image.set_ao(2, -10.0).unwrap();
+    run.image.set_analog_output(2, -10.0).unwrap();
     run.until("the outputs", |_| outputs(&tables) == (0b110, [0x80, 0x01]));
     set_inputs(&tables, 0b010, [0x80, 0x01]);
     run.until("the inputs", |run| run.inputs() == (0b010, -10.0));
@@ -143,7 +143,7 @@ fn at_the_end_outputs_go_to_0_or_stay() {
         let (server, tables) = server("127.0.0.1:0");
         let mut run = Run::start(server.address(), more);
         run.image.set_digitals(Digital::Do, 1, 3, 0b101).unwrap();
-        run.image.set_ao(2, 10.0).unwrap();
+        run.image.set_analog_output(2, 10.0).unwrap();
         // The last thing that a cycle gave is written, whatever the thread was doing.
         run.until("the images", |run| run.islands.ports[0].shared.wait().outputs.bits[0]);
         drop(run);

@@ -1,5 +1,5 @@
-//! Modbus requests that the controller sends as a client, and what it makes of the answers: bytes without the frame around
-//! them, Modbus Application Protocol 1.1b3.
+//! Modbus requests that the controller sends as a client, and what it makes of the answers: bytes without the frame
+//! around them, Modbus Application Protocol 1.1b3.
 
 use arl_robot::islands::Table;
 

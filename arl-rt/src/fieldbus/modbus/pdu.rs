@@ -1,7 +1,8 @@
 //! Modbus requests and their answers, as bytes without the frame around them: Modbus Application Protocol 1.1b3.
 //!
-//! Own code: of the crates that answer requests without a runtime of their own, rmodbus 0.13 drops requests of more than
-//! 250 bytes and answers unknown functions whatever their checksum, and modbus-core 0.2 trusts the counts of the sender.
+//! Own code: of the crates that answer requests without a runtime of their own, rmodbus 0.13 drops requests of more
+//! than 250 bytes and answers unknown functions whatever their checksum, and modbus-core 0.2 trusts the counts of the
+//! sender.
 
 use super::tables::Tables;
 

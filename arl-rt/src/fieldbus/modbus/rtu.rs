@@ -1,4 +1,5 @@
-//! The frame of Modbus RTU around a request or an answer: unit in front, checksum behind; requests in what a line carries.
+//! The frame of Modbus RTU around a request or an answer: unit in front, checksum behind; requests in what a line
+//! carries.
 
 use super::pdu::LONGEST;
 
@@ -23,8 +24,9 @@ pub(crate) struct Request {
     pub(crate) pdu: Vec<u8>,
 }
 
-/// What came over the line and is not done with. The line carries the answers of other slaves, too, whose length a request
-/// does not have: what comes after a silence may be a new request though the bytes before it are still waiting for their rest.
+/// What came over the line and is not done with. The line carries the answers of other slaves, too, whose length a
+/// request does not have: what comes after a silence may be a new request though the bytes before it are still waiting
+/// for their rest.
 #[derive(Default, Debug)]
 pub(crate) struct ReceiveBuffer {
     bytes: Vec<u8>,

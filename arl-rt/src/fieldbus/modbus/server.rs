@@ -1,7 +1,7 @@
 //! A Modbus TCP server: a thread that accepts clients, and one for each of them.
 //!
-//! Who waits for one connection only needs one system call to hear of a request and one to answer it, and the system wakes it
-//! sooner than one that waits for any of several.
+//! Who waits for one connection only needs one system call to hear of a request and one to answer it, and the system
+//! wakes it sooner than one that waits for any of several.
 
 mod connection;
 

@@ -3,8 +3,8 @@
 /// How many registers, and how many coils: all that the protocol can name.
 pub(crate) const SIZE: usize = 1 << 16;
 
-/// Holding registers and coils. Both are kept as they go over the wire: registers with their high byte first, coils with
-/// the lowest bit of a byte first.
+/// Holding registers and coils. Both are kept as they go over the wire: registers with their high byte first, coils
+/// with the lowest bit of a byte first.
 pub(crate) struct Tables {
     registers: Box<[u8]>,
     coils: Box<[u8]>,
@@ -27,8 +27,8 @@ impl Tables {
         self.registers.get_mut(start.checked_mul(2)?..start.checked_add(count)?.checked_mul(2)?)
     }
 
-    /// Packs `count` coils from `start` on into bytes, the bits left over 0. None where they are not all there, or do not
-    /// fit.
+    /// Packs `count` coils from `start` on into bytes, the bits left over 0. None where they are not all there, or do
+    /// not fit.
     #[must_use]
     pub(crate) fn read_coils(&self, start: usize, count: usize, into: &mut [u8]) -> Option<()> {
         let end = start.checked_add(count).filter(|end| *end <= SIZE)?;
@@ -41,8 +41,8 @@ impl Tables {
         Some(())
     }
 
-    /// Sets `count` coils from `start` on to the bits of `from`. None, and nothing set, where they are not all there, or
-    /// `from` has fewer bits.
+    /// Sets `count` coils from `start` on to the bits of `from`. None, and nothing set, where they are not all there,
+    /// or `from` has fewer bits.
     #[must_use]
     pub(crate) fn write_coils(&mut self, start: usize, count: usize, from: &[u8]) -> Option<()> {
         let end = start.checked_add(count).filter(|end| *end <= SIZE)?;

@@ -151,7 +151,7 @@ impl Action {
     fn play(&self, image: &mut Image, do_it: &mut impl FnMut(Effect)) {
         let _ = match *self {
             Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
-            Action::Analog(channel, value) => image.set_ai(channel, value),
+            Action::Analog(channel, value) => image.set_analog_input(channel, value),
             Action::Effect(effect) => {
                 do_it(effect);
                 Ok(())
@@ -270,8 +270,8 @@ impl Scenario {
         Ok(Scenario { file: file.to_owned(), events: read::scenario(file, text, names)? })
     }
 
-    /// Whether all channels and axes that the scenario names exist, and the masses that it needs; `robots` are those of the
-    /// foreground channels.
+    /// Whether all channels and axes that the scenario names exist, and the masses that it needs; `robots` are those of
+    /// the foreground channels.
     pub(crate) fn check(&self, channels: &Channels, robots: &[&Robot]) -> Result<(), String> {
         let image = Image::new(channels);
         for event in &self.events {

@@ -194,7 +194,7 @@ impl Action {
     fn undone(&self, image: &Image) -> Option<Self> {
         match *self {
             Self::Digital(what, channel, _) => Some(Self::Digital(what, channel, image.digital(what, channel).ok()?)),
-            Self::Analog(channel, _) => Some(Self::Analog(channel, image.ai(channel).ok()?)),
+            Self::Analog(channel, _) => Some(Self::Analog(channel, image.analog_input(channel).ok()?)),
             Self::Effect(Effect::Robot(robot, RobotEffect::Force(_))) => {
                 Some(Self::Effect(Effect::Robot(robot, RobotEffect::Force([0.0; 3]))))
             }

@@ -89,8 +89,8 @@ pub(super) fn order(text: &str, names: &Names) -> Result<Vec<Action>, SettingsEr
 /// The events of a scenario.
 pub(super) fn scenario(file: &str, text: &str, names: &Names) -> Result<Vec<Event>, SettingsError> {
     let words = Words::new(names);
-    // As a whole, a long text takes many times its size, so it is read table by table. Only the whole tells where mistakes
-    // are, and whether the parts would mean something else together.
+    // As a whole, a long text takes many times its size, so it is read table by table. Only the whole tells where
+    // mistakes are, and whether the parts would mean something else together.
     match by_tables(file, text, &words) {
         Some(events) => Ok(events),
         None => events(Source { file, text }, 1, &words, &mut Followers::new()),

@@ -22,7 +22,7 @@ fn events_come_at_their_time() {
     let text = "[[event]]\nat = 0.005\ndi.5 = true\nai.2 = 4.5\n[[event]]\nat = 0.002\ndi.5 = false\ndi.6 = true\n";
     let mut seen = Vec::new();
     play(text, 8, |_, image| {
-        seen.push((image.digitals(Digital::Di, 5, 6).unwrap(), image.ai(2).unwrap()));
+        seen.push((image.digitals(Digital::Di, 5, 6).unwrap(), image.analog_input(2).unwrap()));
     });
     assert_eq!(seen, [(0, 0.0), (0, 0.0), (2, 0.0), (2, 0.0), (2, 0.0), (3, 4.5), (3, 4.5), (3, 4.5)]);
 }

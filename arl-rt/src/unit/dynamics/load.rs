@@ -21,8 +21,8 @@ impl Load {
         Self::new(0.0, [0.0; 3], [0.0; 6])
     }
 
-    /// A body of `mass` (kg) whose centre of mass is at `centre` (mm) and whose inertia about that centre, in the axes of
-    /// the frame, is `inertia` (kg mm2: xx, xy, xz, yy, yz, zz, as in the matrix).
+    /// A body of `mass` (kg) whose centre of mass is at `centre` (mm) and whose inertia about that centre, in the axes
+    /// of the frame, is `inertia` (kg mm2: xx, xy, xz, yy, yz, zz, as in the matrix).
     pub fn new(mass: f64, centre: [f64; 3], inertia: [f64; 6]) -> Self {
         let [xx, xy, xz, yy, yz, zz] = inertia;
         Self {

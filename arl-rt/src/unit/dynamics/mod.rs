@@ -1,10 +1,11 @@
-//! Inverse dynamics: the torques that the axes need for a motion, by recursive Newton-Euler over the masses of the robot
-//! file and the load on the flange.
+//! Inverse dynamics: the torques that the axes need for a motion, by recursive Newton-Euler over the masses of the
+//! robot file and the load on the flange.
 //!
-//! The frames of the links. Six axes: at zero of all inner angles (see [`arl_robot::kinematics::Opw`]) every frame points as the
-//! base; link 1 has its origin on axis 1 at the height of axis 2, link 2 on axis 2 in the arm's plane, link 3 on axis 3,
-//! links 4 to 6 in the wrist centre. SCARA: x points along the arm; link 1 has its origin on axis 1 at the height of the
-//! base, link 2 on axis 2 at that height, links 3 and 4 in the flange, and link 4 points as the flange.
+//! The frames of the links. Six axes: at zero of all inner angles (see [`arl_robot::kinematics::Opw`]) every frame
+//! points as the base; link 1 has its origin on axis 1 at the height of axis 2, link 2 on axis 2 in the arm's plane,
+//! link 3 on axis 3, links 4 to 6 in the wrist centre. SCARA: x points along the arm; link 1 has its origin on axis 1
+//! at the height of the base, link 2 on axis 2 at that height, links 3 and 4 in the flange, and link 4 points as the
+//! flange.
 
 mod load;
 #[cfg(test)]
@@ -101,7 +102,8 @@ impl Moving {
 }
 
 impl Dynamics {
-    /// Takes the masses of a robot file. The robot stands upright and carries nothing. `None`: the file has no `[[link]]`.
+    /// Takes the masses of a robot file. The robot stands upright and carries nothing. `None`: the file has no
+    /// `[[link]]`.
     pub fn new(robot: &Robot) -> Option<Self> {
         let chain = chain(&robot.kinematics);
         let count = robot.links.len();
@@ -144,9 +146,9 @@ impl Dynamics {
         self.up = base.rotation.inverse() * Vector3::new(0.0, 0.0, GRAVITY);
     }
 
-    /// The torques (Nm; N of a linear axis) that the motors give, at the axes, when these stand at `axes` (deg, mm), move
-    /// with `rates` (deg/s, mm/s) and `accelerations` (deg/s2, mm/s2), while `outside` acts on the flange, at its origin.
-    /// Zero for axes that a SCARA has not.
+    /// The torques (Nm; N of a linear axis) that the motors give, at the axes, when these stand at `axes` (deg, mm),
+    /// move with `rates` (deg/s, mm/s) and `accelerations` (deg/s2, mm/s2), while `outside` acts on the flange, at its
+    /// origin. Zero for axes that a SCARA has not.
     pub fn torques(&self, axes: &Axes, rates: &Axes, accelerations: &Axes, outside: &Wrench) -> Axes {
         let (inner, signs) = self.inner(axes);
         let mut angles = inner;
@@ -212,8 +214,8 @@ impl Dynamics {
     }
 
     /// The force and torque at `point` (mm, in the base) with which the robot presses on the outside when its axes give
-    /// `surplus` (Nm, N) more than [`Dynamics::torques`] asks for without anything outside. `None` at a singular point, where
-    /// it cannot be told. Of a SCARA, which cannot turn about x and y, those torques are zero.
+    /// `surplus` (Nm, N) more than [`Dynamics::torques`] asks for without anything outside. `None` at a singular point,
+    /// where it cannot be told. Of a SCARA, which cannot turn about x and y, those torques are zero.
     pub fn pressing(&self, axes: &Axes, surplus: &Axes, point: &Vector3<f64>) -> Option<Wrench> {
         if self.kinematics.clearance(axes) < SINGULAR {
             return None;
@@ -223,8 +225,8 @@ impl Dynamics {
         Some(Wrench::of(found))
     }
 
-    /// As [`Dynamics::pressing`], at singular points too: the smallest force and torque that the axes would feel so. What
-    /// they cannot feel there is zero.
+    /// As [`Dynamics::pressing`], at singular points too: the smallest force and torque that the axes would feel so.
+    /// What they cannot feel there is zero.
     pub fn felt(&self, axes: &Axes, surplus: &Axes, point: &Vector3<f64>) -> Wrench {
         let matrix = self.levers(axes, point);
         let squares = matrix.transpose() * matrix + Matrix6::identity() * DAMPING;

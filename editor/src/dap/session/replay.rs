@@ -1,5 +1,5 @@
-//! Backwards: another run from the start, to an earlier statement. On the virtual clock a run repeats itself; what was set
-//! by hand on the way is set again at the same statements.
+//! Backwards: another run from the start, to an earlier statement. On the virtual clock a run repeats itself; what was
+//! set by hand on the way is set again at the same statements.
 
 use super::{Answer, Session};
 use arl_project::options::Clock;

@@ -97,7 +97,8 @@ impl Seen<'_> {
         Ok(told(&answer, "variables").into_iter().map(variable).collect())
     }
 
-    /// The file that declares what a name means here: in the module that is named, else in this file, else in its data file.
+    /// The file that declares what a name means here: in the module that is named, else in this file, else in its data
+    /// file.
     pub(super) fn file_of(&self, module: Option<&str>, name: &str) -> Option<String> {
         let declares = |file: &str| {
             let at = self.program.modules.iter().position(|module| module.file == file);

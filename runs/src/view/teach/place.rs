@@ -13,7 +13,8 @@ const NEAR_SINGULAR: f64 = 0.08;
 /// A map has at most so many places.
 const MOST_PLACES: usize = 40_000;
 
-/// A place that is asked for, in one of three ways: as components in the workpiece frame, as the TCP in the world, as axes.
+/// A place that is asked for, in one of three ways: as components in the workpiece frame, as the TCP in the world, as
+/// axes.
 #[derive(Clone, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Asked {
@@ -28,7 +29,8 @@ pub(super) struct Asked {
     setting: Where,
     /// The axes of which a solution is to be near.
     near: Vec<f64>,
-    /// Components that people have before them: of the two ways to write an orientation the one that is nearer to theirs is told.
+    /// Components that people have before them: of the two ways to write an orientation the one that is nearer to
+    /// theirs is told.
     #[serde(default)]
     before: Option<[f64; 6]>,
 }
@@ -80,7 +82,8 @@ pub(super) struct Map {
     step: f64,
 }
 
-/// The places of a plane, row by row: a digit each, 0 where the robot does not reach, else how clear of singular points it is.
+/// The places of a plane, row by row: a digit each, 0 where the robot does not reach, else how clear of singular points
+/// it is.
 #[derive(Clone, PartialEq, Serialize, Debug)]
 pub(super) struct Mapped {
     side: usize,

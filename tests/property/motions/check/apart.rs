@@ -242,7 +242,8 @@ impl<'a> Apart<'a> {
         Ok(false)
     }
 
-    /// The motion that is executed where the robot stands at a row, or comes next; none where all that is planned is done.
+    /// The motion that is executed where the robot stands at a row, or comes next; none where all that is planned is
+    /// done.
     fn next_at(&self, row: &Row) -> Option<usize> {
         let Some(current) = self.current else { return Some(0) };
         let leg = &self.legs[current];
@@ -252,8 +253,8 @@ impl<'a> Apart<'a> {
         (!leg.motion.waits && current + 1 < self.legs.len()).then_some(current + 1)
     }
 
-    /// The motions that may count as the stopped one at a row: the next one to be executed there, or, in a blend, the one
-    /// that it leads to, while the trace still names the one before.
+    /// The motions that may count as the stopped one at a row: the next one to be executed there, or, in a blend, the
+    /// one that it leads to, while the trace still names the one before.
     fn stopped_at(&self, row: &Row, next: usize) -> [Option<usize>; 2] {
         let blends = self.current == Some(next) && self.may_blend(next, row);
         [Some(next), blends.then_some(next + 1)]

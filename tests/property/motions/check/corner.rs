@@ -74,7 +74,8 @@ impl<'a> Corner<'a> {
             Reach::Axes(sizes) => self.leg.axes.as_ref().is_none_or(|corner| {
                 corner.iter().zip(&row.axes).zip(sizes).all(|((corner, axis), size)| (axis - corner).abs() <= *size)
             }),
-            // Of the motion that is joined, what does not move in the measure is entered for as long as the other is left.
+            // Of the motion that is joined, what does not move in the measure is entered for as long as the other is
+            // left.
             Reach::OneOf(_) if !std::ptr::eq(self.leg, of) => true,
             Reach::OneOf(slip) => {
                 let measured = self.measured(slip, row, of);

@@ -1,5 +1,5 @@
-//! What comes in between motions of the program: the motions of a handler, or jogging, and the way to where the program's
-//! motions go on.
+//! What comes in between motions of the program: the motions of a handler, or jogging, and the way to where the
+//! program's motions go on.
 
 use super::apart::Excursion;
 use super::{Account, EXACT, Leg, PREFIX, largest};

@@ -53,8 +53,8 @@ struct Leg {
     /// Of the target: own axes where they are known, at taught positions and where the robot rests; then external ones.
     axes: Option<Vec<f64>>,
     external: Vec<f64>,
-    /// From its first row to the last; rows between, where the robot stands within it, have no line. Empty where it is not
-    /// in the trace.
+    /// From its first row to the last; rows between, where the robot stands within it, have no line. Empty where it is
+    /// not in the trace.
     rows: Range<usize>,
     /// Whether the robot stands at the target.
     rests: bool,
@@ -157,8 +157,8 @@ pub(crate) fn places_on_lines(robot: &Robot, plan: &Plan, rows: &[Row]) -> Vec<u
 /// How long before the end of a trace the robot may brake fast for an alarm, in s.
 const ALARMED: f64 = 0.5;
 
-/// What is wrong with a trace that an alarm ended, beside the one of the same program without the alarm: it stops on the
-/// way, within the limits. The first rows, so `many`, are on the same way.
+/// What is wrong with a trace that an alarm ended, beside the one of the same program without the alarm: it stops on
+/// the way, within the limits. The first rows, so `many`, are on the same way.
 pub(crate) fn check_stopped(
     robot: &Robot,
     plan: &Plan,
@@ -190,8 +190,8 @@ struct Parted<'a> {
 }
 
 impl Parted<'_> {
-    /// What is wrong with what has not been looked at: the program from its beginning, or what is known of nothing but the
-    /// limits.
+    /// What is wrong with what has not been looked at: the program from its beginning, or what is known of nothing but
+    /// the limits.
     fn rest(&self, robot: &Robot, scenario: &Scenario, tally: &mut Tally) -> Vec<String> {
         if let Some(again) = self.parts.again {
             tally.note("handlers: the program begins again", 0.0);

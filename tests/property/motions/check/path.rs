@@ -88,8 +88,8 @@ impl Account<'_> {
         }
     }
 
-    /// How far a row is off the path of a motion, in mm or, where the axes are led, in deg; nothing where the path is not
-    /// known.
+    /// How far a row is off the path of a motion, in mm or, where the axes are led, in deg; nothing where the path is
+    /// not known.
     fn path<'a>(&'a self, at: usize) -> Option<(&'static str, Path<'a>)> {
         let legs = &self.legs;
         let (before, leg) = (&legs[at - 1], &legs[at]);

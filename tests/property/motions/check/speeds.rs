@@ -26,8 +26,8 @@ impl Account<'_> {
         }
     }
 
-    /// The limits of a motion of the TCP; nothing where a part of it is blended with a motion of the axes, or of another
-    /// tool.
+    /// The limits of a motion of the TCP; nothing where a part of it is blended with a motion of the axes, or of
+    /// another tool.
     fn most(&self, at: usize) -> Option<Most> {
         let leg = &self.legs[at];
         let blended = |at: usize, with: usize| self.legs.get(with).filter(|_| !self.legs[at].rests);

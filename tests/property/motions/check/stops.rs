@@ -6,12 +6,12 @@ use crate::motions::plan::Plan;
 use crate::motions::scenario::{Scenario, Share};
 use crate::motions::trace::Row;
 
-/// deg (mm) that an axis may be off the path of an undisturbed run, between whose rows this one guesses: without a limit of
-/// the jerk a way bends much within a cycle.
+/// deg (mm) that an axis may be off the path of an undisturbed run, between whose rows this one guesses: without a
+/// limit of the jerk a way bends much within a cycle.
 const BESIDE: f64 = 1e-3;
 
-/// How much longer than an axis alone would take a stop on the path may take: speed, acceleration and jerk share the limits, and
-/// what uses all of them cannot be left at once.
+/// How much longer than an axis alone would take a stop on the path may take: speed, acceleration and jerk share the
+/// limits, and what uses all of them cannot be left at once.
 const LONGER: f64 = 5.0;
 
 /// The same for coming down to a lower override.

@@ -88,7 +88,8 @@ fn fits(robot: &Robot, flange: &Frame, cfg: u8) -> bool {
     robot.kinematics.inverse(flange, cfg, &[0.0; 6]).is_some_and(|axes| beyond_range(robot, &axes).is_none())
 }
 
-/// The first axis that no number of whole turns brings into its range, where it stands nearest to that, and how far beyond.
+/// The first axis that no number of whole turns brings into its range, where it stands nearest to that, and how far
+/// beyond.
 fn beyond_range(robot: &Robot, axes: &Axes) -> Option<(usize, f64, f64)> {
     robot.own_axes().iter().zip(axes).enumerate().find_map(|(at, (axis, value))| {
         let (value, by) = axis.nearest_to_range(*value);

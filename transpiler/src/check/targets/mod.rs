@@ -1,8 +1,8 @@
 //! Targets that a certain robot can never reach, as far as that is sure before the program runs.
 //!
-//! `constants` says which targets, tools and workpieces are known, `facts` what the program as a whole may change of what stands
-//! between a target and the robot, `walk` goes along each function and knows what holds where a motion is planned (`state`),
-//! and `judge` asks the robot's kinematics.
+//! `constants` says which targets, tools and workpieces are known, `facts` what the program as a whole may change of
+//! what stands between a target and the robot, `walk` goes along each function and knows what holds where a motion is
+//! planned (`state`), and `judge` asks the robot's kinematics.
 
 mod constants;
 mod facts;
@@ -24,11 +24,11 @@ pub(crate) struct Around {
     pub(crate) in_origin: bool,
 }
 
-/// Warns of constant targets that end in an alarm: joint targets beyond the ranges of axes, poses out of reach, out of the
-/// axes' ranges or out of the configuration asked for, lines that pass a singular point. Of those only that are written
-/// where the motion stands, or given to something that nothing changes; of poses only where tool and workpiece are known,
-/// too. All others are left to run time.
-/// Points of data files count with the values that they have now, where the program runs alone: others might teach them.
+/// Warns of constant targets that end in an alarm: joint targets beyond the ranges of axes, poses out of reach, out of
+/// the axes' ranges or out of the configuration asked for, lines that pass a singular point. Of those only that are
+/// written where the motion stands, or given to something that nothing changes; of poses only where tool and workpiece
+/// are known, too. All others are left to run time. Points of data files count with the values that they have now,
+/// where the program runs alone: others might teach them.
 pub(crate) fn check(
     program: &Program,
     robot: &Robot,

@@ -1,5 +1,5 @@
-//! Which functions are compiled by themselves: LLVM puts a function that has one caller into it, and takes long for what
-//! becomes of that in a large program.
+//! Which functions are compiled by themselves: LLVM puts a function that has one caller into it, and takes long for
+//! what becomes of that in a large program.
 
 use crate::emit::Sizes;
 use crate::hir::{ExprKind, Program};

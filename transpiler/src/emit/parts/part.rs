@@ -89,8 +89,8 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// The locals that are declared in a part and mentioned outside it, in the order of their declarations; for a debugger, which
-/// may go from any part to any other one, all that are declared in parts.
+/// The locals that are declared in a part and mentioned outside it, in the order of their declarations; for a debugger,
+/// which may go from any part to any other one, all that are declared in parts.
 fn outside_parts(groups: &[Group<'_>], pieces: &[Piece], watched: bool) -> Vec<LocalId> {
     let mut part_of = vec![0; groups.len()];
     number_parts(pieces, 0, &mut 0, &mut part_of);

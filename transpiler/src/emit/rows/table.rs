@@ -124,8 +124,8 @@ impl<'p> Body<'p, '_> {
         code
     }
 
-    /// The code of a table: `emit` makes the code for the entry with a number, with the columns in place of what differs
-    /// between those of its shape, and `word` says what its kind is called.
+    /// The code of a table: `emit` makes the code for the entry with a number, with the columns in place of what
+    /// differs between those of its shape, and `word` says what its kind is called.
     pub(in crate::emit) fn tabulate(
         &mut self,
         entries: &[Entry<'_, 'p>],

@@ -1,5 +1,5 @@
-//! Melsec (manual 5.6.5): D registers of a PLC, read and written by the MC protocol (3E frames, binary) over TCP. Each call
-//! tries once and says whether it is done.
+//! Melsec (manual 5.6.5): D registers of a PLC, read and written by the MC protocol (3E frames, binary) over TCP. Each
+//! call tries once and says whether it is done.
 
 mod frame;
 
@@ -83,8 +83,8 @@ pub async fn close(cx: &Cx, dev: &MelsecDev) {
 /// Reads `len` bytes of D registers, low bytes first; true when they have come. Until then the text stays.
 ///
 /// # Errors
-/// A start outside 0 to 16777215, a length outside 0 to 1920; the connection is not open, or lost; the PLC is silent for
-/// 5 s.
+/// A start outside 0 to 16777215, a length outside 0 to 1920; the connection is not open, or lost; the PLC is silent
+/// for 5 s.
 pub async fn read_string(cx: &Cx, dev: &MelsecDev, data: &mut Str, start: i32, len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     let found = dev.read(cx, start, len, usize::MAX)?;

@@ -9,8 +9,8 @@ use crate::fieldbus::modbus::SharedTables;
 use crate::fieldbus::modbus::mbap::{self, LONGEST_FRAME, Start};
 use crate::fieldbus::modbus::pdu::{self, Answer};
 
-/// What is kept of a connection's bytes before the rest has to wait in the system's buffers. Whole frames are answered at
-/// once, so that there is always room for the rest of one.
+/// What is kept of a connection's bytes before the rest has to wait in the system's buffers. Whole frames are answered
+/// at once, so that there is always room for the rest of one.
 const BUFFER_BYTES: usize = 4 * LONGEST_FRAME;
 
 /// A connection to a client.
@@ -51,8 +51,8 @@ impl Connection {
         let _ = self.stream.shutdown(Shutdown::Both);
     }
 
-    /// Answers requests until the client goes, sends what is no Modbus, or the connection is ended. A client that does not
-    /// take its answers is not read on.
+    /// Answers requests until the client goes, sends what is no Modbus, or the connection is ended. A client that does
+    /// not take its answers is not read on.
     pub(super) fn serve(&self, tables: &SharedTables) {
         let (mut input, mut filled) = ([0; BUFFER_BYTES], 0);
         let mut answers = Vec::with_capacity(BUFFER_BYTES + LONGEST_FRAME);

@@ -14,14 +14,14 @@ const LENGTH: &[u8] = b"content-length";
 const END: &[u8] = b"\r\n\r\n";
 
 /// Writes a message.
-pub fn write(output: &mut impl Write, message: &Value) -> std::io::Result<()> {
+pub(crate) fn write(output: &mut impl Write, message: &Value) -> std::io::Result<()> {
     let text = message.to_string();
     write!(output, "Content-Length: {}\r\n\r\n{text}", text.len())?;
     output.flush()
 }
 
 /// A stream of messages.
-pub struct Messages<R> {
+pub(crate) struct Messages<R> {
     input: R,
     /// What was read too far.
     ahead: Vec<u8>,
@@ -29,12 +29,12 @@ pub struct Messages<R> {
 
 impl<R: BufRead> Messages<R> {
     /// The messages that come from an input.
-    pub fn new(input: R) -> Self {
+    pub(crate) fn new(input: R) -> Self {
         Self { input, ahead: Vec::new() }
     }
 
     /// The bytes of the next message; `None` at the end of the input.
-    pub fn next_message(&mut self) -> Option<Vec<u8>> {
+    pub(crate) fn next_message(&mut self) -> Option<Vec<u8>> {
         let length = self.header()?;
         let mut body = Vec::new();
         while body.len() < length {
