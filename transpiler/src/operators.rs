@@ -239,6 +239,16 @@ pub fn fit(value: &Value, literal: Literal, to: Base) -> Option<Value> {
     }
 }
 
+/// Which numbers an integer type holds, in words; empty for other types.
+pub fn range(to: Base) -> &'static str {
+    match to {
+        Base::Byte => "a byte holds 0 to 255",
+        Base::Int => "an int holds -2147483648 to 2147483647",
+        Base::Uint => "a uint holds 0 to 4294967295",
+        _ => "",
+    }
+}
+
 /// The value of an integer constant.
 pub fn integer(value: &Value) -> Option<i64> {
     match value {

@@ -1,5 +1,6 @@
 //! What a program says of its run, an object of JSON a line: to a screen that drives it, or to a recorder. `arl-rt`
-//! writes the lines by hand, as a cycle has no time for more; a test of the command holds that both have the same keys.
+//! writes the lines by hand, as a cycle has no time for more; a test of the command holds that both have the same keys,
+//! but for what is inside a program.
 //!
 //! ```
 //! let line: arl_wire::Line = serde_json::from_str(r#"{"warning":"the battery is low"}"#)?;
@@ -359,15 +360,15 @@ pub struct MotionReport {
     pub kind: String,
     /// Of `programmed` and `reached`: `mm/s`, `deg/s` or `%`.
     pub unit: String,
-    /// The speed that was asked for.
+    /// The speed that was asked for, in its unit.
     pub programmed: f64,
-    /// The highest speed along the path.
+    /// The highest speed along the path, in its unit.
     pub reached: f64,
-    /// When it began.
+    /// When it began, in s.
     pub start: f64,
-    /// How long it was executed.
+    /// How long it was executed, in s.
     pub duration: f64,
-    /// How far the TCP went.
+    /// How far the TCP went, in mm.
     pub way: f64,
     /// The zone at its end, where one was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -435,11 +436,11 @@ pub struct Closest {
 pub struct ChannelReport {
     /// From 1.
     pub channel: u32,
-    /// Until its program had ended.
+    /// Until its program had ended, in s.
     pub cycle_time: f64,
-    /// How long its robot moved.
+    /// How long its robot moved, in s.
     pub moving: f64,
-    /// How long it stood.
+    /// How long it stood, in s.
     pub standing: f64,
     /// How many motions began.
     pub motions: u64,
@@ -456,9 +457,9 @@ pub struct ClockReport {
     pub lost: u64,
     /// How many messages of robots were missing.
     pub missing: u64,
-    /// The longest delay.
+    /// The longest delay, in s.
     pub longest: f64,
-    /// How many began within so many s.
+    /// So many s, and how many cycles began within them.
     pub histogram: Vec<(f64, u64)>,
 }
 

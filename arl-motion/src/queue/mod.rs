@@ -492,7 +492,10 @@ impl Queue {
     /// Whether steps tell velocities, accelerations and the speed of the TCP; they do unless this says otherwise.
     /// Whoever takes the positions alone saves what finding them costs: then they are 0.
     pub fn tell_rates(&mut self, wanted: bool) {
-        self.velocity = Joints::ZERO;
+        if wanted != self.tells_rates {
+            // It was not kept up.
+            self.velocity = Joints::ZERO;
+        }
         self.tells_rates = wanted;
     }
 

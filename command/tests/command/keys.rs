@@ -8,7 +8,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-/// Lines, arcs, a zone that is made smaller, a place beside a singular point, a message, a warning and an alarm.
+/// Zones, one of which is made smaller, a place beside a singular point, a message and an alarm.
 const PROGRAM: &str = "\
 double none = 0
 func void main()
@@ -42,7 +42,8 @@ fn what_a_program_writes_is_what_the_wire_reads() {
     let folder = Folder::new("keys").with("keys_of_lines.arl", PROGRAM);
     folder.arl2rs(&["run", "keys_of_lines.arl"]).says("alarm 20001");
     let mut program = Command::new(kept("keys_of_lines"));
-    program.args(["--live", "--clock", "virtual", "--each-cycle", "--each-motion"]).current_dir(&folder.path);
+    program.args(["--live", "--clock", "virtual", "--each-cycle", "--each-motion", "--max-time", "60"]);
+    program.current_dir(&folder.path);
     let mut program = program.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("it starts");
     let mut orders = program.stdin.take();
     orders.as_mut().expect("its orders").write_all(b"no such order\n").expect("an order");

@@ -359,7 +359,11 @@ impl Evaluator<'_> {
         let Some((wanted, value)) = wanted.zip(given.value.scalar()) else { return Ok(given.value) };
         match brought(&value, &given, wanted) {
             Some(fitting) => Ok(fitting.into()),
-            None => Err(format!("{} is no value of {ty}", given.value.literal().text())),
+            None => {
+                let range = operators::range(wanted);
+                let what = if range.is_empty() { format!("expected a value of type {ty}") } else { range.to_owned() };
+                Err(format!("{} does not fit: {what}", given.value.literal().text()))
+            }
         }
     }
 
@@ -624,7 +628,8 @@ mod tests {
             ("1.5 % 0.0", "alarm 20001: division by zero"),
             ("home.cfg + (bits + 0)", "int + uint is not possible"),
             ("home.x++", "a double is not counted up or down"),
-            ("mask = 300", "300 is no value of byte"),
+            ("mask = 300", "300 does not fit: a byte holds 0 to 255"),
+            ("late = \"a\"", "\"a\" does not fit: expected a value of type bool"),
             ("home + home", "pose + pose is not possible"),
             ("table[5]", "outside the array"),
             ("home.q", "pose has no component q"),

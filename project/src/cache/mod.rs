@@ -172,7 +172,7 @@ impl Place {
 /// Writes a file unless it already has this content; says whether it wrote.
 ///
 /// # Errors
-/// It can be neither read nor written.
+/// It cannot be written.
 pub fn write_if_changed(path: &Path, content: &[u8]) -> Result<bool, Failure> {
     match arl2rs::sources::write_if_changed(path, content) {
         Ok(written) => Ok(written),

@@ -10,6 +10,16 @@ use arl_lang::ast::{self, BinaryOp, BraceItem, UnaryOp};
 use arl_lang::catalog::{self, Base, Start, Struct, UNSET};
 use arl_lang::span::Span;
 
+/// How much of an array braces give a value, or of a part of it.
+struct Few<'a> {
+    given: usize,
+    size: usize,
+    /// What is counted: elements or rows.
+    of: &'static str,
+    /// The sizes of the part.
+    dims: &'a [u16],
+}
+
 impl Checker<'_> {
     /// `{..}` as a value of type `want`.
     pub(crate) fn brace(&mut self, body: &mut Body, items: &[BraceItem], want: Type, span: Span) -> Option<Expr> {
@@ -208,7 +218,8 @@ impl Checker<'_> {
                     out.push(start_value(want.base, span));
                 }
             }
-            self.doubt_few(body, (items.len(), rows), want, (dims, "rows"), span);
+            let few = Few { given: items.len(), size: rows, of: "rows", dims };
+            self.doubt_few(body, want, &few, span);
             return Some(());
         }
         let mut good = true;
@@ -232,21 +243,15 @@ impl Checker<'_> {
             }
         }
         if good {
-            self.doubt_few(body, (out.len() - begin, total), want, (dims, "elements"), span);
+            let few = Few { given: out.len() - begin, size: total, of: "elements", dims };
+            self.doubt_few(body, want, &few, span);
         }
         good.then_some(())
     }
 
-    /// Warns of braces that give some elements of an array, or some of its rows, a value and the others none. `dims`
-    /// are those of the part of the array that they are for.
-    fn doubt_few(
-        &mut self,
-        body: &Body,
-        (given, size): (usize, usize),
-        want: Type,
-        (dims, of): (&[u16], &'static str),
-        span: Span,
-    ) {
+    /// Warns of braces that give some elements of an array, or some of its rows, a value and the others none.
+    fn doubt_few(&mut self, body: &Body, want: Type, few: &Few<'_>, span: Span) {
+        let Few { given, size, of, dims } = *few;
         if (2..size).contains(&given) {
             let is_whole = dims.len() == want.dims().len();
             let help = match dims {

@@ -4,7 +4,7 @@ use super::context::{Body, Checker};
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, Type, Value};
-use crate::operators::{Conversion, Literal, Operand, conversion, fit, integer};
+use crate::operators::{Conversion, Literal, Operand, conversion, fit, integer, range};
 use arl_lang::catalog::{Base, Struct};
 use std::fmt::Display;
 
@@ -77,15 +77,6 @@ pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
         _ => return None,
     };
     Some(words.into())
-}
-
-fn range(to: Base) -> &'static str {
-    match to {
-        Base::Byte => "a byte holds 0 to 255",
-        Base::Int => "an int holds -2147483648 to 2147483647",
-        Base::Uint => "a uint holds 0 to 4294967295",
-        _ => "",
-    }
 }
 
 impl Checker<'_> {
