@@ -467,5 +467,5 @@ fn clocks_and_connections_are_shown() {
         client.parts(&file["variablesReference"]),
         ["all = 0.750 s, runs", "line = closed", "each = {0.000 s, stands; 0.000 s, stands}"]
     );
-    assert_eq!(client.value("all = 3"), "there is no variable all");
+    assert_eq!(client.value("all = 3"), "3 does not fit: expected a value of type clock");
 }

@@ -4,7 +4,10 @@ use arl_rt::io::{Override, Scenario};
 use arl_rt::program::{Make, Other};
 use arl_rt::values::Controlmode;
 use arl_rt::{Captured, Controller, Outcome, Robot};
+use std::num::NonZero;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How to make a program, its ARL file, the lines above its text in the file that rustc read, and the programs that its
 /// cell names.
@@ -15,18 +18,29 @@ const LONGEST: f64 = 3600.0;
 /// Bytes of stack for the program's functions, as compiled programs have them.
 const STACK: usize = 64 << 20;
 
-/// Runs all cases; the failures, as text.
+/// Runs all cases, on all processors; the failures, as text.
 pub fn run_all(cases: &'static [Entry]) -> Vec<String> {
-    let thread = std::thread::Builder::new().stack_size(STACK + (8 << 20));
-    let all =
-        || cases.iter().filter_map(|case| run(case).err().map(|problem| format!("{}: {problem}", case.1))).collect();
-    match thread.spawn(all).map(|thread| thread.join()) {
+    let next = Arc::new(AtomicUsize::new(0));
+    let workers = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let spawn = |worker: usize| {
+        let next = next.clone();
+        let cases = std::iter::from_fn(move || cases.get(next.fetch_add(1, Ordering::Relaxed)));
+        let failures = move || {
+            let scratch = std::env::temp_dir().join(format!("door-tests-{}-{worker}", std::process::id()));
+            let failure = |case: &Entry| Some(format!("{}: {}", case.1, run(case, &scratch).err()?));
+            cases.filter_map(failure).collect()
+        };
+        std::thread::Builder::new().stack_size(STACK + (8 << 20)).spawn(failures)
+    };
+    let workers: Vec<_> = (0..workers).map(spawn).collect();
+    let failures = workers.into_iter().map(|worker| match worker.map(std::thread::JoinHandle::join) {
         Ok(Ok(failures)) => failures,
-        _ => vec!["the thread of the cases ended early".into()],
-    }
+        _ => vec!["a thread of the cases ended early".into()],
+    });
+    failures.flatten().collect()
 }
 
-fn run((make, source, lines_above, others): &Entry) -> Result<(), String> {
+fn run((make, source, lines_above, others): &Entry, scratch: &Path) -> Result<(), String> {
     let source = Path::new(source);
     let text = |error: &dyn std::fmt::Display| error.to_string();
     let options = std::fs::read_to_string(source.with_extension("toml")).unwrap_or_default();
@@ -35,10 +49,9 @@ fn run((make, source, lines_above, others): &Entry) -> Result<(), String> {
     let number =
         |key: &str| options.get(key).and_then(|value| value.as_float().or(value.as_integer().map(|n| n as f64)));
 
-    let scratch = std::env::temp_dir().join(format!("door-tests-{}", std::process::id()));
-    prepare(source, &scratch).map_err(|error| text(&error))?;
+    prepare(source, scratch).map_err(|error| text(&error))?;
     let messages = Captured::new();
-    let mut builder = Controller::builder().output(messages.clone()).script_dir(&scratch).stack(STACK);
+    let mut builder = Controller::builder().output(messages.clone()).script_dir(scratch).stack(STACK);
     if let Some(robot) = word("robot") {
         let file = source.with_file_name(robot);
         let robot = if file.is_file() { file.display().to_string() } else { robot.to_string() };
@@ -64,7 +77,7 @@ fn run((make, source, lines_above, others): &Entry) -> Result<(), String> {
     controller.set_loop(options.get("loop").and_then(toml::Value::as_bool).unwrap_or_default());
     controller.run_for(number("max_time").unwrap_or(LONGEST));
     let outcome = controller.outcome().cloned();
-    let cleaned = std::fs::remove_dir_all(&scratch);
+    let cleaned = std::fs::remove_dir_all(scratch);
 
     if let Ok(expected) = std::fs::read_to_string(source.with_extension("out"))
         && expected != messages.text()
