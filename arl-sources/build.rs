@@ -79,7 +79,7 @@ fn workspace(text: &str) -> Result<String, Box<dyn Error>> {
     let mut manifest: toml::Table = text.parse()?;
     manifest.retain(|key, _| key == "workspace");
     let workspace = manifest.get_mut("workspace").and_then(toml::Value::as_table_mut);
-    let workspace = workspace.ok_or("the checkout is no workspace")?;
+    let workspace = workspace.ok_or("the checkout is not a workspace")?;
     workspace.insert("members".into(), PACKAGES.map(toml::Value::from).to_vec().into());
     workspace.remove("exclude");
     workspace.remove("lints");

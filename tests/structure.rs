@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "tests may fail")]
 
 use arl_lang::catalog;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 /// The folders of arl-motion, from the ground up.
@@ -92,6 +92,26 @@ const PROJECT: &[&str] = &[
     "program",
 ];
 
+/// The files and folders of the command, from the ground up.
+const COMMAND: &[&str] = &[
+    "args",
+    "parameters",
+    "variables",
+    "run",
+    "collisions",
+    "check",
+    "clean",
+    "emit",
+    "explain",
+    "fmt",
+    "new",
+    "view",
+    "test",
+    "sweep",
+    "host",
+    "main",
+];
+
 #[test]
 fn folders_of_the_compiler_import_from_below_only() {
     assert_layers("transpiler/src", COMPILER);
@@ -103,6 +123,7 @@ fn folders_of_the_tools_import_from_below_only() {
     assert_layers("runs/src", RUNS);
     assert_layers("editor/src", EDITOR);
     assert_layers("project/src", PROJECT);
+    assert_layers("command/src", COMMAND);
 }
 
 #[test]
@@ -168,6 +189,63 @@ fn comments_are_no_wider_than_code() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// Crates whose types have names of their own.
+const CRATES: &[&str] = &[
+    "arl-lang",
+    "arl-motion",
+    "arl-robot",
+    "arl-rt",
+    "command",
+    "drivers",
+    "editor",
+    "project",
+    "runs",
+    "terminal",
+    "transpiler",
+    "wire",
+];
+
+/// Names of two types in one crate, and why.
+const TWICE: &[(&str, &str)] = &[
+    // `clock` of the language, under `arl_rt::emit`; what cycles wait for.
+    ("arl-rt", "Clock"),
+    // What emitted programs have, and what stands for it while a program has errors.
+    ("transpiler", "Globals"),
+];
+
+#[test]
+fn a_type_name_has_one_meaning_in_a_crate() {
+    const KINDS: [&str; 5] = ["struct", "enum", "trait", "type", "union"];
+    let mut faults = Vec::new();
+    for name in CRATES {
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src");
+        let mut seen: HashMap<String, String> = HashMap::new();
+        for file in rust_files(&source) {
+            let inside = file.strip_prefix(&source).unwrap().to_string_lossy().into_owned();
+            if inside.contains("tests") {
+                continue;
+            }
+            let text = std::fs::read_to_string(&file).unwrap();
+            let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+            for line in text.lines().map(str::trim_start).filter(|line| line.starts_with("pub")) {
+                let words: Vec<&str> = line.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+                let Some(at) = words.iter().position(|word| KINDS.contains(word)) else { continue };
+                // Types of traits come behind these words, and no function does.
+                if words.iter().take(at).any(|word| ["fn", "use", "mod", "const"].contains(word)) {
+                    continue;
+                }
+                let Some(ty) = words.get(at + 1).filter(|ty| !ty.is_empty()) else { continue };
+                let other = seen.insert((*ty).to_owned(), inside.clone());
+                if let Some(other) = other.filter(|_| !TWICE.contains(&(*name, *ty))) {
+                    faults.push(format!("{name}: `{ty}` is in {other} and in {inside}"));
+                }
+            }
+        }
+        assert!(!seen.is_empty(), "{name} has types");
+    }
+    assert!(faults.is_empty(), "give one of the two a name that says what it is:\n{}", faults.join("\n"));
 }
 
 /// What a line names at the top of its crate, in a file that is so many levels below it: `crate::name`, also of several

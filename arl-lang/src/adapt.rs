@@ -60,47 +60,29 @@ impl<'a> Adapter<'a> {
                 Lexeme::Word => {
                     let symbol = self.interner.intern(Span::new(from, to).text(self.source));
                     let word = self.words.word(symbol);
-                    if starts {
-                        let (token, used) = self.first_word(symbol, word, rest);
-                        if let (Token::Target(_), Some(behind)) = (token, rest.get(used)) {
-                            let name = Span::new(from, to).text(self.source).into();
-                            let span = Span::new(behind.0, lexemes.last().map_or(behind.2, |last| last.2));
-                            errors.push(SyntaxError::new(SyntaxErrorKind::LabelNotAlone(name), span));
-                            self.tokens.push((from, token, to));
-                            return Adapted { taken: lexemes.len(), broken: false };
-                        }
+                    if !starts && let Some((unit, used, end)) = self.spaced_unit(from, to, rest) {
+                        self.tokens.push((from, Token::Unit(unit), end));
                         at += used;
-                        token
-                    } else {
-                        if let Some((unit, used, end)) = self.spaced_unit(from, to, rest) {
-                            self.tokens.push((from, Token::Unit(unit), end));
-                            at += used;
-                            continue;
-                        }
-                        let (token, used) = self.later_word(symbol, word, rest);
-                        at += used;
-                        token
+                        continue;
                     }
+                    let (token, used) = match starts {
+                        true => self.first_word(symbol, word, rest),
+                        false => self.later_word(symbol, word, rest),
+                    };
+                    if let (Token::Target(_), Some(behind)) = (token, rest.get(used)) {
+                        errors.push(self.label_not_alone(Span::new(from, to), *behind, lexemes));
+                        at = lexemes.len();
+                    }
+                    at += used;
+                    token
                 }
                 Lexeme::System => Token::System(self.interner.intern(Span::new(from + 1, to).text(self.source))),
                 Lexeme::Number(number) => {
-                    let Number { value, unit } = number;
-                    let token = match value {
-                        NumberValue::Int(value, radix) => Token::Int(value, radix),
-                        NumberValue::Double(value) => Token::Double(value),
-                    };
-                    let end = unit.map_or(to, |(_, length)| to - u32::from(length));
-                    self.tokens.push((from, token, end));
-                    if let Some((unit, _)) = unit {
-                        self.tokens.push((end, Token::Unit(unit), to));
-                    }
+                    self.push_number(number, from, to);
                     continue;
                 }
-                Lexeme::Percent => match rest.first() {
-                    None => Token::Unit(Unit::Percent),
-                    Some((_, next, _)) if ends_value(*next) => Token::Unit(Unit::Percent),
-                    _ => Token::Operator(BinaryOp::Remainder),
-                },
+                Lexeme::Percent if rest.first().is_none_or(|next| ends_value(next.1)) => Token::Unit(Unit::Percent),
+                Lexeme::Percent => Token::Operator(BinaryOp::Remainder),
                 Lexeme::Splice => {
                     self.splices += 1;
                     Token::Splice(self.splices - 1)
@@ -110,15 +92,11 @@ impl<'a> Adapter<'a> {
                     return Adapted { taken: at, broken: false };
                 }
                 Lexeme::ParenOpen | Lexeme::BracketOpen | Lexeme::BraceOpen => {
-                    let (bracket, token) = match lexeme {
-                        Lexeme::ParenOpen => (Bracket::Paren, Token::ParenOpen),
-                        Lexeme::BracketOpen => (Bracket::Square, Token::BracketOpen),
-                        _ => (Bracket::Brace, Token::BraceOpen),
-                    };
                     if self.open.len() >= BRACKET_LEVELS {
                         errors.push(SyntaxError::new(SyntaxErrorKind::TooManyLevels, Span::new(from, to)));
                         return Adapted { taken: lexemes.len(), broken: true };
                     }
+                    let (bracket, token) = opening(lexeme);
                     self.open.push(bracket);
                     token
                 }
@@ -142,6 +120,25 @@ impl<'a> Adapter<'a> {
         Adapted { taken: lexemes.len(), broken: false }
     }
 
+    /// What stands from `behind` on in the line of a label.
+    fn label_not_alone(&self, label: Span, behind: PlacedLexeme, lexemes: &[PlacedLexeme]) -> SyntaxError {
+        let span = Span::new(behind.0, lexemes.last().map_or(behind.2, |last| last.2));
+        SyntaxError::new(SyntaxErrorKind::LabelNotAlone(label.text(self.source).into()), span)
+    }
+
+    /// A number, and its unit as a token of its own.
+    fn push_number(&mut self, Number { value, unit }: Number, from: u32, to: u32) {
+        let token = match value {
+            NumberValue::Int(value, radix) => Token::Int(value, radix),
+            NumberValue::Double(value) => Token::Double(value),
+        };
+        let end = unit.map_or(to, |(_, length)| to - u32::from(length));
+        self.tokens.push((from, token, end));
+        if let Some((unit, _)) = unit {
+            self.tokens.push((end, Token::Unit(unit), to));
+        }
+    }
+
     /// The token of a word at the start of a statement, and how many more lexemes it takes.
     fn first_word(&self, symbol: Symbol, word: Word, rest: &[PlacedLexeme]) -> (Token, usize) {
         match word {
@@ -163,7 +160,7 @@ impl<'a> Adapter<'a> {
     }
 
     /// Whether what follows a name at the start of a statement can only be the arguments of an instruction. For a
-    /// `known` instruction that is more: its line may end at once, and a word behind it is no declared variable.
+    /// `known` instruction that is more: its line may end at once, and a word behind it is not a declared variable.
     fn is_instruction(&self, rest: &[PlacedLexeme], known: bool) -> bool {
         match rest {
             [] => known,
@@ -271,6 +268,15 @@ impl<'a> Adapter<'a> {
             }
         }
         true
+    }
+}
+
+/// The bracket that a lexeme opens, and its token.
+fn opening(lexeme: Lexeme) -> (Bracket, Token) {
+    match lexeme {
+        Lexeme::ParenOpen => (Bracket::Paren, Token::ParenOpen),
+        Lexeme::BracketOpen => (Bracket::Square, Token::BracketOpen),
+        _ => (Bracket::Brace, Token::BraceOpen),
     }
 }
 

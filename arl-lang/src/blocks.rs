@@ -346,7 +346,7 @@ impl<'source> Blocks<'source> {
     }
 
     /// The position of the block that a closing line (`closes`) or a branch belongs to, if it belongs to one: of the
-    /// blocks of its kind the innermost, but one that may be no block, if that makes fewer mistakes.
+    /// blocks of its kind the innermost, but one that may not be a block, if that makes fewer mistakes.
     fn owner(&self, kind: BlockKind, closes: bool, span: Span) -> Option<usize> {
         let innermost = self.find(kind)?;
         if innermost + 1 == self.frames.len() && !self.frames.get(innermost)?.doubts.may_open {
@@ -575,7 +575,7 @@ impl<'source> Blocks<'source> {
         let Some(frame) = self.frames.last() else { return };
         let (kind, opened, doubts) = (frame.kind.kind(), frame.span, frame.doubts);
         if doubts.may_open {
-            // It was no block after all: its statements belong to the block around it.
+            // It was not a block after all: its statements belong to the block around it.
             let body = self.frames.pop().map_or(Vec::new(), |frame| frame.body);
             match self.frames.last_mut() {
                 Some(around) => around.body.extend(body),
@@ -590,7 +590,7 @@ impl<'source> Blocks<'source> {
         // Where blocks were too many, closing lines were not followed.
         if !self.too_deep && !doubts.may_be_closed {
             let error = SyntaxError::new(SyntaxErrorKind::UnclosedBlock(kind, name), opened);
-            errors.push(error.with(span, format!("`{}` belongs before this at the latest", kind.closer())));
+            errors.push(error.with(span, format!("`{}` belongs before this, or earlier", kind.closer())));
         }
         self.pop(span, None);
     }

@@ -28,8 +28,7 @@ const TYPES: &[(&str, &str)] = &[
 ];
 
 /// What ARL has in place of `try` and its relatives.
-const NO_EXCEPTIONS: &str =
-    "no exceptions: a mistake ends the program with an alarm; look at the value before, with `if`";
+const NO_EXCEPTIONS: &str = "no exceptions: a mistake ends the program with an alarm; check the value first, with `if`";
 
 /// What ARL has in place of the timers of a PLC.
 const NO_TIMER_BLOCKS: &str = "no timer blocks: `waittime 0.5` waits (in s), `pulsedo(1, true, 0.5)` pulses an output, \
@@ -45,7 +44,7 @@ const WORDS: &[(&str, &str)] = &[
     ("chr", "`tostr`"),
     ("circ", "`cir m:p1,p:p2`"),
     ("cjointt", "`cjoint()`"),
-    ("connect", "`interrupt` to call a function when a condition comes true"),
+    ("connect", "`interrupt` to call a function when a condition becomes true"),
     ("crobt", "`cpose()`"),
     ("ctd", "`n--` to count"),
     ("ctu", "`n++` to count"),
@@ -60,9 +59,9 @@ const WORDS: &[(&str, &str)] = &[
     ("elif", "`elseif(condition)`"),
     ("elsif", "`elseif(condition)`"),
     ("endtry", NO_EXCEPTIONS),
-    ("enum", "no enumerations of a program's own: constants, `const int RED = 0`"),
+    ("enum", "no user-defined enumerations: use constants, `const int RED = 0`"),
     ("except", NO_EXCEPTIONS),
-    ("f_trig", "`interrupt`, which calls a function when a condition comes true"),
+    ("f_trig", "`interrupt`, which calls a function when a condition becomes true"),
     ("finally", NO_EXCEPTIONS),
     ("fold", "comments (`// text`) for this"),
     ("from", "`import \"file\"`, and then `file::name`"),
@@ -86,7 +85,7 @@ const WORDS: &[(&str, &str)] = &[
     ("len", "`strlen` for texts; arrays have the size that they were declared with"),
     ("length", "`strlen`"),
     ("let", "declarations with a type: `int n = 3`"),
-    ("lin_rel", "`lin offset(p1, 10, 0, 0, 0, 0, 0)`, where `p1` is the target before, and `reltool` along the tool"),
+    ("lin_rel", "`lin offset(p1, 10, 0, 0, 0, 0, 0)`, where `p1` is the previous target, and `reltool` along the tool"),
     ("linear", "`lin`"),
     ("local", "declarations without such a word: `int n = 3`"),
     ("module", "a file for each module; `import` reads it"),
@@ -115,9 +114,9 @@ const WORDS: &[(&str, &str)] = &[
     ("println", "`print`"),
     ("proc", "`func void name()` ... `endfunc`"),
     ("procedure", "`func void name()` ... `endfunc`"),
-    ("ptp_rel", "`movej` to a joint that is calculated from the target before"),
+    ("ptp_rel", "`movej` to a joint that is calculated from the previous target"),
     ("pulse", "`pulsedo(1, true, 0.5)`"),
-    ("r_trig", "`interrupt`, which calls a function when a condition comes true"),
+    ("r_trig", "`interrupt`, which calls a function when a condition becomes true"),
     ("raise", "`assert(condition)` to end the program with an alarm"),
     ("random", "`rand`"),
     ("readnum", "`toint(gettextstr(\"file.txt\", 1), dec)`"),
@@ -147,9 +146,9 @@ const WORDS: &[(&str, &str)] = &[
     ("stop", "`pause`, and `exit` to end the program"),
     ("strtoint", "`toint(text, dec)`"),
     ("strtoval", "`toint(text, dec)`, and `scan` for several numbers"),
-    ("struct", "no structures of a program's own: variables side by side, or arrays"),
+    ("struct", "no user-defined structures: use separate variables, or arrays"),
     ("sub", "`func void name()` ... `endfunc`"),
-    ("sync", "no word for this: instructions wait as far as they need to"),
+    ("sync", "no word for this: instructions wait as long as they need to"),
     ("test", "`switch(n)` ... `endswitch`"),
     ("testdi", "`getdi(1)`"),
     ("textmsg", "`print`"),
@@ -160,7 +159,7 @@ const WORDS: &[(&str, &str)] = &[
     ("ton", NO_TIMER_BLOCKS),
     ("tostring", "`tostr`"),
     ("tp", "`pulsedo(1, true, 0.5)` for a pulse at an output"),
-    ("tperase", "no screen to be cleared: `print` writes below what is there"),
+    ("tperase", "no screen to clear: `print` writes below what is there"),
     ("tpreadnum", "`scan`"),
     ("tpwrite", "`print`"),
     ("trap", "`func void name()`, which an `interrupt` calls"),
@@ -204,9 +203,9 @@ const ARGUMENTS: &[(&str, &str)] = &[
     ("null", "no such value: leave it out"),
     ("off", "`false`"),
     ("on", "`true`"),
-    ("tool0", "`$FLANGE` for the flange without a tool, `$tool0` for the tool 0 of the controller"),
+    ("tool0", "`$FLANGE` for the flange without a tool, `$tool0` for tool 0 of the controller"),
     ("vmax", "`vp:100%`"),
-    ("wobj0", "`$WORLD` for the world, `$wobj0` for the workpiece frame 0 of the controller"),
+    ("wobj0", "`$WORLD` for the world, `$wobj0` for workpiece frame 0 of the controller"),
 ];
 
 /// Labels of other languages' motions, and those that ARL has for the same.

@@ -106,7 +106,7 @@ fn word(lexeme: PlacedLexeme, source: &str) -> Option<&str> {
 }
 
 /// Whether the `{` at the end of a line opens a block, as in other languages: behind a condition, the head of a block,
-/// or a word that stands alone (`try {`) and is no instruction, whose braces would hold a value.
+/// or a word that stands alone (`try {`) and is not an instruction, whose braces would hold a value.
 fn opens_block(lexemes: &[PlacedLexeme], source: &str) -> bool {
     let opens = |token| is_header(token) || matches!(token, Token::Case | Token::Default);
     match lexemes {
@@ -129,7 +129,7 @@ fn begins_statement(lexeme: PlacedLexeme, source: &str) -> bool {
 
 /// The error for a statement that goes on behind the end of its line: where its first line ends, where it goes on.
 pub(crate) fn error(end: Span, rest: Span) -> SyntaxError {
-    SyntaxError::new(SyntaxErrorKind::LineBreak(LineBreak::Behind), end).with(rest, "it goes on here")
+    SyntaxError::new(SyntaxErrorKind::LineBreak(LineBreak::Behind), end).with(rest, "it continues here")
 }
 
 /// The error for a refused line that goes on with the statement of the line above, whose end is `above`.

@@ -26,9 +26,9 @@ pub enum NumberValue {
 pub enum NumberError {
     /// An int that needs more than 32 bits.
     IntTooLarge,
-    /// A double beyond the largest one.
+    /// A double that is too large.
     DoubleTooLarge,
-    /// `12b`: a binary number with other digits than 0 and 1.
+    /// `12b`: a binary number with digits other than 0 and 1.
     BinaryDigits,
     /// `12e`: an exponent without digits.
     Exponent,
@@ -36,7 +36,7 @@ pub enum NumberError {
     OtherHexadecimal(u32),
     /// `1.2.3`
     SeveralPoints,
-    /// `12abc`: letters that are no unit.
+    /// `12abc`: letters that are not a unit.
     Letters,
 }
 
@@ -123,7 +123,7 @@ fn read_decimal(text: &str, double: bool) -> Result<NumberValue, NumberError> {
     text.parse().map(|value| NumberValue::Int(value, Radix::Decimal)).map_err(|_| NumberError::IntTooLarge)
 }
 
-/// Why the letters at `at`, behind digits, are no number.
+/// Why the letters at `at`, behind digits, are not a number.
 fn what_is_wrong(bytes: &[u8], at: usize) -> NumberError {
     let end = word_end(bytes, at);
     let letters = bytes.get(at..end).unwrap_or_default();

@@ -144,8 +144,8 @@ fn degrees(list: &str) -> Option<String> {
     Some(axes.collect::<Vec<_>>().join(","))
 }
 
-/// A value in metres (and seconds), with the unit that ARL has; what is no number stays to be computed. `None` where it
-/// is not above 0.
+/// A value in metres (and seconds), with the unit that ARL has; what is not a number stays to be computed. `None` where
+/// it is not above 0.
 fn scaled(value: &str, unit: &str) -> Option<String> {
     match value.parse::<f64>() {
         Ok(number) => millimetres(number).map(|number| format!("{number}{unit}")),

@@ -12,7 +12,7 @@ use crate::token::{Placed, Token};
 
 /// What a lexeme is to the grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub enum Role {
+pub enum LexemeRole {
     /// A name of the program's or a built-in one; also a reserved word where only a name can stand.
     Name,
     /// `true`, `false` or `endl`.
@@ -31,7 +31,7 @@ pub enum Role {
     Component,
     /// The name of a label on a line of its own.
     Target,
-    /// A unit, or a part of it, that is no part of its number's lexeme.
+    /// A unit, or a part of it, that is not part of its number's lexeme.
     Unit,
     /// Everything else: what it is, its lexeme says.
     #[default]
@@ -44,7 +44,7 @@ pub struct PlacedRole {
     /// The offset of the lexeme's first byte.
     pub start: u32,
     /// What it is.
-    pub role: Role,
+    pub role: LexemeRole,
     /// Whether a statement begins with it: at the start of the line, behind the condition of an `if` on one line,
     /// behind the colon of a case.
     pub begins: bool,
@@ -111,9 +111,9 @@ impl Outline {
                     left.next_if(|token| token.0 < *to);
                     role_of(token.1)
                 }
-                None if *start < end => Role::Unit,
-                None if *lexeme == Lexeme::Colon => Role::LabelColon,
-                None => Role::Other,
+                None if *start < end => LexemeRole::Unit,
+                None if *lexeme == Lexeme::Colon => LexemeRole::LabelColon,
+                None => LexemeRole::Other,
             };
             let begins = at == 0 || statement.is_some_and(|statement| statement.0 == *start);
             self.roles.push(PlacedRole { start: *start, role, begins });
@@ -136,18 +136,18 @@ impl Outline {
     }
 }
 
-fn role_of(token: Token) -> Role {
+fn role_of(token: Token) -> LexemeRole {
     match token {
-        Token::Name(_) => Role::Name,
-        Token::Type(_) => Role::Type,
-        Token::Instruction(_) => Role::Instruction,
-        Token::Label(_) => Role::Label,
-        Token::Component(_) => Role::Component,
-        Token::Target(_) => Role::Target,
-        Token::True | Token::False | Token::Endl => Role::Constant,
-        Token::Unit(_) => Role::Unit,
-        token if is_word(token) => Role::Reserved,
-        _ => Role::Other,
+        Token::Name(_) => LexemeRole::Name,
+        Token::Type(_) => LexemeRole::Type,
+        Token::Instruction(_) => LexemeRole::Instruction,
+        Token::Label(_) => LexemeRole::Label,
+        Token::Component(_) => LexemeRole::Component,
+        Token::Target(_) => LexemeRole::Target,
+        Token::True | Token::False | Token::Endl => LexemeRole::Constant,
+        Token::Unit(_) => LexemeRole::Unit,
+        token if is_word(token) => LexemeRole::Reserved,
+        _ => LexemeRole::Other,
     }
 }
 
@@ -202,19 +202,19 @@ mod tests {
     use crate::outline;
 
     /// The roles with the words they belong to.
-    fn roles(source: &str) -> Vec<(&str, Role)> {
+    fn roles(source: &str) -> Vec<(&str, LexemeRole)> {
         let word = |start: u32| {
             let rest = source.get(start as usize..).unwrap_or_default();
             rest.split(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or_default()
         };
         let outline = outline(source);
-        let words = outline.roles.iter().filter(|role| role.role != Role::Other);
+        let words = outline.roles.iter().filter(|role| role.role != LexemeRole::Other);
         words.map(|role| (word(role.start), role.role)).collect()
     }
 
     #[test]
     fn roles_are_what_the_grammar_sees() {
-        use Role as R;
+        use LexemeRole as R;
         assert_eq!(
             roles("lin p:p1,vl:100 mm/s,vp:50%"),
             [

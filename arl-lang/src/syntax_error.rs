@@ -233,14 +233,14 @@ syntax_errors! { $
     102 "A character that only looks like the one that was meant" =>
         /// A character from outside ASCII that looks like one that was meant: what was found, what was meant.
         LooksLike(char, char),
-    103 "Letters in a name that names cannot have" =>
+    103 "Letters that are not allowed in a name" =>
         /// Letters from outside ASCII in a name.
         ForeignLetters(Box<str>),
     104 "A string without its closing quote" =>
         /// A string without its closing quote.
         UnclosedText,
-    105 "A block comment without its end" =>
-        /// A block comment without its end.
+    105 "A block comment that is not closed" =>
+        /// A block comment that is not closed.
         UnclosedComment,
     106 "An escape that strings do not have" =>
         /// An escape that strings do not have.
@@ -248,11 +248,11 @@ syntax_errors! { $
     107 "An int beyond 32 bits" =>
         /// An int that needs more than 32 bits.
         IntTooLarge(Box<str>),
-    108 "A double beyond the largest one" =>
-        /// A double beyond the largest one.
+    108 "A double that is too large" =>
+        /// A double that is too large.
         DoubleTooLarge,
-    109 "A binary number with other digits than 0 and 1" =>
-        /// A binary number with other digits than 0 and 1.
+    109 "A binary number with digits other than 0 and 1" =>
+        /// A binary number with digits other than 0 and 1.
         BinaryDigits(Box<str>),
     110 "An exponent without digits" =>
         /// An exponent without digits.
@@ -260,8 +260,8 @@ syntax_errors! { $
     111 "A hexadecimal number in another language's notation" =>
         /// `0x3e`: its value.
         OtherHexadecimal(u32),
-    112 "A word that begins like a number and is none" =>
-        /// A word that begins like a number and is none.
+    112 "A word that begins like a number but is not one" =>
+        /// A word that begins like a number but is not one.
         BadNumber(Box<str>),
     113 "A `$` without a name" =>
         /// `$` without a name.
@@ -282,8 +282,8 @@ syntax_errors! { $
         /// A file of 4 GB or more.
         FileTooLarge,
 
-    120 "Something that cannot stand here" =>
-        /// Something that cannot stand here.
+    120 "Something that is not allowed here" =>
+        /// Something that is not allowed here.
         Unexpected {
             /// What was found.
             found: Box<str>,
@@ -327,28 +327,28 @@ syntax_errors! { $
     130 "A reserved word where a name belongs" =>
         /// A reserved word where a name belongs.
         ReservedWord(Box<str>),
-    131 "A label with something behind it" =>
-        /// A label with something behind it.
+    131 "A label with something after it" =>
+        /// A label with something after it.
         LabelNotAlone(Box<str>),
     132 "`else if` instead of `elseif`" =>
         /// `else if`
         ElseIf,
-    133 "A word of another language behind a condition" =>
+    133 "A word of another language after a condition" =>
         /// `then`, `do` and the like behind a condition.
         Then(Box<str>),
     134 "A block in braces" =>
         /// A block in braces.
         BlockBrace,
-    135 "An assignment to something that is no variable" =>
-        /// An assignment to something that is no variable.
+    135 "An assignment to something that is not a variable" =>
+        /// An assignment to something that is not a variable.
         NotAssignable(Box<str>),
-    136 "A unit that is not behind the value of an argument" =>
-        /// A unit that is not behind the value of an argument.
+    136 "A unit that does not follow the value of an argument" =>
+        /// A unit that does not follow the value of an argument.
         MisplacedUnit,
     137 "An expression with too many levels" =>
         /// Too many levels of brackets, operators or members in one expression.
         TooManyLevels,
-    138 "A colon behind the name of a component" =>
+    138 "A colon after the name of a component" =>
         /// `{x:1}`
         ComponentColon(Box<str>),
     139 "A start value with an operator" =>
@@ -382,19 +382,19 @@ syntax_errors! { $
     148 "A branch without its if" =>
         /// `elseif` or `else` without an `if`.
         BranchOutsideIf(&'static str),
-    149 "A branch behind the else" =>
+    149 "A branch after the else" =>
         /// `elseif` or `else` behind `else`.
         BranchAfterElse(&'static str),
     150 "A second default" =>
         /// A second `default`.
         SecondDefault,
-    151 "Too many blocks in blocks" =>
-        /// Too many blocks in blocks.
+    151 "Too many nested blocks" =>
+        /// Too many nested blocks.
         TooManyBlocks,
     152 "The end of a block in another language's words" =>
         /// `end if`, `end`, `wend`: what was written, the block, the line that opens it.
         OtherEnd(Box<str>, BlockKind, u32),
-    153 "More or less than one expression" =>
+    153 "Not exactly one expression" =>
         /// More than one statement where a single expression was asked for.
         NotOneExpression,
     154 "A word of another language" =>
@@ -403,10 +403,10 @@ syntax_errors! { $
     155 "An operator of another language" =>
         /// An operator as another language writes it: what was found, what ARL writes.
         OtherOperator(Box<str>, &'static str),
-    156 "A word of a control structure with a slip in it" =>
+    156 "A misspelled keyword of a control structure" =>
         /// `whlie`: what was written, what was meant.
         Misspelt(Box<str>, &'static str),
-    157 "A statement that goes on on the next line" =>
+    157 "A statement that continues on the next line" =>
         /// A statement whose lines are not joined by `\`.
         LineBreak(LineBreak),
     158 "A motion of another language" =>

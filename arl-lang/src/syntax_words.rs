@@ -7,17 +7,19 @@ impl Hint {
         Some(match self {
             Hint::None => return None,
             Hint::ResultType => {
-                "A function names the type of its result first, `void` where it has none: `func void main()`."
+                "The type of the result comes before the name, `void` where there is none: `func void main()`."
             }
             Hint::References => {
-                "Parameters are passed by value, there are no references. To change the caller's value, return it or use a global variable."
+                "Parameters are passed by value; there are no references. To change the caller's value, return it or use a global variable."
             }
-            Hint::OneIndex => "Each index stands in brackets of its own: `b[1][2]`.",
+            Hint::OneIndex => "Each index has brackets of its own: `b[1][2]`.",
             Hint::InstructionParens => {
-                "An instruction's arguments stand behind its name without parentheses: `print \"a\", 1`."
+                "An instruction's arguments follow its name without parentheses: `print \"a\", 1`."
             }
             Hint::WholeCondition => "The parentheses go around the whole condition: `if((a) && (b))`.",
-            Hint::ConditionParens => "It stands in parentheses: `if(a == 1)`, `until(a == 1)`, `switch(n)`.",
+            Hint::ConditionParens => {
+                "The condition or value is written in parentheses: `if(a == 1)`, `until(a == 1)`, `switch(n)`."
+            }
             Hint::Conversion => {
                 "A type's name does not convert values. Use `toint`, `todouble`, `tostr` or `trunc`, or assign to a variable of the type."
             }
@@ -25,33 +27,33 @@ impl Hint {
                 "The `if` on one line takes one simple statement. Put the inner block on lines of its own, up to its `endif`."
             }
             Hint::CompactDeclaration => {
-                "The `if` on one line takes one simple statement, not a declaration: the variable would end with the line."
+                "The `if` on one line takes one simple statement, not a declaration: the variable would exist on this line only."
             }
-            Hint::ElseAlone => "`else` stands on a line of its own, its statements on the lines below.",
+            Hint::ElseAlone => "Write `else` on a line of its own, and its statements on the lines below.",
             Hint::For => "`for` has three parts with `;` between them: `for(int i=0;i<5;i++)`.",
             Hint::Events => {
-                "Behind the `;` of a motion stand an event, a comma and an action: `lin p1;T(1),setdo(2,true)`. Comments begin with `//`."
+                "The `;` of a motion is followed by an event, a comma and an action: `lin p1;T(1),setdo(2,true)`. Comments begin with `//`."
             }
             Hint::ArraySize => "An array's size is written between its brackets: `int a[3]`.",
-            Hint::Label => "`name:` labels an argument; elsewhere the value stands alone.",
+            Hint::Label => "`name:` labels an argument; elsewhere, write the value alone.",
             Hint::SizeBehindName => {
-                "The sizes of an array stand behind its name: `int a[3]`. Functions cannot return arrays."
+                "The sizes of an array follow its name: `int a[3]`. Functions cannot return arrays."
             }
-            Hint::PlainName => "Names of a program have no `$`: only system variables begin with it.",
+            Hint::PlainName => "Names that a program declares have no `$`: only system variables begin with it.",
             Hint::Comment => "Comments begin with `//`.",
-            Hint::FunctionParens => "A function's arguments stand in parentheses: `setdo(1, true)`.",
-            Hint::PoseLiteral => "Poses stand in braces, in mm and deg: `{x 100, y 200, z 300, a 0, b 180, c 0}`.",
+            Hint::FunctionParens => "A function's arguments are written in parentheses: `setdo(1, true)`.",
+            Hint::PoseLiteral => {
+                "Poses are written in braces, in mm and deg: `{x 100, y 200, z 300, a 0, b 180, c 0}`."
+            }
             Hint::ModuleCall => {
-                "A component cannot be called. A function of a module stands behind two colons: `module::function(...)`."
+                "A component cannot be called. A function of a module is written after two colons: `module::function(...)`."
             }
-            Hint::TypeBehindFunc => "The type of the result stands behind `func`: `func void name()`.",
-            Hint::OneCase => {
-                "A `case` has one value; several cases share statements by `if`, or by a function that they call."
-            }
+            Hint::TypeBehindFunc => "The type of the result follows `func`: `func void name()`.",
+            Hint::OneCase => "A `case` has one value; for several values use `if`, or a function that each case calls.",
             Hint::DecimalPoint => "A number has a decimal point: `3.5`.",
-            Hint::Braces => "The values of a structure stand in braces: `{700, 0, 600, 0, 180, 0}`.",
-            Hint::ImportQuotes => "The path of a module stands in quotes: `import \"rack.arl\"`.",
-            Hint::InstructionValue => "An instruction stands at the beginning of its line and has no value.",
+            Hint::Braces => "The values of a structure are written in braces: `{700, 0, 600, 0, 180, 0}`.",
+            Hint::ImportQuotes => "The path of a module is written in quotes: `import \"rack.arl\"`.",
+            Hint::InstructionValue => "An instruction is written at the beginning of its line and has no value.",
         })
     }
 }
@@ -60,13 +62,13 @@ impl syntax_error::LineBreak {
     const fn message(self) -> &'static str {
         match self {
             Self::Behind => "this statement is not complete at the end of its line",
-            Self::Before => "this line goes on with the statement of the line above",
+            Self::Before => "this line continues the statement of the line above",
         }
     }
 
     const fn label(self) -> &'static str {
         match self {
-            Self::Behind => "write `\\` behind this, at the end of the line",
+            Self::Behind => "write `\\` after this, at the end of the line",
             Self::Before => "write `\\` at the end of the line above",
         }
     }
@@ -87,45 +89,45 @@ impl SyntaxErrorKind {
             BadEscape(escaped) => format!("strings have no escape `\\{}`", escaped.escape_default()),
             IntTooLarge(text) => format!("`{text}` does not fit into 32 bits"),
             DoubleTooLarge => "this number is beyond the largest double".into(),
-            BinaryDigits(text) => format!("`{text}` is no binary number"),
+            BinaryDigits(text) => format!("`{text}` is not a binary number"),
             NoExponent(text) => format!("the exponent of `{text}` has no digits"),
-            OtherHexadecimal(_) => "ARL writes hexadecimal numbers with an `h` behind them".into(),
+            OtherHexadecimal(_) => "in ARL a hexadecimal number ends with an `h`".into(),
             BadNumber(text) => format!("`{text}` is neither a number nor a name"),
-            BareDollar => "a name is missing behind `$`".into(),
+            BareDollar => "a name is missing after `$`".into(),
             Backslash => "`\\` must be the last character of its line".into(),
-            SingleQuotes => "strings stand in double quotes".into(),
-            SpliceOutsideMacro => "Rust values can be spliced in inside of `arl!` only".into(),
+            SingleQuotes => "strings are written in double quotes".into(),
+            SpliceOutsideMacro => "Rust values can be spliced in only inside `arl!`".into(),
             BareSplice => "`#` splices nothing in".into(),
             FileTooLarge => "this file is too large".into(),
-            Unexpected { found, .. } => format!("{found} cannot stand here"),
+            Unexpected { found, .. } => format!("{found} is not allowed here"),
             EndsEarly { .. } => "this line ends too early".into(),
             MissingClose(bracket) => format!("`{}` is missing", bracket.close()),
             StrayClose(bracket) => format!("this `{}` closes nothing", bracket.close()),
             WrongClose(open, found) => format!("`{}` cannot close a `{}`", found.close(), open.open()),
             MissingComma(before) => format!("a comma is missing before {before}"),
             MissingColon => "the `:` of this case is missing".into(),
-            MissingValue(after, before) if before.is_empty() => format!("a value is missing behind {after}"),
+            MissingValue(after, before) if before.is_empty() => format!("a value is missing after {after}"),
             MissingValue(after, before) => format!("a value is missing between {after} and {before}"),
             Semicolon => "a line does not end with `;`".into(),
-            SeveralStatements => "each statement stands on a line of its own".into(),
+            SeveralStatements => "each statement needs a line of its own".into(),
             ReservedWord(word) => format!("`{word}` is a reserved word and cannot be a name"),
             LabelNotAlone(name) => format!("the label `{name}` needs a line of its own"),
             ElseIf => "`else if` is written as one word".into(),
-            Then(word) => format!("ARL has no `{word}` behind a condition"),
+            Then(word) => format!("ARL has no `{word}` after a condition"),
             BlockBrace => "blocks have no braces".into(),
             NotAssignable(what) => format!("{what} cannot be assigned to"),
-            MisplacedUnit => "a unit can stand behind the value of an argument only".into(),
+            MisplacedUnit => "a unit can only follow the value of an argument".into(),
             TooManyLevels => "this expression has too many levels".into(),
-            ComponentColon(name) => format!("no `:` stands between the component `{name}` and its value"),
+            ComponentColon(name) => format!("there is no `:` between the component `{name}` and its value"),
             CompoundStartValue => "a start value follows a plain `=`".into(),
             UnclosedBlock(kind, name) => unclosed(*kind, name),
             StrayEnd(kind) => format!("this `{}` closes nothing: no `{}` is open", kind.closer(), kind.opener()),
             WrongEnd(open, line, found) => {
                 format!("`{}` cannot close the `{}` of line {line}", found.closer(), open.opener())
             }
-            OutsideFunction => "statements stand inside of functions".into(),
+            OutsideFunction => "statements belong inside functions".into(),
             FuncAmongStatements => "a function cannot be defined among statements".into(),
-            ImportInside => "`import` stands outside of functions".into(),
+            ImportInside => "`import` belongs outside functions".into(),
             BeforeFirstCase => "this statement belongs to no case".into(),
             CaseOutsideSwitch => "this case belongs to no `switch`".into(),
             BranchOutsideIf(word) => format!("this `{word}` belongs to no `if`"),
@@ -134,9 +136,9 @@ impl SyntaxErrorKind {
             TooManyBlocks => "too many blocks are open here".into(),
             OtherEnd(found, kind, line) => format!("`{found}` does not close the `{}` of line {line}", kind.opener()),
             NotOneExpression => "exactly one expression belongs here".into(),
-            OtherWord(word, _) => format!("`{word}` is no word of ARL"),
+            OtherWord(word, _) => format!("`{word}` is not a word of ARL"),
             OtherOperator(found, ours) => format!("ARL writes `{ours}`, not `{found}`"),
-            Misspelt(word, _) => format!("`{word}` is no word of ARL"),
+            Misspelt(word, _) => format!("`{word}` is not a word of ARL"),
             OtherMotion(motion) => format!("this is a motion as {} writes it", motion.language),
             LineBreak(place) => place.message().into(),
         }
@@ -152,32 +154,32 @@ impl SyntaxErrorKind {
             UnclosedText | UnclosedComment => "it begins here".into(),
             BadEscape(_) => "unknown escape".into(),
             IntTooLarge(_) | DoubleTooLarge => "too large".into(),
-            BinaryDigits(_) => "other digits than 0 and 1".into(),
-            NoExponent(_) => "digits are missing behind this".into(),
+            BinaryDigits(_) => "digits other than 0 and 1".into(),
+            NoExponent(_) => "digits are missing after this".into(),
             OtherHexadecimal(value) => format!("write `{}`", arl_hexadecimal(*value)),
             BareDollar => "the name of a system variable is missing".into(),
             SingleQuotes => "write `\"`".into(),
             SpliceOutsideMacro => "not in an ARL file".into(),
             FileTooLarge => "here".into(),
             Unexpected { expected, .. } | EndsEarly { expected, .. } => format!("expected {expected}"),
-            MissingClose(bracket) => format!("`{}` belongs behind this at the latest", bracket.close()),
+            MissingClose(bracket) => format!("`{}` belongs after this, or earlier", bracket.close()),
             StrayClose(bracket) => format!("no `{}` is open here", bracket.open()),
             WrongClose(open, _) => format!("`{}` belongs here", open.close()),
             MissingComma(_) => "`,` belongs before this".into(),
-            MissingColon => "`:` belongs behind this".into(),
-            MissingValue(_, before) if before.is_empty() => "a value belongs behind this".into(),
+            MissingColon => "`:` belongs after this".into(),
+            MissingValue(_, before) if before.is_empty() => "a value belongs after this".into(),
             MissingValue(..) => "a value belongs before this".into(),
             Semicolon => "remove this".into(),
             SeveralStatements => "begin a new line here".into(),
             ReservedWord(_) => "choose another name".into(),
-            LabelNotAlone(_) => "begin a new line behind the label".into(),
+            LabelNotAlone(_) => "begin a new line after the label".into(),
             ElseIf => "write `elseif`".into(),
             Then(_) => "remove this".into(),
             BlockBrace => "remove this".into(),
-            NotAssignable(_) => "no variable".into(),
+            NotAssignable(_) => "not a variable".into(),
             MisplacedUnit => "unit".into(),
             TooManyLevels => "too deep".into(),
-            ComponentColon(name) => format!("write `{name}`, a blank and the value"),
+            ComponentColon(name) => format!("write `{name}`, a space and the value"),
             CompoundStartValue => "write `=`".into(),
             UnclosedBlock(kind, _) => format!("this needs its `{}`", kind.closing_line()),
             StrayEnd(_) => "remove this".into(),
@@ -185,10 +187,10 @@ impl SyntaxErrorKind {
             OutsideFunction => "this is outside of any function".into(),
             FuncAmongStatements => "define it outside".into(),
             ImportInside => "move this to the top of the file".into(),
-            BeforeFirstCase => "in front of the first `case`".into(),
+            BeforeFirstCase => "before the first `case`".into(),
             CaseOutsideSwitch => "no `switch` is open here".into(),
             BranchOutsideIf(_) => "no `if` is open here".into(),
-            BranchAfterElse(_) => "behind the `else`".into(),
+            BranchAfterElse(_) => "after the `else`".into(),
             SecondDefault => "second `default`".into(),
             TooManyBlocks => "one block too many".into(),
             NotOneExpression => "this is something else".into(),
@@ -213,7 +215,7 @@ impl SyntaxErrorKind {
             OtherMotion(motion) => Some(format!("Write `{}`: {OTHER_MOTIONS}", motion.ours)),
             WrongEnd(open, ..) => {
                 let (opener, closer) = (open.opener(), open.closing_line());
-                Some(format!("A `{opener}` reaches to its `{closer}`. Write that, or remove this line."))
+                Some(format!("A `{opener}` extends to its `{closer}`. Write that, or remove this line."))
             }
             OtherWord(_, ours) => Some(format!("ARL has {ours}.")),
             Misspelt(_, meant) => Some(format!("Did you mean `{meant}`?")),
@@ -230,28 +232,28 @@ impl SyntaxErrorKind {
                 "Characters of other alphabets look alike and are not the same. Switch the input method to half-width."
             }
             ForeignLetters(_) => {
-                "Names are made of the letters a to z, digits and `_`. In strings and comments any character may stand."
+                "Names are made of the letters a to z, digits and `_`. Strings and comments may contain any character."
             }
             UnclosedText => "Write the closing `\"` on the same line.",
             UnclosedComment => "Write `*/` at its end. Block comments do not nest.",
             BadEscape(_) => {
                 "The escapes are `\\n`, `\\r`, `\\t`, `\\\"` and `\\\\`. A backslash itself is written `\\\\`."
             }
-            IntTooLarge(_) => "Ints have 32 bits. Write a double (`4294967296.0`) where it may be one.",
-            BinaryDigits(_) => "A `b` behind digits makes a binary number, an `h` a hexadecimal one: `1100b`, `12bh`.",
+            IntTooLarge(_) => "Ints have 32 bits. Write a double (`4294967296.0`) where a double is allowed.",
+            BinaryDigits(_) => "A `b` after digits makes a binary number, an `h` a hexadecimal one: `1100b`, `12bh`.",
             NoExponent(_) => "Write the exponent's digits (`12e3`), or an `h` for a hexadecimal number (`12eh`).",
             BadNumber(_) => {
-                "Names begin with a letter or `_`. Behind a number may stand `b`, `h` or a unit: %, mm, mm/s, deg, deg/s, s."
+                "Names begin with a letter or `_`. A number may be followed by `b`, `h` or a unit: %, mm, mm/s, deg, deg/s, s."
             }
-            Backslash => "It joins a line with the next one. Nothing may follow it, no comment either.",
+            Backslash => "It joins a line with the next one. Nothing may follow it, not even a comment.",
             SingleQuotes => "Write `\"text\"`.",
             BareSplice => "Write `#name` for a Rust variable, `#(expression)` for anything else.",
-            FileTooLarge => "ARL files may have up to 4 GB.",
+            FileTooLarge => "ARL files must be smaller than 4 GB.",
             Unexpected { hint, .. } | EndsEarly { hint, .. } => return hint.text(),
             LineBreak(_) => JOINED_LINES,
             MissingClose(_) => ONE_LINE,
             MissingValue(_, before) if before.is_empty() => ONE_LINE,
-            MissingColon => "Write `case 1:` or `default:`, the statements on the lines below.",
+            MissingColon => "Write `case 1:` or `default:`, and the statements on the lines below.",
             Semicolon => {
                 "The end of the line ends the statement. A `;` adds events to a motion: `lin p1;T(1),setdo(2,true)`."
             }
@@ -262,23 +264,25 @@ impl SyntaxErrorKind {
             ElseIf => "With `elseif` the whole chain has one `endif`.",
             Then(_) => "The statements follow on the next lines, up to the closing word.",
             BlockBrace => {
-                "A block reaches from its first line to its closing word: `if(c)` ... `endif`, `while(c)` ... `endwhile`."
+                "A block extends from its first line to its closing word: `if(c)` ... `endif`, `while(c)` ... `endwhile`."
             }
-            NotAssignable(_) => "On the left of `=` stands a variable, an element or a component. `==` compares.",
+            NotAssignable(_) => "The left side of `=` must be a variable, an element or a component. `==` compares.",
             MisplacedUnit => {
-                "Units belong to arguments of instructions: `lin p1,vl:100mm/s`. Elsewhere the number stands alone."
+                "Units belong to arguments of instructions: `lin p1,vl:100mm/s`. Elsewhere a number has no unit."
             }
-            TooManyLevels => "Compute parts of it in variables of their own first.",
+            TooManyLevels => "Compute parts of it in separate variables first.",
             TooManyBlocks => "Move the inner blocks to a function of their own.",
-            ReservedWord(_) => "Words of the language cannot name variables, functions or labels, in whatever case.",
-            ComponentColon(_) => "In braces: `{x 1, y 2}`. With a colon are labels of arguments: `lin p:p1`.",
+            ReservedWord(_) => {
+                "Words of the language cannot be names of variables, functions or labels, in upper or lower case."
+            }
+            ComponentColon(_) => "Braces have no colons: `{x 1, y 2}`. The labels of arguments have them: `lin p:p1`.",
             StrayEnd(_) => "Remove it, or look above for a line that closes too early.",
             OutsideFunction => {
-                "Outside of functions stand `import`, declarations and `func`. A program begins in `func void main()`."
+                "Only `import`, declarations and `func` are allowed outside functions. A program begins in `func void main()`."
             }
             FuncAmongStatements => "Define functions in an ARL file or a macro of their own.",
-            ImportInside => "Imports hold for the whole file.",
-            BeforeFirstCase => "Between `switch` and its first `case` stands nothing.",
+            ImportInside => "Imports apply to the whole file.",
+            BeforeFirstCase => "Nothing may come between `switch` and its first `case`.",
             SecondDefault => "A `switch` has at most one.",
             UnknownCharacter('#') => "Comments begin with `//`.",
             BranchAfterElse(_) => "The order is `if`, any number of `elseif`, at most one `else`, `endif`.",
@@ -299,8 +303,8 @@ impl SyntaxErrorKind {
 }
 
 /// How the motions of ARL are not those of other languages.
-pub const OTHER_MOTIONS: &str = "in ARL commas stand between the arguments and a colon behind each label, \
-poses and joints stand in braces, in mm and deg. `accset` sets accelerations; `movej` goes to a joint, \
+pub const OTHER_MOTIONS: &str = "in ARL commas separate the arguments and a colon follows each label; \
+poses and joints are written in braces, in mm and deg. `accset` sets accelerations; `movej` goes to a joint, \
 `ptp` and `lin` go to a pose.";
 
 /// A block, or the function of this name, that is never closed.
@@ -310,11 +314,11 @@ fn unclosed(kind: BlockKind, name: &str) -> String {
 }
 
 /// Where a statement ends.
-const ONE_LINE: &str = "A statement ends with its line. Where it goes on on the next one, the line ends with `\\`.";
+const ONE_LINE: &str = "A statement ends with its line. To continue it on the next one, end the line with `\\`.";
 
 /// How a statement of several lines is written.
-const JOINED_LINES: &str = "The end of a line ends a statement, inside brackets, too. A `\\` as the last character joins a \
-line with the next: write it at the end of each line of the statement but the last, without a comment behind it.";
+const JOINED_LINES: &str = "The end of a line ends a statement, even inside brackets. A `\\` as the last character joins a \
+line with the next: write it at the end of each line of the statement except the last, with no comment after it.";
 
 /// Units that ARL does not have: the number that makes ARL's unit of each, and that unit.
 const OTHER_UNITS: [(&str, f64, &str); 8] = [
@@ -346,7 +350,7 @@ fn show_character(c: char) -> String {
 }
 
 fn show_ascii(c: char) -> String {
-    if c == ' ' { "a blank".into() } else { format!("`{c}`") }
+    if c == ' ' { "a space".into() } else { format!("`{c}`") }
 }
 
 /// The number as ARL writes it.

@@ -121,7 +121,8 @@ pub fn splice(bytes: &[u8], part: Range<usize>, with: &str) -> Option<Vec<u8>> {
 }
 
 /// The bytes of `text` as a file in the encoding of another one, with its byte order mark where that has one. `None`
-/// where `file` is no text, or would not come out of it byte for byte itself: then other characters could change, too.
+/// where `file` is not a text, or would not come out of it byte for byte itself: then other characters could change,
+/// too.
 ///
 /// ```
 /// let file = b"//\xb5\xe3\nlin p1";

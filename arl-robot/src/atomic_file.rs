@@ -56,7 +56,7 @@ impl<E: fmt::Debug + fmt::Display> std::error::Error for ChangeError<E> {}
 /// Writes a file, whatever it holds. A kill at any moment leaves the old or the new content, whole.
 ///
 /// # Errors
-/// It is no regular file, it must not be written, or what the file system says; the old content is still there.
+/// It is not a regular file, it must not be written, or what the file system says; the old content is still there.
 pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     let old = writable(path)?;
     let file = followed(path)?;
@@ -117,7 +117,7 @@ pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E
             }
         }
     }
-    Err(ChangeError::Write(io::Error::new(io::ErrorKind::ResourceBusy, "another program goes on writing it")))
+    Err(ChangeError::Write(io::Error::new(io::ErrorKind::ResourceBusy, "another program keeps writing it")))
 }
 
 /// Replaces content that is still the old one; whether it was.
@@ -171,11 +171,11 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
     for _ in 0..MOST_LINKS {
         match fs::read_link(&path) {
             Ok(target) => path = directory_of(&path).join(target),
-            // It is no link; whether it is anything will be seen.
+            // It is not a link; whether it is anything will be seen.
             Err(_) => return Ok(path),
         }
     }
-    Err(io::Error::other("its links lead in a circle"))
+    Err(io::Error::other("its links form a loop"))
 }
 
 /// What is known of a file that may be written; nothing where there is none.
@@ -288,7 +288,7 @@ fn make_alike(file: &File, old: &Metadata) -> io::Result<()> {
     if own.gid() != old.gid() && fchown(file, None, Some(old.gid())).is_err() {
         let mode = old.mode();
         if (mode >> 3) & 0o7 != mode & 0o7 {
-            let words = "its group cannot be kept, and the group may do something else with it than others";
+            let words = "its group cannot be kept, and the group has other rights than everybody else";
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, words));
         }
     }

@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 use crate::settings::{SettingsError, Source, Value, hint, quoted};
 
 /// The text of a settings file in which the value at `path` is `value`. The path is that of the keys, with points
-/// between; entries of lists count from 1: `axis.1.vel`. The last key may be a new one. What is no TOML value is a
+/// between; entries of lists count from 1: `axis.1.vel`. The last key may be a new one. What is not a TOML value is a
 /// text.
 ///
 /// ```
@@ -18,7 +18,7 @@ use crate::settings::{SettingsError, Source, Value, hint, quoted};
 /// ```
 ///
 /// # Errors
-/// The text is no TOML, or there is no such place in it.
+/// The text is not TOML, or there is no such place in it.
 pub fn set(file: &str, text: &str, path: &str, value: &str) -> Result<String, SettingsError> {
     let source = Source { file, text };
     let root = source.parse()?;
@@ -68,7 +68,7 @@ impl<'a> Place<'a> {
         match value.get_ref() {
             DeValue::Table(table) => Ok(Inner::Table(table)),
             DeValue::Array(list) => Ok(Inner::List(list)),
-            _ => Err(self.missing("this is no table and no list")),
+            _ => Err(self.missing("this is neither a table nor a list")),
         }
     }
 
@@ -77,7 +77,7 @@ impl<'a> Place<'a> {
         let number = key.parse::<usize>().ok().filter(|number| (1..=count).contains(number));
         number
             .map(|number| number - 1)
-            .ok_or_else(|| self.missing(&format!("`{key}` is no entry: there are {count}, which count from 1")))
+            .ok_or_else(|| self.missing(&format!("`{key}` is not an entry: there are {count}, counted from 1")))
     }
 
     fn no_key(&self, table: &DeTable<'_>, key: &str) -> SettingsError {
@@ -88,7 +88,7 @@ impl<'a> Place<'a> {
     fn missing(&self, why: &str) -> SettingsError {
         let walked: Vec<&str> = self.whole.split('.').take(self.walked).collect();
         let at = if walked.is_empty() { String::new() } else { format!(" at `{}`", walked.join(".")) };
-        SettingsError::of_file(self.source.file, format!("`{}` is not there:{at} {why}", self.whole))
+        SettingsError::of_file(self.source.file, format!("`{}` does not exist:{at} {why}", self.whole))
     }
 
     fn replace(&self, old: &Value<'_>, value: &str) -> Result<String, SettingsError> {
@@ -108,7 +108,7 @@ impl<'a> Place<'a> {
     fn insert(&self, table: &DeTable<'_>, key: &str, value: &str) -> Result<String, SettingsError> {
         let is_key = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         if key.is_empty() || !key.chars().all(is_key) {
-            return Err(self.missing(&format!("`{key}` is no key")));
+            return Err(self.missing(&format!("`{key}` is not a key")));
         }
         let text = self.source.text;
         let line_of = |at: usize| text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
@@ -122,7 +122,7 @@ impl<'a> Place<'a> {
             Some(first) => first,
             // The first lines of a file belong to it.
             None if self.walked == 0 => 0,
-            None => return Err(self.missing("nothing stands there that a key could stand beside")),
+            None => return Err(self.missing("there is no key there beside which a new one could be put")),
         };
         let line = line_of(first);
         let before = text.get(line..first).unwrap_or_default();
@@ -193,16 +193,16 @@ limits = { velocity = 100, other = [1, 2] }
     #[test]
     fn what_is_not_there_is_told() {
         for (path, words) in [
-            ("event.3.at", "`3` is no entry: there are 2, which count from 1"),
+            ("event.3.at", "`3` is not an entry: there are 2, counted from 1"),
             ("event.0.at", "count from 1"),
-            ("event.at", "at `event` `at` is no entry"),
+            ("event.at", "at `event` `at` is not an entry"),
             ("events.1.at", "there is no `events`; did you mean `event`?"),
             ("event.1.at.x", "at `event.1.at` this is no table"),
             ("tcp", "name one of them"),
             ("event", "name one of them"),
             ("event.2", "name one of them"),
-            ("event.2.a b", "`a b` is no key"),
-            ("", "`` is no key"),
+            ("event.2.a b", "`a b` is not a key"),
+            ("", "`` is not a key"),
         ] {
             let error = set("s.toml", TEXT, path, "1").unwrap_err().to_string();
             assert!(error.contains(words), "{path}: {error}");

@@ -48,7 +48,7 @@ impl Changes {
     /// Takes a word of a command line: `robot.axis.1.vel=90`.
     ///
     /// # Errors
-    /// It is no change: what would be one.
+    /// It is not a change: what would be one.
     pub fn add(&mut self, word: &str) -> Result<(), String> {
         let split = || {
             let (place, value) = word.split_once('=')?;
@@ -74,7 +74,7 @@ impl Changes {
     /// The text of a file with all changes of a part.
     ///
     /// # Errors
-    /// The file has no such place, or is no TOML.
+    /// The file has no such place, or is not TOML.
     pub fn apply(&self, part: Part, file: &str, text: String) -> Result<String, SettingsError> {
         self.of_part(part).try_fold(text, |text, (path, value)| change::set(file, &text, path, value))
     }

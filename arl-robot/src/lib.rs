@@ -6,7 +6,7 @@
 //! Without it there are values and kinematics alone, a robot is one from [`Robot::new`], and neither a reader of TOML
 //! nor the language is compiled.
 
-// The runtime and the command write files so; it is no part of what this crate is for.
+// The runtime and the command write files so; it is not part of what this crate is for.
 #[cfg(feature = "files")]
 #[doc(hidden)]
 pub mod atomic_file;

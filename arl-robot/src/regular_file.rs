@@ -6,7 +6,7 @@ use std::io;
 use std::path::Path;
 
 /// What is wrong with a path that is there, but no file.
-const NOT_REGULAR: &str = "this is no regular file";
+const NOT_REGULAR: &str = "this is not a regular file";
 
 /// That a path, where links have led to, is a regular file.
 ///
@@ -24,7 +24,7 @@ pub fn expect(path: &Path) -> io::Result<()> {
 /// The bytes of a regular file.
 ///
 /// # Errors
-/// It cannot be read, or is no regular file.
+/// It cannot be read, or is not a regular file.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     expect(path)?;
     fs::read(path)
@@ -33,7 +33,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// The text of a regular file.
 ///
 /// # Errors
-/// It cannot be read, is no regular file, or no text in UTF-8.
+/// It cannot be read, is not a regular file, or no text in UTF-8.
 pub fn read_text(path: &Path) -> io::Result<String> {
     expect(path)?;
     fs::read_to_string(path)

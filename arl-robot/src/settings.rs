@@ -54,7 +54,7 @@ impl<'a> Source<'a> {
     /// The whole text as a table.
     ///
     /// # Errors
-    /// It is no TOML.
+    /// It is not TOML.
     pub fn parse(self) -> Result<Spanned<DeTable<'a>>, SettingsError> {
         DeTable::parse(self.text).map_err(|error| {
             self.error(error.span().unwrap_or(0..0), format!("this is not TOML: {}", error.message().trim_end()))
@@ -126,7 +126,7 @@ impl<'a> Section<'a> {
     /// The table under `key`, if it is there.
     ///
     /// # Errors
-    /// The value is no table, or has a key that is not `known`.
+    /// The value is not a table, or has a key that is not `known`.
     pub fn table(&self, key: &str, name: &'a str, known: &[&str]) -> Result<Option<Section<'a>>, SettingsError> {
         self.find(key).map(|value| table(self.source, value, name, known)).transpose()
     }
@@ -134,7 +134,7 @@ impl<'a> Section<'a> {
     /// The table under `key`, if it is there, whatever keys it has.
     ///
     /// # Errors
-    /// The value is no table.
+    /// The value is not a table.
     pub fn free_table(&self, key: &str, name: &'a str) -> Result<Option<Section<'a>>, SettingsError> {
         let section = |table| Self { source: self.source, name, table };
         self.find(key).map(|value| items(self.source, value, name).map(section)).transpose()
@@ -169,7 +169,7 @@ impl<'a> Section<'a> {
     /// A text, if it is there.
     ///
     /// # Errors
-    /// The value is no text.
+    /// The value is not a text.
     pub fn text(&self, key: &str, what: &str) -> Result<Option<&'a str>, SettingsError> {
         let Some(value) = self.find(key) else { return Ok(None) };
         value.get_ref().as_str().map(Some).ok_or_else(|| self.wrong(key, value, what))
@@ -198,7 +198,7 @@ impl<'a> Section<'a> {
 /// The table that a value must be; each key must be one of `known`.
 ///
 /// # Errors
-/// The value is no table, or has another key.
+/// The value is not a table, or has another key.
 pub fn table<'a>(
     source: Source<'a>,
     value: &'a Value<'a>,
@@ -259,7 +259,7 @@ pub fn quoted(text: &str) -> String {
 pub fn hint(word: &str, known: &[&str]) -> String {
     match nearest(word, known) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("known are: {}", known.join(", ")),
+        None => format!("expected one of: {}", known.join(", ")),
     }
 }
 

@@ -191,7 +191,7 @@ impl fmt::Display for Fault {
         match self {
             Fault::DivideByZero => write!(f, "division by zero"),
             Fault::ShiftCount { count, width } => {
-                write!(f, "shift by {count}: a value of {width} bits is shifted by 0 to {}", width - 1)
+                write!(f, "shift by {count}: a value of {width} bits can be shifted by 0 to {}", width - 1)
             }
             Fault::Index { index, size } => {
                 write!(f, "index {index} is outside the array: its size is {size}, so 0 to {} are valid", size - 1)
@@ -200,17 +200,17 @@ impl fmt::Display for Fault {
             Fault::Text { text, wanted } => write!(f, "\"{text}\" is not a value of type {wanted}"),
             Fault::Range { value, low, high } => write!(f, "{value} is outside the allowed range {low} to {high}"),
             Fault::Word { text, taken } => {
-                write!(f, "\"{text}\" is not among the values that are allowed: ")?;
+                write!(f, "\"{text}\" is not among the allowed values: ")?;
                 for (at, word) in taken.iter().enumerate() {
                     write!(f, "{}\"{word}\"", if at == 0 { "" } else { " or " })?;
                 }
                 Ok(())
             }
-            Fault::Depth => write!(f, "functions call each other too deep"),
+            Fault::Depth => write!(f, "function calls are nested too deep"),
             Fault::DepthBytes { most } => write!(
                 f,
-                "functions call each other too deep: the strings and arrays that were handed to them have more than \
-                 {most} bytes together"
+                "function calls are nested too deep: the strings and arrays passed to them have more than \
+                 {most} bytes in total"
             ),
             Fault::Assertion => write!(f, "assertion failed"),
             Fault::File { path, problem } => write!(f, "file \"{path}\": {problem}"),
@@ -240,7 +240,7 @@ impl fmt::Display for Fault {
             }
             Fault::NoMasses { function, robot } => write!(
                 f,
-                "{function}: the file of robot {robot} gives no masses, so that torques and forces are not known; it needs a \
+                "{function}: the file of robot {robot} gives no masses, so torques and forces are not known; it needs a \
                  [[link]] for each axis"
             ),
             Fault::Background { function } => {

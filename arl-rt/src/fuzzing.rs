@@ -11,13 +11,13 @@ use arl_robot::islands::Table;
 /// What a client sends to the Modbus TCP server: each frame is served, its answer fits into a frame.
 pub fn modbus_tcp(mut bytes: &[u8]) {
     let (mut tables, mut answer, mut out) = (Tables::default(), pdu::Answer::new(), Vec::new());
-    while let mbap::Start::Frame(frame, size) = mbap::first(bytes) {
+    while let mbap::Received::Frame(frame, size) = mbap::first(bytes) {
         assert!(size <= mbap::LONGEST_FRAME && !frame.pdu.is_empty());
         pdu::serve(frame.pdu, &mut tables, &mut answer);
         assert!((2..=pdu::LONGEST).contains(&answer.bytes().len()));
         out.clear();
-        mbap::append(&mut out, &mbap::Frame { pdu: answer.bytes(), ..frame });
-        assert!(matches!(mbap::first(&out), mbap::Start::Frame(_, size) if size == out.len()));
+        mbap::append(&mut out, &mbap::ModbusFrame { pdu: answer.bytes(), ..frame });
+        assert!(matches!(mbap::first(&out), mbap::Received::Frame(_, size) if size == out.len()));
         bytes = bytes.get(size..).unwrap_or_default();
     }
 }
@@ -29,7 +29,7 @@ pub fn island(table: u8, count: u16, bytes: &[u8]) {
     let count = usize::from(count) % client::most_read(table) + 1;
     let mut request = Vec::new();
     client::read_request(&mut request, table, 0, count as u16);
-    if let mbap::Start::Frame(frame, _) = mbap::first(bytes)
+    if let mbap::Received::Frame(frame, _) = mbap::first(bytes)
         && let Ok(data) = client::read_answer(table, request.first().copied().unwrap_or_default(), count, frame.pdu)
     {
         assert_eq!(data.len(), client::size(table, count));

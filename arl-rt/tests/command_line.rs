@@ -27,6 +27,7 @@ impl Program for Small {
         Family::SixAxis
     }
 
+    #[expect(clippy::too_many_lines, reason = "a program")]
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         Box::pin(async move {
             match self.0.as_str() {
@@ -363,7 +364,7 @@ fn pointers_that_cannot_be_kept_are_a_warning() {
     let nowhere = folder.path().join("nowhere");
     std::os::unix::fs::symlink(folder.path().join("missing"), &nowhere).unwrap();
     let output = run("hello", &["--state-dir", nowhere.to_str().unwrap()]);
-    check(&output, 0, "hello\n", "warning: where the programs stand cannot be kept: ");
+    check(&output, 0, "hello\n", "warning: the program pointers cannot be saved: ");
     assert_eq!(String::from_utf8_lossy(&output.stderr).lines().count(), 1, "it is said once");
 }
 
@@ -394,7 +395,7 @@ fn the_time_is_over() {
     let output = run("forever", &["--max-time", "0.5"]);
     assert_eq!(output.status.code(), Some(4));
     let error = String::from_utf8_lossy(&output.stderr);
-    assert!(error.contains("the time is over: 0.5 s; the program stands at t.arl:5"), "{error}");
+    assert!(error.contains("the time limit of 0.5 s has passed; the program is at t.arl:5"), "{error}");
 }
 
 fn virtual_time_is_the_same_every_time() {
@@ -408,7 +409,7 @@ fn virtual_time_is_the_same_every_time() {
 }
 
 fn recursion_without_end_is_an_alarm() {
-    check(&run("deep", &[]), 3, "", "alarm 20007: functions call each other too deep (t.arl:12)");
+    check(&run("deep", &[]), 3, "", "alarm 20007: function calls are nested too deep (t.arl:12)");
 }
 
 fn files_are_below_the_script_directory() {
@@ -474,7 +475,7 @@ fn wrong_files_name_their_line() {
         &run("hello", &["--cell", &cell, "--io", &folder.file("e.toml", "[[event]]\nat = 1\ndi.3 = true\n")]),
         2,
         "",
-        "DI 3 does not exist: channels 1 to 2 are there",
+        "DI 3 does not exist: this cell has channels 1 to 2",
     );
     check(&run("hello", &["--cell", "/nowhere.toml"]), 2, "", "cannot read the cell file");
 }
@@ -546,7 +547,7 @@ fn a_live_run_shows_what_is_inside() {
     live.order("inside = 2");
     live.line(&["refused", "there is no channel 2"]);
     live.order("inside = one");
-    live.line(&["refused", "`one` is no channel"]);
+    live.line(&["refused", "`one` is not a channel"]);
     live.order("inside = 1");
     // It is told again and again, for the first time perhaps before the program has begun.
     let inside = live.line(&["\"inside\":{\"channel\":1,", "\"name\":\"main\""]);
@@ -554,7 +555,7 @@ fn a_live_run_shows_what_is_inside() {
         r#"{"id":1,"name":"main","file":"t.arl","line":4,"event":false}"#,
         r#"{"name":"round","type":"int","value":""#,
         r#"{"name":"table","type":"int[65]","value":".."}"#,
-        r#""handles":[{"name":"watch","type":"clock","value":"0.000 s, stands"}]"#,
+        r#""handles":[{"name":"watch","type":"clock","value":"0.000 s, stopped"}]"#,
     ] {
         assert!(inside.contains(words), "{words}\n{inside}");
     }
@@ -562,6 +563,6 @@ fn a_live_run_shows_what_is_inside() {
     assert_eq!(live.leave().0, Some(130));
     let mut plain = Live::start("forever");
     plain.order("inside = 1");
-    plain.line(&["refused", "this program was not made to be looked into"]);
+    plain.line(&["refused", "this program was not made for inspection"]);
     plain.leave();
 }

@@ -24,7 +24,7 @@ const RADIUS: f64 = 150.0;
 /// The parts of the way at both ends that the ramps may take, in mm.
 const RAMP: f64 = 250.0;
 
-/// The way of the TCP so far.
+/// The path of the TCP so far.
 #[derive(Default)]
 struct Way {
     last: Option<Vector3<f64>>,

@@ -130,7 +130,7 @@ fn a_name_that_is_none_is_told_before_anything_begins() {
     };
     assert!(
         refused("parts", "1")
-            .contains("one in count.arl and one in tools/more.arl; `count::parts` is that of the first")
+            .contains("one in count.arl and one in tools/more.arl; `count::parts` is the one in count.arl")
     );
     assert!(refused("nme", "\"b\"").contains("did you mean `name`?"));
     assert!(refused("speed", "1").contains("there are parts, name, place, parts"));

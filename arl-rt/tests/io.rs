@@ -33,7 +33,7 @@ fn outputs_and_inputs_single_and_in_groups() {
 #[test]
 fn channels_that_do_not_exist_are_alarms() {
     let (outcome, _) = run(|cx| Box::pin(async move { io::setdo(cx, 65, true).await.at(FILE, 4) }));
-    assert_eq!(alarm(outcome), "alarm 20010: DO 65 does not exist: channels 1 to 64 are there (t.arl:4)");
+    assert_eq!(alarm(outcome), "alarm 20010: DO 65 does not exist: this cell has channels 1 to 64 (t.arl:4)");
     let (outcome, _) = run(|cx| Box::pin(async move { io::getdi_group(cx, 4, 2).await.at(FILE, 5).map(|_| ()) }));
     assert!(alarm(outcome).contains("reversed range"));
     let (outcome, _) = run(|cx| Box::pin(async move { io::setdoimv(0, true).run(cx).at(FILE, 6) }));

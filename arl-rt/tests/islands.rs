@@ -123,8 +123,8 @@ impl arl_rt::io::IoDriver for Slow {
         self.0 = outputs.cycle();
     }
 
-    fn has_reached(&self, output: arl_rt::io::Output, cycle: u64) -> bool {
-        output == arl_rt::io::Output::Digital(9) || self.0 >= cycle + 5
+    fn has_reached(&self, output: arl_rt::io::OutputSignal, cycle: u64) -> bool {
+        output == arl_rt::io::OutputSignal::Digital(9) || self.0 >= cycle + 5
     }
 }
 

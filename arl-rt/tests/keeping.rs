@@ -150,5 +150,8 @@ fn what_cannot_be_stored_is_told() {
     });
     assert!(matches!(controller.run(), Outcome::Alarm(alarm) if alarm.to_string().contains("the disk is full")));
     let warnings = controller.take_warnings();
-    assert!(matches!(&warnings[..], [one] if one.contains("cannot be kept") && one.contains("I_NAME")), "{warnings:?}");
+    assert!(
+        matches!(&warnings[..], [one] if one.contains("cannot be saved") && one.contains("I_NAME")),
+        "{warnings:?}"
+    );
 }

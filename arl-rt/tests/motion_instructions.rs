@@ -243,7 +243,7 @@ fn poses_and_joints_belong_together() {
     });
     let line = "{30,-60,80,20,40,-50,9e+09,9e+09,9e+09,9e+09,9e+09,9e+09}\n";
     assert_eq!(text, [line; 3].concat());
-    assert_eq!(alarm(outcome), "alarm 20004: getpose: axes of the robot are not set, or no numbers (t.arl:7)");
+    assert_eq!(alarm(outcome), "alarm 20004: getpose: axes of the robot are not set or are not numbers (t.arl:7)");
 }
 
 #[test]
@@ -306,7 +306,7 @@ fn a_target_that_is_not_rounded_off_is_told_of_once_with_the_cause() {
     });
     assert_eq!(controller.run(), Outcome::Ended);
     let warnings = controller.take_warnings();
-    assert!(warnings.len() == 1 && warnings[0].contains("goes back along the same way"), "{warnings:?}");
+    assert!(warnings.len() == 1 && warnings[0].contains("goes back along the same path"), "{warnings:?}");
 }
 
 #[test]

@@ -34,7 +34,7 @@ fn an_output_that_panics_loses_what_it_was_told_and_no_more() {
     let mut controller = plain(builder, say_three);
     assert_eq!(controller.run(), Outcome::Ended);
     assert_eq!(heard.get(), 3);
-    assert_eq!(controller.take_warnings(), ["the output has panicked: what it was told is lost"]);
+    assert_eq!(controller.take_warnings(), ["the output has panicked: what was reported to it is lost"]);
 }
 
 #[test]

@@ -120,7 +120,7 @@ fn paths_that_lead_elsewhere_are_alarms() {
     assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 0);
     let (outcome, _) =
         run(|cx| Box::pin(async move { text::print().to(Printto::File).argtoprint(&1).run(cx).at(FILE, 6) }));
-    assert_eq!(alarm(outcome), "alarm 20004: print: to:file needs the file's name: filepath:\"...\" (t.arl:6)");
+    assert_eq!(alarm(outcome), "alarm 20004: print: to:file needs a file name: filepath:\"...\" (t.arl:6)");
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn saved_variables_come_back_at_the_next_start_and_with_init() {
         })
     });
     let text = alarm(first.run());
-    assert!(text.contains("savesv: \"DFSPEEED\" is no system variable that is saved"), "{text}");
+    assert!(text.contains("savesv: \"DFSPEEED\" is not a system variable that is saved"), "{text}");
     assert_eq!(messages.text(), "1.5\n0\n");
     let (mut second, messages) = controller(start(), |cx| {
         Box::pin(async move {

@@ -229,7 +229,7 @@ fn a_robot_that_never_settles_is_not_waited_for() {
         (number, &*text),
         (
             20073,
-            "the robot has not come to rest on its set-point within 2 s: j2 is 0.0100 deg away, 0.001 deg count as settled"
+            "the robot has not settled at its set-point within 2 s: j2 is 0.0100 deg away; up to 0.001 deg counts as settled"
         )
     );
     assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
@@ -255,7 +255,7 @@ fn torques_that_are_no_numbers_are_no_feedback() {
         feedback.with_torque([0.0, second, 0.0, 0.0, 0.0, 0.0])
     });
     let (number, _, text) = outcome(&mut controller);
-    assert_eq!((number, &*text), (20071, "the robot reports no number as a torque of its motors"));
+    assert_eq!((number, &*text), (20071, "a motor torque that the robot reports is not a number"));
     assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
     keep_limits(&heard.borrow());
 }
@@ -478,7 +478,7 @@ fn motors_come_on_only_where_it_is_known_where_the_robot_is() {
     controller.run();
     controller.press(arl_rt::io::Pendant::ServoOn);
     controller.step();
-    assert!(controller.take_warnings().iter().any(|warning| warning.contains("no position feedback comes")));
+    assert!(controller.take_warnings().iter().any(|warning| warning.contains("no position feedback from the robot")));
     assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
 }
 
@@ -508,10 +508,10 @@ fn a_robot_that_does_not_start_is_no_controller() {
     };
     let problem = refused(Nowhere(Err("no answer from 10.0.0.2:49152")));
     assert_eq!(problem, "the robot of channel 1 cannot be started: no answer from 10.0.0.2:49152");
-    assert!(refused(Nowhere(Ok(f64::NAN))).contains("the robot reports no number as the position of j1"));
+    assert!(refused(Nowhere(Ok(f64::NAN))).contains("the position that the robot reports for j1 is not a number"));
     let outside = refused(Nowhere(Ok(500.0)));
     let why = "the robot reports j1 at 500.000 deg, outside of its range of -170 to 170 deg";
-    assert!(outside.contains(why) && outside.contains("is the robot file that of this robot?"), "{outside}");
+    assert!(outside.contains(why) && outside.contains("does the robot file match this robot?"), "{outside}");
 }
 
 #[test]
@@ -648,7 +648,7 @@ fn what_was_never_sent_is_not_the_computers_fault() {
     let (mut controller, heard) = turning_with(|_, feedback| feedback, |builder| builder.clock(clock));
     let (number, line, text) = outcome(&mut controller);
     assert_eq!((number, line), (20074, 2), "{text}");
-    assert_eq!(text, "messages of the robot did not come: 22 control cycles were lost within a second");
+    assert_eq!(text, "messages from the robot did not arrive: 22 control cycles were lost within a second");
     let lateness = controller.lateness().unwrap();
     assert_eq!((lateness.late(), lateness.lost(), lateness.missing()), (0, 22, 22));
     keep_limits(&heard.borrow());

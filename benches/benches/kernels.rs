@@ -114,7 +114,7 @@ fn counted(kernel: &Kernel) -> Result<f64, String> {
 fn one_side(kernel: &str, side: &str, rounds: &str) -> Result<(), String> {
     let found = kernels::ALL.iter().find(|known| known.name == kernel);
     let kernel = found.ok_or_else(|| format!("no kernel is named {kernel}"))?;
-    for _ in 0..rounds.parse().map_err(|_| format!("{rounds} is no number of rounds"))? {
+    for _ in 0..rounds.parse().map_err(|_| format!("{rounds} is not a number of rounds"))? {
         match side {
             BY_HAND => drop(black_box((kernel.rival)(black_box(kernel.large)))),
             _ => drop(black_box((kernel.emitted)(black_box(kernel.large))?)),

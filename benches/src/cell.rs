@@ -6,7 +6,7 @@ use std::fmt;
 use arl_rt::Program;
 use arl_rt::emit::{BoxFuture, Cx, Family, File};
 
-#[allow(clippy::all, missing_docs, unreachable_pub, dead_code, unused_qualifications)]
+#[allow(clippy::all, clippy::too_many_lines, missing_docs, unreachable_pub, dead_code, unused_qualifications)]
 mod emitted {
     include!(concat!(env!("OUT_DIR"), "/robot.rs"));
 }

@@ -23,7 +23,7 @@ macro_rules! kernels {
     ($($name:ident($small:literal, $large:literal) = |$cx:pat_param, $g:pat_param, $size:ident| $call:expr;)*) => {
         mod emitted {
             $(
-                #[allow(clippy::all, missing_docs, unreachable_pub, dead_code, unused_qualifications)]
+                #[allow(clippy::all, clippy::too_many_lines, missing_docs, unreachable_pub, dead_code, unused_qualifications)]
                 pub(super) mod $name {
                     include!(concat!(env!("OUT_DIR"), "/", stringify!($name), ".rs"));
                 }

@@ -44,7 +44,7 @@ impl Peer {
     /// The next message.
     ///
     /// # Errors
-    /// It has ended, or what came is no message.
+    /// It has ended, or what came is not a message.
     pub fn receive(&mut self) -> Result<Value, String> {
         let mut length = 0;
         loop {

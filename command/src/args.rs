@@ -30,20 +30,20 @@ pub(crate) enum Command {
         /// How to show what was found.
         #[arg(long, value_enum, default_value_t = Format::Human)]
         format: Format,
-        /// Show people at most so many errors and warnings, errors first; 0 for all. JSON always has all.
+        /// Show at most this many errors and warnings, errors first; 0 shows all. JSON always has all.
         #[arg(long, value_name = "N", default_value_t = MOST_SHOWN)]
         max_errors: usize,
-        /// Run programs without mistakes on the virtual clock, with the scenario of their arl.toml, and find what their
+        /// Run correct programs on the virtual clock, with the scenario of their arl.toml, and find what their
         /// robots run into.
         #[arg(long, conflicts_with = "background")]
         collisions: bool,
-        /// With --collisions: also what comes nearer to each other than so many mm.
+        /// With --collisions: also report what comes closer to each other than this many mm.
         #[arg(long, value_name = "MM", value_parser = clearance, requires = "collisions")]
         clearance: Option<f64>,
         #[command(flatten)]
         checking: Checking,
     },
-    /// Show the Rust that a program becomes.
+    /// Show the Rust code that a program is translated to.
     Emit {
         /// The file that has `main`.
         file: PathBuf,
@@ -57,13 +57,13 @@ pub(crate) enum Command {
     Build {
         /// The file that has `main`.
         file: PathBuf,
-        /// Where to put the program; the file's name without `.arl`, in the working directory, if absent.
+        /// Where to put the program; if absent, in the working directory, named after the file without `.arl`.
         #[arg(short, value_name = "PROGRAM")]
         out: Option<PathBuf>,
         /// Compile longer for a faster program.
         #[arg(long)]
         release: bool,
-        /// Make a library for other programs, behind the C interface of `arl.h`.
+        /// Make a library for other programs, with the C interface of `arl.h`.
         #[arg(long)]
         library: bool,
         #[command(flatten)]
@@ -90,8 +90,8 @@ pub(crate) enum Command {
     },
     /// Show a run in the browser: robot, path, program and signals on one time line.
     ///
-    /// Of a recording, or of a program that runs in real time, with the pendant's buttons in the page. The first line
-    /// of the standard output is the address of the page.
+    /// Shows a recording, or a program that runs in real time, with the pendant's buttons in the page. The first line
+    /// of standard output is the address of the page.
     View {
         /// A program, or a recording that `arl2rs run --record` made, or two recordings to be compared.
         #[arg(required = true, num_args = 1..=2, value_name = "FILE.arl|RUN.mcap")]
@@ -99,22 +99,22 @@ pub(crate) enum Command {
         #[command(flatten)]
         options: ViewOptions,
     },
-    /// Tell what differs between two runs, line by line. The exit code is 1 where anything does.
+    /// Show what differs between two runs, line by line. The exit code is 1 if anything does.
     Compare {
         /// A recording, or a report of `arl2rs run --report=FILE --format json`.
         #[arg(value_name = "A")]
         one: PathBuf,
-        /// The one that it is compared with.
+        /// The recording or report to compare it with.
         #[arg(value_name = "B")]
         other: PathBuf,
-        /// How to tell it.
+        /// How to show it.
         #[arg(long, value_enum, default_value_t = Format::Human)]
         format: Format,
     },
     /// Run a program once for each row of a table of parameters, on all cores.
     ///
-    /// A JSON object for each run comes on the standard output, in the order of the table. What is known from an
-    /// earlier sweep does not run again.
+    /// A JSON object for each run goes to standard output, in the order of the table. Results that are known from an
+    /// earlier sweep are reused.
     Sweep {
         /// The program and the table.
         #[arg(value_name = "S.toml")]
@@ -134,9 +134,9 @@ pub(crate) enum Command {
     ///
     /// They are in `~/.cache/arl2rs`, `~/Library/Caches/arl2rs` or `%LOCALAPPDATA%\arl2rs`, or in the folder that the
     /// variable ARL2RS_CACHE names. ARL2RS_CACHE_LIMIT is how many gigabytes they may take (4, or `none`): beyond that,
-    /// what was not used for longest goes.
+    /// those unused for longest are removed.
     Clean {
-        /// Only what was not used for so many days.
+        /// Remove only what has not been used for this many days.
         #[arg(long, value_name = "DAYS")]
         older: Option<u32>,
     },
@@ -145,20 +145,20 @@ pub(crate) enum Command {
         /// The code of the diagnostic, or the number of the alarm.
         code: String,
     },
-    /// Show the reference of a statement, type, operator, rule, or of anything built in. Without a name: what there is.
+    /// Show the reference page of a statement, type, operator, rule or built-in. Without a name: list all pages.
     Doc {
         /// Its name: `while`, `string`, `<<`, `blending`, `movej`, `$PI`.
         name: Option<String>,
-        /// List the pages in which all of these words stand.
+        /// List the pages that contain all of these words.
         #[arg(long, value_name = "WORDS", num_args = 1.., conflicts_with = "name")]
         search: Vec<String>,
     },
-    /// Lay programs out: one way to indent, to space and to spell. Lines with mistakes stay as they are.
+    /// Format programs: indentation, spacing and spelling. Lines with mistakes stay as they are.
     Fmt {
         /// Programs, and folders with programs; `-` reads standard input and writes standard output.
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
-        /// Write nothing; print the names of the files that would change, and fail where there are any.
+        /// Write nothing; print the names of the files that would change, and fail if there are any.
         #[arg(long)]
         check: bool,
     },
@@ -166,7 +166,7 @@ pub(crate) enum Command {
     Lsp,
     /// Debug a program for an editor: the debug adapter protocol on standard input and output.
     Dap,
-    /// List the robots that are built in, print the file of one, or make a file of a URDF.
+    /// List the built-in robots, print the robot file of one, or make a robot file from a URDF.
     Robots {
         /// The robot to print.
         name: Option<String>,
@@ -179,7 +179,7 @@ pub(crate) enum Command {
 /// Options of the view.
 #[derive(Args, Clone, Default, Debug)]
 pub(crate) struct ViewOptions {
-    /// The port on this computer; a free one where there is none.
+    /// The port on this computer; 0 takes a free one.
     #[arg(long, value_name = "P", default_value_t = 0)]
     pub port: u16,
     /// Do not open the browser.
@@ -194,7 +194,7 @@ pub(crate) struct ViewOptions {
     /// The cell of a program.
     #[arg(long, value_name = "FILE")]
     pub cell: Option<PathBuf>,
-    /// A scenario: what the outside does to the inputs of a program; `none` for none, whatever arl.toml says.
+    /// A scenario: what happens at the inputs of a program; `none`: no scenario, whatever arl.toml says.
     #[arg(long, value_name = "FILE|none")]
     pub io: Option<PathBuf>,
     /// The folder that the program's files are in; the program's folder if absent.
@@ -225,16 +225,16 @@ impl ViewOptions {
 /// Options of a sweep.
 #[derive(Args, Clone, Default, Debug)]
 pub(crate) struct SweepOptions {
-    /// Write the results into a Parquet file, too.
+    /// Also write the results to a Parquet file.
     #[arg(short, value_name = "FILE.parquet")]
     pub out: Option<PathBuf>,
     /// How many processes; one for each core if absent.
     #[arg(long, value_name = "N")]
     pub jobs: Option<std::num::NonZeroU8>,
-    /// Make the I-th of N parts of the runs only.
+    /// Make only the I-th of N parts of the runs.
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
-    /// Make all runs, also those whose results are known, and keep none.
+    /// Make all runs, even those whose results are known, and keep no results.
     #[arg(long)]
     pub no_cache: bool,
 }
@@ -242,13 +242,13 @@ pub(crate) struct SweepOptions {
 /// Options of a test run.
 #[derive(Args, Clone, Default, Debug)]
 pub(crate) struct TestOptions {
-    /// Run the I-th of N parts of the cases only.
+    /// Run only the I-th of N parts of the cases.
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
-    /// How to tell what came out.
+    /// How to show the results.
     #[arg(long, value_enum, default_value_t)]
     pub format: TestFormat,
-    /// Write what came into the files that say what is expected, where it is something else.
+    /// Write the actual results into the files with the expected ones where they differ.
     #[arg(long)]
     pub bless: bool,
     /// Write which lines of the programs ran, and how often, as lcov.
@@ -265,10 +265,10 @@ pub(crate) struct TestOptions {
 /// How tests are told of.
 #[derive(Clone, Copy, PartialEq, Eq, Default, ValueEnum, Debug)]
 pub(crate) enum TestFormat {
-    /// What failed, with its difference, and how many there were.
+    /// What failed, with the differences, and how many cases passed and failed.
     #[default]
     Human,
-    /// A JSON object a case.
+    /// A JSON object for each case.
     Jsonl,
     /// The XML of JUnit.
     Junit,
@@ -289,7 +289,7 @@ impl std::str::FromStr for Shard {
         let numbers = text.split_once('/').and_then(|(index, count)| Some((index.parse().ok()?, count.parse().ok()?)));
         match numbers {
             Some((index @ 1.., count)) if index <= count => Ok(Self { index: index - 1, count }),
-            _ => Err("expected the number of a part and how many there are, like 2/4".into()),
+            _ => Err("expected the number of a part and the number of parts, like 2/4".into()),
         }
     }
 }

@@ -12,7 +12,10 @@ pub(crate) fn clean(days: Option<u32>) -> Result<(), Failure> {
     let cache = Cache::find()?;
     let removed = cache.clean(Duration::from_secs(u64::from(days.unwrap_or(0)) * 24 * 3600));
     for folder in &removed.kept {
-        show::warning(&format!("{} stays: another process uses it, or it cannot be removed", folder.display()));
+        show::warning(&format!(
+            "{} was not removed: another process is using it, or removing it failed",
+            folder.display()
+        ));
     }
     answer::write(&said(&removed, &cache.root().display().to_string()))
 }

@@ -47,11 +47,12 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
         ..RunOptions::default()
     };
     let state = PrivateFolder::new("arl2rs-state-");
-    let state = state.map_err(|error| Failure::Other(format!("there is no place for a state: {error}")))?;
+    let state =
+        state.map_err(|error| Failure::Other(format!("cannot make a temporary folder for the state: {error}")))?;
     let options = RunOptions { state_dir: Some(state.path().to_path_buf()), ..asked.of_program(file)? };
     let cell = run::cell(&options)?;
     if !cell.islands.is_empty() || cell.buses.modbus_tcp.is_some() {
-        let text = "a check runs no program whose cell has [[island]] or [modbus_tcp]; `run` tells of collisions, too";
+        let text = "a check does not run a program whose cell has [[island]] or [modbus_tcp]; `arl2rs run` reports collisions, too";
         return Err(Failure::Usage(format!("{}: {text}", file.display())));
     }
     let robots = robots::of_cell(&cell, robots::load(options.robot.as_deref())?)?;
@@ -61,14 +62,14 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
     let Ran { code, why, heard } = run(ready, &options, Listener::of(watchers)?)?;
     let found = found.borrow();
     if found.begun && heard != Heard::All {
-        let text = "not all of its run could be heard: what it touched besides is not known";
+        let text = "part of its run was not observed: there may be more collisions";
         show::warning(&format!("{}: {text}", file.display()));
     }
     match code {
         Some(Exit::SUCCESS) => {}
         Some(Exit::ALARM | Exit::OUT_OF_TIME) if found.begun => {
             let text =
-                format!("{}: its run ended with `{why}`: what would come behind that is not known", file.display());
+                format!("{}: its run ended with `{why}`: what would come after that is not known", file.display());
             show::warning(&text);
         }
         _ => return Err(Failure::Usage(format!("{}: its run failed: {why}", file.display()))),
@@ -80,7 +81,7 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
 /// How a run went.
 struct Ran {
     code: Option<Exit>,
-    /// The first words of it that are no warning.
+    /// The first words of it that are not warnings.
     why: String,
     heard: Heard,
 }
@@ -102,7 +103,7 @@ fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result
     };
     let said = reader.join().ok().flatten().unwrap_or_default();
     let words = |line: &&str| !line.starts_with("warning") && !line.trim().is_empty();
-    let why = said.lines().find(words).unwrap_or("it says no word").trim().to_owned();
+    let why = said.lines().find(words).unwrap_or("it printed no message").trim().to_owned();
     let (status, heard) = ended.map_err(fail)?;
     Ok(Ran { code: status.code().and_then(|code| u8::try_from(code).ok()).map(Exit), why, heard })
 }

@@ -15,7 +15,7 @@ pub(crate) fn explain(code: &str) -> Result<String, Failure> {
         Ok(number) if number >= FIRST_ALARM => alarm(&number.to_string()),
         Ok(number) => diagnostic(number),
         Err(_) => Err(Failure::Usage(format!(
-            "`{code}` is no code: diagnostics have codes like ARL0203, alarms numbers like 20003"
+            "`{code}` is not a code: diagnostics have codes like ARL0203, alarms numbers like 20003"
         ))),
     }
 }
@@ -51,7 +51,7 @@ pub(crate) fn doc(name: Option<&str>, search: &[String]) -> Result<String, Failu
     reference::page(name).ok_or_else(|| {
         let hint = match reference::suggestion(name) {
             Some(near) => format!("; did you mean `{near}`?"),
-            None => format!("; `arl2rs doc` lists what there is, `arl2rs doc --search {name}` looks in all pages"),
+            None => format!("; `arl2rs doc` lists all pages, `arl2rs doc --search {name}` searches them"),
         };
         Failure::Usage(format!("no page is called `{name}`{hint}"))
     })

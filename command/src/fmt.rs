@@ -76,7 +76,7 @@ fn laid_out(name: &Path, bytes: &[u8]) -> Result<Vec<u8>, Failure> {
         return Ok(bytes.to_vec());
     }
     let words = "it has characters that could not be written back as they are; save it as UTF-8";
-    encode_like(bytes, &new).ok_or_else(|| Failure::Other(format!("cannot lay out {}: {words}", name.display())))
+    encode_like(bytes, &new).ok_or_else(|| Failure::Other(format!("cannot format {}: {words}", name.display())))
 }
 
 /// Lays a file out; gives its name where it would change and is only to be named.

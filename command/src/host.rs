@@ -47,7 +47,7 @@ impl std::error::Error for HostError {}
 impl From<Failure> for HostError {
     fn from(failure: Failure) -> Self {
         match failure {
-            Failure::Shown => Self::Other("a program has mistakes: they were said on the standard error".into()),
+            Failure::Shown => Self::Other("a program has mistakes: they were written to standard error".into()),
             Failure::Usage(text) => Self::Usage(text),
             Failure::Other(text) => Self::Other(text),
         }
@@ -164,9 +164,9 @@ pub fn text_program(files: &[(String, String)]) -> Result<TextProgram, HostError
                 hasher.write(part.as_bytes());
             }
         }
-        let (main, _) = files.first().ok_or_else(|| Failure::Usage("a program has a text".into()))?;
+        let (main, _) = files.first().ok_or_else(|| Failure::Usage("expected the text of the program".into()))?;
         let folder = Cache::find()?.text(&format!("{:032x}", hasher.finish_128()));
-        let lock = Lock::take(&folder, true, "waiting for another arl2rs that removes this program")?;
+        let lock = Lock::take(&folder, true, "waiting for another arl2rs that is removing this program")?;
         // Not where the lock is: a text may have its name.
         let folder = folder.join(TEXTS);
         for (name, text) in files {

@@ -9,6 +9,7 @@ mod explain;
 mod fmt;
 pub mod host;
 mod new;
+mod parameters;
 mod run;
 mod sweep;
 mod test;

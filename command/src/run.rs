@@ -101,7 +101,7 @@ fn draw(trace: &Path, picture: &Path, robot: Robot, ran: &Ran) -> Result<(), Fai
     if !plot::plot(trace, picture, robot, ran)? {
         // There may be an empty one, made to see whether it can be.
         let _ = std::fs::remove_file(picture);
-        show::warning(&format!("no motion was executed, so there is no {}", picture.display()));
+        show::warning(&format!("no motion was executed, so {} was not drawn", picture.display()));
     }
     Ok(())
 }
@@ -121,7 +121,8 @@ fn run_and_plot(
         // Without a wish for the trace it goes with the plot.
         None => {
             let folder = PrivateFolder::new("arl2rs-plot-");
-            let folder = folder.map_err(|error| Failure::Other(format!("there is no place for a trace: {error}")))?;
+            let folder = folder
+                .map_err(|error| Failure::Other(format!("cannot make a temporary folder for the trace: {error}")))?;
             let trace = folder.path().join("trace.csv");
             command.arg("--trace").arg(&trace).args(["--trace-columns", "file"]);
             (trace, Some(folder))

@@ -1,6 +1,6 @@
 //! The global variables of programs: what can be set, watched and asked for from outside.
 
-use crate::sweep::Parameters;
+use crate::parameters::Parameters;
 use arl_lang::catalog::Base;
 use arl_project::options::Checking;
 use arl_project::program::{bug, check_options};

@@ -21,11 +21,11 @@ pub(crate) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<Exit, Fai
         [program] if is_program(program) => live(program, options, page),
         files => {
             if let Some(program) = files.iter().find(|file| is_program(file)) {
-                let text = format!("{} is a program: what runs is shown alone", program.display());
+                let text = format!("{} is a program: it can only be shown alone", program.display());
                 return Err(Failure::Usage(text));
             }
             if options.is_of_program() {
-                let text = "a recording brings its robot, its cell and its program with it: leave these options out";
+                let text = "a recording contains its robot, its cell and its program: leave these options out";
                 return Err(Failure::Usage(text.to_owned()));
             }
             view::recordings(files, page)

@@ -300,7 +300,7 @@ fn built_in() -> Vec<(String, String)> {
 /// The list of all pages, in the order of `arl2rs doc`.
 fn index() -> String {
     let mut text = String::from("# Reference\n\n");
-    text += "`arl2rs doc NAME` shows these pages, `arl2rs doc --search WORDS` looks in all of them.\n";
+    text += "`arl2rs doc NAME` shows these pages; `arl2rs doc --search WORDS` searches all of them.\n";
     let (_, list) = doc(&[]);
     let language = list.split("\nBuilt in: ").next().unwrap_or_default();
     for line in language.lines().skip(2).filter(|line| !line.is_empty()) {

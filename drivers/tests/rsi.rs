@@ -97,7 +97,7 @@ fn a_cell_file_drives_a_robot() {
     assert!((controller.joints().axes[0] - 10.0).abs() < 1e-6);
     // The cell does not say which robot: the user hears which one it is.
     let told = controller.take_warnings();
-    let is_told = told.iter().filter(|it| it.contains("is followed, which was the first to send to")).count();
+    let is_told = told.iter().filter(|it| it.contains("is used, as it was the first to send to")).count();
     assert!(is_told == 1 && told.iter().any(|it| it.contains("`address = \"127.0.0.1\"`")), "{told:?}");
     drop(controller);
     let got = robot.join().unwrap();
@@ -161,10 +161,10 @@ fn only_the_robot_that_is_named_is_followed() {
     assert_eq!(controller.run(), Outcome::Ended);
     let told = controller.take_warnings();
     assert!(
-        told.iter().any(|it| it.starts_with(&format!("{from} sends to {listen}, too, and is not heard"))),
+        told.iter().any(|it| it.starts_with(&format!("{from} sends to {listen}, too, and is ignored"))),
         "{told:?}"
     );
-    assert!(!told.iter().any(|it| it.contains("is followed, which")), "{told:?}");
+    assert!(!told.iter().any(|it| it.contains("is used, as it")), "{told:?}");
     drop(controller);
     assert!(robot.join().unwrap().last().unwrap().stop);
     is_over.store(true, std::sync::atomic::Ordering::Relaxed);
@@ -180,7 +180,7 @@ fn nobody_takes_over_where_the_robot_falls_silent() {
     let mut beat = driver.beat();
     let ipoc = begun(&mut driver, &to, &socket);
     let told = driver.take_warning().unwrap();
-    assert!(told.contains("is followed, which was the first") && driver.take_warning().is_none(), "{told}");
+    assert!(told.contains("is used, as it was the first") && driver.take_warning().is_none(), "{told}");
     let mut cycle = || {
         arl_rt::clock::Clock::wait_for(&mut beat, 0, 0.004);
         driver.exchange(&Setpoint::resting(joints(20.0), 0.004))
@@ -242,7 +242,7 @@ fn what_does_not_fit_is_refused() {
     let listen = free();
     let _robot = robot(listen.clone(), 12, 1);
     let error = start(&mut RsiArm::new(&listen)).unwrap_err();
-    assert_eq!(error, "the robot has cycles of 12 ms, the cell of 4 ms: `cycle = 12` of [controller] is right");
+    assert_eq!(error, "the robot has cycles of 12 ms, but the cell has 4 ms: set `cycle = 12` in [controller]");
     let listen = free();
     let _robot = robot(listen.clone(), 4, 0);
     let error = start(&mut RsiArm::new(&listen)).unwrap_err();
@@ -265,7 +265,7 @@ fn who_waits_in_vain_hears_why() {
         }
     });
     let error = start(&mut RsiArm::new(&listen)).unwrap_err();
-    assert!(error.starts_with("RSI runs already"), "{error}");
+    assert!(error.starts_with("RSI is already running"), "{error}");
     drop(sends);
     let two = "[driver]\nprotocol = \"rsi\"\nlisten = \"127.0.0.1:0\"\n";
     let cell = || Cell::parse("cell.toml", two).unwrap();

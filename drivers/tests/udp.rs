@@ -132,7 +132,7 @@ fn no_robot_is_driven_in_the_time_of_another_one() {
     let second = Foreground::new(program()).driver_settings(cell("world").driver.unwrap());
     let builder = Controller::builder().cell(cell("robot")).drivers(arl_drivers::connect).foreground(second);
     let error = builder.build(program()).unwrap_err();
-    assert!(error.to_string().contains("beside one in the time of the world"), "{error}");
+    assert!(error.to_string().contains("together with one that has `time = \"world\"`"), "{error}");
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn an_arm_that_does_not_fit_is_refused() {
     };
     let (address, _arm) = arm(seven);
     let error = start(&mut UdpArm::new(&address)).unwrap_err();
-    let right = "has 7 axes and 0 external ones, the robot file 6 axes and 0 external ones";
+    let right = "has 7 axes and 0 external ones, but the robot file has 6 axes and 0 external ones";
     assert_eq!(error, format!("the arm at {address} {right}"));
 }
 
@@ -229,7 +229,7 @@ fn what_is_no_number_does_not_start() {
     };
     let (address, arm) = arm(odd);
     let error = start(&mut UdpArm::new(&address)).unwrap_err();
-    assert!(error.starts_with("the robot reports no number as the position of j1"), "{error}");
+    assert!(error.starts_with("the position that the robot reports for j1 is not a number"), "{error}");
     // Its motors were never told to be on.
     assert!(arm.join().unwrap().iter().all(|command| command[12] == 0));
 }
@@ -264,7 +264,7 @@ fn an_arm_that_floods_without_answering_holds_nobody_up() {
         }
     });
     let error = start(&mut UdpArm::new(&address)).unwrap_err();
-    assert_eq!(error, format!("no arm answers at {address}: nothing that is an answer came within 3 s"));
+    assert_eq!(error, format!("no arm answers at {address}: no valid answer within 3 s"));
     is_over.store(true, std::sync::atomic::Ordering::Relaxed);
     flood.join().unwrap();
 }

@@ -1,6 +1,6 @@
 //! Messages of editors over streams: a header that tells the length, and JSON.
 //!
-//! What stands between messages and is no header is passed over. A length that is wrong costs its own message only:
+//! What stands between messages and is not a header is passed over. A length that is wrong costs its own message only:
 //! JSON has no line ends in its texts, so that a header within a message is that of the next one.
 
 use serde_json::Value;
@@ -66,7 +66,7 @@ impl<R: BufRead> Messages<R> {
         self.ahead = ahead;
     }
 
-    /// The length of the body, from the header in front of it. What is no header is passed over.
+    /// The length of the body, from the header in front of it. What is not a header is passed over.
     fn header(&mut self) -> Option<usize> {
         let mut length = None;
         let mut line = Vec::new();

@@ -47,7 +47,7 @@ def parameters(layout: dict[str, float]) -> dict[str, Any]:
 
 
 def cost(row: dict[str, Any]) -> float:
-    """Seconds of a cycle; what does not end, or touches something, is no layout."""
+    """Seconds of a cycle; what does not end, or touches something, is not a layout."""
     return float(row["cycle_time"]) if row["outcome"] == "ended" and not row["collisions"] else 1000.0
 
 
@@ -74,7 +74,7 @@ def draw(before: arl2rs.Result, after: arl2rs.Result, costs: list[float]) -> Fig
     path, time = picture.subplots(1, 2)
     for result, label in ((before, "before"), (after, "after")):
         path.plot(*result.trace.tcp[:, :2].T, linewidth=1, label=f"{label}: {result.cycle_time:.1f} s")
-    path.set(xlabel="x in mm", ylabel="y in mm", aspect="equal", title="The way of the TCP, from above")
+    path.set(xlabel="x in mm", ylabel="y in mm", aspect="equal", title="The path of the TCP, from above")
     path.legend()
     best = [min(costs[: at + 1]) for at in range(len(costs))]
     time.plot([min(cost, 1.5 * costs[0]) for cost in costs], ".", markersize=3, label="a layout")

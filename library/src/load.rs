@@ -20,7 +20,7 @@ pub struct Library {
 pub enum LoadError {
     /// It cannot be opened; why.
     Open(String),
-    /// It is no library of a program.
+    /// It is not a library of a program.
     NotOurs,
     /// It was made by another version of arl2rs: the version of its interface.
     Version(u32),
@@ -36,15 +36,17 @@ impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             LoadError::Open(why) => write!(f, "{why}"),
-            LoadError::NotOurs => write!(f, "this is no ARL program: `arl2rs build --library` makes libraries of them"),
+            LoadError::NotOurs => {
+                write!(f, "this is not a library of an ARL program: `arl2rs build --library` makes such libraries")
+            }
             LoadError::Version(version) => write!(
                 f,
-                "the library has version {version} of the interface, this is version {INTERFACE}: make it again with this \
+                "the library has version {version} of the interface, but this is version {INTERFACE}: build it again with this \
                  version of arl2rs"
             ),
             LoadError::Refused(why) => write!(f, "{why}"),
             LoadError::WrongThread => write!(f, "a run stays on the thread that began it"),
-            LoadError::Broken => write!(f, "the run has panicked: the standard error says why"),
+            LoadError::Broken => write!(f, "the run has panicked: standard error says why"),
         }
     }
 }
@@ -96,7 +98,7 @@ impl Library {
     /// What is wrong with the arguments, or why there is no controller.
     pub fn begin(self, arguments: &[&str], traced: bool) -> Result<Session, LoadError> {
         let words: Result<Vec<CString>, _> = arguments.iter().map(|word| CString::new(*word)).collect();
-        let words = words.map_err(|_| LoadError::Refused("an argument has a character 0 in it".into()))?;
+        let words = words.map_err(|_| LoadError::Refused("an argument contains a NUL character".into()))?;
         let pointers: Vec<*const c_char> = words.iter().map(|word| word.as_ptr()).collect();
         let mut why = Vec::new();
         // SAFETY: the words outlive the call, and `take_bytes` takes a vector of bytes.
@@ -156,7 +158,7 @@ impl Session {
     /// Does what an event of a scenario does: `di.5 = true`.
     ///
     /// # Errors
-    /// It is no order, or the run has panicked.
+    /// It is not an order, or the run has panicked.
     pub fn order(&mut self, order: &str) -> Result<(), LoadError> {
         let order = string(order)?;
         // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
@@ -269,7 +271,7 @@ impl Drop for Session {
 }
 
 fn string(text: &str) -> Result<CString, LoadError> {
-    CString::new(text).map_err(|_| LoadError::Refused("a text has a character 0 in it".into()))
+    CString::new(text).map_err(|_| LoadError::Refused("a text contains a NUL character".into()))
 }
 
 fn context(bytes: &mut Vec<u8>) -> *mut c_void {

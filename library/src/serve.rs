@@ -126,7 +126,7 @@ pub unsafe fn begin(
             return Box::into_raw(Box::new(Served { thread: thread::current().id(), stops, own }));
         }
         Ok(Err(problem)) => problem,
-        Err(_) => "the program panicked: the standard error says why".into(),
+        Err(_) => "the program panicked: standard error says why".into(),
     };
     // SAFETY: `why` takes `context`, by this function's contract.
     unsafe { give(why, context, problem.as_bytes()) };

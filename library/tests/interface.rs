@@ -124,7 +124,7 @@ fn rows_of_the_trace_name_the_files_of_their_lines_where_that_is_asked_for() {
     assert_eq!(run.files(), ["fill.arl"]);
     assert_eq!(
         library().begin(&["--trace-columns", "tcp"], true).unwrap_err().to_string(),
-        "--trace-columns tcp: `tcp` is no column: expected file"
+        "--trace-columns tcp: `tcp` is not a column: expected file"
     );
 }
 
@@ -143,9 +143,9 @@ fn what_is_watched_comes_behind_the_row_of_the_trace() {
     assert_eq!(run.observe(&mut []), columns + 4);
     for (name, words) in [
         ("do.5000", "no such signal"),
-        ("door", "`door` is no signal"),
+        ("door", "`door` is neither a signal nor"),
         ("global.liters", "did you mean `litres`?"),
-        ("internal.1", "that can be looked at"),
+        ("internal.1", "or it cannot be watched"),
     ] {
         let refused = run.watch(&[name]).unwrap_err().to_string();
         assert!(refused.contains(words), "{refused}");
@@ -304,10 +304,13 @@ fn what_is_wrong_is_said() {
     assert!(refused(&["--robot", "nobody"]).contains("nobody"));
     assert!(refused(&["--override", "200"]).contains("percent from 0 to 100"));
     for option in ["--live", "--paused", "--each-cycle", "--report=FILE", "--realtime"] {
-        assert!(refused(&[option]).contains(&format!("{option} is for a program that runs by itself")), "{option}");
+        assert!(
+            refused(&[option]).contains(&format!("{option} is only for a program that runs on its own")),
+            "{option}"
+        );
     }
     assert!(refused(&["--speed"]).contains("--speed"));
-    assert!(refused(&["a\0b"]).contains("character 0"));
+    assert!(refused(&["a\0b"]).contains("NUL character"));
     let mut run = begun(&[]);
     assert!(matches!(run.order("di.1 = maybe"), Err(LoadError::Refused(_))));
     assert!(matches!(run.order("\0"), Err(LoadError::Refused(_))));

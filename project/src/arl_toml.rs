@@ -58,7 +58,7 @@ pub fn find(program: &Path) -> Option<PathBuf> {
     program.ancestors().skip(1).map(|folder| folder.join(NAME)).find(|path| is_there(path))
 }
 
-/// Whether there is something of this name but a folder: what is no regular file is refused, and not passed over.
+/// Whether there is something of this name but a folder: what is not a regular file is refused, and not passed over.
 fn is_there(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|about| !about.is_dir())
 }

@@ -48,11 +48,11 @@ pub struct RustError {
 ///
 /// # Errors
 /// cargo is not there or cannot be started, another package cannot be had, or the disk does not take what is made. What
-/// rustc says of the program is no error, but part of what comes back.
+/// rustc says of the program is not an error, but part of what comes back.
 pub fn build(folder: &Path, target: &Path, release: bool, progress: &Progress) -> Result<Built, Failure> {
     let shared = target.parent().unwrap_or(target);
     // cargo lets one process at a time compile there, too.
-    let _alone = Lock::take(&shared.join("compiling"), false, "waiting for another arl2rs that compiles")?;
+    let _alone = Lock::take(&shared.join("compiling"), false, "waiting for another arl2rs that is compiling")?;
     let (mut own, mut others) = (Made::read(folder), Made::read(shared));
     // Who looks at a terminal sees what is done; others would take it for a standstill.
     let profile = target.join(if release { "release" } else { "debug" });
@@ -266,7 +266,7 @@ fn error(message: Rustc) -> Option<RustError> {
 pub fn bug(errors: &[RustError], main: &Path) -> Failure {
     let shown: String = errors.iter().take(3).map(|error| error.rendered.clone()).collect();
     Failure::Other(format!(
-        "bug in arl2rs {}: {} is a correct program, but the Rust that it became does not compile; please report it \
+        "bug in arl2rs {}: {} is a correct program, but the Rust code generated from it does not compile; please report it \
          together with the program\n{}",
         env!("CARGO_PKG_VERSION"),
         main.display(),

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 /// Options of the compiler.
 #[derive(Args, Clone, Default, PartialEq, Debug)]
 pub struct Checking {
-    /// Warn also where more is accepted than the controller would take.
+    /// Also warn where arl2rs accepts what the controller would not.
     #[arg(long)]
     pub strict: bool,
     /// The robot that the program is for: a built-in name or a robot file.
@@ -24,7 +24,7 @@ pub struct Checking {
     /// The folder that `/home/ae/script/` in an import means; the program's folder if absent.
     #[arg(long, value_name = "DIR")]
     pub script_dir: Option<PathBuf>,
-    /// Tell what came from the command line and what from an `arl.toml` beside the program or above it.
+    /// Show what came from the command line and what from an `arl.toml` beside the program or above it.
     #[arg(long)]
     pub verbose: bool,
 }
@@ -46,7 +46,7 @@ pub struct RunOptions {
     #[arg(long, value_enum)]
     pub clock: Option<Clock>,
     /// Run in real time, with what the system gives the control cycle: the highest priority, its memory locked, a core
-    /// of its own (the last one, or this). What it does not allow is told.
+    /// of its own (the last one, or CORE). What the system does not allow is reported.
     #[arg(long, value_name = "CORE", num_args = 0..=1, require_equals = true, default_missing_value = "")]
     pub realtime: Option<String>,
     /// The folder that the program's files are in; the program's folder if absent.
@@ -55,42 +55,42 @@ pub struct RunOptions {
     /// The folder that keeps state between runs.
     #[arg(long, value_name = "DIR")]
     pub state_dir: Option<PathBuf>,
-    /// A scenario: what the outside does to the inputs.
+    /// A scenario: what happens at the inputs.
     #[arg(long, value_name = "FILE")]
     pub io: Option<PathBuf>,
     /// Write the motion, one row a cycle.
     #[arg(long, value_name = "FILE.csv")]
     pub trace: Option<PathBuf>,
-    /// Columns of the trace behind those that it always has, with commas between: `file`, the file that the line is of.
+    /// Columns of the trace after those that it always has, separated by commas: `file`, the file that the line is in.
     #[arg(long, value_name = "COLUMN", requires = "trace")]
     pub trace_columns: Option<String>,
     /// Record the run for viewers of robot data (Foxglove, Lichtblick, Rerun): frames, joints, io, program and motion
     /// pointer, messages, alarms, what each motion did. A description of the robots is written beside it: cell.urdf.
     #[arg(long, value_name = "FILE.mcap")]
     pub record: Option<PathBuf>,
-    /// Look for collisions, and warn also where robots, bodies of the cell and what is carried come nearer to each
-    /// other than so many mm. Without it they are looked for where the cell has bodies.
+    /// Look for collisions, and also warn where robots, bodies of the cell and what is carried come closer to each
+    /// other than this many mm. Without this option collisions are looked for if the cell has bodies.
     #[arg(long, value_name = "MM", value_parser = clearance)]
     pub clearance: Option<f64>,
     /// Say at the end what each line's motions did: speeds, times, blends, the closest limit. With =FILE: each motion
-    /// as a JSON object in a line of the file.
+    /// as a JSON object on a line of the file.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
     pub report: Option<PathBuf>,
     /// The report of the whole run in another form: cycle time by line, moving and waiting, signals, contacts. Without
-    /// --report=FILE it goes to the standard error.
+    /// --report=FILE it goes to standard error.
     #[arg(long, value_enum, requires = "report")]
     pub format: Option<ReportFormat>,
-    /// Draw the motion afterwards: the way of the TCP, its speed, the axes' speeds.
+    /// Draw the motion afterwards: the path of the TCP, its speed, the axes' speeds.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
     /// Show a live screen with the program, the robot and io, and keys for start, pause, step, reset, override and
-    /// inputs. The program runs in real time. Where the standard output is no terminal, it runs as without this option.
+    /// inputs. The program runs in real time. If standard output is not a terminal, this option has no effect.
     #[arg(long, conflicts_with_all = ["plot", "clock"])]
     pub pendant: bool,
     /// The loop running mode: a program that ends is reset and begins again.
     #[arg(long = "loop")]
     pub repeats: bool,
-    /// End after so many controller seconds, with exit code 4.
+    /// End after this many controller seconds, with exit code 4.
     #[arg(long, value_name = "S")]
     pub max_time: Option<f64>,
     /// The mode of operation.
@@ -105,11 +105,11 @@ pub struct RunOptions {
     /// The date at the start on the virtual clock: `now`, or a time like 2000-01-01T00:00:00.
     #[arg(long, value_name = "T")]
     pub start_time: Option<String>,
-    /// Another value at one place for this run: `global.pitch=80`, `robot.axis.1.vel=90`, `io.event.2.at=1.5`,
-    /// `cell.KEYS=VALUE`. Entries of lists count from 1. As often as there are places.
+    /// Change one value for this run: `global.pitch=80`, `robot.axis.1.vel=90`, `io.event.2.at=1.5`,
+    /// `cell.KEYS=VALUE`. Entries of lists count from 1. Can be given several times.
     #[arg(long = "set", value_name = "PLACE=VALUE")]
     pub changes: Vec<String>,
-    /// Tell what came from the command line and what from an `arl.toml` beside the program or above it.
+    /// Show what came from the command line and what from an `arl.toml` beside the program or above it.
     #[arg(long)]
     pub verbose: bool,
 }
@@ -117,7 +117,7 @@ pub struct RunOptions {
 /// A distance in mm.
 ///
 /// # Errors
-/// It is no number, negative or not finite.
+/// It is not a number, negative or not finite.
 pub fn clearance(text: &str) -> Result<f64, String> {
     let distance = text.parse::<f64>().ok().filter(|distance| distance.is_finite() && *distance >= 0.0);
     distance.ok_or_else(|| "expected a distance in mm, 0 or more".into())
@@ -126,7 +126,7 @@ pub fn clearance(text: &str) -> Result<f64, String> {
 /// What time is made of.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
 pub enum Clock {
-    /// As fast as the machine can, the same on every run.
+    /// As fast as possible, with the same result on every run.
     Virtual,
     /// In real time.
     Real,
@@ -192,7 +192,7 @@ impl RunOptions {
     /// What `--set` changes.
     ///
     /// # Errors
-    /// One of the words is no change.
+    /// One of the words is not a change.
     pub fn changed(&self) -> Result<Changes, Failure> {
         Changes::of(&self.changes).map_err(Failure::Usage)
     }

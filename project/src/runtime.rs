@@ -83,7 +83,7 @@ impl Runtime {
     /// The checkout is gone, or the cache cannot be written.
     pub fn unpack(self, cache: &Cache) -> Result<Unpacked, Failure> {
         let folder = cache.runtime(&self.name());
-        let lock = Lock::take(&folder, true, "waiting for another arl2rs that removes this runtime")?;
+        let lock = Lock::take(&folder, true, "waiting for another arl2rs that is removing this runtime")?;
         let options = "default-features = false, features = [\"serial\", \"realtime\"]";
         let below = |workspace: &Path| {
             let path = |package: &str| workspace.join(package).display().to_string();
@@ -115,8 +115,8 @@ impl Runtime {
 
 fn gone(checkout: &Path) -> Failure {
     Failure::Other(format!(
-        "this arl2rs works on the checkout {}, which is gone, so that no program can be compiled\n\
-         help: `cargo install --locked --path command` in a checkout installs a command that carries what it needs",
+        "this arl2rs uses the checkout {}, which no longer exists, so no program can be compiled\n\
+         help: `cargo install --locked --path command` in a checkout installs a command that contains what it needs",
         checkout.display()
     ))
 }
@@ -125,7 +125,8 @@ fn gone(checkout: &Path) -> Failure {
 /// cargo does not compile it again.
 fn write(carried: &Carried, workspace: &Path) -> Result<(), Failure> {
     let Some(parent) = workspace.parent() else { return Ok(()) };
-    let _alone = Lock::take(&parent.join("unpacking"), false, "waiting for another arl2rs that unpacks the runtime")?;
+    let _alone =
+        Lock::take(&parent.join("unpacking"), false, "waiting for another arl2rs that is unpacking the runtime")?;
     for (name, text) in carried.files {
         write_if_changed(&workspace.join(name), text.as_bytes())?;
     }

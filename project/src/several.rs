@@ -83,8 +83,8 @@ impl All<'_> {
             (Some(before), Some(family)) if before != family => {
                 let place = line.map_or_else(String::new, |line| format!(":{line}"));
                 let text = format!(
-                    "{}{place}: {file} is for {} here, but for {} elsewhere in this file, and a program is checked for one build of \
-                     robot: give each of them a program of its own",
+                    "{}{place}: {file} is for {} here, but for {} elsewhere in this file, but a program is checked for one build of \
+                     robot: give each of them its own program",
                     self.cell.display(),
                     kind(family),
                     kind(before),

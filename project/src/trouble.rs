@@ -16,17 +16,17 @@ const KNOWN: [Trouble; 6] = [
     Trouble {
         signs: &["No space left on device", "os error 28", "os error 112"],
         is: "the disk is full",
-        help: "make room; `arl2rs clean` removes what was compiled",
+        help: "free some space; `arl2rs clean` removes what was compiled",
     },
     Trouble {
         signs: &["linker `", "error: linking with"],
-        is: "compiling needs a linker, and it is not there or does not work",
+        is: "compiling needs a linker, which is missing or does not work",
         help: "install one: `apt install gcc` or `dnf install gcc` on Linux, `xcode-select --install` on macOS, Build Tools for \
                Visual Studio on Windows",
     },
     Trouble {
         signs: &["requires rustc", "is not supported by the following package", "feature `edition"],
-        is: "this Rust is too old",
+        is: "the installed Rust is too old",
         help: concat!("arl2rs needs Rust ", env!("CARGO_PKG_RUST_VERSION"), " or newer: `rustup update`"),
     },
     Trouble {
@@ -53,8 +53,8 @@ const KNOWN: [Trouble; 6] = [
             "--offline was specified",
             "spurious network error",
         ],
-        is: "a package that the runtime is compiled with is missing, and cargo cannot get it",
-        help: "the first program needs the network once, for packages of https://crates.io; behind a proxy set HTTPS_PROXY",
+        is: "a package that the runtime needs is missing, and cargo cannot download it",
+        help: "the first program needs the network once, for packages from https://crates.io; behind a proxy, set HTTPS_PROXY",
     },
     Trouble {
         signs: &["Permission denied", "Read-only file system", "os error 13", "os error 30"],

@@ -1,4 +1,4 @@
-"""Words of which one is meant: type checkers find a slip in them."""
+"""Words to choose from: type checkers find typos in them."""
 
 from typing import Literal
 
@@ -9,11 +9,11 @@ Engine = Literal["local", "ray"]
 Family = Literal["six-axis", "scara"]
 """The build of a robot."""
 Figure = Literal["cycle_time", "moving", "standing", "motions", "way"]
-"""A number that there is of each run of a sweep."""
+"""A number that each run of a sweep has."""
 Mode = Literal["auto", "manual", "manufast"]
 """The operating mode."""
 Outcome = Literal["ended", "alarm", "time_over", "stuck", "stopped", "runs", "refused", "crashed", "hung"]
-"""What became of a run; `runs`: it is not over."""
+"""How a run ended; `runs`: it is not over."""
 PointType = Literal["pose", "joint"]
 """The types of targets."""
 Severity = Literal["error", "warning"]

@@ -33,10 +33,10 @@ class Environment(gymnasium.Env[Observation, Any]):
       of float32 with a number for each action, in their order, where a truth value is true from 0.5 on.
     - `observe`: columns of the trace (without it the axes that the robot has, and the TCP) and `watch`: signals, global variables and points.
     - `cycles`: how many control cycles a step takes.
-    - `reward`: what a step is worth, of the session after it.
-    - `max_time`: after so many seconds of the robot's time an episode is truncated.
+    - `reward`: what a step is worth, computed from the session after it.
+    - `max_time`: after this many seconds of the robot's time an episode is truncated.
 
-    Further arguments are those of `Program.session`. `reset(options={"globals": .., "points": .., "set": ..})` gives an episode other ones, its
+    Further arguments are those of `Program.session`. `reset(options={"globals": .., "points": .., "set": ..})` gives an episode other ones; its
     seed is that of `rand`. An episode terminates with the run: `info["outcome"]` says how, `info["alarms"]` why. After that, as before the first
     one, a step raises gymnasium's `ResetNeeded`.
     """
@@ -77,7 +77,7 @@ class Environment(gymnasium.Env[Observation, Any]):
             all_names = [*session.columns, *session.watched]
             unknown = [name for name in (observe or ()) if name not in all_names]
             if unknown or observe == []:
-                raise RefusedError(f"observe: {unknown[0] if unknown else 'nothing'} is not there: {', '.join(all_names)} are")
+                raise RefusedError(f"observe: expected some of {', '.join(all_names)}, found {unknown[0] if unknown else 'nothing'}")
             self.observed = [*(there if observe is None else observe), *session.watched]
             self._at = np.array([all_names.index(name) for name in self.observed])
         self.observation_space = spaces.Box(-np.inf, np.inf, (len(self.observed),), np.float64)
@@ -160,7 +160,7 @@ class Environment(gymnasium.Env[Observation, Any]):
 
 
 def _stepped(session: Session, cycles: int) -> Observation:
-    """What is observed after so many cycles. An alarm ends the episode, which is no error of who learns."""
+    """What is observed after so many cycles. An alarm ends the episode, which is not an error of who learns."""
     try:
         return session.step(cycles)
     except AlarmError:

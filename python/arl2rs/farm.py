@@ -1,7 +1,7 @@
 """Sweeps on several machines, by Ray: `arl2rs.sweep(.., engine="ray")`.
 
-The compiled program and the files that it reads travel as one object of Ray; tasks make some runs each. What a node that dies, or a task that
-never ends, was to do is done again elsewhere: a run is a function of its words, so that nothing changes by that, and of each run one result
+The compiled program and the files that it reads travel as one object of Ray; each task makes some runs. The runs of a node that dies, or of a task that
+never ends, are made again elsewhere: a run depends on its parameters only, so this changes nothing, and one result of each run
 counts. The nodes have the same system and processor as this computer.
 """
 
@@ -144,7 +144,7 @@ def _refuse_nodes_without_the_package(problem: ray.exceptions.RayError) -> None:
 
 
 def _not_kept(problem: Exception) -> None:
-    warnings.warn(f"results cannot be kept for the next time: {problem}", stacklevel=4)
+    warnings.warn(f"results cannot be kept for the next sweep: {problem}", stacklevel=4)
 
 
 def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache: bool, came: Callable[[int], None]) -> Iterator[str]:

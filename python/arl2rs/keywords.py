@@ -1,4 +1,4 @@
-"""Names of arguments: a slip is told with what is near, before anything is done."""
+"""Names of arguments: a typo is reported with the nearest names before anything is done."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _COMMAND_WORDS = {"io": "scenario", "jobs": "processes", "no_cache": "cache"}
 
 
 class CompileArguments(TypedDict, total=False):
-    """What `compile` takes beside the program."""
+    """What `compile` takes besides the program."""
 
     robot: StrPath | None
     cell: StrPath | None
@@ -42,7 +42,7 @@ class _AnyRun(TypedDict, total=False):
 
 
 class RecordArguments(_AnyRun, total=False):
-    """What `Program.record` takes beside the recording."""
+    """What `Program.record` takes besides the recording."""
 
     max_time: float | None
 
@@ -57,7 +57,7 @@ class RunArguments(RecordArguments, total=False):
 
 
 class EpisodeArguments(_AnyRun, total=False):
-    """What an episode of an `Environment` takes beside the environment's own."""
+    """What an episode of an `Environment` takes besides the environment's own."""
 
     start_time: str | None
     state_dir: StrPath | None
@@ -75,7 +75,7 @@ class FrameArguments(TypedDict, total=False):
 
 
 class SweepArguments(TypedDict, total=False):
-    """What `sweep` takes beside the program, its rows, and what it is compiled with."""
+    """What `sweep` takes besides the program, its rows, and what it is compiled with."""
 
     files: Iterable[StrPath]
     max_time: float | None
@@ -89,7 +89,7 @@ class SweepArguments(TypedDict, total=False):
 
 
 def named(function: Callable[P, R], /) -> Callable[P, R]:
-    """Tells a slip in the name of an argument with the names that are near: also where the arguments are handed on."""
+    """Reports a typo in the name of an argument with the nearest names, also where the arguments are passed on."""
     known = _names(function)
 
     @functools.wraps(function)

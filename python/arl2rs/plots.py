@@ -26,7 +26,7 @@ class Picture(Figure):
 
 
 def plot(trace: Trace) -> Figure:
-    """The way of the TCP from above and from the front, its speed, and the velocities of the axes over time."""
+    """The path of the TCP from above and from the front, its speed, and the velocities of the axes over time."""
     step = max(1, len(trace) // _MOST_POINTS)
     t, tcp, speed, velocities = (all[::step] for all in (trace.t, trace.tcp, trace.speed, trace.velocities))
     figure = Picture(figsize=(10, 7), layout="constrained")

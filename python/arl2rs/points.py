@@ -34,13 +34,13 @@ def points(
     - `name` is that of the variable: an array of `pose`, or of `joint` with `type="joint"`; with `separate` a variable each: `name1`, `name2`, ..
     - `components` are what the columns are; without it x, y, z, a, b, c of a pose (three columns: x, y, z), and j1.. of a joint, then ej1.. mm and deg.
 
-    Raises `RefusedError` where the array does not have these columns, or a number that is none.
+    Raises `RefusedError` where the array does not have these columns, or has a value that is not finite.
 
     >>> points("weld", [[900, -50.5, 400, 0, 180, 0]])
     'pose weld[1] = {{x 900.0, y -50.5, z 400.0, a 0.0, b 180.0, c 0.0}}\\n'
     """
     if not re.fullmatch(r"[A-Za-z_]\w*", name, re.ASCII):
-        raise RefusedError(f"{name!r} is no name of a variable")
+        raise RefusedError(f"{name!r} is not a valid name of a variable")
     if type not in ("pose", "joint"):
         raise RefusedError(f"type {type!r}: expected 'pose' or 'joint'")
     try:
@@ -57,7 +57,7 @@ def points(
         raise RefusedError(f"components: {what}")
     if not np.isfinite(rows).all():
         row = int(np.argwhere(~np.isfinite(rows))[0][0])
-        raise RefusedError(f"row {row} has a number that is none: {rows[row]}")
+        raise RefusedError(f"row {row} has a value that is not finite: {rows[row]}")
     braces = ["{" + ", ".join(_component(*one) for one in zip(columns, row, strict=True)) + "}" for row in rows.tolist()]
     if separate:
         return "".join(f"{type} {name}{at} = {brace}\n" for at, brace in enumerate(braces, 1))

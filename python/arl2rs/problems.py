@@ -24,7 +24,7 @@ StrPath = str | os.PathLike[str]
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """What the checker says of a place in a program."""
+    """What the checker reports about a place in a program."""
 
     code: str
     """Its code, which `arl2rs explain` knows: `ARL0203`."""
@@ -66,7 +66,7 @@ class ArlError(Exception):
 
 
 class CompileError(ArlError):
-    """A program has mistakes: `diagnostics` tells them."""
+    """A program has mistakes: `diagnostics` lists them."""
 
     def __init__(self, diagnostics: list[Diagnostic]) -> None:
         self.diagnostics = diagnostics
@@ -80,7 +80,7 @@ class CompileError(ArlError):
 
 
 class RefusedError(ArlError, ValueError):
-    """What is asked for cannot be: a variable that is not there, a value that does not fit, a file that is none."""
+    """What is asked for is not possible: a variable that is not there, a value that does not fit, a file that is missing."""
 
 
 class AlarmError(ArlError):
@@ -97,7 +97,7 @@ class AlarmError(ArlError):
 
 
 class UnfinishedError(ArlError):
-    """A run did not come to its end, and no alarm ended it: its time was over, it waited in vain, or it was stopped."""
+    """A run did not reach its end, and no alarm ended it: its time was over, it waited in vain, or it was stopped."""
 
 
 class SessionError(ArlError, RuntimeError):

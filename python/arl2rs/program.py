@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 __all__ = ["Program", "check", "compile", "run"]
 
 MAX_TIME = _arl2rs.MAX_TIME
-"""A run that takes longer in the robot's time is ended, where nobody says otherwise; s."""
+"""A run that takes longer in the robot's time is ended by default; s."""
 NO_SCENARIO = "none"
 """Instead of a scenario: there is none, whatever an `arl.toml` or `compile` says."""
 NAME = "program.arl"
-"""How the main file of a program is called that is given as text."""
+"""The name of the main file of a program that is given as text."""
 
 
 def given(
@@ -83,7 +83,7 @@ def check(
 
     Instead of files it takes the text of a program, `source`, and the texts of the files `beside` it, by their names. `robot` is the name of a
     built-in robot or a robot file, `cell` a cell file, `script_dir` the folder that `/home/ae/script/` means in an import. `strict` also warns
-    where more is accepted than the controller would take; `background`: the programs have no robot.
+    where arl2rs accepts what the controller would not; `background`: the programs have no robot.
 
     Raises `RefusedError` where a file, the robot or the cell is not there.
 
@@ -177,15 +177,15 @@ class Program:
         script_dir: StrPath | None = None,
     ) -> None:
         if (source is None) == (program is None):
-            raise RefusedError("a program is a file, or its text as `source`")
+            raise RefusedError("expected a program: either a file, or its text as `source`")
         if beside is not None and source is None:
-            raise RefusedError("`beside` goes with `source`: a program of a file has what lies in its folder")
+            raise RefusedError("`beside` needs `source`: a program from a file uses the files in its folder")
         self._text = None if source is None else _text(source, beside)
         self._source: dict[str, Any] = {} if source is None else {"source": source, "beside": beside}
         self.path = there(program, "a program") if program is not None else Path() if self._text is None else self._text.path
         self._arguments: CompileArguments = {"robot": robot, "cell": cell, "scenario": _scenario(scenario), "script_dir": script_dir}
         self._given = given(self.path, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
-        with told, notice(f"compiling {self.path.name}: the first time that takes a minute or two, after a change seconds"):
+        with told, notice(f"compiling {self.path.name}: this takes a minute or two the first time, and seconds after a change"):
             try:
                 self._library = _arl2rs.Library(self._given)
             except _arl2rs.Mistakes as problem:
@@ -210,7 +210,7 @@ class Program:
 
     @cached_property
     def variables(self) -> Mapping[str, Variable]:
-        """The global variables, points among them, in the order of their files and declarations. Where several files have one of a name, each has
+        """The global variables, points among them, in the order of their files and declarations. Where several files have one of the same name, each has
         its file in front: `grip::held`."""
         with told:
             return of_told([json.loads(text) for text in _arl2rs.variables(self._given)])
@@ -256,13 +256,13 @@ class Program:
     ) -> Result:
         """Runs the program to its end on the virtual clock; the same arguments give the same result, to the last bit.
 
-        - `scenario`: what the outside does to the inputs, a file; `"none"`: no scenario, also where `compile` or an `arl.toml` names one.
+        - `scenario`: what happens at the inputs, a file; `"none"`: no scenario, also where `compile` or an `arl.toml` names one.
         - `robot`: another robot, by name or file.
         - `globals`, `points`: other first values of global variables: numbers, truth values, texts, lists and arrays; for structures
           dictionaries, whose missing components keep their values: `points={"feeder": {"z": 120}}`.
         - `set`: other values at single places: `{"robot.axis.1.vel": 90, "scenario.event.2.at": 1.5, "cell.controller.cycle": 2}`.
         - `override` in percent; `mode`: `auto`, `manual`, `manufast`; `seed` of `rand`.
-        - `max_time`: after so many seconds of the robot's time it is ended; None: never.
+        - `max_time`: after this many seconds of the robot's time it is ended; None: never.
         - `start_time`: the date at the start, `2000-01-01T00:00:00`.
         - `state_dir`: the folder that keeps system variables between runs; without it nothing is kept.
         - `watch`: signals (`do.1`, or what the cell calls them) and global variables (`global.placed`, `global.feeder.x`) that are columns of the
@@ -293,7 +293,7 @@ class Program:
         watch: Sequence[str] = (),
         trace: bool = False,
     ) -> Session:
-        """A run that is stepped: inputs in, observations out. The arguments are those of `run`; what `watch` names is observed behind the row of the
+        """A run that is stepped: inputs in, observations out. The arguments are those of `run`; what `watch` names is observed after the row of the
         trace."""
         parameters = gathered(globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time)
         return self._begin(self._words(scenario, robot, state_dir, parameters), trace, watch, state_dir)
@@ -306,7 +306,7 @@ class Program:
 
     @named
     def record(self, recording: StrPath, **arguments: Unpack[RecordArguments]) -> None:
-        """Runs the program by the command, and records the run for `arl2rs view` and viewers of robot data, as an mcap file; the description of the
+        """Runs the program with the command, and records the run for `arl2rs view` and viewers of robot data, as an mcap file; the description of the
         robots is written beside it, `cell.urdf`. The arguments are `scenario`, `robot`, `globals`, `points`, `set`, `override`, `mode`, `seed`, `max_time` of `run`."""
         scenario, robot = arguments.get("scenario"), arguments.get("robot")
         parameters = gathered(
@@ -338,7 +338,7 @@ class Program:
             places = [place for place in parameters if place.startswith(what)]
             if places and option not in words:
                 raise RefusedError(
-                    f"{argument}.{places[0].removeprefix(what)}: `{argument}` says whose value this is: name it, in compile() or here"
+                    f"{argument}.{places[0].removeprefix(what)}: this is a value of `{argument}`, which is not given: give it in compile() or here"
                 )
         with told:
             return [word for pair in words.items() for word in pair] + _arl2rs.words(as_json(parameters))

@@ -63,7 +63,7 @@ class Result:
     moving: float | None = None
     """How long the first robot moved, s."""
     standing: float | None = None
-    """How long it stood, s."""
+    """How long it stood still, s."""
     motions: int | None = None
     """How many motions it executed."""
     way: float | None = None
@@ -71,13 +71,13 @@ class Result:
     alarms: tuple[Alarm, ...] = ()
     """All alarms, also those of channels that ended before the run did, and those that were cleared."""
     ended_by: Alarm | None = None
-    """The alarm that ended the run: that of the first of its channels that one ended."""
+    """The alarm that ended the run: that of its first channel that an alarm ended."""
     messages: tuple[Message, ...] = field(default=(), repr=False)
     warnings: tuple[str, ...] = ()
     report: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
     """What each motion did, a row each, as `arl2rs run --report=FILE` writes it: with channel, motion, file, line, start, duration."""
     totals: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
-    """What the motions of each channel were together: channel, cycle_time, moving, standing, motions."""
+    """The totals of the motions of each channel: channel, cycle_time, moving, standing, motions."""
     trace: Trace | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -99,11 +99,11 @@ class Result:
         if self.ended_by is not None:
             raise AlarmError(self.ended_by)
         if not self.ended:
-            raise UnfinishedError("; ".join(self.warnings) or f"the run did not come to its end: {self.outcome}")
+            raise UnfinishedError("; ".join(self.warnings) or f"the run did not reach its end: {self.outcome}")
         return self
 
     def plot(self) -> Figure:
-        """A picture of the motion: the way of the TCP, its speed, the axes. matplotlib has to be installed."""
+        """A picture of the motion: the path of the TCP, its speed, the axes. matplotlib has to be installed."""
         from .plots import plot
 
         if self.trace is None:

@@ -1,4 +1,4 @@
-"""Robots: axes, and the way from axes to poses and back."""
+"""Robots: axes, and the conversion from axes to poses and back."""
 
 from __future__ import annotations
 
@@ -48,10 +48,10 @@ class Robot:
 
     Axes are in deg (mm where they are linear), the robot's own ones only; poses are x, y, z in mm, a, b, c in deg, as in a program. A pose is the TCP
     seen from the workpiece: `tool` is the tool's frame seen from the flange, `wobj` the workpiece's in the world, `base` where the robot stands in the
-    world. With `stationary` the tool stands in the world and with `robhold` the workpiece is on the flange, as of `tool` and `wobj` of a program; both
+    world. With `stationary` the tool is fixed in the world and with `robhold` the workpiece is on the flange, as for `tool` and `wobj` of a program; both
     together or neither. Many rows at once are one array with a row each.
 
-    Raises `RefusedError` where there is no such robot, or something does not have the shape that it should have.
+    Raises `RefusedError` where there is no such robot, or an array does not have the right shape.
     """
 
     def __init__(self, name: StrPath) -> None:
@@ -80,7 +80,7 @@ class Robot:
         joints: ArrayLike,
         **frames: Unpack[FrameArguments],
     ) -> Array:
-        """The pose of the TCP for axes, wherever they are: also beyond their ranges. Rows of axes give rows of poses."""
+        """The pose of the TCP for axes, wherever they are, even beyond their ranges. Rows of axes give rows of poses."""
         rows, one = _rows(joints, self._own, "joints")
         with told:
             poses, _ = self._robot.forward(rows, _frames(**frames))
@@ -109,7 +109,7 @@ class Robot:
         """The axes that bring the TCP to a pose, within their ranges: those nearest to `near` (without it to `home`), or of the configuration `cfg`.
         `turn` as in a pose of a program.
 
-        Rows of poses give rows of axes, each near its row of `near`, or all near the one that there is; with `chained` each near the one before it, as
+        Rows of poses give rows of axes, each near its row of `near`, or all near its only row; with `chained` each near the one before it, as
         along a path. A row that is not reached is NaN.
 
         Raises `RefusedError` with the reason where one pose is asked for and not reached.
@@ -171,12 +171,12 @@ class Robot:
     ) -> tuple[Array, list[str | None]]:
         starts, _ = _rows(self.home if near is None else near, self._own, "near")
         if len(starts) not in (1, len(rows)):
-            raise RefusedError(f"near has {len(starts)} rows: expected 1, or {len(rows)} as there are poses")
+            raise RefusedError(f"near has {len(starts)} rows: expected 1, or {len(rows)}, one for each pose")
         if not np.isfinite(starts).all():
             raise RefusedError("near: expected finite numbers: deg, or mm where an axis is linear")
         cfg = how[0]
         if cfg is not None and cfg not in self.configurations:
-            raise RefusedError(f"{self.name} has no configuration {cfg}: {', '.join(map(str, self.configurations))} are")
+            raise RefusedError(f"{self.name} has no configuration {cfg}: expected one of {', '.join(map(str, self.configurations))}")
         with told:
             found, reasons = self._robot.inverse(rows, starts, how, frames)
         return np.frombuffer(found).reshape(-1, self._own).copy(), reasons
@@ -194,7 +194,7 @@ def _frame(frame: FrameLike, what: str) -> tuple[float, ...]:
     if isinstance(frame, Mapping):
         unknown = frame.keys() - set(COMPONENTS)
         if unknown:
-            raise RefusedError(f"{what}: a frame has {', '.join(COMPONENTS)}, no {min(unknown)}")
+            raise RefusedError(f"{what}: a frame has {', '.join(COMPONENTS)}, not {min(unknown)}")
         frame = [frame.get(name, 0.0) for name in COMPONENTS]
     rows, one = _rows(frame, 6, what)
     if not one or not np.isfinite(rows).all():

@@ -44,8 +44,8 @@ class Beginning:
 class Snapshot:
     """A session as it was: `Session.snapshot` makes it, and any number of sessions go on from there.
 
-    A run cannot be copied, so going on does everything again that was done until then: that takes as long as it took. A snapshot can be pickled,
-    and goes on in other processes. The run that goes on writes the files that its program writes, once more and where it wrote them.
+    A run cannot be copied, so going on repeats everything that was done until then, which takes as long as it took. A snapshot can be pickled,
+    and goes on in other processes. The repeated run writes the files that its program writes once more, in the same places.
     """
 
     beginning: Beginning
@@ -57,13 +57,13 @@ class Snapshot:
     def resume(self) -> Session:
         """A new session at the same place of the same run, on the thread that asks for it.
 
-        Raises `SessionError` where doing the same again came out otherwise: a file that the run reads has changed meanwhile.
+        Raises `SessionError` where repeating the run gave another result: a file that the run reads has changed meanwhile.
         """
         session = Session(self.beginning)
         session._repeat(self.done)
         if session.time != self.time or session.observe().tobytes() != self.observed:
             session.close()
-            raise SessionError(f"the same steps led to another place than at {self.time:.3f} s: a file that the run reads has changed")
+            raise SessionError(f"repeating the run up to {self.time:.3f} s gave another result: a file that the run reads has changed")
         return session
 
     def __repr__(self) -> str:
@@ -74,7 +74,7 @@ class Session:
     """A run that goes on as far as it is told, on the thread that began it: `Program.session` makes it.
 
     It may be used in a `with` statement; at its end the run ends. An alarm that ends the run is raised as an `AlarmError`: by the step that met it,
-    and by whatever is asked of the run after that but to tell how it stands.
+    and by every later call that acts on the run; its state can still be read.
     """
 
     def __init__(self, beginning: Beginning) -> None:
@@ -82,7 +82,7 @@ class Session:
         self.columns = self._program.columns
         """The columns of the trace: time in s, line, motion, axes in deg, TCP in mm and deg."""
         self.watched = beginning.watch.names
-        """What is observed besides."""
+        """What else is observed."""
         self._names = {name: at for at, name in reversed(list(enumerate((*self.columns, *self.watched))))}
         self._numbers = np.full(len(self.columns) + len(self.watched), np.nan)
         with told:
@@ -116,7 +116,7 @@ class Session:
         or has ended it; `observe` gives what is observed then.
         """
         if cycles < 0:
-            raise RefusedError(f"a session does not step back: {cycles} cycles; resume() of an earlier snapshot() does")
+            raise RefusedError(f"a session cannot step back ({cycles} cycles): use resume() of an earlier snapshot()")
         self._go(self._run.step, cycles, alone, self._numbers)
         if self.code == ALARMED:
             raise self._alarm()
@@ -132,7 +132,7 @@ class Session:
         """One of the numbers that are observed, by the name of its column or of what is watched."""
         at = self._names.get(name)
         if at is None:
-            raise KeyError(f"{name!r} is not observed: {', '.join(self._names)} are")
+            raise KeyError(f"{name!r} is not observed: expected one of {', '.join(self._names)}")
         return float(self._numbers[at])
 
     @property
@@ -197,7 +197,7 @@ class Session:
         self.observe()
 
     def state(self) -> dict[str, Any]:
-        """How everything stands: channels, axes, TCP, inputs and outputs."""
+        """The state of everything: channels, axes, TCP, inputs and outputs."""
         with told:
             state: dict[str, Any] = json.loads(self._run.state())["state"]
         return state
@@ -220,22 +220,22 @@ class Session:
             return of_summary(self._run.summary(), self._said, self._run.report(), rows, names)
 
     def finish(self) -> Result:
-        """Goes on to the end of the run, where nobody changes anything any more; gives what came of it: `Result.check` raises an alarm."""
+        """Goes on to the end of the run without further changes from outside; gives what came of it: `Result.check` raises an alarm."""
         self._go(self._run.go_on, 2**63, True)
         return self.result()
 
     def snapshot(self) -> Snapshot:
         """The session as it is now, to go on from again and again: for a search of a tree, or learning that branches.
 
-        It is what was done until now, and `Snapshot.resume` does it again: see there what that costs. Raises `RefusedError` for a run that is not the
+        It holds what was done until now, and `Snapshot.resume` repeats that: see there for the cost. Raises `RefusedError` for a run that is not the
         same every time: in real time, with connections, or with a `state_dir`.
         """
         if self._beginning.keeps_state:
-            raise RefusedError("a run with a state_dir keeps what it wrote there, and would begin with that: no snapshot of it")
+            raise RefusedError("no snapshot of a run with a state_dir: it would begin with what it has written there")
         with told:
             is_real = json.loads(self._run.summary())["real_time"]
         if is_real:
-            raise RefusedError("a run in real time, or with connections, is not the same twice: no snapshot of it")
+            raise RefusedError("no snapshot of a run in real time or with connections: it is not the same twice")
         return Snapshot(self._beginning, tuple(self._done), self.time, self.observe().tobytes())
 
     def close(self) -> None:
@@ -282,7 +282,7 @@ class Session:
         if self.code is not None:
             with told:
                 outcome = json.loads(self._run.summary())["outcome"]
-            raise RefusedError(f"{' = '.join(arguments)}: the run is over since {self.time:.3f} s ({outcome})")
+            raise RefusedError(f"{' = '.join(arguments)}: the run ended at {self.time:.3f} s ({outcome})")
         act: Callable[..., None] = getattr(self._run, what)
         with told:
             act(*arguments)

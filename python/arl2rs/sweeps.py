@@ -50,7 +50,7 @@ Rows = Iterable[Parameters] | Frame
 
 
 def grid(values: Mapping[str, Iterable[Any]]) -> list[dict[str, Any]]:
-    """Each value of each parameter with each of the others; the last parameter changes fastest.
+    """Every combination of the values of the parameters; the last parameter changes fastest.
 
     >>> grid({"global.pitch": [80, 100], "override": [50, 100]})[1]
     {'global.pitch': 80, 'override': 100}
@@ -92,11 +92,11 @@ class Results(Sequence[dict[str, Any]]):
         ended = [row for row in self if row["outcome"] == "ended"]
         if not ended:
             why = [row.get("problem") or (row["alarms"] or [{"text": row["outcome"]}])[0]["text"] for row in self]
-            raise ArlError(f"no run came to its end{': ' + why[0] if why else ''}")
+            raise ArlError(f"no run reached its end{': ' + why[0] if why else ''}")
         return min(ended, key=lambda row: row[figure])
 
     def flat(self) -> list[dict[str, Any]]:
-        """The rows with a value for each column: parameters by their names, of alarms the first, of collisions how many, and the first."""
+        """The rows with a value for each column: parameters by their names, the first alarm, the number of collisions and the first one."""
         looked = any("collisions" in row for row in self)
         return [{**dict(_flat(row, looked)), "problem": row.get("problem")} for row in self]
 
@@ -144,7 +144,7 @@ def _flat(row: Mapping[str, Any], looked: bool) -> Iterator[tuple[str, Any]]:
 
 
 def load_sweep(file: StrPath) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    """The file of `arl2rs sweep`: the arguments of `sweep` but for its rows, and the rows, with the names of Python (`scenario`, `max_time`)."""
+    """The file of `arl2rs sweep`: the arguments of `sweep` except its rows, and the rows, with the names of Python (`scenario`, `max_time`)."""
     with told:
         settings, rows = _arl2rs.table(there(file, "the file of a sweep"))
     settings["scenario"] = settings.pop("io")
@@ -205,13 +205,13 @@ def sweep(
 
     - `rows`: tables of parameters, as `grid` makes them, or a frame of pandas or polars: `global.NAME`, `robot.KEYS`, `cell.KEYS`,
       `scenario.KEYS`, `robot`, `scenario`, `override`, `mode`, `seed`, `max_time`, `start_time`. The command's names are taken, too.
-    - `files`: what the program reads beside programs, data files and texts of its folder.
-    - `max_time`: after so many seconds of the robot's time a run ends (3600); `timeout`: after so many on the clock it is given up (600).
-    - `collisions`: whether each run looks for what its robots touch; with `clearance`, also for what comes nearer than so many mm.
+    - `files`: what the program reads besides programs, data files and texts of its folder.
+    - `max_time`: after this many seconds of the robot's time a run ends (3600); `timeout`: after this many on the clock it is given up (600).
+    - `collisions`: whether each run looks for what its robots touch; with `clearance`, also for what comes closer than this many mm.
     - `engine`: `local` makes the runs on `processes` of this computer (0: one for each core), `ray` on the nodes of a cluster of Ray
       (`arl2rs.farm`). The results are the same to the last bit.
-    - `cache`: whether results that are known from earlier are taken, and new ones kept.
-    - `progress`: whether it is shown how far it is: by a bar on a terminal and in a notebook, else by a line now and then.
+    - `cache`: whether known results of earlier sweeps are used, and new ones kept.
+    - `progress`: whether progress is shown: by a bar on a terminal and in a notebook, else by a line now and then.
 
     Raises `CompileError` or `RefusedError` before anything runs. A run that cannot begin, or is lost, has a row that says so.
     """
@@ -236,7 +236,7 @@ def sweep(
         raise RefusedError(f"{processes} processes: expected 0 or more")
     if engine not in ("local", "ray"):
         raise RefusedError(f"engine {engine!r}: expected 'local' or 'ray'")
-    with told, notice(f"compiling {path.name} for {len(texts)} runs: the first time that takes a minute or two, after a change seconds"):
+    with told, notice(f"compiling {path.name} for {len(texts)} runs: this takes a minute or two the first time, and seconds after a change"):
         bundle = _arl2rs.Bundle(settings, texts)
     lines: list[str] = []
     with _Progress(len(texts), progress) as bar, told:

@@ -34,7 +34,7 @@ class Trace:
     def __getitem__(self, column: str) -> NDArray[np.float64]:
         """A column by its name: `trace["j1"]`."""
         if column not in self.columns:
-            raise KeyError(f"{column!r} is no column: {', '.join(self.columns)} are")
+            raise KeyError(f"{column!r} is not a column: expected one of {', '.join(self.columns)}")
         return self.array[:, self.columns.index(column)]
 
     @property
@@ -49,7 +49,7 @@ class Trace:
 
     @property
     def file(self) -> NDArray[np.object_]:
-        """The file that `line` is of, counted from the folder of the main file; empty where no motion is executed."""
+        """The file that `line` is in, relative to the folder of the main file; empty where no motion is executed."""
         motions, where = np.unique(self.motion, return_inverse=True)
         return np.array([self.files.get(int(motion), "") for motion in motions], dtype=object)[where]
 
@@ -76,7 +76,7 @@ class Trace:
 
     @property
     def watched(self) -> tuple[str, ...]:
-        """The columns of what was watched besides."""
+        """The columns of what else was watched."""
         return self.columns[self.columns.index("x") + 6 :]
 
     @cached_property

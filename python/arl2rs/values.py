@@ -47,7 +47,7 @@ def of_python(name: str) -> str:
 
 @dataclass(frozen=True)
 class Literal:
-    """A literal of ARL as it stands, for what Python has no value for: `Literal("fine")`."""
+    """A literal of ARL as it is written, for what Python has no value for: `Literal("fine")`."""
 
     text: str
 
@@ -56,7 +56,7 @@ def plain(value: Any, place: str = "the value") -> Any:
     """A value as JSON has it; `place` is what it is for."""
     if isinstance(value, Literal):
         if not isinstance(value.text, str):
-            raise RefusedError(f"{place}: a literal is a text, not {value.text!r}")
+            raise RefusedError(f"{place}: a literal is a string, not {value.text!r}")
         return {"arl": value.text}
     if isinstance(value, np.generic):
         value = value.item()
@@ -66,7 +66,7 @@ def plain(value: Any, place: str = "the value") -> Any:
         return value
     if isinstance(value, (float, Decimal, Fraction)):
         if not math.isfinite(value):
-            raise RefusedError(f"{place}: {value} is no number of ARL")
+            raise RefusedError(f"{place}: {value} is not a number of ARL")
         return float(value)
     if isinstance(value, os.PathLike):
         return os.fspath(value)
@@ -74,7 +74,7 @@ def plain(value: Any, place: str = "the value") -> Any:
         return {str(name): plain(inner, f"{place}.{name}") for name, inner in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return [plain(inner, f"{place}[{at}]") for at, inner in enumerate(value)]
-    raise RefusedError(f"{place}: {value!r} is nothing that ARL has a value for")
+    raise RefusedError(f"{place}: ARL has no value for {value!r}")
 
 
 def as_json(parameters: Parameters) -> str:

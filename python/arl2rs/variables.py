@@ -41,7 +41,7 @@ class Variable:
 
     name: str
     file: str
-    """Counted from the folder of the main file."""
+    """Relative to the folder of the main file."""
     line: int
     """From 1."""
     type: str
@@ -79,7 +79,7 @@ class Variable:
         if not fits or not numbers or (rest and left):
             raise RefusedError(f"`global.{name}{part}`: {self._shape(name)}")
         if prod(left) * len(numbers) > MOST_COLUMNS:
-            raise RefusedError(f"`global.{name}{part}` has more than {MOST_COLUMNS} numbers: watch some of them")
+            raise RefusedError(f"`global.{name}{part}` has more than {MOST_COLUMNS} numbers: watch only some of them")
         all_columns = []
         for others in itertools.product(*map(range, left)):
             at = (*taken, *others)
@@ -93,7 +93,7 @@ class Variable:
 
     def _shape(self, name: str) -> str:
         if not any(self.numbers) and not self.numbers:
-            return f"a {self.type} is no number, nor made of numbers"
+            return f"a {self.type} is not a number, nor made of numbers"
         shape = "".join(f"[0..{size - 1}]" for size in self.sizes)
         parts = ", ".join(number for number in self.numbers if number)
         return f"there is global.{name}{shape}" + (f" with {parts}" if parts else "")
@@ -124,7 +124,7 @@ def find(name: str, variables: Mapping[str, Variable]) -> Variable | None:
 
 @dataclass(frozen=True)
 class Watch:
-    """What is observed behind the row of a trace."""
+    """What is observed after the row of a trace."""
 
     names: tuple[str, ...] = ()
     """What the numbers are called."""

@@ -166,7 +166,7 @@ pub(crate) fn sweep(
     }
     match ended {
         Ok(ended) => ended.map_err(of_host),
-        Err(_) => Err(Failed::new_err("a bug of arl2rs: the standard error says where the sweep panicked")),
+        Err(_) => Err(Failed::new_err("a bug in arl2rs: standard error says where the sweep panicked")),
     }
 }
 

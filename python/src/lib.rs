@@ -132,7 +132,7 @@ fn words(parameters: &str) -> PyResult<Vec<String>> {
 #[pyfunction]
 fn literal(value: &str) -> PyResult<String> {
     let value = farm::read(value)?;
-    host::as_arl(&value).ok_or_else(|| problem::Refused::new_err("None is no value of ARL"))
+    host::as_arl(&value).ok_or_else(|| problem::Refused::new_err("None is not a value of ARL"))
 }
 
 /// How often it is looked whether Ctrl-C was pressed, and whether something has ended.
@@ -148,7 +148,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
         py.detach(|| std::thread::sleep(LOOK_INTERVAL));
         py.check_signals()?;
     }
-    worker.join().map_err(|_| problem::Failed::new_err("a bug of arl2rs: the standard error says where it panicked"))
+    worker.join().map_err(|_| problem::Failed::new_err("a bug in arl2rs: standard error says where it panicked"))
 }
 
 /// Does what these words say, as the command does; gives its exit code.

@@ -7,9 +7,9 @@ use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 
 create_exception!(_arl2rs, Mistakes, PyException, "A program has mistakes: JSON objects.");
-create_exception!(_arl2rs, Refused, PyException, "What is asked for cannot be; why.");
+create_exception!(_arl2rs, Refused, PyException, "What is asked for is not possible; why.");
 create_exception!(_arl2rs, Failed, PyException, "Something around the compiler went wrong; what.");
-create_exception!(_arl2rs, Gone, PyException, "A session is not there for who asks; why.");
+create_exception!(_arl2rs, Gone, PyException, "A session is not available to the caller; why.");
 
 pub(crate) fn of_host(error: HostError) -> PyErr {
     match error {

@@ -113,7 +113,7 @@ impl Robot {
     }
 
     /// The axes that bring the TCP to rows of poses, each near a row of axes; those of a pose that is not reached are
-    /// no numbers, and it has the reason. `how`: `cfg`, `turn`, and whether each is near the one before that was
+    /// not numbers, and it has the reason. `how`: `cfg`, `turn`, and whether each is near the one before that was
     /// reached.
     fn inverse<'py>(
         &self,
@@ -157,7 +157,7 @@ impl Robot {
 impl Robot {
     fn reach(&self, setting: &Setting, pose: [f64; COMPONENTS], wanted: Wanted, near: &Axes) -> Result<Axes, String> {
         if pose.iter().any(|number| !number.is_finite()) {
-            return Err("a component of the pose is no number".into());
+            return Err("a component of the pose is not a number".into());
         }
         let flange = setting.flange_of(&frame(pose)).map_err(|error| error.to_string())?;
         let chosen = self.robot.kinematics.choose(&flange, wanted, self.own(), near);

@@ -232,7 +232,7 @@ impl Session {
     /// Which signals, global variables and parts of them are observed behind the row of the trace.
     fn watch(&self, names: Vec<String>) -> PyResult<()> {
         if names.iter().any(|name| name.contains('\n')) {
-            return Err(Refused::new_err("a name has no line break in it"));
+            return Err(Refused::new_err("a name cannot contain a line break"));
         }
         self.with(|going| going.watch(&names))?
     }

@@ -30,7 +30,7 @@ pub(crate) struct Place {
 impl Place {
     /// What `place[2].x` means.
     pub(crate) fn parse(text: &str) -> PyResult<Self> {
-        let wrong = || Refused::new_err(format!("`{text}` is no global variable, nor a part of one, like place[2].x"));
+        let wrong = || Refused::new_err(format!("`{text}` is not a global variable or a part of one, like place[2].x"));
         let end = text.find(['.', '[']).unwrap_or(text.len());
         let (variable, mut rest) = text.split_at(end);
         let mut steps = Vec::new();
@@ -55,7 +55,7 @@ impl Place {
         self.steps.is_empty()
     }
 
-    /// The number there; truth values are 0 and 1, and what is not set is no number.
+    /// The number there; truth values are 0 and 1, and what is not set is not a number.
     pub(crate) fn number(&self, value: &Value) -> f64 {
         let found = self.steps.iter().try_fold(value, |value, step| match step {
             Step::Component(name) => value.get(name),

@@ -71,7 +71,7 @@ def test_what_is_not_reached_is_told():
     assert np.isnan(found[0]).all() and not np.isnan(found[1]).any()
     assert list(robot.reaches([far, near])) == [False, True] and not robot.reaches(far) and robot.reaches(near)
     assert robot.why_not([far, near]) == ["the arm falls short by 3608.6 mm", None]
-    assert "no number" in robot.why_not([np.nan] * 6)[0]
+    assert "not a number" in robot.why_not([np.nan] * 6)[0]
     scara = arl2rs.Robot("hsr065")
     assert scara.family == "scara" and len(scara.axes) == 4
     pose = scara.forward(scara.home)

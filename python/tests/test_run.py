@@ -122,7 +122,7 @@ def test_a_program_is_a_text(tmp_path):
     for arguments, words in [
         ({}, "a file, or its text"),
         ({"program": "a.arl", "source": text}, "a file, or its text"),
-        ({"program": "a.arl", "beside": beside}, "goes with `source`"),
+        ({"program": "a.arl", "beside": beside}, "needs `source`"),
         ({"source": text, "beside": {"../a.arl": ""}}, "expected the name of a file"),
     ]:
         with pytest.raises(arl2rs.RefusedError, match=words):
@@ -183,9 +183,9 @@ def test_arrays_become_points_to_the_last_bit():
         assert [session.global_value("q20")[f"j{axis}"] for axis in range(1, 7)] == numbers[19].tolist()
         assert "a" not in session.global_value("r")[0] and session.global_value("s")[0]["cfg"] == 2
     for arguments, words in [
-        (("1p", numbers), "no name of a variable"),
+        (("1p", numbers), "not a name of a variable"),
         (("p", numbers[0]), "found an array of shape"),
-        (("p", [[1, np.nan, 3]]), "row 0 has a number that is none"),
+        (("p", [[1, np.nan, 3]]), "row 0 has a value that is not finite"),
         (("p", numbers, "place"), None),
     ]:
         with pytest.raises(arl2rs.RefusedError if words else TypeError, match=words):

@@ -99,7 +99,7 @@ def test_a_run_that_is_over_stays_as_it_is(short):
     session.step(100_000)
     last = session.step()
     np.testing.assert_array_equal(session.step(5), last)
-    with pytest.raises(arl2rs.RefusedError, match=r"di\.1 = true: the run is over since .* s \(ended\)"):
+    with pytest.raises(arl2rs.RefusedError, match=r"di\.1 = true: the run ended at .* s \(ended\)"):
         session.set(di_1=True)
     assert repr(session).startswith("Session(") and "over" in repr(session)
     session.close()
@@ -124,7 +124,7 @@ def test_points_and_parts_are_watched(short):
     for name, words in [
         ("global.place.w", "there is global.place with .x"),
         ("global.row[3]", r"there is global\.row\[0\.\.2\]"),
-        ("global.name", "a string is no number"),
+        ("global.name", "a string is not a number"),
         ("global.plac", "did you mean `place`"),
     ]:
         with pytest.raises(arl2rs.RefusedError, match=words):
@@ -251,7 +251,7 @@ def test_a_snapshot_that_leads_elsewhere_is_refused(example):
     before = data.read_text()
     data.write_text(before.replace("y -500", "y -450"))
     try:
-        with pytest.raises(arl2rs.SessionError, match=r"another place than at 3\.000 s"):
+        with pytest.raises(arl2rs.SessionError, match=r"repeating the run up to 3\.000 s"):
             snapshot.resume()
     finally:
         data.write_text(before)

@@ -9,10 +9,10 @@ export const BEHIND_S = 0.06;
 
 /** The buttons, what they tell the program, and the states in which they do something. */
 const BUTTONS = [
-  ["Start", 'pendant = "start"', "Let program and robot go on", ["paused", "standstill"]],
+  ["Start", 'pendant = "start"', "Let the program and the robot go on", ["paused", "standstill"]],
   ["Pause", 'pendant = "pause"', "Stop on the path", ["running"]],
   ["Step", 'pendant = "step"', "One motion or statement", ["paused"]],
-  ["Reset", 'pendant = "reset"', "Back to the begin of the program", ["paused", "ended", "alarm", "stopped"]],
+  ["Reset", 'pendant = "reset"', "Back to the beginning of the program", ["paused", "ended", "alarm", "stopped"]],
   ["Clear", 'pendant = "clear"', "Clear the alarm", ["alarm"]],
 ];
 
@@ -129,7 +129,7 @@ export class Live {
       this.lost = false;
     } catch {
       this.lost = true;
-      trouble("The command that shows this is gone, or does not answer. What was seen is still here.");
+      trouble("The arl2rs command has ended or does not answer. What was shown so far is still here.");
     }
     this.show();
     if (!this.run.live) {
@@ -170,7 +170,7 @@ export class Live {
     const order = /** @type {HTMLInputElement} */ (
       element("input", { placeholder: "di.5 = true", ariaLabel: "An order in the words of a scenario", size: 28, spellcheck: false })
     );
-    const form = element("form", { className: "hint" }, order, " ", element("button", {}, "Tell"));
+    const form = element("form", { className: "hint" }, order, " ", element("button", {}, "Send"));
     form.addEventListener("submit", async (event) => {
       event.preventDefault();
       if (order.value.trim() && (await tell(order.value.trim()))) order.value = "";

@@ -14,18 +14,18 @@ const RATES = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 50];
 const NORMAL = RATES.indexOf(1);
 const KEYS = [
   ["Space", "play or pause"],
-  ["← →", "a step back or on"],
+  ["← →", "a step back or forward"],
   ["Shift ← →", "a second"],
-  ["↑ ↓", "the motion before, or behind"],
-  ["Home End", "begin, end"],
+  ["↑ ↓", "the previous or next motion"],
+  ["Home End", "beginning, end"],
   ["[ ]", "slower, faster"],
   ["1 2 3 4", "colour of the path: speed, limit, blend, line"],
   ["F", "show all of the cell"],
   ["0", "show all of the time line"],
   ["L", "copy a link to this moment"],
   ["D", "dark or light"],
-  ["Wheel", "on the times: zoom; elsewhere with Ctrl"],
-  ["Shift wheel", "move along"],
+  ["Wheel", "on the time scale: zoom; elsewhere with Ctrl"],
+  ["Shift wheel", "scroll along the time line"],
 ];
 /** A step of the arrow keys in s: that of a recording's frames. */
 const STEP_S = 0.02;
@@ -80,7 +80,7 @@ class Page {
     try {
       return new CellScene(byId("scene"), this.runs);
     } catch (problem) {
-      const text = "The cell cannot be drawn: this browser has no WebGL, or it is switched off. Everything else is here.";
+      const text = "The cell cannot be drawn: this browser has no WebGL, or it is switched off. Everything else works.";
       Object.assign(byId("nowhere"), { hidden: false, textContent: text });
       console.warn(String(problem));
     }

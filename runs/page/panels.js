@@ -126,7 +126,7 @@ export class Now {
     );
     write(
       /** @type {HTMLElement} */ (this.motion),
-      moment.motion ? told(run.byNumber?.get(`${channel.number}/${moment.motion}`), moment.motionLine) : "The robot stands.",
+      moment.motion ? told(run.byNumber?.get(`${channel.number}/${moment.motion}`), moment.motionLine) : "The robot stands still.",
     );
   }
 }

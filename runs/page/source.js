@@ -25,7 +25,7 @@ export class Source {
         .replace(/\n$/, "")
         .split("\n")
         .map((/** @type {string} */ line, /** @type {number} */ at) => {
-          const took = element("span", { className: "took", title: "How long the robot moved for this line, or stood in it, in s" });
+          const took = element("span", { className: "took", title: "How long the robot moved for this line, or stood still in it, in s" });
           const pointer = element("span", { className: "pointer" });
           const code = element("span", {}, ...colored(line, this.keywords));
           const row = element("div", { className: "code" }, took, pointer, element("span", { className: "number" }, String(at + 1)), code);
@@ -35,7 +35,7 @@ export class Source {
       this.lines.set(name.toLowerCase(), rows);
       this.holder.append(element("div", { className: "file" }, name), ...rows.map((/** @type {any} */ { row }) => row));
     }
-    if (this.lines.size === 0) this.holder.append(element("p", { className: "hint" }, "The recording has no texts of the program."));
+    if (this.lines.size === 0) this.holder.append(element("p", { className: "hint" }, "The recording does not contain the source of the program."));
     this.marked = "";
     this.version = -1;
   }

@@ -75,8 +75,8 @@ export class Teach {
       input.addEventListener("change", () => this.typed());
       return { name, input, label: element("label", {}, name, input) };
     });
-    this.save = button("Teach", "Write this place into the chosen point", () => this.teach());
-    this.undoing = button("Undo", "Take the last writing back", () => this.write("undo", {}));
+    this.save = button("Teach", "Write this pose into the chosen point", () => this.teach());
+    this.undoing = button("Undo", "Undo the last change", () => this.write("undo", {}));
     this.jogs = element("div", { className: "jogs" });
     this.holding = new AbortController();
     this.frame = /** @type {HTMLSelectElement} */ (element("select", { ariaLabel: "Directions" }));
@@ -98,14 +98,14 @@ export class Teach {
   build() {
     this.tools.addEventListener("change", () => this.setting());
     this.wobjs.addEventListener("change", () => this.setting());
-    const move = button("Move", "Arrows to move the TCP with", () => this.gizmo("translate"));
-    const turn = button("Turn", "Rings to turn the TCP with", () => this.gizmo("rotate"));
+    const move = button("Move", "Arrows for moving the TCP", () => this.gizmo("translate"));
+    const turn = button("Turn", "Rings for turning the TCP", () => this.gizmo("rotate"));
     const here = button("From robot", "Where the robot is now", () => this.fromRobot());
-    const map = button("Map", "Where the robot reaches in this plane with this orientation", () => this.map());
+    const map = button("Map", "What the robot reaches in this plane with this orientation", () => this.map());
     const amounts = ["x", "y", "z"].map(
       (name) => /** @type {HTMLInputElement} */ (element("input", { type: "number", value: "0", ariaLabel: `by ${name}` })),
     );
-    const shift = button("Shift", "Move all chosen points by so many mm", () => this.shift(amounts.map((amount) => Number(amount.value))));
+    const shift = button("Shift", "Shift all chosen points by these amounts in mm", () => this.shift(amounts.map((amount) => Number(amount.value))));
     const mirrors = ["x", "y", "z"].map((name, axis) =>
       button(`Mirror ${name}`, `Mirror all chosen points at ${name} = 0`, () => this.mirror(axis)),
     );
@@ -163,7 +163,7 @@ export class Teach {
     const go = held("Go there", "Hold: the robot goes to where the dragged one is", () => {
       if (this.place?.solutions[this.solution]?.axes)
         return `to ${[...this.axes.slice(0, this.channel.links.length - 1), ...this.external].join(" ")}`;
-      trouble("Choose a point first, or drag the robot: it goes where that is.");
+      trouble("Choose a point first, or drag the robot to where it should go.");
       return undefined;
     });
     this.jogs.replaceChildren(
@@ -272,7 +272,7 @@ export class Teach {
   goTo({ type, values, plain }) {
     const own = this.channel.links.length - 1;
     const missing = type === "pose" ? values.x === undefined : values.j1 === undefined;
-    if (!plain || missing) return write(this.word, "What this point is the program computes, or says later: it is not shown.");
+    if (!plain || missing) return write(this.word, "The program computes this point, or sets it later: it cannot be shown.");
     this.external = this.externals((at) => values[`ej${at}`]);
     if (type === "joint") return this.ask({ axes: Array.from({ length: own }, (_, at) => values[`j${at + 1}`] ?? 0) });
     return this.ask({ components: COMPONENTS.map((name) => values[name] ?? 0) }, values.cfg ?? 0);
@@ -339,7 +339,7 @@ export class Teach {
       }),
     );
     const reasons = [...new Set(this.place.solutions.map((/** @type {any} */ one) => one.why).filter(Boolean))];
-    if (!solution?.axes) write(this.word, `The robot cannot stand there: ${reasons.slice(0, 2).join("; ")}.`);
+    if (!solution?.axes) write(this.word, `The robot cannot reach this pose: ${reasons.slice(0, 2).join("; ")}.`);
     else if (solution.near)
       write(this.word, `Near the ${solution.near} singularity (clearance ${solution.clearance.toFixed(3)}): axes may turn quickly there.`);
     else write(this.word, "");
@@ -364,7 +364,7 @@ export class Teach {
     if (!told) return;
     trouble("");
     this.take(told);
-    write(this.word, "Written. It counts from the next reset of the program on.");
+    write(this.word, "Written. It takes effect from the next reset of the program.");
   }
 
   /** A point with these components. @param {any} point @param {number[]} components @param {Record<string, number>} [more] */
@@ -394,7 +394,7 @@ export class Teach {
       .map((name) => this.point(name))
       .filter((point) => point?.type === "pose" && point.plain && point.values.x !== undefined);
     if (points.length === 0 || points.length < this.chosen.size) {
-      trouble("Choose poses that are plain numbers: those can be shifted and mirrored.");
+      trouble("Choose poses that are plain numbers: only those can be shifted and mirrored.");
       return [];
     }
     return points;
@@ -449,7 +449,7 @@ export class Teach {
       this.page.stale = true;
       return;
     }
-    if (!scene || !this.place) return trouble("Choose a point first, or take the place of the robot.");
+    if (!scene || !this.place) return trouble("Choose a point first, or take the pose of the robot.");
     const map = await ask("map", {
       channel: this.channel.number,
       components: this.place.components,

@@ -1,4 +1,4 @@
-//! Doors for `fuzz/` to the files from anywhere that this crate reads, and that are no programs. Each panics where
+//! Doors for `fuzz/` to the files from anywhere that this crate reads, and that are not programs. Each panics where
 //! something is wrong.
 
 use std::path::Path;

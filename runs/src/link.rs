@@ -11,14 +11,14 @@ use arl_wire::Line;
 const LAST_LINES: Duration = Duration::from_secs(1);
 
 /// A program that runs, and is told what to do by lines.
-pub(crate) struct Link {
+pub(crate) struct ProgramLink {
     child: Child,
     /// Gone once the program was told to leave.
     orders: Option<ChildStdin>,
     lines: Receiver<Line>,
 }
 
-impl Link {
+impl ProgramLink {
     /// Starts the program.
     pub(crate) fn start(mut command: Command) -> std::io::Result<Self> {
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -65,7 +65,7 @@ impl Link {
     }
 }
 
-impl Drop for Link {
+impl Drop for ProgramLink {
     fn drop(&mut self) {
         self.orders = None;
         // As a rule it has ended. A robot never goes on without its pendant.
@@ -100,7 +100,7 @@ mod tests {
     fn no_line_is_lost_where_time_is_over_and_the_last_ones_come_behind_the_end() {
         let mut command = Command::new("sh");
         command.args(["-c", "echo one; echo two; echo three >&2"]);
-        let mut link = Link::start(command).unwrap();
+        let mut link = ProgramLink::start(command).unwrap();
         while link.ended().is_none() {
             std::thread::sleep(Duration::from_millis(1));
         }

@@ -40,7 +40,7 @@ pub trait Hears {
     /// The program did not even begin, and has said why.
     fn nothing_began(self: Box<Self>) {}
 
-    /// What is told where it cannot go on: `the recording a.mcap is not whole`.
+    /// What is told where it cannot go on: `the recording a.mcap is incomplete`.
     fn broken(&self) -> String;
 }
 
@@ -115,7 +115,7 @@ pub fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> Heard {
             }
             Err(error) => {
                 if std::mem::replace(&mut understood, false) {
-                    show::warning(&format!("something that the program says is not understood: {error}"));
+                    show::warning(&format!("cannot read a message of the program: {error}"));
                 }
             }
         }

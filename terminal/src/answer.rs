@@ -24,7 +24,7 @@ pub enum ReportFormat {
     Html,
 }
 
-/// Writes text as it is. That nobody reads on is no failure.
+/// Writes text as it is. That nobody reads on is not a failure.
 ///
 /// # Errors
 /// It can be written no further, as on a full disk.

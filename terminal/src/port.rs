@@ -36,7 +36,7 @@ impl Secret {
         let word = || -> std::result::Result<String, Failure> {
             let mut bytes = [0; BYTES];
             let filled = getrandom::fill(&mut bytes);
-            filled.map_err(|error| Failure::Other(format!("this computer has no random numbers: {error}")))?;
+            filled.map_err(|error| Failure::Other(format!("the system provides no random numbers: {error}")))?;
             let mut text = String::new();
             for byte in bytes {
                 // Writing to a string cannot fail.
@@ -86,7 +86,7 @@ impl Port {
             listener.set_nonblocking(true)?;
             Ok(Self { address: listener.local_addr()?, listener, secret })
         });
-        opened.map_err(|error| Failure::Usage(format!("this computer has no connection to itself: {error}")))
+        opened.map_err(|error| Failure::Usage(format!("cannot open a port on 127.0.0.1: {error}")))
     }
 
     /// Where it is.

@@ -113,6 +113,6 @@ fn d_registers_are_written_and_read() {
     let End { out, said, code } = Robot::start("melsec", "").end();
     let printed = "hello\n{01h,02h,03h,04h,05h,00h,09h,09h}\n4 a z\n4dh\nrefused: true\n";
     assert_eq!((out.as_str(), code), (printed, Some(3)), "{said}");
-    assert!(said.contains("read: the PLC refuses with code c056h (melsec.arl:25)"), "{said}");
-    assert!(said.contains("alarm 20050: read: it is not open (melsec.arl:29)"), "{said}");
+    assert!(said.contains("read: the PLC refused the request with code c056h (melsec.arl:25)"), "{said}");
+    assert!(said.contains("alarm 20050: read: the connection is not open (melsec.arl:29)"), "{said}");
 }

@@ -65,7 +65,7 @@ fn an_island_that_comes_back_gets_its_outputs_anew() {
 #[test]
 fn an_island_that_goes_silent_or_talks_nonsense_stops_the_program() {
     for (manner, words) in
-        [("silent", "it has not answered for 200 ms"), ("garbage", "what it sends is no answer of Modbus TCP")]
+        [("silent", "it has not answered for 200 ms"), ("garbage", "what it sends is not a Modbus TCP response")]
     {
         let Some(island) = island("0", manner) else { return };
         let End { out, said, code } = Robot::start("island", &cell(&island.first_line, "timeout = 200\n")).end();
@@ -88,5 +88,5 @@ fn what_an_island_refuses_is_told_at_the_start() {
 fn without_an_island_nothing_starts() {
     let End { out, said, code } = Robot::start("island", &cell("1", "")).end();
     assert_eq!((out.as_str(), code), ("", Some(2)), "{said}");
-    assert!(said.contains("error: the island peer (127.0.0.1:1) is not there: it cannot be connected to"), "{said}");
+    assert!(said.contains("error: the island peer (127.0.0.1:1) is not available: cannot connect to"), "{said}");
 }

@@ -78,7 +78,7 @@ fn a_serial_line_has_all_settings_of_the_manual() {
     let printed = format!("{}worl\n{}{{01h,02h,03h,04h}}\nfalse\n", "true\n".repeat(10), "true\n".repeat(4));
     assert_eq!((end.out, end.code), (printed, Some(3)), "{}", end.said);
     assert!(end.said.contains("another program has it open") || end.said.contains("busy"), "{}", end.said);
-    assert!(end.said.contains("alarm 20050: open: it is open already: close it first"), "{}", end.said);
+    assert!(end.said.contains("alarm 20050: open: the connection is already open: close it first"), "{}", end.said);
 }
 
 #[test]

@@ -136,28 +136,28 @@ fn int(values: &[Value], at: usize) -> i32 {
     match values[at] {
         Value::Int(x) => x,
         Value::Byte(x) => x.into(),
-        ref other => panic!("{other:?} is no int"),
+        ref other => panic!("{other:?} is not an int"),
     }
 }
 
 fn byte(values: &[Value], at: usize) -> u8 {
     match values[at] {
         Value::Byte(x) => x,
-        ref other => panic!("{other:?} is no byte"),
+        ref other => panic!("{other:?} is not a byte"),
     }
 }
 
 fn double(values: &[Value], at: usize) -> f64 {
     match values[at] {
         Value::Double(x) => x,
-        ref other => panic!("{other:?} is no double"),
+        ref other => panic!("{other:?} is not a double"),
     }
 }
 
 fn text(values: &[Value], at: usize) -> &[u8] {
     match &values[at] {
         Value::Str(x) => x,
-        other => panic!("{other:?} is no string"),
+        other => panic!("{other:?} is not a string"),
     }
 }
 

@@ -223,7 +223,7 @@ impl<'p> Machine<'p> {
     fn number(&mut self, expr: &Expr, frame: &mut Frame) -> Result<i32, Stop> {
         match convert(self.eval(expr, frame)?, Base::Int) {
             Value::Int(number) => Ok(number),
-            other => panic!("{other:?} is no int"),
+            other => panic!("{other:?} is not an int"),
         }
     }
 
@@ -522,6 +522,7 @@ impl<'p> Layout<'p> {
         self.loops.pop();
     }
 
+    #[expect(clippy::too_many_lines, reason = "one arm for each statement")]
     fn stmt(&mut self, stmt: &'p Stmt) {
         let line = stmt.line;
         match &stmt.kind {

@@ -11,7 +11,7 @@ impl Random {
     }
 
     /// Any number.
-    #[expect(clippy::should_implement_trait, reason = "a sequence without end is no iterator to anybody here")]
+    #[expect(clippy::should_implement_trait, reason = "a sequence without end is not an iterator to anybody here")]
     pub fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;

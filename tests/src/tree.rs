@@ -266,12 +266,12 @@ pub struct Program {
 }
 
 impl Expr {
-    /// An expression that is no constant.
+    /// An expression that is not a constant.
     pub fn new(kind: Kind, ty: Type) -> Self {
         Self { kind, ty, constant: None, pattern: false }
     }
 
-    /// An expression without array type that is no constant.
+    /// An expression without array type that is not a constant.
     pub fn one(kind: Kind, base: Base) -> Self {
         Self::new(kind, Type::one(base))
     }

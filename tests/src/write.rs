@@ -244,6 +244,7 @@ impl Writer<'_> {
         if expr.level() > most { format!("({text})") } else { text }
     }
 
+    #[expect(clippy::too_many_lines, reason = "one arm for each expression")]
     fn bare(&mut self, expr: &Expr) -> String {
         match &expr.kind {
             Kind::Literal(_, text) => text.clone(),

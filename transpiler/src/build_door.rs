@@ -105,8 +105,8 @@ impl Build {
         }
     }
 
-    /// Compiles into a folder, for whoever is no build script of cargo's; the lines are what [`Build::compile`] tells
-    /// cargo: `cargo::rerun-if-changed=..`, `cargo::warning=..`, `cargo::error=..`.
+    /// Compiles into a folder, for whoever is not a build script of cargo's; the lines are what [`Build::compile`]
+    /// tells cargo: `cargo::rerun-if-changed=..`, `cargo::warning=..`, `cargo::error=..`.
     pub fn compile_into(&self, out: &Path) -> Vec<String> {
         on_large_stack(|| self.lines(out, &FileSystem))
     }
@@ -118,7 +118,7 @@ impl Build {
         for (name, main) in &self.programs {
             if let Some((_, other)) = names.iter().find(|(other, _)| other == name) {
                 lines.push(format!(
-                    "cargo::error={} and {} would both become {name}.rs: give one another name with `program_as`",
+                    "cargo::error={} and {} would both become {name}.rs: give one of them another name with `program_as`",
                     other.display(),
                     main.display()
                 ));
@@ -222,7 +222,7 @@ fn name(main: &Path) -> String {
     main.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// The path to watch. A file that is not there is always "changed" for cargo, so its folder is watched instead; but
+/// The path to watch. A file that does not exist is always "changed" for cargo, so its folder is watched instead; but
 /// not where cargo itself writes below it.
 #[expect(clippy::disallowed_methods, reason = "this is a door")]
 fn watchable(path: &Path, out: &Path) -> PathBuf {

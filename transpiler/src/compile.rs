@@ -1,7 +1,7 @@
 //! What every door does: one program checked, and turned into Rust when it is right.
 
 use crate::diagnostics::{Diagnostic, FileId, Files, Severity};
-use crate::effects::facts::{self, Scope};
+use crate::effects::facts::{self, FactScope};
 use crate::effects::{captures, ranges::Ranges, watched};
 use crate::emit::{EmitOptions, emit};
 use crate::hir::{Expr, ExprKind, Program, Type};
@@ -117,7 +117,7 @@ pub fn has_variables(program: &Program) -> bool {
 /// function that they call, uses global variables in its condition or action.
 pub fn events_use_globals(program: &Program, function: &str) -> bool {
     let ranges = Ranges::default();
-    let outside = Scope { program, func: None, ranges: &ranges };
+    let outside = FactScope { program, func: None, ranges: &ranges };
     let inits = program.globals.iter().filter_map(|global| global.init.as_ref());
     let called = inits.flat_map(|init| facts::of_expr(outside, init).calls).map(|callee| callee.0 as usize);
     let start = program.funcs.iter().position(|func| func.name == function);
@@ -127,7 +127,7 @@ pub fn events_use_globals(program: &Program, function: &str) -> bool {
         if std::mem::replace(seen, true) {
             continue;
         }
-        let scope = Scope { func: Some(func), ..outside };
+        let scope = FactScope { func: Some(func), ..outside };
         let mut found = false;
         let mut see = |expr: &Expr| {
             if let ExprKind::Builtin(builtin) = &expr.kind {

@@ -40,7 +40,7 @@ pub(crate) fn reached(program: &Program) -> Vec<bool> {
         .map(|facts| facts.calls.iter().chain(&facts.later_calls).map(|FuncId(callee)| *callee as usize).collect())
         .collect();
     let ranges = ranges::Ranges::default();
-    let scope = facts::Scope { program, func: None, ranges: &ranges };
+    let scope = facts::FactScope { program, func: None, ranges: &ranges };
     let inits = program.globals.iter().filter_map(|global| global.init.as_ref());
     let mut open: Vec<usize> = inits
         .flat_map(|init| facts::of_expr(scope, init).calls)

@@ -163,7 +163,7 @@ pub struct Func {
     /// All local variables, parameters first.
     pub locals: Vec<Local>,
     /// The labels that `goto` may name.
-    pub labels: Vec<Label>,
+    pub labels: Vec<GotoLabel>,
     /// The type of the result.
     pub result: Base,
     /// The statements.
@@ -218,7 +218,7 @@ pub struct Local {
 
 /// A label.
 #[derive(Debug)]
-pub struct Label {
+pub struct GotoLabel {
     /// The name, folded.
     pub name: String,
     /// Where it stands.

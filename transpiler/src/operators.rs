@@ -18,7 +18,7 @@ pub enum Literal {
     Wide,
 }
 
-/// An operand, which is no array.
+/// An operand, which is not an array.
 #[derive(Clone, Copy, Debug)]
 pub struct Operand<'a> {
     /// Its type.
@@ -60,7 +60,7 @@ impl Operation {
 
 /// Why there is no value, in the words of the alarm that it is at run time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Alarm {
+pub enum OperatorAlarm {
     /// Division by zero.
     DivideByZero,
     /// A shift by this, where 0 to `most` is possible.
@@ -72,13 +72,13 @@ pub enum Alarm {
     },
 }
 
-impl std::fmt::Display for Alarm {
+impl std::fmt::Display for OperatorAlarm {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Alarm::DivideByZero => write!(f, "alarm 20001: division by zero"),
-            Alarm::ShiftCount { count, most } => {
+            OperatorAlarm::DivideByZero => write!(f, "alarm 20001: division by zero"),
+            OperatorAlarm::ShiftCount { count, most } => {
                 let bits = most + 1;
-                write!(f, "alarm 20002: shift by {count}: a value of {bits} bits is shifted by 0 to {most}")
+                write!(f, "alarm 20002: shift by {count}: a value of {bits} bits can be shifted by 0 to {most}")
             }
         }
     }
@@ -130,7 +130,7 @@ fn of_structures(op: BinaryOp, left: Struct, right: Struct) -> Option<Struct> {
 fn shift(left: Operand<'_>, right: Operand<'_>) -> Option<Operation> {
     let has_bits = |base| matches!(base, Base::Int | Base::Uint | Base::Byte);
     (has_bits(left.base) && has_bits(right.base)).then_some(())?;
-    // A uint that is no constant counts as it is: the result has the type of the left operand anyway.
+    // A uint that is not a constant counts as it is: the result has the type of the left operand anyway.
     let count = if right.base == Base::Uint && right.constant.is_none() { Base::Uint } else { Base::Int };
     Some(Operation { left: left.base, right: count, result: left.base })
 }
@@ -297,7 +297,7 @@ impl Computed {
 ///
 /// # Errors
 /// It is an alarm at run time.
-pub fn compute(op: BinaryOp, left: &Value, right: &Value) -> Result<Option<Computed>, Alarm> {
+pub fn compute(op: BinaryOp, left: &Value, right: &Value) -> Result<Option<Computed>, OperatorAlarm> {
     Ok(match (left, right) {
         (Value::Bool(a), Value::Bool(b)) => of_bools(op, *a, *b).map(|value| Value::Bool(value).into()),
         (Value::Double(a), Value::Double(b)) => of_doubles(op, *a, *b)?.map(Computed::from),
@@ -328,17 +328,17 @@ pub fn compute_unary(op: UnaryOp, operand: &Value) -> Option<Computed> {
     }
 }
 
-fn of_integers(op: BinaryOp, base: Base, left: i64, right: i64) -> Result<Option<Computed>, Alarm> {
+fn of_integers(op: BinaryOp, base: Base, left: i64, right: i64) -> Result<Option<Computed>, OperatorAlarm> {
     let most = width(base) - 1;
     let exact = match op {
         BinaryOp::Add => left + right,
         BinaryOp::Subtract => left - right,
         BinaryOp::Multiply => left.wrapping_mul(right),
-        BinaryOp::Divide | BinaryOp::Remainder if right == 0 => return Err(Alarm::DivideByZero),
+        BinaryOp::Divide | BinaryOp::Remainder if right == 0 => return Err(OperatorAlarm::DivideByZero),
         BinaryOp::Divide => left / right,
         BinaryOp::Remainder => left % right,
         BinaryOp::ShiftLeft | BinaryOp::ShiftRight if !(0..=i64::from(most)).contains(&right) => {
-            return Err(Alarm::ShiftCount { count: right, most });
+            return Err(OperatorAlarm::ShiftCount { count: right, most });
         }
         // Bits that are shifted out are meant to go.
         BinaryOp::ShiftLeft => return Ok(Some(lowest_bits(base, left << right).into())),
@@ -371,13 +371,13 @@ fn of_bools(op: BinaryOp, left: bool, right: bool) -> Option<bool> {
     }
 }
 
-fn of_doubles(op: BinaryOp, left: f64, right: f64) -> Result<Option<Value>, Alarm> {
+fn of_doubles(op: BinaryOp, left: f64, right: f64) -> Result<Option<Value>, OperatorAlarm> {
     let number = match op {
         BinaryOp::Add => left + right,
         BinaryOp::Subtract => left - right,
         BinaryOp::Multiply => left * right,
         BinaryOp::Divide => left / right,
-        BinaryOp::Remainder if right == 0.0 => return Err(Alarm::DivideByZero),
+        BinaryOp::Remainder if right == 0.0 => return Err(OperatorAlarm::DivideByZero),
         BinaryOp::Remainder => left % right,
         BinaryOp::Less => return Ok(Some(Value::Bool(left < right))),
         BinaryOp::LessEqual => return Ok(Some(Value::Bool(left <= right))),
@@ -411,7 +411,7 @@ mod tests {
     }
 
     /// The value of variables with these values.
-    fn of_variables(op: BinaryOp, left: &Value, right: &Value) -> Option<Result<Value, Alarm>> {
+    fn of_variables(op: BinaryOp, left: &Value, right: &Value) -> Option<Result<Value, OperatorAlarm>> {
         let operation = binary(op, operand(left, false), operand(right, false))?;
         let left = fit(left, Literal::None, operation.left)?;
         let right = fit(right, Literal::None, operation.right)?;
@@ -423,7 +423,7 @@ mod tests {
         let left = BinaryOp::ShiftLeft;
         assert_eq!(
             of_variables(left, &Value::Byte(1), &Value::Int(9)),
-            Some(Err(Alarm::ShiftCount { count: 9, most: 7 }))
+            Some(Err(OperatorAlarm::ShiftCount { count: 9, most: 7 }))
         );
         assert_eq!(of_variables(left, &Value::Byte(0x81), &Value::Int(1)), Some(Ok(Value::Byte(2))));
         assert_eq!(of_variables(left, &Value::Uint(1), &Value::Uint(31)), Some(Ok(Value::Uint(0x8000_0000))));
@@ -449,10 +449,10 @@ mod tests {
     #[test]
     fn division_by_zero_is_none() {
         for (left, right) in [(Value::Int(1), Value::Int(0)), (Value::Byte(1), Value::Byte(0))] {
-            assert_eq!(of_variables(BinaryOp::Remainder, &left, &right), Some(Err(Alarm::DivideByZero)));
+            assert_eq!(of_variables(BinaryOp::Remainder, &left, &right), Some(Err(OperatorAlarm::DivideByZero)));
         }
         let zero = Value::Double(0.0);
-        assert_eq!(of_variables(BinaryOp::Remainder, &zero, &zero), Some(Err(Alarm::DivideByZero)));
+        assert_eq!(of_variables(BinaryOp::Remainder, &zero, &zero), Some(Err(OperatorAlarm::DivideByZero)));
         assert_eq!(of_variables(BinaryOp::Divide, &Value::Double(1.0), &zero), Some(Ok(Value::Double(f64::INFINITY))));
     }
 }

@@ -20,7 +20,7 @@ impl Sources for FileSystem {
         match std::fs::metadata(path).map_err(failed)?.file_type() {
             kind if kind.is_file() => std::fs::read(path).map_err(failed),
             kind if kind.is_dir() => Err(SourceError::Unreadable("it is a directory".into())),
-            _ => Err(SourceError::Unreadable("it is no regular file, but a pipe, a socket or a device".into())),
+            _ => Err(SourceError::Unreadable("it is not a regular file, but a pipe, a socket or a device".into())),
         }
     }
 }

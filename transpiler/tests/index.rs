@@ -8,7 +8,7 @@ use arl2rs::{CheckOptions, Checked, check};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Words that are no names: of control structures, and units.
+/// Words that are not names: of control structures, and units.
 const NO_NAMES: &str = "break case const continue default else elseif endfor endfunc endif endloop endswitch endwhile \
     false for func goto if import loop repeat return switch true until while mm s deg";
 

@@ -55,8 +55,8 @@ fn targets_moved_from_constant_ones_are_looked_at() {
         pose over = offset(near,0,0,200,0,0,0)
         movej start
         lin over
-        lin offset(near,600,0,0,0,0,0) // 908 199.697 mm out of the reach
-        lin reltool(near,0,0,600,0,0,0) // 908 199.697 mm out of the reach
+        lin offset(near,600,0,0,0,0,0) // 908 199.697 mm beyond the reach
+        lin reltool(near,0,0,600,0,0,0) // 908 199.697 mm beyond the reach
         lin offset(offset(near,300,0,0,0,0,0),300,0,0,0,0,0) // 908 199.697 mm
         ptp offset(near,0,0,0,90,0,0)
         lin reltool(offset(near,0,0,0,90,0,0),0,0,1500,0,0,0) // 908
@@ -96,7 +96,7 @@ fn tools_and_workpieces_of_labels_hold_until_the_next_ones() {
         "const tool long = {{0,0,300,0,0,0},false}
         const wobj table = {{600,0,100,0,0,0},false}
         movej start
-        lin p:{1700,0,450,0,90,0} // 908 199.697 mm out of the reach
+        lin p:{1700,0,450,0,90,0} // 908 199.697 mm beyond the reach
         lin p:{1700,0,450,0,90,0},t:long
         lin p:{1100,0,350,0,90,0},w:table
         lin p:{1300,0,350,0,90,0} // 908
@@ -206,13 +206,13 @@ fn configurations_ranges_and_singular_points_are_told() {
         ptp p:{900,0,600,0,90,0,-1} // 909 no configuration cfg -1
         movej j:{0,-200,90,0,45,0} // 907 j2 at -200 deg, 15 deg beyond its range
         movej j:{10,-90,90,0,45,0}
-        lin p:{890,0,1080,0,89.9,0} // 910 99.7 % along it axes 4 and 6
+        lin p:{890,0,1080,0,89.9,0} // 910 99.7 % along it, axes 4 and 6
         movej j:{10,-90,90,0,45,0}
         lin p:{890,0,1080,0,110,0}",
     );
     // Straight through the singular point, up to which no axis turns: there axes 4 and 6 would have to turn by half a
     // turn.
-    kr10("movej start\nlin p:{900,0,900,0,90,0} // 910 74.4 % along it axes 4 and 6");
+    kr10("movej start\nlin p:{900,0,900,0,90,0} // 910 74.4 % along it, axes 4 and 6");
     kr10("movej start\nlin p:{900,0,900,180,50,180}");
     kr10("movej start\n$CONFIG_CHECK = false\nptp p:{900,0,600,0,90,0,4}");
     kr10("movej start\n$WRIST = true\nmovej j:{10,-90,90,0,45,0}\nlin p:{890,0,1080,0,89.9,0}");

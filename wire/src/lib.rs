@@ -31,7 +31,7 @@ pub enum Line {
     Inside(Inside),
     /// What the program printed.
     Message(Message),
-    /// What is no alarm but worth a word.
+    /// What is not an alarm but worth a word.
     Warning(String),
     /// What stopped a program.
     Alarm(Alarm),

@@ -7,8 +7,8 @@ entries! { pub(super) AUXILIARY =
     /// Writes values one after the other to the message bar, a file, the terminal or a string. A file in a directory
     /// that does not exist, or outside the script directory: alarm.
     instr print(
-        to: {printto} [repeat(0, 4)] "where to, up to four; holds for later prints of the channel too; hmi at first",
-        tostr: string [out, optional, labelled] "a variable that gets the text; nothing is written elsewhere then",
+        to: {printto} [repeat(0, 4)] "where to, up to four; also applies to later prints of the channel; initially hmi",
+        tostr: string [out, optional, labelled] "a variable that gets the text; nothing is then written elsewhere",
         filepath: string [optional, labelled] "the file for to:file, below the script directory; text is appended",
         precision: int [repeat(0, 255), labelled] "significant digits of doubles from here on, 0 counts as 1; 6 without it",
         numbase: {num_base} [repeat(0, 255)] "base of whole numbers from here on; dec without it",
@@ -16,10 +16,10 @@ entries! { pub(super) AUXILIARY =
     )
         { "3.5.1", text::print, acts, fails; "print \"PI is \",precision:3,PI,\", 255 is \",hex,255,\"h\"" }
     /// Splits a text at a delimiter and reads the fields into variables, each as its type. Fields that are missing
-    /// leave their variables alone; text that is not of the type: alarm.
+    /// leave their variables unchanged; text that is not of the type: alarm.
     instr scan(
         from: string "the text",
-        delimiter: string "what stands between the fields",
+        delimiter: string "what separates the fields",
         argtosave: {int, double, bool, string} [out, repeat(1, 255)] "a variable",
     )
         { "3.5.2", text::scan, pure, fails;
@@ -30,7 +30,7 @@ entries! { pub(super) AUXILIARY =
         max: int [units(&[Unit::MillimetrePerSecond]), at_least(0.0)] "largest TCP speed on paths, mm/s",
     )
         { "3.5.4", motion::velset, acts, fails, foreground; "velset 50,800" }
-    /// Scales the acceleration and jerk of the motions that follow. Below 20 counts as 20.
+    /// Scales the acceleration and jerk of the motions that follow. Values below 20 count as 20.
     instr accset(
         acc: int [units(&[Unit::Percent]), range(0.0, 300.0)] "acceleration, % of the limit, up to 300",
         ramp: int [units(&[Unit::Percent]), range(0.0, 300.0)] "jerk, % of the limit, up to 300",

@@ -25,7 +25,7 @@ entries! { pub(super) CALIBRATION =
     ) -> wobj
         { "5.9.2", calibration::getwobj_indi, acts, fails, foreground;
           "joint j1 = {1,0,120,0,30,0}\njoint j2 = {10,0,120,0,30,0}\njoint j3 = {15,0,110,0,30,0}\npos p1 = {10,20,20}\npos p2 = {40,60,20}\npos p3 = {50,20,40}\nprint getwobj_indi(j1,j2,j3,p1,p2,p3,$TOOL0)" }
-    /// Workpiece frame (or the frame of a tool that stands in the cell) with its directions taken from the flange.
+    /// Workpiece frame (or the frame of a stationary tool) with its directions taken from the flange.
     fn getwobj_flange(
         j1: joint "the tool at the frame's origin",
         j2: joint "the flange's z along the frame's z, and x along x where the directions count",
@@ -43,15 +43,15 @@ entries! { pub(super) CALIBRATION =
     )
         { "5.9.4", calibration::gettooltcp_ref, acts, fails, foreground;
           "joint j1 = {1,0,120,0,30,0}\njoint j2 = {10,0,120,0,30,0}\ntool known = {{x 10,y 10,z 50},false}\ntool t\ngettooltcp_ref(j1,j2,known,t)\nprint t" }
-    /// Orientation of a tool that was turned to the world: +x along the world's -z, +y along +y, +z along +x.
+    /// Orientation of a tool that was aligned with the world: +x along the world's -z, +y along +y, +z along +x.
     fn gettoolrot_world(j: joint "the tool in that orientation", t: tool [out] "the tool: its a, b, c are written")
         { "5.9.5", calibration::gettoolrot_world, acts, fails, foreground;
           "joint j = {1,0,120,0,30,0}\ntool t\ngettoolrot_world(j,t)\nprint t" }
-    /// Orientation of a tool from three taught points. The tool's x, y, z must be right before.
+    /// Orientation of a tool from three taught points. The tool's x, y, z must be right already.
     fn gettoolrot_3p(
         j1: joint "the TCP at a point",
-        j2: joint "a place on the tool's -x axis at the same point",
-        j3: joint "a place in the tool's xy plane, on the -y side, at the same point",
+        j2: joint "a position on the tool's -x axis at the same point",
+        j3: joint "a position in the tool's xy plane, on the -y side, at the same point",
         t: tool [out] "the tool: its a, b, c are written",
     )
         { "5.9.6", calibration::gettoolrot_3p, acts, fails, foreground;
@@ -59,8 +59,8 @@ entries! { pub(super) CALIBRATION =
     /// Tool frame (or the frame of a workpiece that the robot holds) from a point of the cell that is known.
     fn gettool_3p(
         j1: joint "the frame's origin at the point",
-        j2: joint "a place on the frame's +x axis at the point",
-        j3: joint "a place in the frame's xy plane, on the +y side, at the point",
+        j2: joint "a position on the frame's +x axis at the point",
+        j3: joint "a position in the frame's xy plane, on the +y side, at the point",
         w: wobj "the point in the world; its x, y, z count",
     ) -> tool
         { "5.9.7", calibration::gettool_3p, acts, fails, foreground;

@@ -9,7 +9,7 @@ entries! { pub(super) CLOCK =
     /// Stops a clock; it keeps its value.
     fn clkstop(c: clock "the clock")
         { "5.3.3", clock::clkstop, acts; "clock c\nclkstart(c)\nclkstop(c)" }
-    /// Sets a clock to 0; one that runs goes on from there.
+    /// Sets a clock to 0; a running clock continues from there.
     fn clkreset(c: clock "the clock")
         { "5.3.4", clock::clkreset, acts; "clock c\nclkreset(c)" }
     /// Reads a clock in controller time, s.

@@ -5,14 +5,14 @@ use super::facts::Form;
 use crate::ast::Unit;
 
 entries! { pub(super) CONTROL =
-    /// Waits until the robot stands, then for a time. A negative time: alarm.
+    /// Waits until the robot stands still, then for a time. A negative time: alarm.
     instr waittime(time: double [units(&[Unit::Second]), at_least(0.0), delays()] "how long, s")
         { "3.4.1", flow::waittime, waits, fails; "waittime 0.5" }
-    /// Waits until the robot stands, then until a condition holds or a time is over.
+    /// Waits until the robot stands still, then until a condition holds or a time has passed.
     instr waituntil(
-        cond: bool [condition] "what is waited for, looked at in every cycle",
-        maxtime: double [optional, units(&[Unit::Second]), at_least(0.0), limits()] "longest wait, s; for ever without it",
-        timeoutflag: bool [optional, out] "gets true when the time was over first, false when the condition held",
+        cond: bool [condition] "what is waited for, evaluated in every cycle",
+        maxtime: double [optional, units(&[Unit::Second]), at_least(0.0), limits()] "longest wait, s; forever without it",
+        timeoutflag: bool [optional, out] "gets true if the time ran out first, false if the condition held",
     )
         { "3.4.2", flow::waituntil, waits, fails, form(Form::WaitUntil); "bool late\nwaituntil getdi(6),maxtime:0.5,timeoutflag:late\nprint late" }
     /// Pauses the program when all motion so far has run; the pendant or the external control continues it.
@@ -27,7 +27,7 @@ entries! { pub(super) CONTROL =
     /// Stops the motion on its path; as a rule in an interrupt's function, with startmove.
     instr stopmove(type: stoptype [otherwise("general"), rust("stop")] "how it brakes; general without it")
         { "3.4.6", event::stopmove, acts, fails, foreground, halts; "stopmove fast\nstartmove" }
-    /// Goes on with the motion that stopmove stopped: back to the place of the stop and on, or to a later target.
+    /// Continues the motion that stopmove stopped: back to where it stopped and on, or to a later target.
     instr startmove(skip: {int, bool} [optional] "how many motions are dropped, from the stopped one on; 0 without it")
         { "3.4.7", event::startmove, acts, fails, foreground; "stopmove\nstartmove 1" }
 }

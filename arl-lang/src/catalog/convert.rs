@@ -10,7 +10,7 @@ entries! { pub(super) CONVERT =
     /// Reads an int from four bytes, lowest byte first. Fewer than four bytes from start on: alarm.
     fn toint(data: [byte] "the bytes", start: int "index of the first byte, from 0") -> int
         { "5.7.1", convert::toint_bytes, pure, fails; "byte data[4] = {01h,02h,03h,04h}\nprint hex,toint(data,0)" }
-    /// Reads an int from a text. Text that is no whole number: alarm.
+    /// Reads an int from a text. Text that is not a whole number: alarm.
     fn toint(number_string: string "the text", number_base: {num_base} "the base the text is written in") -> int
         { "5.7.1", convert::toint_string, pure, fails; "print toint(\"ff\",hex)" }
     /// Reads a double from eight bytes, lowest byte first. Fewer than eight bytes from start on: alarm.
@@ -44,7 +44,7 @@ entries! { pub(super) CONVERT =
     /// Text of an int in base 10 or 16.
     fn tostr(v: int "the number", number_base: {num_base} "the base") -> string
         { "5.7.4", convert::tostr_base, pure; "print tostr(255,hex)" }
-    /// Text of a number with so many significant digits, where 0 counts as 1, as in print. A negative
+    /// Text of a number with the given number of significant digits, where 0 counts as 1, as in print. A negative
     /// precision: alarm.
     fn tostr(v: double "the number", precision: {int} "how many significant digits") -> string
         { "5.7.4", convert::tostr_precision, pure, fails; "print tostr(3.1415926,3)" }
@@ -60,7 +60,7 @@ entries! { pub(super) CONVERT =
     fn tofloat(data: [byte] "the bytes", start: int "index of the first byte, from 0") -> double
         { "5.7.6", convert::tofloat, pure, fails;
           "byte raw[4]\nftobytes(1.23,raw,0)\nprint tofloat(raw,0)" }
-    /// Name of a value's type; of an array with its sizes, of an enumeration's constant its enumeration.
+    /// Name of a value's type; for an array with its sizes, for an enumeration's constant its enumeration.
     fn typeof(v: any "the value") -> string
         { "5.12.1", convert::type_name, pure, form(Form::TypeOf); "double value = 3.1415\nprint typeof(value)" }
 }

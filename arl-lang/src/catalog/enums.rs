@@ -25,7 +25,7 @@ macro_rules! enumeration {
 }
 
 enumeration! { VEL_PROFILE =
-    /// How the speed of a motion rises and falls: at each place as fast as the limits of all axes and of the TCP
+    /// How the speed of a motion rises and falls: everywhere as fast as the limits of all axes and of the TCP
     /// allow. The system variable `$VEL_PROFILE` holds the one in use.
     VelProfile, "$VEL_PROFILE", "VelProfile", "2.6.1" {
         T_TYPE => T "unlimited jerk: the shortest, but with shocks",
@@ -37,7 +37,7 @@ enumeration! { VEL_PROFILE =
 enumeration! { PRINTTO =
     /// Where `print` writes.
     Printto, "printto", "Printto", "2.6.2" {
-        off => Off "nowhere: cancels the targets in front of it",
+        off => Off "nowhere: cancels the targets before it",
         hmi => Hmi "the message bar of the pendant; standard output on the command line",
         file => File "the file that filepath names",
         console => Console "the terminal; standard output on the command line",

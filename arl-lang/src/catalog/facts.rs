@@ -1,5 +1,5 @@
 //! Facts about entries that checks and translation go by: what a parameter addresses, what a motion does, which forms
-//! are no plain call. Nothing outside the catalog knows a built-in by its name.
+//! are not plain calls. Nothing outside the catalog knows a built-in by its name.
 
 use std::fmt;
 
@@ -32,7 +32,7 @@ impl fmt::Display for Range {
     /// As the end of "must be".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Within(low, high) => write!(f, "in {low} to {high}"),
+            Self::Within(low, high) => write!(f, "from {low} to {high}"),
             Self::Above(low) => write!(f, "above {low}"),
             Self::AtLeast(low) => write!(f, "{low} or more"),
             Self::AtMost(high) => write!(f, "{high} or less"),

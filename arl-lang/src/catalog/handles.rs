@@ -34,7 +34,7 @@ static MODBUS_DEV: HandleDef = HandleDef {
     name: "modbus_dev",
     aliases: &[],
     rust: "ModbusDev",
-    doc: "A Modbus slave of ours on a serial line: open, then read, write, clearbuff, setcycle, close.",
+    doc: "A Modbus slave of the controller on a serial line: open, then read, write, clearbuff, setcycle, close.",
     section: "5.6.6",
 };
 

@@ -7,10 +7,10 @@ use crate::ast::Unit;
 entries! { pub(super) INTERRUPT =
     /// Declares an interrupt: whenever the condition becomes true, the action runs.
     instr interrupt(
-        name: string [optional] "a name of its own, to switch it with",
+        name: string [optional] "a unique name, for enabling, disabling and deleting it",
         priority: int [otherwise("0"), range(0.0, 255.0)] "0 (first) to 255; 0 without it",
         when: bool [condition] "the event: false before, true now; it may not wait or move",
-        do: any [action, rust("action")] "what is done, as a rule a call",
+        do: any [action, rust("action")] "what is done, usually a call",
     )
         { "6.1", event::interrupt, acts, fails, form(Form::Event); "interrupt 1,when:getdi(6),do:setdo(1,true)\nwaittime 1" }
     /// Disables interrupts: they keep watching their conditions, but lose the events. Without arguments all of them.
@@ -34,18 +34,18 @@ entries! { pub(super) INTERRUPT =
         { "6.5", event::delint, acts, fails; "delint" }
     /// Declares an interrupt that time raises, once or again and again.
     instr timer(
-        name: string [optional] "a name of its own, to switch it with",
+        name: string [optional] "a unique name, for enabling, disabling and deleting it",
         priority: int [otherwise("0"), range(0.0, 255.0)] "0 (first) to 255; 0 without it",
-        interval: double [units(&[Unit::Second]), at_least(0.0)] "the time, s; below a cycle it is a cycle; repeated, below 0.001: alarm",
+        interval: double [units(&[Unit::Second]), at_least(0.0)] "the time, s; less than a cycle counts as a cycle; less than 0.001 with repetition: alarm",
         rmode: bool [otherwise("false")] "true: again and again; false: once",
-        do: any [action, rust("action")] "what is done, as a rule a call",
+        do: any [action, rust("action")] "what is done, usually a call",
     )
         { "6.7", event::timer, acts, fails, form(Form::Event);
           "timer name:\"t1\",priority:1,interval:1,rmode:true,do:setdo(1,true)\nwaittime 2" }
     /// Declares an event of the next motion: when the condition becomes true while it runs, the action is done.
     instr trigger(
         priority: int [otherwise("10"), range(0.0, 255.0)] "0 (first) to 255; 10 without it",
-        when: bool [condition] "the event, as a rule T, S, StoEnd or P",
+        when: bool [condition] "the event, usually T, S, StoEnd or P",
         do: any [action, rust("action")] "what is done",
     )
         { "7.1", event::trigger, acts, fails, foreground, form(Form::Event);

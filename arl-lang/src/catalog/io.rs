@@ -16,7 +16,7 @@ entries! { pub(super) IO =
         value: int "their levels, lowest bit for the first output; bits beyond the last one are ignored",
     )
         { "5.5.2", io::setdo_group, waits, fails; "setdo(5,8,1100b)\nprint getdo(5,8)" }
-    /// Sets a digital output when the motion in front of it has ended and the next one starts, without stopping the
+    /// Sets a digital output when the motion before it has ended and the next one starts, without stopping the
     /// robot.
     instr setdoimv(channel: int [alias(&["chan"]), addresses(Space::DigitalOutput)] "the output", value: bool "its level")
         { "5.5.3", io::setdoimv, acts, fails; "setdoimv channel:3,value:true" }
@@ -35,7 +35,7 @@ entries! { pub(super) IO =
     fn pulsedo(
         chan: int [addresses(Space::DigitalOutput)] "the output",
         value: bool "true for a high pulse, false for a low one",
-        width: double [units(&[Unit::Second])] "length of the pulse, s, 0 or more; at least 0.025 comes out",
+        width: double [units(&[Unit::Second])] "length of the pulse, s, 0 or more; the pulse lasts at least 0.025",
     )
         { "5.5.6", io::pulsedo, waits, fails; "pulsedo(5,true,0.2)\nwaittime 0.1\nprint getdo(5)" }
     /// Level of a digital output.

@@ -76,11 +76,11 @@ entries! { pub(super) MATH =
     /// Remainder of x / y, with the sign of x. By 0: alarm.
     fn fmod(x: double "what is divided", y: double "the divisor, not 0") -> double
         { "5.1.22", math::fmod, pure, fails; "print fmod(12.58,2.6)" }
-    /// Splits a number at the point: the result is what stands behind it, with the sign of x. A whole part beyond the
+    /// Splits a number at the decimal point: the result is what follows it, with the sign of x. A whole part beyond the
     /// range of int: alarm.
     fn modf(x: double "the number", y: {int} [out] "gets the whole part") -> double
         { "5.1.23", math::modf_int, pure, fails; "int whole\nprint modf(123.5,whole),\" \",whole" }
-    /// Splits a number at the point, with the whole part in a double.
+    /// Splits a number at the decimal point, with the whole part in a double.
     fn modf(x: double "the number", y: {double} [out] "gets the whole part") -> double
         { "5.1.23", math::modf_double, pure; "double whole\nprint modf(123.5,whole),\" \",whole" }
     /// Length of the hypotenuse over two legs.
@@ -92,10 +92,10 @@ entries! { pub(super) MATH =
     /// Distance of a point from the origin.
     fn norm(p: pos "the point") -> double
         { "5.1.26", math::norm, pure; "pos p = {300,400,500}\nprint norm(p)" }
-    /// Cuts a number to n digits behind the point. A negative n: alarm.
+    /// Cuts a number to n digits after the decimal point. A negative n: alarm.
     fn trunc(
         num: double "the number",
-        n: int "how many digits stay, 0 or more",
+        n: int "how many digits remain, 0 or more",
         round: bool "true rounds (half away from zero), false cuts off",
     ) -> double
         { "5.1.27", math::trunc, pure, fails; "print trunc(3.1415926,4,true),\" \",trunc(3.1415926,4,false)" }

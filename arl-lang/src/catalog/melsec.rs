@@ -9,7 +9,7 @@ const BYTES: u32 = 2;
 const LENGTH: Accepted = Accepted::Range(0, 1920);
 
 entries! { pub(super) MELSEC =
-    /// Connects to a PLC; true when the connection stands.
+    /// Connects to a PLC; true when the connection is established.
     fn open(
         dev: melsec_dev "the connection",
         ip: string "the PLC's address",
@@ -20,21 +20,21 @@ entries! { pub(super) MELSEC =
     /// Closes a connection; closing one that is not open does nothing.
     fn close(dev: melsec_dev "the connection")
         { "5.6.5.2", melsec::close, waits; "melsec_dev mc\nclose(mc)" }
-    /// Reads D registers as a text; true when it has come.
+    /// Reads D registers as a text; true when it has arrived.
     fn read(
         dev: melsec_dev "the connection",
         data: string [out] "gets the text",
         start: int [addresses(Space::MelsecRegister)] "number of the first D register",
-        len: int [extent(BYTES), accepts(LENGTH)] "how many bytes; of an odd number the last register's low byte",
+        len: int [extent(BYTES), accepts(LENGTH)] "how many bytes; with an odd number, only the low byte of the last register",
     ) -> bool
         { "5.6.5.3", melsec::read_string, waits, fails;
           "melsec_dev mc\nstring data\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil read(mc,data,6000,10)" }
-    /// Reads D registers as bytes; true when they have come.
+    /// Reads D registers as bytes; true when they have arrived.
     fn read(
         dev: melsec_dev "the connection",
         data: [byte] [out] "gets the bytes",
         start: int [addresses(Space::MelsecRegister)] "number of the first D register",
-        len: int [counts(8), extent(BYTES), accepts(LENGTH)] "how many bytes; of an odd number the last register's low byte",
+        len: int [counts(8), extent(BYTES), accepts(LENGTH)] "how many bytes; with an odd number, only the low byte of the last register",
     ) -> bool
         { "5.6.5.3", melsec::read_bytes, waits, fails;
           "melsec_dev mc\nbyte data[24]\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil read(mc,data,6000,24)" }

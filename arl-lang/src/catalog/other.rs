@@ -13,7 +13,7 @@ entries! { pub(super) OTHER =
     /// Raises an alarm with file and line where a condition does not hold.
     fn assert(x: bool "what must hold")
         { "5.12.4", flow::assert, pure, fails; "int a = 6\nassert(a == 6)" }
-    /// Saves a system variable: its value is there again at the next start. The program goes on when it is saved;
+    /// Saves a system variable: its value is restored at the next start. The program goes on when it is saved;
     /// robots go on meanwhile. A name that does not exist: alarm.
     fn savesv(svname: string [keeps] "the variable's name, without $")
         { "5.12.5", system::savesv, lasts, fails; "$TOOLS[0].t_frame.z = 120\nsavesv(\"TOOLS\")" }
@@ -28,18 +28,18 @@ entries! { pub(super) OTHER =
     ) -> string
         { "5.12.7", files::gettextstr, waits, fails;
           "print to:file,filepath:\"notes.txt\",\"first line\",endl\nprint to:hmi,gettextstr(\"notes.txt\",1)" }
-    /// Name of the file that the motion being executed stands in, or the last one, if only before the controller was
+    /// Name of the file that contains the motion being executed, or the last one, even from before the controller was
     /// switched on.
     fn curmpfile(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> string
         { "5.12.8", channel::curmpfile, acts, looks, fails; "print curmpfile(1)" }
-    /// Line of the motion being executed, or the last one, if only before the controller was switched on.
+    /// Line of the motion being executed, or the last one, even from before the controller was switched on.
     fn curmpline(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> int
         { "5.12.9", channel::curmpline, acts, looks, fails; "print curmpline(1)" }
-    /// Name of the file that the program stands in; until it runs, the one in which the channel's program stood when
+    /// Name of the file that the program is in; until it runs, the one that the channel's program was in when
     /// the controller was switched off.
     fn curppfile(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> string
         { "5.12.10", channel::curppfile, acts, looks, fails; "print curppfile(1)" }
-    /// Line that the program stands on; until it runs, the one on which the channel's program stood when the controller
+    /// Line that the program is on; until it runs, the one that the channel's program was on when the controller
     /// was switched off.
     fn curppline(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> int
         { "5.12.11", channel::curppline, acts, looks, fails; "print curppline(1)" }
@@ -47,11 +47,11 @@ entries! { pub(super) OTHER =
     fn filesize(file_name: string "the file") -> int
         { "5.12.12", files::filesize, waits, fails;
           "print to:file,filepath:\"size.txt\",\"ten bytes\",endl\nprint to:hmi,filesize(\"size.txt\") >= 10" }
-    /// Gives a file in the script directory another name; whether it worked.
+    /// Gives a file in the script directory another name; true if it worked.
     fn renamefile(file_name: string "the file", new_file_name: string "its new name") -> bool
         { "5.12.13", files::renamefile, waits, fails;
           "print to:file,filepath:\"old.txt\",\"text\",endl\nprint to:hmi,renamefile(\"old.txt\",\"new.txt\")" }
-    /// Deletes a file in the script directory; whether it worked.
+    /// Deletes a file in the script directory; true if it worked.
     fn removefile(file_name: string "the file") -> bool
         { "5.12.14", files::removefile, waits, fails;
           "print to:file,filepath:\"gone.txt\",\"text\",endl\nprint to:hmi,removefile(\"gone.txt\")" }

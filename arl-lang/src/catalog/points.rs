@@ -3,14 +3,14 @@
 use super::declare::{base, entries, folded, kind, param_type};
 
 entries! { pub(super) POINTS =
-    /// Copies a program file in the script directory; whether it worked.
+    /// Copies a program file in the script directory; true if it worked.
     fn savearl(
         file_src: string "the file",
         file_dst: string "the copy",
         mode: bool "true: a file of that name is overwritten, false: it is left alone and the result is false",
     ) -> bool
         { "5.11.1", points::savearl, waits, fails, uses_disk; "print savearl(\"recipe1.arl\",\"recipe2.arl\",true)" }
-    /// Writes a pose to a point of a data file; it counts from the next load on. A file or point that is missing:
+    /// Writes a pose to a point of a data file; it takes effect at the next load. A file or point that is missing:
     /// false.
     fn savefilepose(
         file_name: string "the _data.arl file",
@@ -19,7 +19,7 @@ entries! { pub(super) POINTS =
     ) -> bool
         { "5.11.2", points::savefilepose, waits, fails, uses_disk;
           "pose a = {x 0,y 10,z 15,a 0,b 90,c 0}\nprint savefilepose(\"recipe1_data.arl\",\"p1\",a)" }
-    /// Writes a joint to a point of a data file; it counts from the next load on. A file or point that is missing:
+    /// Writes a joint to a point of a data file; it takes effect at the next load. A file or point that is missing:
     /// false.
     fn savefilejoint(
         file_name: string "the _data.arl file",
@@ -28,7 +28,7 @@ entries! { pub(super) POINTS =
     ) -> bool
         { "5.11.3", points::savefilejoint, waits, fails, uses_disk;
           "joint a = {0,10,20,30,40,50}\nprint savefilejoint(\"recipe1_data.arl\",\"j1\",a)" }
-    /// Writes a pose to a point of the program of a foreground channel; it counts at once.
+    /// Writes a pose to a point of the program of a foreground channel; it takes effect at once.
     fn saveposenow(
         channel: uint [range(1.0, 6.0)] "the channel, 1 to 6",
         file_name: string "the program",
@@ -37,7 +37,7 @@ entries! { pub(super) POINTS =
     ) -> bool
         { "5.11.4", points::saveposenow, lasts, fails, teaches;
           "pose a = {x 0,y 10,z 15,a 0,b 90,c 0}\nprint saveposenow(1,\"prog1.arl\",\"p1\",a)" }
-    /// Writes a joint to a point of the program of a foreground channel; it counts at once.
+    /// Writes a joint to a point of the program of a foreground channel; it takes effect at once.
     fn savejointnow(
         channel: uint [range(1.0, 6.0)] "the channel, 1 to 6",
         file_name: string "the program",

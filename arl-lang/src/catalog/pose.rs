@@ -10,13 +10,13 @@ entries! { pub(super) POSE =
     /// Pose of the TCP that the robot reports now, with the tool $DFTOOL in the workpiece frame $DFWOBJ.
     fn cpose() -> pose
         { "5.8.2", pose::cpose_default, acts, looks, fails, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose()" }
-    /// Pose of the TCP that the robot reports now. What is no number in tool or frame: alarm.
+    /// Pose of the TCP that the robot reports now. A tool or frame with a component that is not a number: alarm.
     fn cpose(t: tool "the tool", w: wobj "the workpiece frame") -> pose
         { "5.8.2", pose::cpose, acts, looks, fails, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose($FLANGE,$WORLD)" }
     /// Pose of the TCP for given axis positions. Unset axes: alarm.
     fn getpose(j: joint "the axis positions", t: tool "the tool", w: wobj "the workpiece frame") -> pose
         { "5.8.3", pose::getpose, acts, looks, fails, foreground; "joint j = {0,-90,90,0,45,0}\nprint getpose(j,$FLANGE,$WORLD)" }
-    /// Axis positions for a pose of the TCP, in its arm configuration. A pose out of reach or not all set: alarm.
+    /// Axis positions for a pose of the TCP, in its arm configuration. A pose out of reach or not fully set: alarm.
     fn getjoint(p: pose "the pose", t: tool "the tool", w: wobj "the workpiece frame") -> joint
         { "5.8.4", pose::getjoint, acts, looks, fails, foreground;
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nprint getjoint(p,$FLANGE,$WORLD)" }

@@ -75,7 +75,7 @@ pub fn entry(entry: &Entry) -> String {
         notes.push("It can raise an alarm.".to_string());
     }
     if !entry.background {
-        notes.push("It may not stand in a background channel.".to_string());
+        notes.push("It is not allowed in a background channel.".to_string());
     }
     notes.extend(entry.family.map(|family| format!("For {} only.", family_name(family))));
     if !entry.aliases.is_empty() {
@@ -160,8 +160,8 @@ fn param_type(param: &Param) -> String {
     match param.mode {
         Mode::In => name,
         Mode::Out => format!("{name}, a variable that is written"),
-        Mode::Condition => format!("{name}, looked at again and again"),
-        Mode::Action => "an expression, as a rule a call".to_string(),
+        Mode::Condition => format!("{name}, evaluated again and again"),
+        Mode::Action => "an expression, usually a call".to_string(),
     }
 }
 
@@ -184,7 +184,7 @@ fn presence(param: &Param) -> String {
 
 fn effect(entry: &Entry) -> &'static str {
     match entry.effect {
-        Effect::Pure => "It computes only.",
+        Effect::Pure => "It only computes.",
         Effect::Acts => "It takes effect at once and does not wait for the robot.",
         Effect::Plans => "It plans motion ahead: the program goes on while the robot moves.",
         Effect::Lasts => "The program goes on when it is done; motion goes on meanwhile.",
@@ -225,7 +225,7 @@ pub fn structure(id: Struct) -> String {
 }
 
 fn components(text: &mut String, def: &StructDef) {
-    text.push_str("\n| component | type | at first | meaning |\n|---|---|---|---|\n");
+    text.push_str("\n| component | type | start value | meaning |\n|---|---|---|---|\n");
     for component in def.components {
         row(text, &[&format!("`{}`", component.name), component.ty.name(), &start(component), component.doc]);
     }

@@ -56,7 +56,7 @@ structure! { POSE =
         b: double unset "turn of the tool about the new y, deg",
         c: double unset "turn of the tool about the new x, deg",
         cfg: int zero "arm configuration: six axes 0 to 7; SCARA 0 right-handed, 4 left-handed",
-        turn: int starts(-1) [range(-1.0, 63.0)] "bit i set: axis i+1 stands below 0; -1 takes the solution nearest to the start",
+        turn: int starts(-1) [range(-1.0, 63.0)] "bit i set: axis i+1 is below 0; -1 takes the solution nearest to the start",
         ej1 ej2 ej3 ej4 ej5 ej6: double unset "position of the external axis, deg (mm for a linear one)",
     }
 }
@@ -83,7 +83,7 @@ structure! { TOOL =
     /// A tool: where its TCP lies, and whether it stands still in the cell.
     Tool, "tool", "Tool", "2.4.6" {
         t_frame: frame zero "the tool frame, seen from the flange (from the world where the tool is stationary)",
-        stationary: bool zero "true: the tool stands in the cell, and the robot carries the workpiece",
+        stationary: bool zero "true: the tool is stationary in the cell, and the robot carries the workpiece",
     }
 }
 
@@ -100,17 +100,17 @@ structure! { WEAVEDATA =
     /// The weave pattern that is laid over a path.
     Weavedata, "weavedata", "Weavedata", "2.4.8" {
         weaveshape: weaveshape zero "the pattern",
-        frequency: double zero [above(0.0)] "patterns a second at the speed of the path, stays not counted, Hz, above 0",
+        frequency: double zero [above(0.0)] "patterns per second at the speed of the path, not counting stays, Hz, above 0",
         amplitude: double zero [at_least(0.0)] "largest distance from the path, mm",
         dwell_left: double zero [at_least(0.0)] "stay at the left end, s, 0 or more",
         dwell_right: double zero [at_least(0.0)] "stay at the right end, s, 0 or more",
         dwell_middle: double zero [at_least(0.0)] "stay in the middle each time it is passed, s, 0 or more",
-        track: bool zero "whether the seam is tracked: there is no weld tracking, only false runs",
+        track: bool zero "whether the seam is tracked: there is no weld tracking, only false is accepted",
         swing_angle: double zero [range(0.0, 180.0)] "opening angle of the V and triangle patterns, 0 to 180 deg",
         radius: double zero [at_least(0.0)] "radius of the round patterns along the path, mm, 0 or more",
         weaverotaxis: weaverotaxis zero "the axis about which the plane of the pattern is turned",
         rotation_angle: double zero "how far the plane of the pattern is turned, deg",
-        vibrat: bool zero "whether the vibration is on: there is none, only false runs",
+        vibrat: bool zero "whether the vibration is on: there is none, only false is accepted",
     }
 }
 

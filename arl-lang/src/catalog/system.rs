@@ -59,21 +59,21 @@ variables! { pub(super) FUNCTION =
     IGNORE_ORI: bool = "false" { "10.2.7", reset, role(Role::Frame); "$IGNORE_ORI = true" }
     /// Whether the tool turns along with the path on arcs.
     ORI_REF_PATH: bool = "false" { "10.2.8", reset, role(Role::ArcOrientation); "$ORI_REF_PATH = true" }
-    /// Speed profile of the motions that follow; at first the robot file's.
+    /// Speed profile of the motions that follow; initially the robot file's.
     VEL_PROFILE: vel_profile = "S_TYPE" { "10.2.9", reset; "$VEL_PROFILE = S_TYPE\nprint $VEL_PROFILE" }
     /// Time since the motion being executed began, s.
     TRAJ_ELAPSE_TIME: double = "0" { "10.2.10", reset, readonly; "print $TRAJ_ELAPSE_TIME" }
     /// Time until the motion being executed ends, s.
     TRAJ_LEFT_TIME: double = "0" { "10.2.11", reset, readonly; "print $TRAJ_LEFT_TIME" }
-    /// Way of the TCP since the motion being executed began, mm.
+    /// Distance covered by the TCP since the motion being executed began, mm.
     TRAJ_ELAPSE_DIS: double = "0" { "10.2.12", reset, readonly; "print $TRAJ_ELAPSE_DIS" }
-    /// Way of the TCP until the motion being executed ends, mm.
+    /// Distance left to the TCP until the motion being executed ends, mm.
     TRAJ_LEFT_DIS: double = "0" { "10.2.13", reset, readonly; "print $TRAJ_LEFT_DIS" }
     /// Axis positions of the target planned last, for motions relative to it.
     CJOINT: joint = "{9e+09}" { "10.2.14", reset, readonly; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nprint $CJOINT" }
     /// Whether the first motion of a program runs at manual speed and stops at its end.
     RPP_ENABLE: bool = "false" { "10.2.15", reset; "$RPP_ENABLE = true" }
-    /// Whether the robot stands at each of the five home points.
+    /// Whether the robot is at each of the five home points.
     AT_HOME: bool[5] = "{false,false,false,false,false}" { "10.2.16", startup, readonly; "print $AT_HOME[0]" }
     /// Whether the external control is active.
     EXT_CTL_ACT: bool = "false" { "10.2.17", startup, readonly; "print $EXT_CTL_ACT" }
@@ -89,7 +89,7 @@ variables! { pub(super) FUNCTION =
     WOBJ_OFFSET: double[6] = "{0,0,0,0,0,0}" { "10.2.22", reset, role(Role::Frame); "$WOBJ_OFFSET = {50,50,50,0,0,0}\nprint $WOBJ_OFFSET" }
     /// Shift and turn of all tools: x, y, z mm, a, b, c deg.
     TOOL_OFFSET: double[6] = "{0,0,0,0,0,0}" { "10.2.23", reset, role(Role::Frame); "$TOOL_OFFSET = {50,0,0,0,0,0}\nprint $TOOL_OFFSET" }
-    /// Where each mechanical unit believes to be at servo-on: "feedback", where it is; "cmd", where it was sent last,
+    /// Where each mechanical unit is assumed to be at servo-on: "feedback", where it is; "cmd", where it was sent last,
     /// if it is near enough.
     RESET_POS_TYPE: string[100] = "{\"\"}"
         { "10.2.24", permanent, words(&["", "feedback", "cmd"]); "$RESET_POS_TYPE[0] = \"feedback\"" }
@@ -139,7 +139,7 @@ variables! { pub(super) EXTERNAL =
     SERVO_ON_DO: int = "0" { "9.1.16", saved; "$SERVO_ON_DO = 2" }
     /// Output that asks for a program number; 0: none.
     PGNO_REQ_DO: int = "0" { "9.1.16", saved; "$PGNO_REQ_DO = 3" }
-    /// Outputs that show that the robot stands at each of the five home points; 0: none.
+    /// Outputs that show that the robot is at each of the five home points; 0: none.
     AT_HOME_DO: int[5] = "{0,0,0,0,0}" { "9.1.16", saved; "$AT_HOME_DO[0] = 4" }
     /// Output that shows manual mode; 0: none.
     AT_T1_DO: int = "0" { "9.1.16", saved; "$AT_T1_DO = 9" }

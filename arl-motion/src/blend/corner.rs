@@ -13,7 +13,7 @@ use crate::blend::smoothing::is_smooth;
 use crate::blend::zone::{asked_parts, parts};
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::{ALL, Joints, slowness};
-use crate::geometry::derivatives::{Place, by_differences};
+use crate::geometry::derivatives::{CurvePoint, by_differences};
 use crate::geometry::paced_quintic::PacedQuintic;
 use crate::geometry::parametrization::Parametrization;
 use crate::geometry::quintic::{Knot, Quintic};
@@ -22,7 +22,7 @@ use crate::geometry::tcp_path::TcpPath;
 use crate::geometry::track::Track;
 use crate::limits::constant::passing;
 use crate::limits::profile::Limits;
-use crate::plan::constraints::{Constraints, Pace};
+use crate::plan::constraints::{Constraints, PathLimits};
 use crate::plan::curve::{Curve, ToolCurve};
 use crate::plan::motion::{CornerEnd, GivenCorner, Motion};
 use crate::plan::path_check::{check_gentle_path, check_path};
@@ -307,10 +307,11 @@ impl Corner<'_> {
         curve: &ToolCurve,
         parametrization: &Parametrization,
         constraints: &mut Constraints,
-        pace: &Pace,
+        pace: &PathLimits,
     ) -> bool {
         let [(leave, _), _] = self.ends();
-        let places = shares::<{ PARTS_OF_GENTLE_BLEND as usize + 1 }>().map(|share| Place::at(parametrization, share));
+        let places =
+            shares::<{ PARTS_OF_GENTLE_BLEND as usize + 1 }>().map(|share| CurvePoint::at(parametrization, share));
         let Some(start) = joints_at(self.robot, self.from, leave) else { return false };
         let Some(found) = check_gentle_path(self.robot, curve, &start.axes, &places.map(|place| place.at)) else {
             return false;
@@ -334,7 +335,7 @@ impl Corner<'_> {
         curve: &ToolCurve,
         parametrization: &Parametrization,
         constraints: &mut Constraints,
-        pace: &Pace,
+        pace: &PathLimits,
     ) -> Result<(), NoBlend> {
         let [(leave, _), _] = self.ends();
         let start = joints_at(self.robot, self.from, leave).ok_or(NoBlend::Unreachable)?;
@@ -344,7 +345,7 @@ impl Corner<'_> {
         }
         for (at, rates) in &found.rates {
             let share = inverse(parametrization, *at);
-            let place = Place::at(parametrization, share);
+            let place = CurvePoint::at(parametrization, share);
             constraints.place(share);
             let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
             constraints.axes(&first, &second, &third, pace);
@@ -352,7 +353,7 @@ impl Corner<'_> {
         }
         for part in 0..=PARTS_OF_BLEND {
             let share = f64::from(part) / f64::from(PARTS_OF_BLEND);
-            let place = Place::at(parametrization, share);
+            let place = CurvePoint::at(parametrization, share);
             constraints.place(share);
             collect(&place, curve, self.swings(), constraints, pace);
         }
@@ -401,7 +402,7 @@ impl Corner<'_> {
         (curve, gentle): (&Quintic<ALL>, bool),
         parametrization: &Parametrization,
         constraints: &mut Constraints,
-        pace: &Pace,
+        pace: &PathLimits,
     ) -> Result<(), NoBlend> {
         let parts = if gentle { PARTS_OF_GENTLE_BLEND } else { PARTS_OF_BLEND };
         let (kinematics, carried) = (&self.robot.kinematics, &self.to.rig.carried);
@@ -411,7 +412,7 @@ impl Corner<'_> {
         };
         for part in 0..=parts {
             let share = f64::from(part) / f64::from(parts);
-            let place = Place::at(parametrization, share);
+            let place = CurvePoint::at(parametrization, share);
             if !gentle {
                 constraints.place(share);
             }
@@ -494,8 +495,8 @@ fn speed_and_acc<const N: usize>(first: &SVector<f64, N>, second: &SVector<f64, 
 }
 
 /// The faster of the two motions' speeds, the gentler of their accelerations.
-pub(crate) fn common_pace(from: &Motion, to: &Motion) -> Pace {
-    let faster = |of: fn(&Pace) -> f64| of(&from.pace).max(of(&to.pace));
+pub(crate) fn common_pace(from: &Motion, to: &Motion) -> PathLimits {
+    let faster = |of: fn(&PathLimits) -> f64| of(&from.pace).max(of(&to.pace));
     let reached = |of: fn(&Motion) -> f64| {
         let speed = |motion: &Motion| match motion.curve {
             // With what is laid over it the TCP goes faster than the path.
@@ -505,7 +506,7 @@ pub(crate) fn common_pace(from: &Motion, to: &Motion) -> Pace {
         };
         speed(from).max(speed(to))
     };
-    Pace {
+    PathLimits {
         axes: faster(|pace| pace.axes),
         tcp: reached(|motion| motion.length),
         ori: reached(|motion| motion.angle).max(1.0),
@@ -598,7 +599,7 @@ fn inverse(parametrization: &Parametrization, at: f64) -> f64 {
 
 /// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all
 /// of its acceleration.
-fn collect(place: &Place, curve: &ToolCurve, swinging: bool, constraints: &mut Constraints, pace: &Pace) {
+fn collect(place: &CurvePoint, curve: &ToolCurve, swinging: bool, constraints: &mut Constraints, pace: &PathLimits) {
     let moving = place.vectors([1, 2, 3].map(|order| curve.path.track.derivative(order, place.at)));
     if swinging {
         constraints.swinging(&moving, pace);

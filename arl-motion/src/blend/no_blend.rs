@@ -28,7 +28,7 @@ pub enum NoBlend {
     Unreachable,
     /// Beside the target is a singular point, however small the zone.
     Singular {
-        /// The axis that would have to turn at once, where one does.
+        /// The axis that would have to turn infinitely fast, where one does.
         axis: Option<String>,
     },
     /// Beside the target the robot would come to another configuration than the next motion has.
@@ -51,20 +51,23 @@ impl NoBlend {
 impl fmt::Display for NoBlend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            NoBlend::Late => write!(f, "the motion behind it came too late"),
+            NoBlend::Late => write!(f, "the motion after it came too late"),
             NoBlend::NothingLeft => {
-                write!(f, "the zone is too small beside one of the two motions, or another one has taken all of that")
+                write!(
+                    f,
+                    "the zone is too small for one of the two motions, or another zone has taken all of that motion"
+                )
             }
-            NoBlend::Reversal => write!(f, "the next motion goes back along the same way"),
+            NoBlend::Reversal => write!(f, "the next motion goes back along the same path"),
             NoBlend::ExternalAlone => write!(f, "one of the two motions moves external axes alone"),
             NoBlend::Slower => write!(f, "any blend would take longer"),
-            NoBlend::AxisLimit { axis } => write!(f, "beside it {axis} would leave its range"),
-            NoBlend::Unreachable => write!(f, "beside it the robot would leave its reach"),
+            NoBlend::AxisLimit { axis } => write!(f, "on a blend {axis} would leave its range"),
+            NoBlend::Unreachable => write!(f, "on a blend the robot would leave its reach"),
             NoBlend::Singular { axis: Some(axis) } => {
-                write!(f, "beside it is a singular point, where {axis} would have to turn at once")
+                write!(f, "close to it is a singular point, where {axis} would have to turn infinitely fast")
             }
-            NoBlend::Singular { axis: None } => write!(f, "beside it is a singular point"),
-            NoBlend::Configuration => write!(f, "beside it the robot would come to another configuration"),
+            NoBlend::Singular { axis: None } => write!(f, "close to it is a singular point"),
+            NoBlend::Configuration => write!(f, "on a blend the robot would change to another configuration"),
         }
     }
 }

@@ -19,7 +19,7 @@ const MOST_OFF: f64 = 0.001;
 /// this part of its zone times the change of direction, in rad: lines of unequal lengths come that near, as a test of
 /// random chains holds.
 const OFF_PER_TURN: f64 = 0.405;
-/// Lines of which one is more times as long as the other, or with speeds that differ by a larger part, are no chain.
+/// Lines of which one is more times as long as the other, or with speeds that differ by a larger part, are not a chain.
 const MOST_TIMES_AS_LONG: f64 = 4.0;
 const LARGEST_DIFFERENCE_OF_SPEEDS: f64 = 0.01;
 

@@ -51,7 +51,7 @@ pub(crate) fn check(command: &Command, settings: &Settings) -> Result<(), PlanEr
 }
 
 fn check_gate(gate: &Gate) -> Result<(), PlanError> {
-    within(("the highest place of a gate in mm", gate.highest.unwrap_or_default(), FINITE))?;
+    within(("the highest position of a gate in mm", gate.highest.unwrap_or_default(), FINITE))?;
     for lift in [&gate.rising, &gate.falling] {
         within(("the acceleration of a gate in percent", lift.acc.unwrap_or_default(), NUMBER))?;
     }
@@ -65,7 +65,7 @@ fn check_weave(weave: &Weave) -> Result<(), PlanError> {
         ("the radius of the weave in mm", weave.radius, NOT_NEGATIVE),
         ("the angle of the weave in deg", weave.angle, HALF_TURN),
     ])?;
-    weave.dwells.iter().try_for_each(|stay| within(("a stay of the weave in s", *stay, NOT_NEGATIVE)))?;
+    weave.dwells.iter().try_for_each(|stay| within(("a dwell of the weave in s", *stay, NOT_NEGATIVE)))?;
     weave.turned.iter().try_for_each(|turn| within(("the turn of the weave in rad", *turn, FINITE)))
 }
 

@@ -35,7 +35,7 @@ pub enum PlanError {
         /// Where on the path it begins to, 0 to 1; 1 is the target.
         along: f64,
     },
-    /// The line passes a singular point, where axes would have to turn at once.
+    /// The line passes a singular point, where axes would have to turn infinitely fast.
     Singular {
         /// The axis that would have to turn most.
         axis: String,
@@ -143,11 +143,12 @@ pub enum PlanError {
     Stopping,
 }
 
+#[expect(clippy::too_many_lines, reason = "a table of messages")]
 impl fmt::Display for PlanError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             PlanError::AxisLimit { axis, value, min, max, along } => {
-                write!(f, "{axis} would have to go to {value:.3}, its range is {min} to {max}; ")?;
+                write!(f, "{axis} would have to go to {value:.3}, but its range is {min} to {max}; ")?;
                 place(f, *along)
             }
             PlanError::Unreachable { beyond, along } if *beyond > 0.0 => {
@@ -163,16 +164,16 @@ impl fmt::Display for PlanError {
                 place(f, *along)
             }
             PlanError::Singular { axis, along } => {
-                write!(f, "the line passes a singular point, where {axis} would have to turn at once; ")?;
+                write!(f, "the line passes a singular point, where {axis} would have to turn infinitely fast; ")?;
                 place(f, *along)
             }
             PlanError::Wrist { axis, along } => {
-                write!(f, "the line passes the wrist singularity, where {axis} would have to turn at once; ")?;
+                write!(f, "the line passes the wrist singularity, where {axis} would have to turn infinitely fast; ")?;
                 place(f, *along)?;
-                write!(f, "; with $WRIST it passes, the orientation gives way a little there")
+                write!(f, "; with $WRIST it passes, and the orientation deviates a little there")
             }
             PlanError::TooDense { along } => {
-                write!(f, "the weave or the compensation changes too much over so short a way; ")?;
+                write!(f, "the weave or the compensation changes too much over so short a distance; ")?;
                 place(f, *along)?;
                 write!(f, ": take a lower frequency, less amplitude or shift, or a longer motion")
             }
@@ -186,18 +187,18 @@ impl fmt::Display for PlanError {
                 "the three points of the arc make no circle: they must be different and must not lie on a line"
             ),
             PlanError::Circles { angle, most } => {
-                write!(f, "the circle's angle is {angle} deg: a single motion goes round by at most {most} deg")
+                write!(f, "the circle's angle is {angle} deg: a single motion covers at most {most} deg")
             }
             PlanError::NoSuchCfg { cfg } => write!(f, "the robot has no configuration cfg {cfg}: {CONFIGURATIONS}"),
             PlanError::AboveLimit { height, highest } => {
                 write!(f, "the gate starts or ends at the height {height:.3}, above its limit of {highest:.3}")
             }
             PlanError::LoneCircle => {
-                write!(f, "a circle through the targets of neighbours takes two motions of its kind in a row")
+                write!(f, "a circle through the targets of neighbouring motions needs two motions of its kind in a row")
             }
             PlanError::Earlier { line, error } => write!(f, "line {line}: {error}"),
             PlanError::Duration { wanted, least } => {
-                write!(f, "the motion cannot be done in {wanted} s, it takes at least {least:.3} s")
+                write!(f, "the motion cannot be done in {wanted} s: it takes at least {least:.3} s")
             }
             PlanError::NoOverride { percent } => {
                 write!(f, "the override of speeds is {percent} %: it must be a number above 0")
@@ -213,20 +214,19 @@ impl fmt::Display for PlanError {
             PlanError::NotANumber => write!(f, "the target holds a value that is not a number"),
             PlanError::ToolAlongPath => write!(
                 f,
-                "the tool's z axis points along the path, so that weave and compensation know no side of it: tilt the tool"
+                "the tool's z axis points along the path, so weave and compensation have no direction to the side: tilt the tool"
             ),
             PlanError::WorldTurns => write!(
                 f,
-                "a compensation along the axes of the world has no direction on a workpiece that the robot holds: take WOBJ"
+                "a compensation along the axes of the world has no direction on a workpiece that the robot holds: use WOBJ"
             ),
-            PlanError::TooLong { most } => write!(
-                f,
-                "the motion ahead takes more than {most} cycles: look at it at a higher override, or in longer cycles"
-            ),
-            PlanError::NotForThisRobot => write!(f, "this robot knows no such motion"),
+            PlanError::TooLong { most } => {
+                write!(f, "the motion ahead takes more than {most} cycles: use a higher override or longer cycles")
+            }
+            PlanError::NotForThisRobot => write!(f, "this robot does not support this motion"),
             PlanError::NoWayBack => write!(
                 f,
-                "the robot cannot go straight back to its path: it stands in another configuration, or in another turn of an axis, than where it was stopped; move its axes near that place first"
+                "the robot cannot go straight back to its path: it is in another configuration, or in another turn of an axis, than when it was stopped; move its axes near that position first"
             ),
             PlanError::Full => write!(f, "the look-ahead is full"),
             PlanError::Stopping => write!(f, "the robot is still stopping"),

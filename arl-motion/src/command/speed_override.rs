@@ -24,7 +24,7 @@ impl Override {
     /// So many percent.
     ///
     /// # Errors
-    /// It is no number from 0 to 100.
+    /// It is not a number from 0 to 100.
     pub fn from_percent(percent: f64) -> Result<Self, OverrideError> {
         if (0.0..=100.0).contains(&percent) { Ok(Self(percent)) } else { Err(OverrideError { percent }) }
     }
@@ -50,7 +50,7 @@ impl TryFrom<f64> for Override {
     }
 }
 
-/// It is no override.
+/// It is not an override.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct OverrideError {

@@ -9,10 +9,10 @@ use crate::blend::corner::{Blend, common_pace};
 use crate::blend::no_blend::NoBlend;
 use crate::command::joints::{ALL, Joints};
 use crate::follow::timing::Cell;
-use crate::geometry::derivatives::{Place, by_differences};
+use crate::geometry::derivatives::{CurvePoint, by_differences};
 use crate::geometry::parametrization::Parametrization;
 use crate::limits::profile::Limits;
-use crate::plan::constraints::{Constraints, Pace};
+use crate::plan::constraints::{Constraints, PathLimits};
 use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 use arl_robot::frames::{Carried, Rig};
@@ -69,7 +69,7 @@ pub(crate) struct Segment {
     /// The length of the motion in mm.
     pub(crate) length: f64,
     /// The programmed speeds, where it is known what limits each of its places.
-    pub(crate) pace: Option<Pace>,
+    pub(crate) pace: Option<PathLimits>,
     /// Whether each place has limits of its own even while the robot goes on.
     pub(crate) is_free: bool,
 }
@@ -420,21 +420,21 @@ impl Segment {
     }
 
     /// The place after `at` s of nominal time with the rates there; `None` at a singular point.
-    fn place_with_rates(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<(Place, Rates)> {
+    fn place_with_rates(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<(CurvePoint, Rates)> {
         let width = (self.to - self.from) / self.time;
         let share = self.from + at * width;
-        let even = Place { at: share, first: 1.0, second: 0.0, third: 0.0 };
+        let even = CurvePoint { at: share, first: 1.0, second: 0.0, third: 0.0 };
         let place = self
             .parametrization
             .as_ref()
-            .map_or(even, |parametrization| Place::at(parametrization, share))
+            .map_or(even, |parametrization| CurvePoint::at(parametrization, share))
             .scaled(width);
         Some((place, place.rates(self.curve.rates(kinematics, place.at, joints)?)))
     }
 
     /// The place after `at` s of nominal time with the rates there; of a singular point that beside it, towards the
     /// middle, as the axes go on evenly. `None` where all that is beside it is singular, too.
-    fn regular(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<(f64, Place, Joints, Rates)> {
+    fn regular(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<(f64, CurvePoint, Joints, Rates)> {
         let look = |at: f64, joints: Joints| {
             let (place, rates) = self.place_with_rates(kinematics, at, &joints)?;
             Some((at, place, joints, rates))

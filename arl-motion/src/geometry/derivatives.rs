@@ -9,14 +9,14 @@ const DIFFERENCE_STEP: f64 = 1e-3;
 
 /// A place on the curve: its parameter, and how that changes with the share of the nominal time.
 #[derive(Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct CurvePoint {
     pub(crate) at: f64,
     pub(crate) first: f64,
     pub(crate) second: f64,
     pub(crate) third: f64,
 }
 
-impl Place {
+impl CurvePoint {
     pub(crate) fn at(parametrization: &Parametrization, share: f64) -> Self {
         let [first, second, third] = [1, 2, 3].map(|order| parametrization.derivative(order, share));
         Self { at: parametrization.at(share), first, second, third }

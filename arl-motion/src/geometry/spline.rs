@@ -21,7 +21,7 @@ use arl_robot::robot::EXTERNAL_AXES;
 
 /// Where the TCP and the external axes are at a point of the way.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Place {
+pub(crate) struct SplinePoint {
     /// In the base, translation in mm.
     pub(crate) tcp: Frame,
     /// In deg (mm).
@@ -46,20 +46,20 @@ const TURN_BACK_COSINE: f64 = -0.866_025_404;
 /// Where the way is nearly reversed its parameter slows down to this part of the length of the chords, not to nothing.
 const LEAST_SHARE_OF_CHORD: f64 = 0.25;
 
-impl Place {
+impl SplinePoint {
     /// The length of the chord to another place in mm.
-    pub(crate) fn chord(&self, to: &Place) -> f64 {
+    pub(crate) fn chord(&self, to: &SplinePoint) -> f64 {
         (to.tcp.translation.vector - self.tcp.translation.vector).norm()
     }
 
     /// Whether the way from here over a point to another one turns back at that point.
-    pub(crate) fn turns_back(&self, over: &Place, to: &Place) -> bool {
-        let place = |place: &Place| place.tcp.translation.vector;
+    pub(crate) fn turns_back(&self, over: &SplinePoint, to: &SplinePoint) -> bool {
+        let place = |place: &SplinePoint| place.tcp.translation.vector;
         let (first, second) = (place(over) - place(self), place(to) - place(over));
         first.dot(&second) < TURN_BACK_COSINE * first.norm() * second.norm()
     }
 
-    fn turning(&self, to: &Place) -> Vector3<f64> {
+    fn turning(&self, to: &SplinePoint) -> Vector3<f64> {
         (to.tcp.rotation * self.tcp.rotation.inverse()).scaled_axis()
     }
 
@@ -70,9 +70,9 @@ impl Place {
 
 impl Passing {
     /// Through `here`, from `before` to `after`; all three apart from each other.
-    pub(crate) fn through([before, here, after]: [&Place; 3], speed: f64) -> Self {
+    pub(crate) fn through([before, here, after]: [&SplinePoint; 3], speed: f64) -> Self {
         let (h0, h1) = (before.chord(here), here.chord(after));
-        let moved = |from: &Place, to: &Place| to.tcp.translation.vector - from.tcp.translation.vector;
+        let moved = |from: &SplinePoint, to: &SplinePoint| to.tcp.translation.vector - from.tcp.translation.vector;
         Self {
             moved: parabola(h0, moved(before, here), h1, moved(here, after)),
             turned: parabola(h0, -here.turning(before), h1, here.turning(after)),
@@ -92,7 +92,7 @@ fn parabola<const N: usize>(h0: f64, way0: SVector<f64, N>, h1: f64, way1: SVect
 /// The curve from one point to the next, passing its ends as said, or ending there; with the nominal time in s that it
 /// takes at `speed` mm/s, and the external axes along it.
 pub(crate) fn segment(
-    [from, to]: [&Place; 2],
+    [from, to]: [&SplinePoint; 2],
     [start, end]: [Option<&Passing>; 2],
     speed: f64,
 ) -> (TcpPath, PacedQuintic<EXTERNAL_AXES>, f64) {

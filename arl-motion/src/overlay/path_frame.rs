@@ -118,7 +118,7 @@ fn directed(curve: &TcpPath, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<f6
     let tool = curve.rotation(at) * Vector3::z();
     let [turning, ..] = curve.rotation_rates(at);
     let across = x.cross(&tool);
-    // What is no number is no side either.
+    // What is not a number is no side either.
     if across.norm().is_nan() || across.norm() < PARALLEL {
         return Err(PlanError::ToolAlongPath);
     }

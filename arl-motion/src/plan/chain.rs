@@ -4,10 +4,10 @@ use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target, Zone};
 use crate::geometry::arc::circle_through;
-use crate::geometry::spline::{Passing, Place, segment};
+use crate::geometry::spline::{Passing, SplinePoint, segment};
 use crate::geometry::track::Track;
 use crate::plan::curve::ToolCurve;
-use crate::plan::lay_overlay::{Beginning, lay};
+use crate::plan::lay_overlay::{OverlayStart, lay};
 use crate::plan::motion::Motion;
 use crate::plan::planner::Planner;
 use arl_robot::kinematics::Frame;
@@ -36,13 +36,13 @@ pub(crate) struct Held {
     /// it.
     start: Joints,
     end: Joints,
-    target: Place,
-    before: Option<Before>,
+    target: SplinePoint,
+    before: Option<Predecessor>,
 }
 
 /// What the motion before, of the same kind and planned already, leaves to the next.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Before {
+pub(crate) enum Predecessor {
     /// Where the circle before began.
     Circle(Joints),
     /// How the spline goes on.
@@ -87,7 +87,7 @@ impl Held {
             number,
             start: *start,
             end,
-            target: Place { tcp, external: end.external },
+            target: SplinePoint { tcp, external: end.external },
             before: None,
         }))
     }
@@ -132,9 +132,9 @@ impl Held {
         }
     }
 
-    fn from(&self, robot: &Robot) -> Place {
+    fn from(&self, robot: &Robot) -> SplinePoint {
         let tcp = self.command.rig.carried.way_at(&robot.kinematics.forward(&self.start.axes));
-        Place { tcp, external: self.start.external }
+        SplinePoint { tcp, external: self.start.external }
     }
 
     /// Plans it, without what is laid over it, with the motion of its path that comes next; returns also what it leaves
@@ -142,7 +142,7 @@ impl Held {
     ///
     /// # Errors
     /// It cannot be moved; the error tells its line.
-    pub(crate) fn plan(&self, robot: &Robot, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
+    pub(crate) fn plan(&self, robot: &Robot, next: Option<&Held>) -> Result<(Motion, Option<Predecessor>), PlanError> {
         let planner = Planner { robot, start: &self.start, command: &self.command, settings: &self.settings };
         let planned = match self.kind {
             Kind::Circle => self.circle(&planner, next),
@@ -160,7 +160,7 @@ impl Held {
     ///
     /// # Errors
     /// It cannot be moved so; the error tells its line.
-    pub(crate) fn laid(&self, robot: &Robot, plain: Motion, beginning: &Beginning<'_>) -> Result<Motion, PlanError> {
+    pub(crate) fn laid(&self, robot: &Robot, plain: Motion, beginning: &OverlayStart<'_>) -> Result<Motion, PlanError> {
         let Some((_, _, wobj, _)) = self.command.target.chained() else { return Ok(plain) };
         lay(robot, plain, beginning, &wobj.rotation, &self.settings).map_err(|error| self.failed(error))
     }
@@ -180,22 +180,22 @@ impl Held {
     }
 
     /// Takes over what the motion before has left.
-    pub(crate) fn goes_on_from(&mut self, end: &Joints, before: Option<Before>) {
+    pub(crate) fn goes_on_from(&mut self, end: &Joints, before: Option<Predecessor>) {
         (self.start, self.before) = (*end, before);
     }
 
     /// Takes over that a circle began at `start`.
     pub(crate) fn follows_circle_from(&mut self, start: Joints) {
-        self.before.get_or_insert(Before::Circle(start));
+        self.before.get_or_insert(Predecessor::Circle(start));
     }
 
-    fn circle(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
+    fn circle(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Predecessor>), PlanError> {
         let Target::Circle { follow, external, .. } = &self.command.target else { return Err(PlanError::NoCircle) };
         let (start, target) = (planner.start_frame(), self.target.tcp);
         let [from, to] = [start, target].map(|frame| frame.translation.vector);
         let points = match (next, self.before) {
             (Some(next), _) => [from, to, next.target.tcp.translation.vector],
-            (None, Some(Before::Circle(before))) => {
+            (None, Some(Predecessor::Circle(before))) => {
                 let before = self.command.rig.carried.way_at(&planner.robot.kinematics.forward(&before.axes));
                 [before.translation.vector, from, to]
             }
@@ -208,14 +208,14 @@ impl Held {
             (target.rotation * start.rotation.inverse()).scaled_axis()
         };
         let motion = planner.tool(Track::Arc(arc), turning, external)?;
-        Ok((motion, Some(Before::Circle(self.start))))
+        Ok((motion, Some(Predecessor::Circle(self.start))))
     }
 
-    fn spline(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
+    fn spline(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Predecessor>), PlanError> {
         let from = self.from(planner.robot);
         let speed = planner.tcp_speed()?;
         let start = match self.before {
-            Some(Before::Spline(passing)) => Some(passing),
+            Some(Predecessor::Spline(passing)) => Some(passing),
             _ => None,
         };
         let end = match next {
@@ -240,6 +240,6 @@ impl Held {
         let (path, external, time) = segment([&from, &self.target], [start.as_ref(), end.as_ref()], speed);
         let curve = ToolCurve { path, external, ..base };
         let motion = planner.segment(curve, time, &self.target.external, start.is_some())?;
-        Ok((motion, end.map(Before::Spline)))
+        Ok((motion, end.map(Predecessor::Spline)))
     }
 }

@@ -7,8 +7,8 @@ use crate::geometry::arc::{arc_through, circle_through};
 use crate::plan::planner::Planner;
 use arl_robot::robot::Robot;
 
-/// The two motions of a circle that starts at `start`; `None` for what is no circle, or does not come to the point on
-/// the way.
+/// The two motions of a circle that starts at `start`; `None` for what is not a circle, or does not come to the point
+/// on the way.
 pub fn circle_steps(
     robot: &Robot,
     start: &Joints,

@@ -24,7 +24,7 @@ const BESIDE_SHARE: f64 = 1e-9;
 
 /// How fast a motion may go, and how hard it may accelerate.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Pace {
+pub(crate) struct PathLimits {
     /// Share of the own axes' speeds.
     pub(crate) axes: f64,
     /// TCP in mm/s.
@@ -43,7 +43,7 @@ pub(crate) struct Pace {
     pub(crate) manual: bool,
 }
 
-impl Pace {
+impl PathLimits {
     /// Nothing but the robot's own limits.
     pub(crate) const FREE: Self = Self {
         axes: 1.0,
@@ -143,7 +143,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// All axes go evenly from `start` to `end`.
-    pub(crate) fn even_axes(&mut self, start: &Joints, end: &Joints, pace: &Pace) {
+    pub(crate) fn even_axes(&mut self, start: &Joints, end: &Joints, pace: &PathLimits) {
         for (axis, (start, end)) in self.robot.own_axes().iter().zip(start.axes.iter().zip(&end.axes)) {
             self.push(Constraint::even(end - start, axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk));
         }
@@ -151,7 +151,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The external axes go evenly from `start` to `end`.
-    pub(crate) fn even_external(&mut self, start: &Joints, end: &Joints, pace: &Pace) {
+    pub(crate) fn even_external(&mut self, start: &Joints, end: &Joints, pace: &PathLimits) {
         let ways = start.external.iter().zip(&end.external).map(|(start, end)| end - start);
         for (axis, way) in self.robot.external_axes().iter().zip(ways) {
             let programmed = if axis.linear { pace.linear } else { pace.turning };
@@ -161,7 +161,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The own axes at a place where these are their derivatives.
-    pub(crate) fn axes(&mut self, first: &Axes, second: &Axes, third: &Axes, pace: &Pace) {
+    pub(crate) fn axes(&mut self, first: &Axes, second: &Axes, third: &Axes, pace: &PathLimits) {
         let derivatives = first.iter().zip(second).zip(third);
         for (axis, ((first, second), third)) in self.robot.own_axes().iter().zip(derivatives) {
             self.push(row([*first, *second, *third], pace.of_own(axis)));
@@ -169,7 +169,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// All axes at a place where these are their derivatives.
-    pub(crate) fn all_axes(&mut self, derivatives: &[[f64; ALL]; 3], pace: &Pace) {
+    pub(crate) fn all_axes(&mut self, derivatives: &[[f64; ALL]; 3], pace: &PathLimits) {
         let parts = derivatives.map(|all| Joints::of(&all));
         let [first, second, third] = &parts;
         self.axes(&first.axes, &second.axes, &third.axes, pace);
@@ -189,7 +189,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The TCP on its path, and the turning of the tool.
-    pub(crate) fn tool(&mut self, curve: &ToolCurve, pace: &Pace) {
+    pub(crate) fn tool(&mut self, curve: &ToolCurve, pace: &PathLimits) {
         for place in places(curve) {
             self.moving(&[1, 2, 3].map(|order| curve.path.track.derivative(order, place)), pace);
             self.turning(&curve.rotation_rates(place), pace);
@@ -197,14 +197,14 @@ impl<'a> Constraints<'a> {
     }
 
     /// The TCP at a place where these are the derivatives of its position, in mm.
-    pub(crate) fn moving(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
+    pub(crate) fn moving(&mut self, rates: &[Vector3<f64>; 3], pace: &PathLimits) {
         let tcp = &self.robot.tcp;
         self.push(along(rates, (tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk)));
     }
 
     /// The TCP at a place where these are the derivatives of its position, in mm, and where it swings to and fro: all
     /// of its acceleration counts, not only that along its path.
-    pub(crate) fn swinging(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
+    pub(crate) fn swinging(&mut self, rates: &[Vector3<f64>; 3], pace: &PathLimits) {
         let tcp = &self.robot.tcp;
         let limits = [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk];
         self.rows.push(row(rates.map(|rate| rate.norm()), limits));
@@ -216,7 +216,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The tool at a place where it turns so, in rad.
-    pub(crate) fn turning(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
+    pub(crate) fn turning(&mut self, rates: &[Vector3<f64>; 3], pace: &PathLimits) {
         let tcp = &self.robot.tcp;
         let rates = rates.map(|rate| rate.map(f64::to_degrees));
         let limits = (tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk);
@@ -224,7 +224,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The external axes at a place where these are their derivatives.
-    pub(crate) fn external(&mut self, rates: &[[f64; EXTERNAL_AXES]; 3], pace: &Pace) {
+    pub(crate) fn external(&mut self, rates: &[[f64; EXTERNAL_AXES]; 3], pace: &PathLimits) {
         let [first, second, third] = rates;
         let derivatives = first.iter().zip(second).zip(third);
         for (axis, ((first, second), third)) in self.robot.external_axes().iter().zip(derivatives) {
@@ -233,7 +233,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The external axes all along a path.
-    pub(crate) fn external_along(&mut self, curve: &ToolCurve, pace: &Pace) {
+    pub(crate) fn external_along(&mut self, curve: &ToolCurve, pace: &PathLimits) {
         for place in places(curve) {
             self.external(&[1, 2, 3].map(|order| curve.external.derivative(order, place)), pace);
         }

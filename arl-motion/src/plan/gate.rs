@@ -46,36 +46,14 @@ pub(crate) fn plan(
     }
     let planner = Planner { robot, start, command, settings };
     let end = planner.choose(pose, wobj, *wanted, external)?;
-    let height = |joints: &Joints| joints.axes.get(LIFT_AXIS).copied().unwrap_or_default();
     let (from, to) = (height(start), height(&end));
-    // The TCP is everywhere as far above the lift.
-    let above = planner.start_frame().translation.vector.z - from;
-    let highest = gate.highest.map_or(lift.max, |highest| lift.max.min(highest - above));
-    let highest_end = from.max(to);
-    if highest_end > highest + NO_DISTANCE_MM {
-        return Err(PlanError::AboveLimit { height: highest_end + above, highest: highest + above });
-    }
-    let at = |joints: &Joints, height: f64| {
-        let mut joints = *joints;
-        if let Some(value) = joints.axes.get_mut(LIFT_AXIS) {
-            *value = height;
-        }
-        joints
-    };
-    let top = (from + 2.0 * gate.rise).max(to + 2.0 * gate.sink).min(highest).max(highest_end);
+    let top = top(&planner, gate, (from, to), lift.max)?;
     let stays = at(start, top).all().iter().zip(at(&end, top).all()).all(|(a, b)| (a - b).abs() < NO_DISTANCE_MM);
-    let lifting = |way: &Lift| {
-        let speed = Speed { percent: way.vel.unwrap_or(command.speed.percent), ..command.speed };
-        let acc_percent = way.acc.unwrap_or(settings.acc_percent);
-        (Command { speed, ..command.clone() }, Settings { acc_percent, ..*settings })
-    };
-    let part = |from: &Joints, to: Joints, (command, settings): &(Command, Settings)| {
-        Planner { robot, start: from, command, settings }.axes(to)
-    };
+    let ways = Ways { robot, command, settings };
     if stays {
         // Over the same place there is nothing to go over.
         let (end, way) = if gate.stays() { (at(&end, top), &gate.rising) } else { (end, &gate.falling) };
-        return Ok(vec![Motion { zone: zone(gate), ..part(start, end, &lifting(way))? }]);
+        return Ok(vec![Motion { zone: zone(gate), ..ways.part(start, end, &ways.lifting(way))? }]);
     }
     let (up, over) = (at(start, top), at(&end, top));
     let mut motions = Vec::with_capacity(3);
@@ -85,28 +63,23 @@ pub(crate) fn plan(
     // The share of a way of the lift that is left when it has gone straight for so long.
     let rest = |way: f64, straight: f64| 1.0 - (straight / way).min(1.0);
     let way_over = (command.clone(), *settings);
-    // The form of a corner is the same at every override, and in manual operation.
-    let form = |from: &Joints, to: Joints, (command, settings): &(Command, Settings)| {
-        let settings = Settings { speed_percent: 100.0, manual: false, ..*settings };
-        part(from, to, &(command.clone(), settings)).map(|motion| motion.limits)
-    };
-    let form_over = form(&up, over, &way_over)?;
+    let form_over = ways.form(&up, over, &way_over)?;
     if top - from > NO_DISTANCE_MM {
-        let rising = lifting(&gate.rising);
-        let corner = corner(form(start, up, &rising)?, rest(top - from, gate.rise), form_over);
+        let rising = ways.lifting(&gate.rising);
+        let corner = corner(ways.form(start, up, &rising)?, rest(top - from, gate.rise), form_over);
         push(
-            part(start, up, &rising)?,
+            ways.part(start, up, &rising)?,
             corner.map(|[lift, over]| GivenCorner { leaving: lift.reversed(), joining: over }),
         );
     }
-    let going_over = part(&up, over, &way_over)?;
+    let going_over = ways.part(&up, over, &way_over)?;
     if top - to > NO_DISTANCE_MM && !gate.stays() {
-        let sinking = lifting(&gate.falling);
+        let sinking = ways.lifting(&gate.falling);
         // Where it goes on smoothly, the corner leaves the next blend its part.
         let most = 1.0 - if gate.smooth { SMOOTH_ZONE_PERCENT / 100.0 * LARGEST_ZONE } else { STOPPING_SHARE };
-        let corner = corner(form(&over, end, &sinking)?, rest(top - to, gate.sink).min(most), form_over);
+        let corner = corner(ways.form(&over, end, &sinking)?, rest(top - to, gate.sink).min(most), form_over);
         push(going_over, corner.map(|[lift, over]| GivenCorner { leaving: over.reversed(), joining: lift }));
-        push(part(&over, end, &sinking)?, None);
+        push(ways.part(&over, end, &sinking)?, None);
     } else {
         push(going_over, None);
     }
@@ -115,6 +88,64 @@ pub(crate) fn plan(
     }
     share_out(&mut motions);
     Ok(motions)
+}
+
+/// Where the lift is, in mm.
+fn height(joints: &Joints) -> f64 {
+    joints.axes.get(LIFT_AXIS).copied().unwrap_or_default()
+}
+
+/// The same with the lift elsewhere.
+fn at(joints: &Joints, height: f64) -> Joints {
+    let mut joints = *joints;
+    if let Some(value) = joints.axes.get_mut(LIFT_AXIS) {
+        *value = height;
+    }
+    joints
+}
+
+/// How high the lift goes over between two heights; `most` is the end of its range.
+fn top(planner: &Planner<'_>, gate: &Gate, (from, to): (f64, f64), most: f64) -> Result<f64, PlanError> {
+    // The TCP is everywhere as far above the lift.
+    let above = planner.start_frame().translation.vector.z - from;
+    let highest = gate.highest.map_or(most, |highest| most.min(highest - above));
+    let highest_end = from.max(to);
+    if highest_end > highest + NO_DISTANCE_MM {
+        return Err(PlanError::AboveLimit { height: highest_end + above, highest: highest + above });
+    }
+    Ok((from + 2.0 * gate.rise).max(to + 2.0 * gate.sink).min(highest).max(highest_end))
+}
+
+/// Plans the three ways of a gate.
+struct Ways<'a> {
+    robot: &'a Robot,
+    command: &'a Command,
+    settings: &'a Settings,
+}
+
+impl Ways<'_> {
+    /// What a way of the lift is planned with.
+    fn lifting(&self, way: &Lift) -> (Command, Settings) {
+        let (command, settings) = (self.command, self.settings);
+        let speed = Speed { percent: way.vel.unwrap_or(command.speed.percent), ..command.speed };
+        let acc_percent = way.acc.unwrap_or(settings.acc_percent);
+        (Command { speed, ..command.clone() }, Settings { acc_percent, ..*settings })
+    }
+
+    fn part(&self, from: &Joints, to: Joints, (command, settings): &(Command, Settings)) -> Result<Motion, PlanError> {
+        Planner { robot: self.robot, start: from, command, settings }.axes(to)
+    }
+
+    /// What the form of a corner follows from; it is the same at every override, and in manual operation.
+    fn form(
+        &self,
+        from: &Joints,
+        to: Joints,
+        (command, settings): &(Command, Settings),
+    ) -> Result<Option<Limits>, PlanError> {
+        let settings = Settings { speed_percent: 100.0, manual: false, ..*settings };
+        self.part(from, to, &(command.clone(), settings)).map(|motion| motion.limits)
+    }
 }
 
 /// The corner that takes `share` of a way of the lift: while the lift goes from there to where it rests, the way over

@@ -13,7 +13,7 @@ use crate::overlay::weave::Pattern;
 use crate::overlay::{Overlay, Woven};
 use crate::plan::constraints::{Constraints, MANUAL_SPEED_MM_S};
 use crate::plan::curve::{Curve, ToolCurve};
-use crate::plan::motion::{Laid, Motion, Weaving};
+use crate::plan::motion::{Motion, OverlaidMotion, Weaving};
 use crate::plan::path_check::check_path;
 use arl_robot::frames::Carried;
 use arl_robot::kinematics::Rates;
@@ -31,7 +31,7 @@ const PLACES_OF_CONSTRAINT: usize = 6;
 const BETWEEN_SAMPLES_FACTOR: f64 = 1.005;
 
 /// Where a motion begins over which something is laid, and what comes before and behind it.
-pub(crate) struct Beginning<'a> {
+pub(crate) struct OverlayStart<'a> {
     /// Where the robot really is.
     pub(crate) start: &'a Joints,
     /// How a compensation stands there.
@@ -46,11 +46,11 @@ pub(crate) struct Beginning<'a> {
 pub(crate) fn lay(
     robot: &Robot,
     plain: Motion,
-    beginning: &Beginning<'_>,
+    beginning: &OverlayStart<'_>,
     workpiece: &UnitQuaternion<f64>,
     settings: &Settings,
 ) -> Result<Motion, PlanError> {
-    let Beginning { start, before, flows_from, goes_on } = *beginning;
+    let OverlayStart { start, before, flows_from, goes_on } = *beginning;
     let (Curve::Tool(curve), compensation) = (&plain.curve, settings.compensation) else { return Ok(plain) };
     let weave = settings.weave.filter(|weave| weave.amplitude > 0.0 && plain.length > 0.0 && plain.limits.is_some());
     if weave.is_none() && compensation.is_none() {
@@ -80,7 +80,7 @@ pub(crate) fn lay(
     }
     let manual = if settings.manual { MANUAL_SPEED_MM_S } else { f64::INFINITY };
     let weave = weave.map(|weave| Weaving { weave, rounding: 0.0, begun: 0.0, fades: !goes_on });
-    let mut laid = Laid { start: *start, frame, weave, shift, fastest: settings.max_tcp.min(manual), plain };
+    let mut laid = OverlaidMotion { start: *start, frame, weave, shift, fastest: settings.max_tcp.min(manual), plain };
     let goes_on_from = flows_from.and_then(|motion| motion.laid.as_ref()?.at_end());
     if let (Some(weaving), Some(before)) = (weave, goes_on_from)
         && weaving.weave == before.weave
@@ -102,13 +102,14 @@ pub(crate) fn joined(robot: &Robot, from: &Motion, to: &Motion) -> Option<(Motio
         return None;
     }
     let begun = weaving.begun + first.seconds();
-    let on = Laid { weave: Some(Weaving { fades: false, ..weaving }), ..Laid::clone(first) };
+    let on = OverlaidMotion { weave: Some(Weaving { fades: false, ..weaving }), ..OverlaidMotion::clone(first) };
     let on = on.finished(robot).ok()?;
-    let taken = Laid { weave: Some(Weaving { begun, ..next }), start: on.end, ..Laid::clone(second) };
+    let taken =
+        OverlaidMotion { weave: Some(Weaving { begun, ..next }), start: on.end, ..OverlaidMotion::clone(second) };
     Some((on, taken.finished(robot).ok()?))
 }
 
-impl Laid {
+impl OverlaidMotion {
     /// The part of the motion behind which a blend with the next one comes too late: the weave fades out already.
     pub(crate) fn fades_from(&self) -> f64 {
         let overlay = self.overlay().woven;
@@ -137,7 +138,7 @@ impl Laid {
         let mut rounding = needed.clamp(shortest, longest);
         let rounded = |rounding: f64| {
             let weave = Some(Weaving { rounding, ..weaving });
-            Laid { weave, ..self.clone() }.finished(robot)
+            OverlaidMotion { weave, ..self.clone() }.finished(robot)
         };
         let mut best = rounded(rounding)?;
         while best.share_of_speed() < UNSLOWED_SHARE && rounding < longest {

@@ -9,7 +9,7 @@ use crate::limits::profile::Limits;
 use crate::overlay::Led;
 use crate::overlay::compensation::Shift;
 use crate::overlay::path_frame::PathFrame;
-use crate::plan::constraints::Pace;
+use crate::plan::constraints::PathLimits;
 use crate::plan::curve::Curve;
 use crate::plan::path_check::NearSingular;
 use arl_robot::frames::Rig;
@@ -31,7 +31,7 @@ pub struct Motion {
     pub(crate) rate: f64,
     /// Whether it goes on smoothly from the motion before it, at the same nominal speed.
     pub(crate) flows: bool,
-    pub(crate) pace: Pace,
+    pub(crate) pace: PathLimits,
     pub(crate) profile: VelocityProfile,
     /// The speed that it could have, where a duration was programmed.
     pub(crate) timed: Option<f64>,
@@ -50,7 +50,7 @@ pub struct Motion {
     /// Where it passes close to a singular point.
     pub(crate) near_singular: Option<NearSingular>,
     /// What is laid over it.
-    pub(crate) laid: Option<Box<Laid>>,
+    pub(crate) laid: Option<Box<OverlaidMotion>>,
 }
 
 impl Motion {
@@ -169,7 +169,7 @@ impl GivenCorner {
 
 /// A motion as it was planned, and what is laid over it: enough to lay it anew when it is blended with a neighbour.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Laid {
+pub(crate) struct OverlaidMotion {
     pub(crate) plain: Motion,
     /// Where it really starts.
     pub(crate) start: Joints,
@@ -192,7 +192,7 @@ pub(crate) struct Weaving {
     pub(crate) fades: bool,
 }
 
-impl Laid {
+impl OverlaidMotion {
     /// How fast the motion may go without what is laid over it, as part of the motion per s.
     pub(crate) fn plain_speed(&self) -> Option<f64> {
         self.plain.limits.map(|limits| limits.vel)

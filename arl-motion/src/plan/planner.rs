@@ -15,15 +15,15 @@ use crate::limits::duration::slowest_within;
 use crate::limits::profile::LOOK_AHEAD_MARGIN;
 use crate::limits::profile::Limits;
 use crate::overlay::Led;
-use crate::plan::constraints::{Constraints, Pace};
+use crate::plan::constraints::{Constraints, PathLimits};
 use crate::plan::curve::{Curve, ToolCurve};
-use crate::plan::lay_overlay::{Beginning, lay};
+use crate::plan::lay_overlay::{OverlayStart, lay};
 use crate::plan::motion::{Motion, NO_WAY_MM_OR_DEG};
 use crate::plan::path_check::check_path;
 use arl_robot::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, Wanted, frame, frame_components};
 use arl_robot::robot::{Axis, Robot, VelocityProfile};
 
-/// Distances up to this (mm or deg) of an axis are no motion.
+/// Distances up to this (mm or deg) of an axis are not a motion.
 const NO_DISTANCE: f64 = 1e-10;
 
 /// The largest angle of a circle, in deg.
@@ -56,7 +56,7 @@ pub(crate) fn plan_behind(
     let before = &before.for_next(settings, &command.rig);
     let plain = not_led(robot, start, before, command)?;
     let motion = plan_plain(robot, &plain, command, settings)?;
-    let beginning = Beginning { start, before, flows_from: None, goes_on: false };
+    let beginning = OverlayStart { start, before, flows_from: None, goes_on: false };
     lay(robot, motion, &beginning, &wobj.rotation, settings)
 }
 
@@ -214,7 +214,8 @@ impl Planner<'_> {
         let end = self.within_ranges(end)?;
         let curve = Curve::even_axes(self.start, &end);
         let moves = self.moves(&end);
-        let constraints = |pace: &Pace, constraints: &mut Constraints| constraints.even_axes(self.start, &end, pace);
+        let constraints =
+            |pace: &PathLimits, constraints: &mut Constraints| constraints.even_axes(self.start, &end, pace);
         let caps = |constraints: &mut Constraints| {
             if self.settings.manual && moves {
                 constraints.manual_axes(&curve, &self.command.rig.carried, self.start);
@@ -335,7 +336,7 @@ impl Planner<'_> {
         let end = self.within_ranges(Joints { axes, ..end })?;
         let moves = goes || self.moves(&end);
 
-        let constraints = |pace: &Pace, constraints: &mut Constraints| {
+        let constraints = |pace: &PathLimits, constraints: &mut Constraints| {
             constraints.even_external(self.start, &end, pace);
             constraints.tool(&curve, pace);
             for (_, rates) in found.iter().flat_map(|found| &found.rates) {
@@ -415,7 +416,7 @@ impl Planner<'_> {
     }
 
     /// The programmed speeds, as far as this kind of motion uses them.
-    fn pace(&self, tool: bool) -> Result<Pace, PlanError> {
+    fn pace(&self, tool: bool) -> Result<PathLimits, PlanError> {
         let speed = &self.command.speed;
         let mut pace = self.free();
         if tool {
@@ -435,16 +436,16 @@ impl Planner<'_> {
     }
 
     /// Nothing but the robot's own limits.
-    fn free(&self) -> Pace {
+    fn free(&self) -> PathLimits {
         let share = |percent: f64| percent.clamp(20.0, 100.0) / 100.0;
-        Pace {
+        PathLimits {
             acc: share(self.settings.acc_percent),
             jerk: match self.settings.profile {
                 VelocityProfile::T => f64::INFINITY,
                 VelocityProfile::S | VelocityProfile::O => share(self.settings.jerk_percent),
             },
             manual: self.settings.manual,
-            ..Pace::FREE
+            ..PathLimits::FREE
         }
     }
 
@@ -456,7 +457,7 @@ impl Planner<'_> {
         end: Joints,
         moves: bool,
         [length, angle]: [f64; 2],
-        collect: impl Fn(&Pace, &mut Constraints),
+        collect: impl Fn(&PathLimits, &mut Constraints),
         caps: impl Fn(&mut Constraints),
     ) -> Result<Motion, PlanError> {
         let is_tool = matches!(curve, Curve::Tool(_));

@@ -24,7 +24,7 @@ use crate::junction::blend_thread::BlendThread;
 use crate::overlay::Led;
 use crate::plan::chain::Held;
 use crate::plan::gate;
-use crate::plan::lay_overlay::Beginning;
+use crate::plan::lay_overlay::OverlayStart;
 use crate::plan::motion::Motion;
 use crate::plan::planner::{not_led, plan_behind};
 use arl_robot::frames::Rig;
@@ -35,7 +35,7 @@ use look_ahead::{Done, LateBlends, Ready};
 pub use motion_progress::Progress;
 use motion_progress::progress_at;
 pub use path_buffer::UnblendedTarget;
-use path_buffer::{Answer, Leaving};
+use path_buffer::{Leaving, OfferOutcome};
 pub use preview::Preview;
 pub use record::{Closest, Figure, Limited, MotionRecord, Rate, Recorder, SmallerZone};
 pub use step::Step;
@@ -105,14 +105,14 @@ pub struct Queue {
     gathered: f64,
     broken: Option<PlanError>,
     /// What was laid on the way, where somebody watches.
-    laid: Option<Vec<Laid>>,
+    laid: Option<Vec<LaidMotion>>,
     /// The least part of its speed that what is laid over it has left to a motion, and that motion's line.
     slowed: (f64, u32),
 }
 
 /// A motion that was laid on the way.
 #[derive(Clone, Debug)]
-pub(crate) struct Laid {
+pub(crate) struct LaidMotion {
     pub(crate) number: u64,
     pub(crate) motion: Arc<Motion>,
     /// The motion that is blended with it.
@@ -244,7 +244,7 @@ impl Queue {
     }
 
     /// The motions that were laid on the way since this was asked last.
-    pub(crate) fn take_laid(&mut self) -> Vec<Laid> {
+    pub(crate) fn take_laid(&mut self) -> Vec<LaidMotion> {
         self.laid.as_mut().map_or_else(Vec::new, std::mem::take)
     }
 
@@ -275,7 +275,7 @@ impl Queue {
         let end = *plain.end();
         let last = self.last_ahead();
         let flows_from = last.filter(|_| plain.flows);
-        let beginning = Beginning {
+        let beginning = OverlayStart {
             start: flows_from.map_or(&self.layer.end, Motion::end),
             before: &self.layer.led.for_next(held.settings(), &held.command().rig),
             flows_from,
@@ -312,7 +312,7 @@ impl Queue {
     /// Does what the path says about motions that it was offered.
     fn take_answer(&mut self) {
         match self.layer.path.take_answer() {
-            Some(Answer::Taken { unblended, count }) => {
+            Some(OfferOutcome::Taken { unblended, count }) => {
                 for _ in 0..count {
                     if let Some(taken) = self.layer.waiting.pop() {
                         let of_it = unblended.iter().find(|target| target.number == taken.number);
@@ -320,7 +320,7 @@ impl Queue {
                     }
                 }
             }
-            Some(Answer::Refused) => {
+            Some(OfferOutcome::Refused) => {
                 if let Some(Ready { motion, number, prepared, .. }) = self.layer.waiting.pop() {
                     let motion = (&motion, number);
                     let unblended =
@@ -337,7 +337,7 @@ impl Queue {
         if let Some(laid) = &mut self.laid {
             let left = self.layer.path.left_before(number).filter(|_| motion.goes());
             let unblended = unblended.as_ref().map(|target| target.why.clone());
-            laid.push(Laid { number, motion: Arc::clone(motion), left, unblended });
+            laid.push(LaidMotion { number, motion: Arc::clone(motion), left, unblended });
         }
         if let Some(target) = unblended
             && !self.unblended.iter().any(|known| known.is_same(&target))
@@ -436,7 +436,7 @@ impl Queue {
     }
 
     /// Puts the commanded positions elsewhere, as when a robot is switched on; returns whether it could: not while
-    /// there are motions, and not to what is no number.
+    /// there are motions, and not to what is not a number.
     pub fn place(&mut self, joints: Joints) -> bool {
         let idle = self.is_layer_idle() && self.rests() && joints.is_finite();
         if idle {
@@ -504,7 +504,7 @@ impl Queue {
         self.cycle
     }
 
-    /// The segment that the robot is on, and how fast it goes there where that is no blend.
+    /// The segment that the robot is on, and how fast it goes there where that is not a blend.
     pub(super) fn plain_speed(&self) -> Option<(&Segment, Option<PlainSpeed>)> {
         self.layer.path.plain_speed()
     }

@@ -35,7 +35,7 @@ impl PathSpeed {
     }
 }
 
-/// The second one where the first is no number.
+/// The second one where the first is not a number.
 fn nearer_to_zero(one: f64, other: f64) -> f64 {
     if one.abs() < other.abs() { one } else { other }
 }

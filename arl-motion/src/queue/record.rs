@@ -16,7 +16,7 @@ use crate::plan::motion::{Motion, NO_WAY_MM_OR_DEG};
 use crate::plan::path_check::NearSingular;
 use crate::queue::elapsed::Elapsed;
 use crate::queue::path_buffer::Leaving;
-use crate::queue::{FAST_STOP_FACTOR, Laid, Queue, Step};
+use crate::queue::{FAST_STOP_FACTOR, LaidMotion, Queue, Step};
 use arl_robot::frames::Carried;
 use arl_robot::robot::{ROBOT_AXES, Robot, VelocityProfile};
 use derivatives::{DERIVATIVES, Derivatives};
@@ -313,7 +313,7 @@ impl Recorder {
 
     /// Notes what the queue has laid on the way.
     fn laid(&mut self, queue: &mut Queue) {
-        for Laid { number, motion, left, unblended } in queue.take_laid() {
+        for LaidMotion { number, motion, left, unblended } in queue.take_laid() {
             let rounding = zone::rounding(&self.robot, &motion, 1.0);
             let Some(record) = record_of(&mut self.records, &self.places, number) else { continue };
             record.blend = rounding;

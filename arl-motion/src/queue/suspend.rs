@@ -16,7 +16,7 @@ use crate::plan::gate;
 use crate::plan::planner::plan;
 use crate::queue::layer::{Asked, Layer, RESERVED_SUSPENSIONS, Requests};
 use crate::queue::{Queue, Stop};
-use way_back::{Skipped, Way};
+use way_back::{ReturnMotion, Skipped};
 
 /// How near to the place of the stop a way back has to end, in deg (mm).
 const SAME_PLACE_DEG_OR_MM: f64 = 1e-6;
@@ -378,7 +378,7 @@ impl Queue {
     }
 
     /// Adds the way to where it goes on.
-    fn go(&mut self, Way { asked, command, end }: Way, start: Start) -> Result<(), PlanError> {
+    fn go(&mut self, ReturnMotion { asked, command, end }: ReturnMotion, start: Start) -> Result<(), PlanError> {
         let plain = Settings { weave: None, compensation: None, ..asked };
         let settings = Settings { manual: plain.manual || start.manual, ..plain };
         let command = Command { zone: Zone::NONE, duration: None, line: start.line, ..command };

@@ -114,6 +114,7 @@ fn a_chain_that_never_stops_goes_on_from_law_to_law() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a list of chains")]
 fn chains_that_laws_made_slower_than_stops_are_no_longer() {
     // The first crept behind a law that was found with lower limits; the others have laws that were found at too few
     // places.

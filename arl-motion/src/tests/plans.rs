@@ -194,7 +194,7 @@ fn a_line_leaves_and_ends_at_a_singular_point_where_the_axes_go_on_evenly() {
             let last = rows.last().unwrap();
             assert!(last.joints.axes.iter().zip(singular.axes).all(|(a, b)| (a - b).abs() < 1e-6), "{last:?}");
         }
-        // Sideways the wrist would have to turn at once.
+        // Sideways the wrist would have to turn infinitely fast.
         let refused = plan(&robot, &singular, &lin([UNSET, 100.0, UNSET, UNSET, UNSET, UNSET]), &Settings::default());
         assert!(matches!(refused, Err(PlanError::Wrist { .. })), "{refused:?}");
     }

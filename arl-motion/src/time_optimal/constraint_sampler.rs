@@ -6,7 +6,7 @@ use crate::command::joints::{ALL, Joints};
 use crate::follow::segment::{LedTool, Segment};
 use crate::follow::shared_deque::SharedDeque;
 use crate::limits::constant::Constraint;
-use crate::plan::constraints::{Constraints, Pace};
+use crate::plan::constraints::{Constraints, PathLimits};
 use crate::time_optimal::solver::{Edge, Row, Way, guess_steps, places, thinned};
 use arl_robot::robot::Robot;
 
@@ -380,7 +380,7 @@ pub(crate) struct Point {
     pub(crate) at: f64,
     pub(crate) joints: Joints,
     /// Of the motion there.
-    pub(crate) pace: Pace,
+    pub(crate) pace: PathLimits,
     /// The tool, if its way is limited.
     pub(crate) tool: Option<LedTool>,
 }
@@ -388,7 +388,7 @@ pub(crate) struct Point {
 impl Stroll<'_> {
     /// The place `at`, which is not before the one that was asked for last, and close to it.
     pub(crate) fn go_to(&mut self, at: f64) -> Point {
-        let (mut pace, mut tool) = (Pace::FREE, None);
+        let (mut pace, mut tool) = (PathLimits::FREE, None);
         let segments = &self.sampler.segments;
         while let Some(segment) = segments.get(self.index) {
             let end = self.before + segment.time;

@@ -41,7 +41,7 @@ const DENSITIES: [f64; 3] = [2.0, 3.0, 6.0];
 /// How often the limits are lowered where a law uses too much of them.
 const MOST_TEMPERINGS: i32 = 6;
 /// So much of the limits a law may use; a stop may use a little more, so that there is one from any state of a law, and
-/// what uses more than that is no law.
+/// what uses more than that is not a law.
 const TEMPERED_USE: f64 = 1.006;
 /// They are lowered by more than it takes, each time by the square of this more, where no more than so much of them is
 /// used.

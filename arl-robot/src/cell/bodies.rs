@@ -157,7 +157,7 @@ impl Body {
         folder: &Path,
     ) -> Result<Self, SettingsError> {
         let lacks = |what: &str| section.source.error(value.span(), format!("this [[body]] lacks {what}"));
-        let what = "what it is called, like \"table\"";
+        let what = "a name, like \"table\"";
         let name = section.text("name", what)?.ok_or_else(|| lacks("`name`"))?;
         if let (Some(found), true) = (section.find("name"), name.is_empty() || name.contains(char::is_control)) {
             return Err(section.wrong("name", found, what));
@@ -165,7 +165,7 @@ impl Body {
         let channel = channel(section, foreground, "the channel of the robot that carries it")?;
         let holder = holder(section, channel, carriers)?;
         if let (Some(found), Holder::World, None) = (section.find("channel"), holder, section.find("gripped_by")) {
-            let text = "`channel` says whose robot carries a body; this one stands in the world";
+            let text = "`channel` says whose robot carries a body; this one is fixed in the world";
             return Err(section.source.error(found.span(), text));
         }
         Ok(Self {
@@ -203,7 +203,10 @@ fn holder(section: &Section<'_>, channel: u32, carriers: &[Carrier]) -> Result<H
             let known: Vec<&str> = HOLDERS.iter().copied().chain(Carrier::axes_of(carriers, channel)).collect();
             let text = match carriers.iter().find(|carrier| carrier.axis == on) {
                 Some(other) => {
-                    format!("the [[carrier]] of `{on}` is of channel {}, this body of channel {channel}", other.channel)
+                    format!(
+                        "the [[carrier]] of `{on}` is of channel {}, but this body is of channel {channel}",
+                        other.channel
+                    )
                 }
                 None => format!("a body is on {expected}, not on \"{on}\"; {}", hint(on, &known)),
             };
@@ -214,13 +217,13 @@ fn holder(section: &Section<'_>, channel: u32, carriers: &[Carrier]) -> Result<H
 
 /// How many of a kind there are, if that is said.
 fn count(section: &Section<'_>) -> Result<Option<u32>, SettingsError> {
-    let count = section.number("count", "how many of these bodies come after each other", 1.0, MOST_OF_A_KIND)?;
+    let count = section.number("count", "how many of these bodies come one after another", 1.0, MOST_OF_A_KIND)?;
     let (Some(count), Some(found)) = (count, section.find("count")) else { return Ok(None) };
     if count.fract() != 0.0 {
-        return Err(section.wrong("count", found, "a whole number of bodies that come after each other"));
+        return Err(section.wrong("count", found, "a whole number of bodies that come one after another"));
     }
     if section.find("gripped_by").is_none() {
-        let text = "`count` bodies come after each other as they are taken; this one lacks `gripped_by`";
+        let text = "`count` bodies come one after another as they are taken; this one lacks `gripped_by`";
         return Err(section.source.error(found.span(), text));
     }
     Ok(Some(count as u32))
@@ -291,7 +294,7 @@ fn form(section: &Section<'_>, folder: &Path) -> Result<Option<Form>, SettingsEr
     if let (Some(scale), None) = (section.find("scale"), section.find("mesh")) {
         return Err(section
             .source
-            .error(scale.span(), "`scale` says in what a `mesh` is measured; this body has none"));
+            .error(scale.span(), "`scale` says in what unit a `mesh` is measured; this body has no `mesh`"));
     }
     Ok(found)
 }
@@ -318,13 +321,13 @@ pub(super) fn place(section: &Section<'_>, key: &str) -> Result<Option<[f64; 6]>
     };
     match place {
         Some([at @ .., a, b, c]) if !is_near(&at, LARGEST_MM) || !is_near(&[a, b, c], LARGEST_DEG) => {
-            let expected = format!("places within {LARGEST_MM} mm and turns within {LARGEST_DEG} deg");
+            let expected = format!("positions within {LARGEST_MM} mm and rotations within {LARGEST_DEG} deg");
             Err(section.wrong(key, value, &expected))
         }
         Some(place) => Ok(Some(place)),
         None => {
             let expected =
-                "x, y, z in mm, with a, b, c in deg if it is turned, like [800, 0, -20] or [800, 0, 0, 90, 0, 0]";
+                "x, y, z in mm, with a, b, c in deg if it is rotated, like [800, 0, -20] or [800, 0, 0, 90, 0, 0]";
             Err(section.wrong(key, value, expected))
         }
     }
@@ -370,18 +373,18 @@ fn are_known(section: &Section<'_>, known: &HashSet<String>) -> Result<(), Setti
 /// How the robot of a channel takes it along, if it does.
 fn grip(section: &Section<'_>, io: (&Channels, &Names), channel: u32) -> Result<Option<Grip>, SettingsError> {
     let within =
-        section.number("within", "how far the TCP is away at most when the body is taken, in mm,", 0.0, 1e4)?;
+        section.number("within", "the largest distance of the TCP at which the body is taken, in mm,", 0.0, 1e4)?;
     let Some(by) = level(section, "gripped_by", io)? else {
         return match section.find("within") {
             Some(found) => {
-                let text = "`within` says how near the TCP is when a body is taken; this one lacks `gripped_by`";
+                let text = "`within` says how near the TCP must be when a body is taken; this one lacks `gripped_by`";
                 Err(section.source.error(found.span(), text))
             }
             None => Ok(None),
         };
     };
     if let Some(found) = section.find("on") {
-        let text = "a body with `gripped_by` stands in the world until it is taken, and has no `on`";
+        let text = "a body with `gripped_by` is in the world until it is taken, and has no `on`";
         return Err(section.source.error(found.span(), text));
     }
     Ok(Some(Grip { by, channel, within: within.unwrap_or(WITHIN_MM), follows: false }))
@@ -479,17 +482,17 @@ mod tests {
             ("[[body]]\nname = \"a\"\nbox = [1, 2, inf]", 3, "its edges along x, y and z in mm"),
             ("base = [0, -inf, 0]", 1, "x, y, z in mm"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\non = \"flansh\"", 4, "did you mean `flange`?"),
-            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nchannel = 1", 4, "this one stands in the world"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nchannel = 1", 4, "this one is fixed in the world"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\non = \"flange\"\nchannel = 2", 5, "from 1 to 1"),
             ("[[body]]\nname = \"a\"\nsphere = 0", 3, "its radius in mm"),
             ("[[body]]\nname = \"a\"\nmesh = \"a.stl\"\nscale = 0", 4, "how many mm the mesh's unit is"),
-            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nscale = 1", 4, "this body has none"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nscale = 1", 4, "this body has no `mesh`"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nwithin = 1", 4, "this one lacks `gripped_by`"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ngripped_by = \"do.1\"\non = \"flange\"", 5, "and has no `on`"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ngripped_by = \"ao.1\"", 4, "a digital input or output"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ncount = 2", 4, "this one lacks `gripped_by`"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ngripped_by = \"do.1\"\ncount = 1.5", 5, "a whole number"),
-            ("[[body]]\nname = \"\"\nbox = [1, 2, 3]", 2, "what it is called"),
+            ("[[body]]\nname = \"\"\nbox = [1, 2, 3]", 2, "a name, like"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nmay_touch = \"b\"", 4, "the names of bodies"),
             (
                 "[[body]]\nname = \"table\"\nbox = [1, 2, 3]\nmay_touch = [\"the hand\", \"tabel\"]",

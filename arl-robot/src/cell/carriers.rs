@@ -112,7 +112,7 @@ mod tests {
             ("[[carrier]]\naxis = \"ej2\"\non = \"ej1\"", "no [[carrier]] above it has the axis `ej1` of channel 1"),
             (
                 "[[carrier]]\naxis = \"ej1\"\nspeed = 2",
-                "[[carrier]] has no key `speed`; known are: axis, channel, at, on",
+                "[[carrier]] has no key `speed`; expected one of: axis, channel, at, on",
             ),
             (&format!("{known}{known}"), "there is another [[carrier]] of `ej1`"),
             (&format!("{known}[[body]]\nname = \"a\"\nsphere = 2\non = \"ej2\""), "did you mean `ej1`?"),
@@ -120,7 +120,7 @@ mod tests {
                 &format!(
                     "{known}[[body]]\nname = \"a\"\nsphere = 2\non = \"ej1\"\nchannel = 2\n[[channel]]\nprogram = \"b.arl\""
                 ),
-                "the [[carrier]] of `ej1` is of channel 1, this body of channel 2",
+                "the [[carrier]] of `ej1` is of channel 1, but this body is of channel 2",
             ),
         ] {
             let error = Cell::parse("cell.toml", text).unwrap_err();

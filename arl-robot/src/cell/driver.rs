@@ -59,16 +59,25 @@ impl DriverSettings {
         let protocol = match spoken {
             Spoken::Udp => {
                 if let Some(found) = section.find("listen") {
-                    let text = format!("{name} has `listen`, which goes with \"rsi\": this one has `address`");
+                    let text = format!("{name} has `listen`, which is for \"rsi\": this one needs `address`");
                     return Err(section.source.error(found.span(), text));
                 }
                 Protocol::Udp {
-                    address: needed("address", "where the arm listens, like \"192.168.0.30:7447\"", is_place)?,
+                    address: needed(
+                        "address",
+                        "the address on which the arm listens, like \"192.168.0.30:7447\"",
+                        is_place,
+                    )?,
                 }
             }
             Spoken::Rsi => Protocol::Rsi {
-                listen: needed("listen", "what the robot sends to, like \"0.0.0.0:49152\"", is_place)?,
-                address: text(&section, "address", "the robot's controller, like \"192.168.0.30\"", is_host)?,
+                listen: needed("listen", "the address that the robot sends to, like \"0.0.0.0:49152\"", is_place)?,
+                address: text(
+                    &section,
+                    "address",
+                    "the address of the robot's controller, like \"192.168.0.30\"",
+                    is_host,
+                )?,
             },
         };
         let times = [("world", DriverTime::World), ("robot", DriverTime::Robot)];
@@ -141,10 +150,14 @@ mod tests {
             ("driver = 3", 1, "expected the table [driver]"),
             ("[driver]\naddress = \"a:1\"", 1, "[driver] lacks `protocol`: \"udp\" or \"rsi\""),
             ("[driver]\nprotocol = \"tcp\"", 2, "expected \"udp\" or \"rsi\", found the text \"tcp\""),
-            ("[driver]\nprotocol = \"udp\"", 1, "[driver] lacks `address`: where the arm listens"),
+            ("[driver]\nprotocol = \"udp\"", 1, "[driver] lacks `address`: the address on which the arm listens"),
             ("[driver]\nprotocol = \"udp\"\naddress = \"10.0.0.1\"", 3, "like \"192.168.0.30:7447\""),
-            ("[driver]\nprotocol = \"rsi\"\naddress = \"10.0.0.1:1\"", 1, "[driver] lacks `listen`: what the robot"),
-            ("[driver]\nprotocol = \"udp\"\naddress = \"a:1\"\nlisten = \"b:1\"", 4, "this one has `address`"),
+            (
+                "[driver]\nprotocol = \"rsi\"\naddress = \"10.0.0.1:1\"",
+                1,
+                "[driver] lacks `listen`: the address that the robot",
+            ),
+            ("[driver]\nprotocol = \"udp\"\naddress = \"a:1\"\nlisten = \"b:1\"", 4, "this one needs `address`"),
             (
                 "[driver]\nprotocol = \"rsi\"\nlisten = \"0.0.0.0:1\"\naddress = \"10.0.0.1:x\"",
                 4,

@@ -282,7 +282,7 @@ mod tests {
             (
                 "\n[inout]\n",
                 2,
-                "known are: controller, io, names, network, serial, home, external, collision, modbus_tcp",
+                "expected one of: controller, io, names, network, serial, home, external, collision, modbus_tcp",
             ),
             ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),
             ("[io]\ndi = \"many\"", 2, "found the text \"many\""),

@@ -138,8 +138,9 @@ impl Programs {
             let channel = channel(top.source, value, folder)?;
             let others = channels.iter().filter(|other: &&CellChannel| !other.background).count();
             if !channel.background && others + 2 > MOST_FOREGROUND {
-                let text =
-                    format!("one foreground channel too many: with the first one there are at most {MOST_FOREGROUND}");
+                let text = format!(
+                    "one foreground channel too many: at most {MOST_FOREGROUND} are possible, the first one included"
+                );
                 return Err(top.source.error(value.span(), text));
             }
             channels.push(channel);
@@ -298,7 +299,7 @@ mod tests {
             ("[[channel]]\nprogram = \"a\"\nbackground = true\nrobot = \"hsr065\"", 4, "both `background` and `robot`"),
             ("[[channel]]\nprogram = \"a\"\nbackground = true\nhome2 = []", 4, "both `background` and `home2`"),
             ("[[channel]]\nprogramm = \"a\"", 2, "did you mean `program`?"),
-            (&"[[channel]]\nprogram = \"a\"\n".repeat(6), 11, "with the first one there are at most 6"),
+            (&"[[channel]]\nprogram = \"a\"\n".repeat(6), 11, "at most 6 are possible, the first one included"),
             ("channel = 3", 1, "tables that begin with [[channel]]"),
             ("load = \"a.arl\"", 1, "a list of programs"),
             ("[[channel]]\nprogram = \"a\"\n[[channel.collision]]\ncid = 17\npercent = 20", 4, "from 0 to 16"),

@@ -117,7 +117,7 @@ const TAKEN: [&str; 20] = [
 ];
 
 /// What a name of a signal may be.
-const FORM: &str = "a name of letters, digits and `_`, the first no digit, like \"part_present\"";
+const FORM: &str = "a name of letters, digits and `_` that does not begin with a digit, like \"part_present\"";
 
 impl Names {
     /// `[names]` of a cell file.
@@ -147,10 +147,12 @@ impl Names {
                 return Err(table.wrong(key, value, FORM));
             }
             if TAKEN.contains(&name) {
-                return Err(source.error(value.span(), format!("`{name}` is a word of scenarios: choose another name")));
+                return Err(
+                    source.error(value.span(), format!("`{name}` is a keyword of scenarios: choose another name"))
+                );
             }
             if let Some(other) = names.signal(name) {
-                return Err(source.error(value.span(), format!("`{name}` is the name of {other} already")));
+                return Err(source.error(value.span(), format!("`{name}` is already the name of {other}")));
             }
             names.0.push((signal, name.to_owned()));
         }
@@ -202,8 +204,8 @@ mod tests {
             ("\"di.1\" = 3", "expected a name of letters"),
             ("\"di.1\" = \"part present\"", "expected a name of letters"),
             ("\"di.1\" = \"1st\"", "expected a name of letters"),
-            ("\"di.1\" = \"pendant\"", "is a word of scenarios"),
-            ("\"do.1\" = \"b\"\n\"di.1\" = \"b\"", "`b` is the name of do.1 already"),
+            ("\"di.1\" = \"pendant\"", "is a keyword of scenarios"),
+            ("\"do.1\" = \"b\"\n\"di.1\" = \"b\"", "`b` is already the name of do.1"),
         ] {
             let error = names(text).unwrap_err();
             assert!(error.line >= 2 && error.message.contains(words), "{error}");

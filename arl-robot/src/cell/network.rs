@@ -34,7 +34,7 @@ impl NetworkSettings {
     /// Reads `[network]` and `[serial]` of a cell file.
     ///
     /// # Errors
-    /// What stands there is no address, or no devices.
+    /// What stands there is neither an address nor a list of devices.
     pub fn read(top: &Section<'_>) -> Result<Self, SettingsError> {
         let network = top.table("network", "[network]", NETWORK)?;
         let listen = network.map_or(Ok(Listen::default()), |network| listen(&network))?;

@@ -42,7 +42,7 @@ impl fmt::Display for Unmoved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Unmoved::BothHeld => {
-                "the robot holds both the tool and the workpiece, which then do not move against each other; a workpiece \
+                "the robot holds both the tool and the workpiece, which then do not move relative to each other; a workpiece \
                  with robhold needs a tool with stationary"
             }
             Unmoved::NeitherHeld => {

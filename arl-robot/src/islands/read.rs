@@ -93,7 +93,7 @@ fn island(
     let name = section.text("name", "a name for messages")?.map_or_else(|| address.to_string(), str::to_owned);
     if name.trim().is_empty() || !taken.names.insert(name.clone()) {
         let place = section.find("name").map_or_else(|| value.span(), toml::Spanned::span);
-        let message = format!("there is another island with the name \"{name}\": expected one that tells them apart");
+        let message = format!("there is another island with the name \"{name}\": expected a unique name");
         return Err(source.error(place, message));
     }
     let unit = section.count("unit", "a unit number", 255)?.unwrap_or(1) as u8;
@@ -164,8 +164,8 @@ fn stretch(
     let last = channel + count - 1;
     if channel == 0 || last > channels {
         let message = match channels {
-            0 => format!("{name}: {kind} {channel} to {last} are not there: this cell has no {kind}"),
-            _ => format!("{name}: {kind} {channel} to {last} are not there: the cell has {kind} 1 to {channels}"),
+            0 => format!("{name}: {kind} {channel} to {last} do not exist: this cell has no {kind}"),
+            _ => format!("{name}: {kind} {channel} to {last} do not exist: the cell has {kind} 1 to {channels}"),
         };
         return Err(wrong(message));
     }
@@ -271,7 +271,7 @@ fn claim(
 
 /// The registers at the least and the greatest value of a channel.
 fn raw(entry: &Section<'_>) -> Result<Option<(i32, i32)>, SettingsError> {
-    const WHAT: &str = "the register at the least and at the greatest value of the channel, like [0, 27648]: two numbers \
+    const WHAT: &str = "the register values for the lowest and the highest value of the channel, like [0, 27648]: two numbers \
                         from -32768 to 32767, or from 0 to 65535";
     let Some(value) = entry.find("raw") else { return Ok(None) };
     let ends = value.get_ref().as_array().and_then(|ends| match &ends[..] {
@@ -358,7 +358,7 @@ mod tests {
             (&format!("{HEAD}di = 8"), 3, "expected a list of tables"),
             (&format!("{HEAD}di = [8]"), 3, "expected the table `di` of [[island]]"),
             (&format!("{HEAD}di = [{{ coil = 0 }}]"), 3, "lacks `channel`"),
-            (&format!("{HEAD}di = [{{ channel = 0, coil = 0 }}]"), 3, "DI 0 to 0 are not there"),
+            (&format!("{HEAD}di = [{{ channel = 0, coil = 0 }}]"), 3, "DI 0 to 0 do not exist"),
             (&format!("{HEAD}di = [{{ channel = 60, count = 8, coil = 0 }}]"), 3, "the cell has DI 1 to 64"),
             (&format!("[io]\nai = 0\n{HEAD}ai = [{{ channel = 1, input_register = 0 }}]"), 5, "this cell has no AI"),
             (

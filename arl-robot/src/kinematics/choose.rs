@@ -17,7 +17,7 @@ pub struct Wanted {
 }
 
 /// What `cfg` may be, in words.
-pub const CONFIGURATIONS: &str = "six axes have 0 to 7, a SCARA robot has 0 (right-handed) and 4 (left-handed)";
+pub const CONFIGURATIONS: &str = "a six-axis robot has 0 to 7, a SCARA robot has 0 (right-handed) and 4 (left-handed)";
 
 /// Why no joint vector for a pose was found.
 #[derive(Clone, PartialEq, Debug)]
@@ -54,7 +54,7 @@ impl fmt::Display for Refusal {
             Refusal::Unreachable { .. } => write!(f, "the configuration does not reach the pose"),
             Refusal::Tilted { by } => write!(f, "the flange would have to tilt by {by:.1} deg"),
             Refusal::AxisLimit { axis, value } => {
-                write!(f, "axis {} would have to stand at {value:.3} deg (mm), outside its range", axis + 1)
+                write!(f, "axis {} would have to be at {value:.3} deg (mm), outside its range", axis + 1)
             }
         }
     }

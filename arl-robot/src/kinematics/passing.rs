@@ -7,7 +7,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::angles::wrap;
 use super::frame::Frame;
-use super::{Axes, Kinematics, wrap_degrees};
+use super::{Axes, Kinematics, Opw, wrap_degrees};
 use crate::robot::Axis;
 
 /// A passage is where the sine of the wrist's middle axis is below this: 4 deg, the most that the orientation gives
@@ -93,95 +93,128 @@ impl Kinematics {
     /// none.
     pub fn passages(&self, flange: impl Fn(f64) -> Frame, cfg: u8, start: &Axes, axes: &[Axis]) -> Vec<Passage> {
         let Kinematics::SixAxis(opw) = self else { return Vec::new() };
-        // The exact axes 4 and 5 of the arm's present configuration.
-        let exact = |at: f64, cfg: u8, near: &Axes| opw.inverse(&flange(at), cfg, near);
-        let sine = |axes: &Axes| {
-            let [_, _, _, _, fifth, _] = opw.inner(axes);
-            fifth.to_radians().sin().abs()
-        };
-        let inside = |at: f64, cfg: u8, near: &Axes| exact(at, cfg, near).is_some_and(|axes| sine(&axes) < PASSAGE);
-        // The border between two places of which one is inside.
-        let border = |mut outside: f64, mut within: f64, cfg: u8, near: &Axes| {
-            for _ in 0..50 {
-                let middle = 0.5 * (outside + within);
-                if inside(middle, cfg, near) { within = middle } else { outside = middle }
-            }
-            outside
-        };
-        let fourth = |axes: &Axes| {
-            let [_, _, _, fourth, ..] = *axes;
-            fourth
-        };
         let range = axes.get(3).map_or((f64::NEG_INFINITY, f64::INFINITY), |axis| (axis.min, axis.max));
-
+        let search = PassageSearch { opw, flange, start, range };
         let mut passages = Vec::new();
         let (mut cfg, mut near, mut at) = (cfg, *start, 0.0);
-        let mut entered = sine(start) < PASSAGE;
+        let mut entered = search.wrist_sine(start) < PASSAGE;
         let mut from = 0.0;
         while at < 1.0 {
             let next = (at + STEP).min(1.0);
-            let is_inside = inside(next, cfg, &near);
+            let is_inside = search.is_inside(next, cfg, &near);
             if !entered && is_inside {
-                from = border(at, next, cfg, &near);
+                from = search.border(at, next, cfg, &near);
                 entered = true;
             }
             if entered && (!is_inside || next >= 1.0) {
-                let to = if is_inside { 1.0 } else { border(next, at.max(from), cfg, &near) };
-                let Some(end) = exact(to, cfg, &near) else { break };
-                let first = if from == 0.0 { fourth(start) } else { fourth(&near) };
-                // Half a turn of axis 4 more or less, with the middle axis on the other side, gives the same
-                // orientation.
-                let least = end_of_axis4(fourth(&end), first, range);
-                let flips = (wrap_degrees(least - fourth(&end))).abs() > 90.0;
-                // At an end of the path axis 4 goes as it would exactly, less the nearer the middle axis is to 0: what
-                // the path goes on with there does the same.
-                let at_end = |border: f64, value: f64| {
-                    let Some(here) = exact(border, cfg, &near) else { return [value, 0.0, 0.0] };
-                    let share = share_kept(sine(&here));
-                    if share == 0.0 {
-                        return [value, 0.0, 0.0];
-                    }
-                    let step = if border <= 0.0 { DIFFERENCE } else { -DIFFERENCE };
-                    let shift = |steps: f64| {
-                        exact(border + steps * step, cfg, &near).map(|axes| wrap_degrees(fourth(&axes) - fourth(&here)))
-                    };
-                    let (Some(one), Some(two), Some(three)) = (shift(1.0), shift(2.0), shift(3.0)) else {
-                        return [value, 0.0, 0.0];
-                    };
-                    let first = (18.0 * one - 9.0 * two + 2.0 * three) / (6.0 * step);
-                    let second = (-5.0 * one + 4.0 * two - three) / (step * step);
-                    [value, share * first, share * second]
-                };
-                let derivatives = |border: f64, value: f64| {
-                    if border <= 0.0 || border >= 1.0 {
-                        return at_end(border, value);
-                    }
-                    let shift = |by: f64| exact(border + by, cfg, &near).map(|axes| fourth(&axes) - value);
-                    let (Some(before), Some(here), Some(after)) = (shift(-DIFFERENCE), shift(0.0), shift(DIFFERENCE))
-                    else {
-                        return [value, 0.0, 0.0];
-                    };
-                    let [before, after] = wrap([before - here, after - here]);
-                    [value, (after - before) / (2.0 * DIFFERENCE), (after + before) / (DIFFERENCE * DIFFERENCE)]
-                };
-                let starts = if from == 0.0 { first } else { first + nearest(exact(from, cfg, &near), first, fourth) };
-                let coefficients = quintic(derivatives(from, starts), derivatives(to, least), to - from);
-                if flips {
-                    cfg ^= 1;
-                }
-                passages.push(Passage { from, to, axis4: coefficients, cfg_behind: cfg });
-                let [_, _, _, fourth, ..] = &mut near;
-                *fourth = least;
+                let to = if is_inside { 1.0 } else { search.border(next, at.max(from), cfg, &near) };
+                let Some((passage, end)) = search.passage(from, to, cfg, &near) else { break };
+                passages.push(passage);
+                cfg = passage.cfg_behind;
+                set_axis4(&mut near, end);
                 entered = false;
-            } else if !entered && let Some(found) = exact(next, cfg, &near) {
-                let followed = fourth(&near) + wrap_degrees(fourth(&found) - fourth(&near));
+            } else if !entered && let Some(found) = search.exact(next, cfg, &near) {
+                let followed = axis4(&near) + wrap_degrees(axis4(&found) - axis4(&near));
                 near = found;
-                let [_, _, _, fourth, ..] = &mut near;
-                *fourth = followed;
+                set_axis4(&mut near, followed);
             }
             at = next;
         }
         passages
+    }
+}
+
+fn axis4(axes: &Axes) -> f64 {
+    let [_, _, _, axis4, ..] = *axes;
+    axis4
+}
+
+fn set_axis4(axes: &mut Axes, to: f64) {
+    let [_, _, _, axis4, ..] = axes;
+    *axis4 = to;
+}
+
+/// A path whose passages are looked for.
+struct PassageSearch<'a, F> {
+    opw: &'a Opw,
+    /// The frame of the flange in the base for a path parameter from 0 to 1.
+    flange: F,
+    /// The axes where the path begins.
+    start: &'a Axes,
+    /// The range of axis 4 (deg).
+    range: (f64, f64),
+}
+
+impl<F: Fn(f64) -> Frame> PassageSearch<'_, F> {
+    /// The axes at a path parameter with the exact orientation.
+    fn exact(&self, at: f64, cfg: u8, near: &Axes) -> Option<Axes> {
+        self.opw.inverse(&(self.flange)(at), cfg, near)
+    }
+
+    /// The sine of the wrist's middle axis, without its sign.
+    fn wrist_sine(&self, axes: &Axes) -> f64 {
+        let [_, _, _, _, fifth, _] = self.opw.inner(axes);
+        fifth.to_radians().sin().abs()
+    }
+
+    fn is_inside(&self, at: f64, cfg: u8, near: &Axes) -> bool {
+        self.exact(at, cfg, near).is_some_and(|axes| self.wrist_sine(&axes) < PASSAGE)
+    }
+
+    /// The border of a passage between two places of which one is inside.
+    fn border(&self, mut outside: f64, mut within: f64, cfg: u8, near: &Axes) -> f64 {
+        for _ in 0..50 {
+            let middle = 0.5 * (outside + within);
+            if self.is_inside(middle, cfg, near) { within = middle } else { outside = middle }
+        }
+        outside
+    }
+
+    /// The passage over a stretch, and where axis 4 is behind it. `near` are the axes shortly before. `None` where no
+    /// axes lead to its end.
+    fn passage(&self, from: f64, to: f64, cfg: u8, near: &Axes) -> Option<(Passage, f64)> {
+        let end = axis4(&self.exact(to, cfg, near)?);
+        let first = if from == 0.0 { axis4(self.start) } else { axis4(near) };
+        // Half a turn of axis 4 more or less, with the middle axis on the other side, gives the same orientation.
+        let least = end_of_axis4(end, first, self.range);
+        let flips = (wrap_degrees(least - end)).abs() > 90.0;
+        let starts = if from == 0.0 { first } else { first + from_exact(self.exact(from, cfg, near), first) };
+        let start = self.derivatives(from, starts, cfg, near);
+        let axis4 = quintic(start, self.derivatives(to, least, cfg, near), to - from);
+        let cfg_behind = if flips { cfg ^ 1 } else { cfg };
+        Some((Passage { from, to, axis4, cfg_behind }, least))
+    }
+
+    /// The value of axis 4 at a border of the passage, with its first and second derivative by the path parameter.
+    fn derivatives(&self, border: f64, value: f64, cfg: u8, near: &Axes) -> [f64; 3] {
+        if border <= 0.0 || border >= 1.0 {
+            let [first, second] = self.derivatives_at_end(border, cfg, near).unwrap_or_default();
+            return [value, first, second];
+        }
+        let shift = |by: f64| self.exact(border + by, cfg, near).map(|axes| axis4(&axes) - value);
+        let (Some(before), Some(here), Some(after)) = (shift(-DIFFERENCE), shift(0.0), shift(DIFFERENCE)) else {
+            return [value, 0.0, 0.0];
+        };
+        let [before, after] = wrap([before - here, after - here]);
+        [value, (after - before) / (2.0 * DIFFERENCE), (after + before) / (DIFFERENCE * DIFFERENCE)]
+    }
+
+    /// The derivatives of axis 4 at an end of the path: as it would go exactly, less the nearer the middle axis is to
+    /// 0. What the path goes on with there does the same.
+    fn derivatives_at_end(&self, end: f64, cfg: u8, near: &Axes) -> Option<[f64; 2]> {
+        let here = self.exact(end, cfg, near)?;
+        let share = share_kept(self.wrist_sine(&here));
+        if share == 0.0 {
+            return None;
+        }
+        let step = if end <= 0.0 { DIFFERENCE } else { -DIFFERENCE };
+        let shift = |steps: f64| {
+            self.exact(end + steps * step, cfg, near).map(|axes| wrap_degrees(axis4(&axes) - axis4(&here)))
+        };
+        let (one, two, three) = (shift(1.0)?, shift(2.0)?, shift(3.0)?);
+        let first = (18.0 * one - 9.0 * two + 2.0 * three) / (6.0 * step);
+        let second = (-5.0 * one + 4.0 * two - three) / (step * step);
+        Some([share * first, share * second])
     }
 }
 
@@ -193,8 +226,8 @@ fn share_kept(sine: f64) -> f64 {
 }
 
 /// How far the exact axis 4 is from `value`, whole turns left out.
-fn nearest(axes: Option<Axes>, value: f64, fourth: impl Fn(&Axes) -> f64) -> f64 {
-    axes.map_or(0.0, |axes| wrap_degrees(fourth(&axes) - value))
+fn from_exact(axes: Option<Axes>, value: f64) -> f64 {
+    axes.map_or(0.0, |axes| wrap_degrees(axis4(&axes) - value))
 }
 
 /// The angle half turns away from `end` that is nearest to `start` and within the range.

@@ -79,7 +79,7 @@ pub const LOWEST_TURNING_DEG_S: f64 = 0.1;
 /// that makes sense.
 pub const CLEAR_OF_SINGULAR: f64 = 0.15;
 /// Over less time than this (s) at the lowest speed that makes sense no way is looked at: an axis that has jumped by
-/// then would have to turn at once.
+/// then would have to turn infinitely fast.
 pub const SHORTEST_STEP_S: f64 = 1e-3;
 
 /// How long a path takes at the lowest speed that makes sense (see [`LOWEST_TRAVEL_MM_S`]), in s per unit of its

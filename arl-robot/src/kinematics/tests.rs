@@ -12,7 +12,7 @@ const ROBOTS: [&str; 5] = ["kr10-r1420", "kr6-r700", "irb2400-10", "tx2-60", "si
 fn opw(robot: &Robot) -> &Opw {
     match &robot.kinematics {
         Kinematics::SixAxis(opw) => opw,
-        Kinematics::Scara(_) => panic!("{} is no six-axis robot", robot.name),
+        Kinematics::Scara(_) => panic!("{} is not a six-axis robot", robot.name),
     }
 }
 

@@ -70,7 +70,7 @@ impl Description {
         match (&self.kinematics, self.family) {
             (Kinematics::SixAxis(opw), Family::SixAxis) => six_axes(opw),
             (Kinematics::Scara(scara), Family::Scara) => four_axes(scara),
-            _ => Err("`kinematics` is that of another family of robots than `family`".to_owned()),
+            _ => Err("`kinematics` belongs to another family of robots than `family`".to_owned()),
         }
     }
 
@@ -113,7 +113,7 @@ impl Description {
         let expected = axis_name(self.family, at);
         if *name != expected {
             return Err(format!(
-                "axis {} is named \"{name}\": expected \"{expected}\"; the axes stand in order",
+                "axis {} is named \"{name}\": expected \"{expected}\"; the axes must be in order",
                 at + 1
             ));
         }
@@ -145,7 +145,7 @@ impl Description {
     fn check_links(&self) -> Result<(), String> {
         let (own, found) = (own_axes(self.family), self.links.len());
         if found != 0 && found != own {
-            return Err(format!("there are {found} links: expected {own}, one an axis of the robot, or none"));
+            return Err(format!("there are {found} links: expected {own}, one for each axis of the robot, or none"));
         }
         for (number, link) in (1..).zip(&self.links) {
             let Link { mass, com, inertia, gear, torque_constant } = link;
@@ -206,7 +206,7 @@ impl Robot {
     /// The robot that a description is of.
     ///
     /// # Errors
-    /// It is no robot: a length or an angle is beyond 1e6 mm (deg), a limit, a mass or the length of an arm is not
+    /// It is not a robot: a length or an angle is beyond 1e6 mm (deg), a limit, a mass or the length of an arm is not
     /// above 1e-6 or too large, a range is empty, or there are too few or too many of something.
     pub fn new(description: Description) -> Result<Robot, RobotError> {
         description.check()?;

@@ -66,7 +66,7 @@ impl Robot {
     /// The robot that `text` describes; `file` names the text in errors.
     ///
     /// # Errors
-    /// The text is no TOML, or no robot: with line, column and what was expected.
+    /// The text is not TOML, or no robot: with line, column and what was expected.
     pub fn parse(file: &str, text: &str) -> Result<Robot, RobotError> {
         read::robot(file, text)
     }

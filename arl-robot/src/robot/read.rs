@@ -4,7 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::description::{Description, LARGEST, LARGEST_LIMIT, lifts};
-use super::section::{Section, Source};
+use super::section::{RobotSection, RobotSource};
 use super::{
     Axis, DriveLimits, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, axis_name, own_axes,
 };
@@ -32,10 +32,11 @@ const PROFILES: [(&str, VelocityProfile); 3] =
     [("T", VelocityProfile::T), ("S", VelocityProfile::S), ("O", VelocityProfile::O)];
 
 pub(super) fn robot(file: &str, text: &str) -> Result<Robot, RobotError> {
-    let source = Source { file, text };
-    let root = DeTable::parse(text)
-        .map_err(|error| source.error(error.span().unwrap_or(0..0), format!("this is no TOML: {}", error.message())))?;
-    let top = Section::new(source, "the robot file", 0..0, root.get_ref(), TOP)?;
+    let source = RobotSource { file, text };
+    let root = DeTable::parse(text).map_err(|error| {
+        source.error(error.span().unwrap_or(0..0), format!("this is not TOML: {}", error.message()))
+    })?;
+    let top = RobotSection::new(source, "the robot file", 0..0, root.get_ref(), TOP)?;
 
     let name = top.text("name", "the robot's name")?.to_owned();
     let family = word(&top, "family", &FAMILIES)?;
@@ -54,7 +55,7 @@ pub(super) fn robot(file: &str, text: &str) -> Result<Robot, RobotError> {
 }
 
 /// One of a few words.
-fn word<T: Copy>(section: &Section<'_>, key: &str, words: &[(&str, T)]) -> Result<T, RobotError> {
+fn word<T: Copy>(section: &RobotSection<'_>, key: &str, words: &[(&str, T)]) -> Result<T, RobotError> {
     let all = words.iter().map(|(word, _)| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ");
     let found = section.text(key, &all)?;
     words
@@ -64,7 +65,7 @@ fn word<T: Copy>(section: &Section<'_>, key: &str, words: &[(&str, T)]) -> Resul
         .ok_or_else(|| section.source.error(section.span_of(key), format!("`{key}` is \"{found}\": expected {all}")))
 }
 
-fn table<'a>(top: &Section<'a>, key: &str, name: &'a str, known: &[&str]) -> Result<Section<'a>, RobotError> {
+fn table<'a>(top: &RobotSection<'a>, key: &str, name: &'a str, known: &[&str]) -> Result<RobotSection<'a>, RobotError> {
     match top.find(key) {
         None => Err(top.source.error(top.place(), format!("{} lacks {name}, with {}", top.name, known.join(", ")))),
         Some(value) => section(top, value, name, known),
@@ -72,19 +73,24 @@ fn table<'a>(top: &Section<'a>, key: &str, name: &'a str, known: &[&str]) -> Res
 }
 
 fn section<'a>(
-    top: &Section<'a>,
+    top: &RobotSection<'a>,
     value: &'a Spanned<DeValue<'a>>,
     name: &'a str,
     known: &[&str],
-) -> Result<Section<'a>, RobotError> {
+) -> Result<RobotSection<'a>, RobotError> {
     match value.get_ref() {
-        DeValue::Table(table) => Section::new(top.source, name, value.span(), table, known),
+        DeValue::Table(table) => RobotSection::new(top.source, name, value.span(), table, known),
         other => Err(top.source.error(value.span(), format!("expected the table {name}, found {}", kind(other)))),
     }
 }
 
 /// The tables of `[[key]]`.
-fn tables<'a>(top: &Section<'a>, key: &str, name: &'a str, known: &[&str]) -> Result<Vec<Section<'a>>, RobotError> {
+fn tables<'a>(
+    top: &RobotSection<'a>,
+    key: &str,
+    name: &'a str,
+    known: &[&str],
+) -> Result<Vec<RobotSection<'a>>, RobotError> {
     let Some(value) = top.find(key) else { return Ok(Vec::new()) };
     match value.get_ref() {
         DeValue::Array(array) => array.iter().map(|value| section(top, value, name, known)).collect(),
@@ -92,7 +98,7 @@ fn tables<'a>(top: &Section<'a>, key: &str, name: &'a str, known: &[&str]) -> Re
     }
 }
 
-fn opw(geometry: &Section<'_>) -> Result<Opw, RobotError> {
+fn opw(geometry: &RobotSection<'_>) -> Result<Opw, RobotError> {
     let length = |key| geometry.number(key, "a length in mm");
     let signs: [f64; 6] = geometry.fixed("signs", "six signs, 1 or -1", LARGEST)?;
     if signs.iter().any(|sign| sign.abs() != 1.0) {
@@ -114,7 +120,7 @@ fn opw(geometry: &Section<'_>) -> Result<Opw, RobotError> {
     }))
 }
 
-fn scara(geometry: &Section<'_>) -> Result<Scara, RobotError> {
+fn scara(geometry: &RobotSection<'_>) -> Result<Scara, RobotError> {
     Ok(Scara {
         l1: geometry.positive_length("l1", "the length of the first arm in mm")?,
         l2: geometry.positive_length("l2", "the length of the second arm in mm")?,
@@ -122,7 +128,7 @@ fn scara(geometry: &Section<'_>) -> Result<Scara, RobotError> {
     })
 }
 
-fn tcp(tcp: &Section<'_>) -> Result<TcpLimits, RobotError> {
+fn tcp(tcp: &RobotSection<'_>) -> Result<TcpLimits, RobotError> {
     Ok(TcpLimits {
         vel: tcp.positive("vel", "a speed in mm/s")?,
         acc: tcp.positive("acc", "an acceleration in mm/s2")?,
@@ -133,27 +139,28 @@ fn tcp(tcp: &Section<'_>) -> Result<TcpLimits, RobotError> {
     })
 }
 
-fn axes(top: &Section<'_>, family: Family) -> Result<Vec<Axis>, RobotError> {
+fn axes(top: &RobotSection<'_>, family: Family) -> Result<Vec<Axis>, RobotError> {
     let own = own_axes(family);
     let tables = tables(top, "axis", "[[axis]]", AXIS)?;
     let most = own + EXTERNAL_AXES;
     if !(own..=most).contains(&tables.len()) {
         let message = format!(
-            "this family has {own} to {most} [[axis]] (j1..j{own}, then ej1.. as far as there are any), found {}",
+            "this family has {own} to {most} [[axis]] (j1..j{own}, then ej1.. for external axes), found {}",
             tables.len()
         );
-        let place = tables.last().map_or(top.place(), Section::place);
+        let place = tables.last().map_or(top.place(), RobotSection::place);
         return Err(top.source.error(place, message));
     }
     tables.iter().enumerate().map(|(at, table)| axis(table, at, family)).collect()
 }
 
-fn axis(table: &Section<'_>, at: usize, family: Family) -> Result<Axis, RobotError> {
+fn axis(table: &RobotSection<'_>, at: usize, family: Family) -> Result<Axis, RobotError> {
     let own = own_axes(family);
     let expected = axis_name(family, at);
     let name = table.text("name", &format!("\"{expected}\""))?;
     if !name.eq_ignore_ascii_case(&expected) {
-        let message = format!("axis {} is named \"{name}\": expected \"{expected}\"; the axes stand in order", at + 1);
+        let message =
+            format!("axis {} is named \"{name}\": expected \"{expected}\"; the axes must be in order", at + 1);
         return Err(table.source.error(table.span_of("name"), message));
     }
     let lifts = lifts(family, at);
@@ -180,8 +187,8 @@ fn axis(table: &Section<'_>, at: usize, family: Family) -> Result<Axis, RobotErr
 }
 
 /// What the drives are held against.
-fn drives(top: &Section<'_>, axes: &[Axis]) -> Result<DriveLimits, RobotError> {
-    let of_axis = |(table, axis): (&Section<'_>, &Axis)| match table.find("following") {
+fn drives(top: &RobotSection<'_>, axes: &[Axis]) -> Result<DriveLimits, RobotError> {
+    let of_axis = |(table, axis): (&RobotSection<'_>, &Axis)| match table.find("following") {
         Some(_) => table.positive("following", "a distance in deg (mm) from its set-point"),
         None => Ok(axis.vel * FOLLOWING_S),
     };
@@ -197,18 +204,18 @@ fn drives(top: &Section<'_>, axes: &[Axis]) -> Result<DriveLimits, RobotError> {
     Ok(DriveLimits { following, feedback, settling, settled })
 }
 
-fn links(top: &Section<'_>, family: Family) -> Result<Vec<Link>, RobotError> {
+fn links(top: &RobotSection<'_>, family: Family) -> Result<Vec<Link>, RobotError> {
     let tables = tables(top, "link", "[[link]]", LINK)?;
     if !tables.is_empty() && tables.len() != own_axes(family) {
-        let place = tables.last().map_or(top.place(), Section::place);
+        let place = tables.last().map_or(top.place(), RobotSection::place);
         let message = format!(
-            "expected {} [[link]], one an axis of the robot, or none; found {}",
+            "expected {} [[link]], one for each axis of the robot, or none; found {}",
             own_axes(family),
             tables.len()
         );
         return Err(top.source.error(place, message));
     }
-    let read = |link: &Section<'_>| {
+    let read = |link: &RobotSection<'_>| {
         Ok(Link {
             mass: link.positive("mass", "a mass in kg")?,
             com: link.fixed("com", "the centre of mass: three lengths in mm", LARGEST)?,
@@ -221,9 +228,9 @@ fn links(top: &Section<'_>, family: Family) -> Result<Vec<Link>, RobotError> {
 }
 
 /// The start position: as given, or every axis at 0, brought into its range.
-fn home(top: &Section<'_>, family: Family, axes: &[Axis]) -> Result<Vec<f64>, RobotError> {
+fn home(top: &RobotSection<'_>, family: Family, axes: &[Axis]) -> Result<Vec<f64>, RobotError> {
     let mut home: Vec<f64> = axes.iter().map(|axis| 0.0_f64.clamp(axis.min, axis.max)).collect();
-    let what = "positions in deg (mm), one an axis";
+    let what = "positions in deg (mm), one for each axis";
     let Some(given) = top.numbers("home", what)? else { return Ok(home) };
     let own = own_axes(family);
     if given.len() != own && given.len() != axes.len() {

@@ -11,12 +11,12 @@ use crate::settings::{hint, kind, number};
 
 /// The text that spans point into.
 #[derive(Clone, Copy)]
-pub(super) struct Source<'a> {
+pub(super) struct RobotSource<'a> {
     pub(super) file: &'a str,
     pub(super) text: &'a str,
 }
 
-impl Source<'_> {
+impl RobotSource<'_> {
     pub(super) fn error(&self, span: Range<usize>, message: impl Into<String>) -> RobotError {
         RobotError::at(self.file, self.text, span, message.into())
     }
@@ -24,8 +24,8 @@ impl Source<'_> {
 
 /// A table with its place and the name it has in messages.
 #[derive(Clone, Copy)]
-pub(super) struct Section<'a> {
-    pub(super) source: Source<'a>,
+pub(super) struct RobotSection<'a> {
+    pub(super) source: RobotSource<'a>,
     pub(super) name: &'a str,
     span_start: usize,
     table: &'a DeTable<'a>,
@@ -36,10 +36,10 @@ type Value<'a> = Spanned<DeValue<'a>>;
 /// A number and its place.
 type Placed = (f64, Range<usize>);
 
-impl<'a> Section<'a> {
+impl<'a> RobotSection<'a> {
     /// Takes the table under `span`; every key must be one of `known`.
     pub(super) fn new(
-        source: Source<'a>,
+        source: RobotSource<'a>,
         name: &'a str,
         span: Range<usize>,
         table: &'a DeTable<'a>,

@@ -66,7 +66,7 @@ fn an_unknown_key_names_its_place_and_a_near_name() {
     assert_eq!((found.line, found.column), (23, 1), "{found}");
     assert!(found.message.contains("did you mean `ori_vel`"), "{found}");
     let found = error(&changed("profile", "speed_profile_of_the_robot"));
-    assert!(found.message.contains("known are: name, family"), "{found}");
+    assert!(found.message.contains("expected one of: name, family"), "{found}");
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn wrong_values_say_what_was_expected() {
         ("offsets = [0,", "offsets = [1e9,", 16, "six angles in deg, from -1000000.0"),
         ("home = [0, 0, 0, 0, 90, 0]", "home = [0, 0, 200, 0, 0, 0]", 6, "`home` of j3 is 200"),
         ("home = [0, 0, 0, 0, 90, 0]", "home = [0]", 6, "expected 6 positions"),
-        ("profile = \"S\"", "profile = ", 5, "no TOML"),
+        ("profile = \"S\"", "profile = ", 5, "not TOML"),
     ] {
         let found = error(&changed(from, to));
         assert_eq!(found.line, line, "{from} -> {to}: {found}");

@@ -6,7 +6,7 @@ fn mask(function: &'static str, pos: i32, width: u32) -> Result<u32, Fault> {
     match u32::try_from(pos) {
         Ok(at) if at < width => Ok(1 << at),
         _ => {
-            let problem = format!("there is no bit {pos}: bits 0 to {} are", width - 1);
+            let problem = format!("there is no bit {pos}, only bits 0 to {}", width - 1);
             Err(Fault::Domain { function, problem: problem.into() })
         }
     }
@@ -16,7 +16,7 @@ fn places(function: &'static str, n: i32, width: u32) -> Result<u32, Fault> {
     match u32::try_from(n) {
         Ok(places) => Ok(places % width),
         Err(_) => {
-            let problem = format!("{n} places: 0 or more are possible");
+            let problem = format!("the number of places is {n}, but must be 0 or more");
             Err(Fault::Domain { function, problem: problem.into() })
         }
     }
@@ -104,10 +104,13 @@ mod tests {
         assert_eq!(bitlcs_int(int, 1), Ok(1));
         assert_eq!(bitrcs_int(1, 33), Ok(i32::MIN));
         assert_eq!(bitlcs_byte(0x12, 8), Ok(0x12));
-        assert_eq!(bitset_byte(&mut 0, 8).unwrap_err().to_string(), "bitset: there is no bit 8: bits 0 to 7 are");
+        assert_eq!(bitset_byte(&mut 0, 8).unwrap_err().to_string(), "bitset: there is no bit 8, only bits 0 to 7");
         assert!(bitclear_int(&mut int, 32).is_err());
         assert!(bitcheck_int(int, -1).is_err());
-        assert_eq!(bitlcs_int(1, -1).unwrap_err().to_string(), "bitlcs: -1 places: 0 or more are possible");
+        assert_eq!(
+            bitlcs_int(1, -1).unwrap_err().to_string(),
+            "bitlcs: the number of places is -1, but must be 0 or more"
+        );
         assert!(bitrcs_byte(1, -1).is_err());
     }
 }

@@ -49,11 +49,11 @@ pub(crate) fn number(function: &'static str, channel: u32) -> Result<i32, Fault>
 }
 
 /// `switcharl`: ends the program of a foreground channel, whose robot stops on its path, and starts another one of
-/// those that the controller can load there; whether it worked. It does so at once, and goes on when the other program
+/// those that the controller can load there; true if it worked. It does so at once, and goes on when the other program
 /// is there.
 ///
 /// # Errors
-/// The channel is not within 1 to 6, or this is no background channel.
+/// The channel is not within 1 to 6, or this is not a background channel.
 pub async fn switcharl(cx: &Cx, channel: u32, file_name: &Str) -> Result<bool, Fault> {
     const FUNCTION: &str = "switcharl";
     let number = number(FUNCTION, channel)?;
@@ -179,7 +179,7 @@ pub fn channeltojoint(cx: &Cx, chan_no: i32) -> Result<Joint, Fault> {
 /// executed; without one, of the last.
 ///
 /// # Errors
-/// There is no such channel, or the tool or the workpiece frame holds what is no number.
+/// There is no such channel, or the tool or the workpiece frame holds what is not a number.
 pub fn channeltopose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     known("channeltopose", &t, w)?;
     foreground(cx, "channeltopose", chan_no, |channel| Ok(channel.pose(channel.unit.current_target(), t, w)))
@@ -196,7 +196,7 @@ pub fn channeljoint(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Joint, Fault>
 /// `channelpose`: the pose (mm, deg) of the tool in the workpiece frame now, as commanded or as the robot reports it.
 ///
 /// # Errors
-/// There is no such channel, or the tool or the workpiece frame holds what is no number.
+/// There is no such channel, or the tool or the workpiece frame holds what is not a number.
 pub fn channelpose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<Pose, Fault> {
     known("channelpose", &t, w)?;
     foreground(cx, "channelpose", chan_no, |channel| Ok(channel.pose(channel.positions(ls_cmd), t, w)))
@@ -223,7 +223,7 @@ pub fn channeljointvel(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jvel, Faul
 /// `channeltcpvel`: the speed of the tool in the workpiece frame in mm/s, as commanded or as the robot reports it.
 ///
 /// # Errors
-/// There is no such channel, or the tool or the workpiece frame holds what is no number.
+/// There is no such channel, or the tool or the workpiece frame holds what is not a number.
 pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<f64, Fault> {
     known("channeltcpvel", &t, w)?;
     foreground(cx, "channeltcpvel", chan_no, |channel| {
@@ -238,7 +238,8 @@ pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> 
 /// the axes of the workpiece frame. What the axes cannot feel at a singular point is 0.
 ///
 /// # Errors
-/// There is no such channel, the robot file has no masses, or the tool or the workpiece frame holds what is no number.
+/// There is no such channel, the robot file has no masses, or the tool or the workpiece frame holds what is not a
+/// number.
 pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, Fault> {
     const FUNCTION: &str = "ctcpforce";
     known(FUNCTION, &t, w)?;

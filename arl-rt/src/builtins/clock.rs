@@ -32,7 +32,7 @@ impl Shown for Clock {
 
     fn shown(&self, cx: &Cx) -> String {
         let seconds = cx.shared().rate.time(self.cycles(cx.cycle()));
-        let state = if self.since.get().is_some() { "runs" } else { "stands" };
+        let state = if self.since.get().is_some() { "running" } else { "stopped" };
         format!("{seconds:.3} s, {state}")
     }
 }
@@ -50,7 +50,7 @@ pub fn clkstop(cx: &Cx, c: &Clock) {
     c.since.set(None);
 }
 
-/// Sets a clock to 0; one that runs goes on from there.
+/// Sets a clock to 0; a running clock continues from there.
 pub fn clkreset(cx: &Cx, c: &Clock) {
     c.counted.set(0);
     if c.since.get().is_some() {

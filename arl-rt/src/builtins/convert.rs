@@ -109,7 +109,7 @@ pub fn tostr_base(v: i32, number_base: NumBase) -> Str {
 pub fn tostr_precision(v: f64, precision: i32) -> Result<Str, Fault> {
     match u32::try_from(precision) {
         Ok(precision) => Ok(v.printed(&Style { precision, ..Style::START })),
-        Err(_) => Err(domain("tostr", format!("{precision} digits: 0 or more are possible"))),
+        Err(_) => Err(domain("tostr", format!("the number of digits is {precision}, but must be 0 or more"))),
     }
 }
 
@@ -135,7 +135,7 @@ fn put(function: &'static str, bytes: &[u8], dest: &mut [u8], start: i32) -> Res
 }
 
 fn outside(function: &'static str, count: usize, start: i32, size: usize) -> Fault {
-    domain(function, format!("{count} bytes from {start} on do not lie in an array of {size} bytes"))
+    domain(function, format!("{count} bytes from byte {start} do not fit in an array of {size} bytes"))
 }
 
 #[cfg(test)]
@@ -182,7 +182,7 @@ mod tests {
         assert_eq!(todouble(&data, 8), Ok(-3.0));
         assert_eq!(todouble(&[0, 0, 0, 0, 0, 0, 0, 0x40], 0), Ok(2.0));
         let fault = toint_bytes(&data, 13).unwrap_err();
-        assert_eq!(fault.to_string(), "toint: 4 bytes from 13 on do not lie in an array of 16 bytes");
+        assert_eq!(fault.to_string(), "toint: 4 bytes from byte 13 do not fit in an array of 16 bytes");
         assert!(toint_bytes(&data, -1).is_err());
         assert!(todouble(&data, i32::MAX).is_err());
     }

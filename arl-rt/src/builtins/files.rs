@@ -45,7 +45,7 @@ pub async fn filesize(cx: &Cx, file_name: &Str) -> Result<i32, Fault> {
     }
 }
 
-/// Gives a file another name; whether it worked. A file that has the new name already stays as it is: false.
+/// Gives a file another name; true if it worked. A file that has the new name already stays as it is: false.
 ///
 /// # Errors
 /// A path leads out of the script directory.
@@ -56,7 +56,7 @@ pub async fn renamefile(cx: &Cx, file_name: &Str, new_file_name: &Str) -> Result
     Ok(from.is_file() && !to.exists() && fs::rename(from, to).is_ok())
 }
 
-/// Deletes a file; whether it worked.
+/// Deletes a file; true if it worked.
 ///
 /// # Errors
 /// The path leads out of the script directory.

@@ -193,7 +193,7 @@ pub fn norm(p: Pos) -> f64 {
 /// [`Fault::Domain`] for a negative `n`.
 pub fn trunc(num: f64, n: i32, round: bool) -> Result<f64, Fault> {
     let Ok(places) = usize::try_from(n) else {
-        return Err(domain("trunc", format!("{n} digits: 0 or more are possible")));
+        return Err(domain("trunc", format!("the number of digits is {n}, but must be 0 or more")));
     };
     // Beyond 2^53 a double has no fraction.
     if !num.is_finite() || num.abs() >= 9_007_199_254_740_992.0 {
@@ -293,7 +293,7 @@ mod tests {
             (asin(1.5), "asin: 1.5 is outside -1 to 1"),
             (acos(-1.5), "acos: -1.5 is outside -1 to 1"),
             (fmod(1.0, 0.0), "fmod: the divisor is 0"),
-            (trunc(1.0, -1, true), "trunc: -1 digits: 0 or more are possible"),
+            (trunc(1.0, -1, true), "trunc: the number of digits is -1, but must be 0 or more"),
             (modf_int(3e9, &mut 0), "modf: the whole part of 3000000000 is outside the range of int"),
         ];
         for (result, text) in faults {

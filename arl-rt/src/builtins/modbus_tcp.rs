@@ -132,7 +132,7 @@ async fn exchange<R>(
 /// Start and count, where these registers or coils exist.
 fn range(what: &str, start: i32, count: i32) -> Result<(usize, usize), String> {
     if count < 0 {
-        return Err(format!("{count} {what}s: 0 or more are possible"));
+        return Err(format!("the number of {what}s is {count}, but must be 0 or more"));
     }
     let wanted = usize::try_from(start).ok().zip(usize::try_from(count).ok());
     wanted.filter(|(start, count)| start + count <= SIZE).ok_or_else(|| {
@@ -140,12 +140,12 @@ fn range(what: &str, start: i32, count: i32) -> Result<(usize, usize), String> {
             last if last > i64::from(start) => format!("{what}s {start} to {last} do not exist"),
             _ => format!("{what} {start} does not exist"),
         };
-        format!("{named}: 0 to {} are there", SIZE - 1)
+        format!("{named}, only 0 to {}", SIZE - 1)
     })
 }
 
 fn short(needed: usize, size: usize) -> String {
-    format!("{needed} bytes are needed, the array has {size}")
+    format!("{needed} bytes are needed, but the array has {size}")
 }
 
 /// Says why a function gives false, with its place in the program; the same thing once only, as programs try again in
@@ -173,14 +173,14 @@ mod tests {
     #[test]
     fn what_does_not_exist_is_named() {
         let named = |start, count| range("coil", start, count).unwrap_err();
-        assert_eq!(named(65_536, 1), "coil 65536 does not exist: 0 to 65535 are there");
-        assert_eq!(named(-1, 0), "coil -1 does not exist: 0 to 65535 are there");
-        assert_eq!(named(65_535, 2), "coils 65535 to 65536 do not exist: 0 to 65535 are there");
-        assert_eq!(named(0, -1), "-1 coils: 0 or more are possible");
+        assert_eq!(named(65_536, 1), "coil 65536 does not exist, only 0 to 65535");
+        assert_eq!(named(-1, 0), "coil -1 does not exist, only 0 to 65535");
+        assert_eq!(named(65_535, 2), "coils 65535 to 65536 do not exist, only 0 to 65535");
+        assert_eq!(named(0, -1), "the number of coils is -1, but must be 0 or more");
         assert_eq!(range("coil", 65_535, 1), Ok((65_535, 1)));
         assert_eq!(
             range("coil", i32::MAX, i32::MAX).unwrap_err(),
-            "coils 2147483647 to 4294967293 do not exist: 0 to 65535 are there"
+            "coils 2147483647 to 4294967293 do not exist, only 0 to 65535"
         );
     }
 }

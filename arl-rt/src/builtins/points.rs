@@ -18,7 +18,7 @@ use crate::fault::Fault;
 use crate::values::{Joint, Pose, Str, UNSET};
 use arl_robot::atomic_file;
 
-/// Copies a program file in the script directory; whether it worked. A kill at any moment leaves the old or the new
+/// Copies a program file in the script directory; true if it worked. A kill at any moment leaves the old or the new
 /// copy, whole. The work is done beside the cycle, and the program goes on when it is.
 ///
 /// # Errors
@@ -76,7 +76,7 @@ fn clear_beside(path: &Path) {
     atomic_file::remove_leftovers(atomic_file::directory_of(path));
 }
 
-/// Writes a pose to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next
+/// Writes a pose to a point of a data file, whose other text stays as it is; true if it worked. It counts from the next
 /// load on.
 ///
 /// # Errors
@@ -99,7 +99,7 @@ fn of_pose(p: Pose) -> Components {
     value
 }
 
-/// Writes a joint to a point of a data file, whose other text stays as it is; whether it worked. It counts from the
+/// Writes a joint to a point of a data file, whose other text stays as it is; true if it worked. It counts from the
 /// next load on.
 ///
 /// # Errors
@@ -118,7 +118,7 @@ fn of_joint(j: Joint) -> Components {
 }
 
 /// What is wrong with a point that has an inf or a nan.
-const NO_LITERAL: &str = "a component of the point is no number";
+const NO_LITERAL: &str = "a component of the point is not a number";
 
 async fn save(
     cx: &Cx,

@@ -21,7 +21,7 @@ pub fn cjoint(cx: &Cx) -> Joint {
 /// The pose of the tool in the workpiece frame as the robot reports it now, in mm and deg, with the external axes.
 ///
 /// # Errors
-/// The tool or the workpiece frame holds what is no number.
+/// The tool or the workpiece frame holds what is not a number.
 pub fn cpose(cx: &Cx, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     let unit = cx.channel_state().unit("cpose")?;
     known("cpose", &t, w)?;
@@ -40,14 +40,14 @@ pub fn cpose_default(cx: &Cx) -> Result<Pose, Fault> {
 /// The pose of the tool in the workpiece frame for given axes.
 ///
 /// # Errors
-/// Axes of the robot are unset, or they, the tool or the workpiece frame hold what is no number.
+/// Axes of the robot are unset, or they, the tool or the workpiece frame hold what is not a number.
 pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     let unit = cx.channel_state().unit("getpose")?;
     known("getpose", &t, w)?;
     let mut axes = j.axes();
     let own = unit.robot().own_axes().len();
     if axes.iter().take(own).any(|axis| is_open(*axis)) {
-        return Err(domain("getpose", "axes of the robot are not set, or no numbers".to_owned()));
+        return Err(domain("getpose", "axes of the robot are not set or are not numbers".to_owned()));
     }
     axes.iter_mut().skip(own).for_each(|axis| *axis = 0.0);
     Ok(pose(cx, &unit, &axes, &j, t, w))
@@ -57,12 +57,12 @@ pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
 /// external axes stay.
 ///
 /// # Errors
-/// Components of the pose are unset, it, the tool or the workpiece frame hold what is no number, or it cannot be
+/// Components of the pose are unset, it, the tool or the workpiece frame hold what is not a number, or it cannot be
 /// reached so.
 pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     let components = p.components();
     if components.iter().any(|component| is_open(*component)) {
-        return Err(domain("getjoint", "components of the pose are not set, or no numbers".to_owned()));
+        return Err(domain("getjoint", "components of the pose are not set or are not numbers".to_owned()));
     }
     known("getjoint", &t, w)?;
     let unit = cx.channel_state().unit("getjoint")?;
@@ -98,7 +98,7 @@ pub(crate) fn setting(cx: &Cx, tool: &Tool, wobj: &Wobj) -> Setting {
 pub(crate) fn known(function: &'static str, tool: &Tool, wobj: &Wobj) -> Result<(), Fault> {
     for (name, frame) in [("tool", tool.t_frame), ("workpiece", wobj.w_frame)] {
         if let Some(value) = frame.components().into_iter().find(|component| is_open(*component)) {
-            return Err(domain(function, format!("the {name} frame holds {value}, which is no length or angle")));
+            return Err(domain(function, format!("the {name} frame holds {value}, which is not a length or angle")));
         }
     }
     Ok(())
@@ -112,7 +112,7 @@ fn refused(unit: &Unit, refusal: &Refusal) -> String {
         Refusal::Tilted { by } => format!("the pose tilts the flange by {by:.3} deg, which a SCARA robot cannot do"),
         Refusal::AxisLimit { axis, value } => match unit.robot().own_axes().get(*axis) {
             Some(axis) => {
-                format!("{} would have to go to {value:.3}, its range is {} to {}", axis.name, axis.min, axis.max)
+                format!("{} would have to go to {value:.3}, but its range is {} to {}", axis.name, axis.min, axis.max)
             }
             None => format!("an axis would have to go to {value:.3}"),
         },

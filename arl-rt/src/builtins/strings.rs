@@ -29,7 +29,7 @@ pub fn substr(s: &Str, startpos: i32, len: Option<i32>) -> Result<Str, Fault> {
     let length = match len {
         None => rest.len(),
         Some(len) => {
-            usize::try_from(len).map_err(|_| domain("substr", format!("length {len}: 0 or more are possible")))?
+            usize::try_from(len).map_err(|_| domain("substr", format!("length is {len}, but must be 0 or more")))?
         }
     };
     Ok(Str::from(rest.get(..length).unwrap_or(rest)))
@@ -43,7 +43,7 @@ pub fn substr(s: &Str, startpos: i32, len: Option<i32>) -> Result<Str, Fault> {
 pub fn toascii(s: &Str) -> Result<i32, Fault> {
     match s.as_bytes() {
         [byte] => Ok(i32::from(*byte)),
-        bytes => Err(domain("toascii", format!("\"{s}\" has {} bytes: it takes one character", bytes.len()))),
+        bytes => Err(domain("toascii", format!("\"{s}\" has {} bytes, but must be one character", bytes.len()))),
     }
 }
 
@@ -70,11 +70,11 @@ mod tests {
         assert_eq!(fault.to_string(), "substr: start 6 is outside the string, whose length is 6");
         assert!(substr(&text, -1, None).is_err());
         assert!(substr(&Str::new(), 0, None).is_err());
-        assert_eq!(substr(&text, 0, Some(-1)).unwrap_err().to_string(), "substr: length -1: 0 or more are possible");
+        assert_eq!(substr(&text, 0, Some(-1)).unwrap_err().to_string(), "substr: length is -1, but must be 0 or more");
         assert!(toascii(&Str::new()).is_err());
         assert_eq!(
             toascii(&Str::from("ab")).unwrap_err().to_string(),
-            "toascii: \"ab\" has 2 bytes: it takes one character"
+            "toascii: \"ab\" has 2 bytes, but must be one character"
         );
     }
 }

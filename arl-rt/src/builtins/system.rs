@@ -19,8 +19,10 @@ pub async fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
         let name = arl_lang::catalog::system_variable(name).map_or(name, |known| known.name);
         let Some(variable) = kept.iter().find(|kept| kept.name.eq_ignore_ascii_case(name)) else {
             let names: Vec<&str> = kept.iter().map(|kept| kept.name).collect();
-            let problem =
-                format!("\"{text}\" is no system variable that is saved; {}", arl_robot::settings::hint(name, &names));
+            let problem = format!(
+                "\"{text}\" is not a system variable that is saved; {}",
+                arl_robot::settings::hint(name, &names)
+            );
             return Err(Fault::Domain { function: "savesv", problem: problem.into() });
         };
         let shared = cx.shared();

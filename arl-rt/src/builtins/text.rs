@@ -49,7 +49,7 @@ impl<'a> PrintMessage<'a> {
         match u32::try_from(digits) {
             Ok(digits) => self.style.precision = digits,
             Err(_) => {
-                let problem = format!("precision:{digits} is negative").into();
+                let problem = format!("precision is {digits}, but must be 0 or more").into();
                 self.problem = Some(Fault::Domain { function: "print", problem });
             }
         }
@@ -90,7 +90,7 @@ impl<'a> PrintMessage<'a> {
         let to = modal_to.get();
         if to.file {
             if modal_path.borrow().is_empty() {
-                let problem = "to:file needs the file's name: filepath:\"...\"".into();
+                let problem = "to:file needs a file name: filepath:\"...\"".into();
                 return Err(Fault::Domain { function: "print", problem });
             }
             let mut text = self.text.as_bytes().to_vec();

@@ -4,7 +4,7 @@ use crate::controller::Controller;
 
 /// What the run is to do in the next cycle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Beat {
+pub(crate) enum CycleOrder {
     /// It goes on.
     Runs,
     /// It waits for somebody outside, who may let it go on: it is at no standstill.
@@ -16,7 +16,7 @@ pub(crate) enum Beat {
 /// Who looks after a run between its cycles.
 pub(crate) trait Between {
     /// A cycle is about to begin.
-    fn cycle_begins(&mut self, controller: &mut Controller) -> Beat;
+    fn cycle_begins(&mut self, controller: &mut Controller) -> CycleOrder;
 
     /// Nothing can change any more: the programs wait for what these words say. Whether somebody changed something, so
     /// that the run goes on.

@@ -36,7 +36,7 @@ fn greet(stream: &mut TcpStream, secret: &str) -> Result<()> {
     stream.set_read_timeout(None)?;
     match answered {
         Ok(()) if answer.strip_suffix(b"\n") == Some(other.as_bytes()) => Ok(()),
-        _ => Err(Error::new(ErrorKind::PermissionDenied, "who listens there has not started this run")),
+        _ => Err(Error::new(ErrorKind::PermissionDenied, "the listener there did not start this run")),
     }
 }
 

@@ -7,7 +7,7 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use super::between::{Beat, Between};
+use super::between::{Between, CycleOrder};
 use crate::context::cx::Cx;
 use crate::context::standard_error::tell;
 use crate::context::watcher::{Go, Watcher};
@@ -65,8 +65,8 @@ struct Coverage {
 }
 
 impl Between for Coverage {
-    fn cycle_begins(&mut self, _: &mut Controller) -> Beat {
-        Beat::Runs
+    fn cycle_begins(&mut self, _: &mut Controller) -> CycleOrder {
+        CycleOrder::Runs
     }
 
     fn run_ended(&mut self, _: &mut Controller) {

@@ -194,7 +194,7 @@ impl Run {
     /// Does what an event of a scenario does: see [`Controller::order`].
     ///
     /// # Errors
-    /// It is no order, or the run is over; then nothing was done.
+    /// It is not an order, or the run is over; then nothing was done.
     pub fn order(&mut self, text: &str) -> Result<(), String> {
         if self.ended.is_some() {
             return Err("the run is over".into());

@@ -28,7 +28,7 @@ impl Observation {
             let watched = match name.strip_prefix("global.") {
                 Some(global) => Watched::Global(global.to_owned()),
                 None => Watched::Signal(Signal::parse(name).or_else(|| controller.names().signal(name)).ok_or_else(
-                    || format!("`{name}` is no signal and no global variable: like do.1, global.placed"),
+                    || format!("`{name}` is neither a signal nor a global variable: expected one like do.1 or global.placed"),
                 )?),
             };
             watched.value(controller).map(|_| watched).map_err(|problem| format!("`{name}`: {problem}"))
@@ -72,14 +72,14 @@ fn of_signal(signal: Signal, controller: &Controller) -> Result<f64, String> {
         SignalKind::AnalogOutput => io.analogs(true).get(at).copied(),
         SignalKind::InternalInput | SignalKind::InternalOutput => None,
     });
-    value.ok_or_else(|| "the cell has no such signal that can be looked at".into())
+    value.ok_or_else(|| "the cell has no such signal, or it cannot be watched".into())
 }
 
 fn of_global(name: &str, program: &dyn Program) -> Result<f64, String> {
     let number = |text: String| match text.as_str() {
         "true" => Ok(1.0),
         "false" => Ok(0.0),
-        text => text.parse().map_err(|_| "this is no number".to_owned()),
+        text => text.parse().map_err(|_| "its value is neither a number nor a bool".to_owned()),
     };
     let value = with_variable(program, name, |variable| variable.slot.written()).map_err(|error| error.to_string())?;
     value.map_or_else(|| Err(named::unknown(name, &[program]).to_string()), number)

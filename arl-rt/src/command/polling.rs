@@ -82,8 +82,8 @@ impl Watched {
         };
         let seconds = time - stay.time;
         Some(format!(
-            "the program has been at {lines} for {seconds:.0} s of controller time, and no robot moves; where a loop \
-             asks for a signal there, `waituntil` says what it waits for, and `--max-time` ends such a run"
+            "the program has been at {lines} for {seconds:.0} s of controller time, and no robot moves; if a loop \
+             polls a signal there, use `waituntil`, which says what it waits for; `--max-time` ends such a run"
         ))
     }
 }

@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use crate::builtins::time;
-use crate::command::between::{Beat, Between};
+use crate::command::between::{Between, CycleOrder};
 use crate::command::coverage;
 use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
@@ -35,7 +35,7 @@ use crate::unit::robot_driver::Connect;
 use arl_robot::cell::{Cell, Names};
 use arl_robot::changes::Part;
 use arl_robot::robot::Robot;
-use options::{Asked, HELP, Options, Pace, Report, parse};
+use options::{Asked, ClockKind, HELP, Options, Report, parse};
 
 /// What the program's functions may fill of the stack, and what the thread has on top of that for everything else. Each
 /// cycle goes down the whole chain of functions that wait for each other, so that a long one takes long.
@@ -191,61 +191,49 @@ fn run(
     watching: Option<Watching>,
     interrupted: &AtomicBool,
 ) -> u8 {
+    let ran = try_run(program, others, options, sources, watching, interrupted);
+    ran.unwrap_or_else(|SetupFailure { code, text }| {
+        tell(format_args!("error: {text}"));
+        code
+    })
+}
+
+fn try_run(
+    program: Box<dyn Program>,
+    others: &[Other],
+    options: Options,
+    sources: &Path,
+    watching: Option<Watching>,
+    interrupted: &AtomicBool,
+) -> Result<u8, SetupFailure> {
     let asked = options.asked.clone();
     if let (Some((option, command)), None) = (asked.needs(), watching) {
-        tell(format_args!("error: this program was not made for {option}: `{command}` makes such programs"));
-        return EXIT_USAGE;
+        let text = format!("this program was not made for {option}: `{command}` makes such programs");
+        return Err(SetupFailure::usage(text));
     }
     // Before anything begins to work beside the cycle.
     for problem in options.realtime.map(Realtime::begin).unwrap_or_default() {
-        warn(&format!("not as --realtime asks: {problem}"));
+        warn(&format!("--realtime has no full effect: {problem}"));
     }
-    let max_time = options.max_time;
-    let cycle_time = options.cycle_time.clone();
+    let (max_time, cycle_time) = (options.max_time, options.cycle_time.clone());
+    let (wishes, paused, repeats) = (options.wishes, options.paused, options.repeats);
     // Where a robot is driven, its time counts, too.
-    let tells_lateness = options.clock == Some(Pace::Real) || options.drive;
-    let report = match options.report.clone().map(report_to).transpose() {
-        Ok(report) => report,
-        Err(error) => {
-            tell(format_args!("error: {error}"));
-            return EXIT_USAGE;
-        }
-    };
-    let repeats = options.repeats;
+    let tells_lateness = options.clock == Some(ClockKind::Real) || options.drive;
+    let report = options.report.clone().map(report_to).transpose().map_err(SetupFailure::usage)?;
     let voice = options.live.then(LineWriter::standard);
-    let (wishes, paused) = (options.wishes, options.paused);
     let address = options.listener.as_deref().filter(|_| voice.is_none());
-    let recording = match address.map(|address| connect_to(address, wishes)).transpose() {
-        Ok(recording) => recording,
-        Err(problem) => {
-            tell(format_args!("error: {problem}"));
-            return EXIT_USAGE;
-        }
+    let recording = address.map(|address| connect_to(address, wishes)).transpose().map_err(SetupFailure::usage)?;
+    let builder = set_up(options, others)?;
+    let builder = match (&voice, &recording) {
+        (Some(voice), _) => builder.output(voice.messages()),
+        (None, Some(recording)) => builder.output(recording.beside(Stream::standard())),
+        (None, None) => builder,
     };
-    let controller = set_up(options, others).and_then(|builder| {
-        let builder = match (&voice, &recording) {
-            (Some(voice), _) => builder.output(voice.messages()),
-            (None, Some(recording)) => builder.output(recording.beside(Stream::standard())),
-            (None, None) => builder,
-        };
-        let builder = if wishes.each_motion { builder.record_motions() } else { builder };
-        builder.build(program).map_err(SetupFailure::from)
-    });
-    let mut controller = match controller {
-        Ok(controller) => controller,
-        Err(SetupFailure { code, text }) => {
-            tell(format_args!("error: {text}"));
-            return code;
-        }
-    };
+    let builder = if wishes.each_motion { builder.record_motions() } else { builder };
+    let mut controller = builder.build(program)?;
     controller.set_loop(repeats);
-    let between = match watching.map_or(Ok(None), |watching| watching.begin(&controller, &asked)) {
-        Ok(between) => between,
-        Err(problem) => {
-            tell(format_args!("error: {problem}"));
-            return EXIT_USAGE;
-        }
-    };
+    let between = watching.map_or(Ok(None), |watching| watching.begin(&controller, &asked));
+    let between = between.map_err(SetupFailure::usage)?;
     let code = match voice {
         Some(voice) => {
             if paused {
@@ -256,20 +244,25 @@ fn run(
         }
         None => watch(&mut controller, max_time, interrupted, (between, recording), sources),
     };
+    write_figures(&controller, report, cycle_time.as_deref());
+    if tells_lateness {
+        lateness(&controller).iter().for_each(|text| warn(text));
+    }
+    Ok(code)
+}
+
+/// Writes what was asked for of a run that is over; where that fails, it is said.
+fn write_figures(controller: &Controller, report: Option<WriteReport>, cycle_time: Option<&Path>) {
     if let Some(mut report) = report
-        && let Err(error) = report(&controller)
+        && let Err(error) = report(controller)
     {
         warn(&format!("the report cannot be written: {error}"));
     }
     if let Some(file) = cycle_time
-        && let Err(error) = std::fs::write(&file, format!("{}\n", controller.time()))
+        && let Err(error) = std::fs::write(file, format!("{}\n", controller.time()))
     {
         warn(&format!("cannot write {}: {error}", file.display()));
     }
-    if tells_lateness {
-        lateness(&controller).iter().for_each(|text| warn(text));
-    }
-    code
 }
 
 /// What came too late in a run in real time.
@@ -278,7 +271,7 @@ pub(super) fn lateness(controller: &Controller) -> Vec<String> {
     if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
         let messages = if missing == 1 { "message" } else { "messages" };
         said.push(format!(
-            "{missing} {messages} of the robot did not come: the robot did not send, or the network lost them; so many control cycles were lost"
+            "{missing} {messages} from the robot did not arrive: the robot did not send, or the network lost them; as many control cycles were lost"
         ));
     }
     if let Some(lateness) = controller.lateness().filter(|lateness| lateness.late() > 0) {
@@ -289,9 +282,9 @@ pub(super) fn lateness(controller: &Controller) -> Vec<String> {
         ));
     }
     if controller.found_late() > 0 {
-        let advice = if cfg!(debug_assertions) { "; `arl2rs build --release` makes a quicker program" } else { "" };
+        let advice = if cfg!(debug_assertions) { "; `arl2rs build --release` makes a faster program" } else { "" };
         said.push(format!(
-            "the computer was too busy to find the motion ahead in time, {} times: robots may have gone more slowly, or stopped on their path{advice}",
+            "the computer was too busy to find the motion ahead in time, {} times: robots may have moved more slowly, or stopped on their path{advice}",
             controller.found_late()
         ));
     }
@@ -328,11 +321,11 @@ pub(super) fn in_process(
     let options = parse(arguments, script_dir).map_err(|error| error.to_string())?;
     let options = options.ok_or("--help: there is no command line here")?;
     if let Some(option) = options.needs_a_process() {
-        return Err(format!("{option} is for a program that runs by itself"));
+        return Err(format!("{option} is only for a program that runs on its own"));
     }
     let (max_time, repeats, wishes) = (options.max_time, options.repeats, options.wishes);
     let trace_columns = options.trace_columns;
-    let is_real = options.clock == Some(Pace::Real);
+    let is_real = options.clock == Some(ClockKind::Real);
     let keeps = options.state_dir.is_some();
     let recording = options.listener.as_deref().map(|address| connect_to(address, wishes)).transpose()?;
     let builder = set_up(options, others).map_err(|failure| failure.text)?.stack(HOST_STACK_BYTES);
@@ -361,7 +354,7 @@ pub(super) struct InProcess {
 
 /// What there is to say where a listener could not hear all.
 pub(super) fn left_out(lost: u64) -> Option<String> {
-    (lost > 0).then(|| format!("who listens was too slow for real time: what happened is left out, {lost} times"))
+    (lost > 0).then(|| format!("the listener was too slow for real time: events were left out {lost} times"))
 }
 
 fn connect_to(address: &str, wishes: Wishes) -> Result<Recording, String> {
@@ -419,9 +412,9 @@ fn watch(
         false => controller.is_over(),
     };
     while !is_over(controller, code.is_some()) {
-        let beat = between.as_mut().map_or(Beat::Runs, |between| between.cycle_begins(controller));
+        let beat = between.as_mut().map_or(CycleOrder::Runs, |between| between.cycle_begins(controller));
         let is_alone = recording.as_ref().is_some_and(Recording::is_gone);
-        if code.is_none() && (interrupted.load(Ordering::Relaxed) || is_alone || beat == Beat::Ends) {
+        if code.is_none() && (interrupted.load(Ordering::Relaxed) || is_alone || beat == CycleOrder::Ends) {
             code = Some(EXIT_INTERRUPTED);
             controller.stop();
             tell(format_args!("interrupted: the robot stops on its path"));
@@ -439,7 +432,7 @@ fn watch(
             tell(format_args!("{text}"));
         }
         if code.is_none()
-            && beat != Beat::Stands
+            && beat != CycleOrder::Stands
             && let Some(waiting) = controller.standstill()
             && !between
                 .as_mut()
@@ -470,10 +463,10 @@ fn watch(
 pub(super) fn time_is_over(controller: &Controller, limit: f64) -> String {
     let place = match controller.place() {
         // What only calculates says no line.
-        (file, 0) => format!("calculates in {}", file.name()),
-        (file, line) => format!("stands at {}:{line}", file.name()),
+        (file, 0) => format!("is calculating in {}", file.name()),
+        (file, line) => format!("is at {}:{line}", file.name()),
     };
-    format!("the time is over: {limit} s; the program {place}")
+    format!("the time limit of {limit} s has passed; the program {place}")
 }
 
 /// Why there is no controller, and the exit code for it.
@@ -532,15 +525,15 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
         builder = builder.seed(seed);
     }
     // On the real clock the date is the world's.
-    let start = options.start_time.or_else(|| (options.clock == Some(Pace::Real)).then(time::of_the_world));
+    let start = options.start_time.or_else(|| (options.clock == Some(ClockKind::Real)).then(time::of_the_world));
     if let Some(start) = start {
         builder = builder.start_date(start);
     }
     let state_dir = options.state_dir.unwrap_or_else(|| Path::new(&options.script_dir).join(STATE_DIR));
     builder = builder.script_dir(options.script_dir).storage(Directory::new(state_dir));
     Ok(match options.clock {
-        Some(Pace::Real) => builder.clock(RealClock::new()),
-        Some(Pace::Virtual) => builder.clock(VirtualClock::asked_for()),
+        Some(ClockKind::Real) => builder.clock(RealClock::new()),
+        Some(ClockKind::Virtual) => builder.clock(VirtualClock::asked_for()),
         None => builder.clock(VirtualClock::new()),
     })
 }

@@ -71,12 +71,12 @@ fn table(recorded: &Recorded) -> String {
             let (along, speed, unit) = (100.0 * near.along, short(near.speed), near.unit);
             let _ = writeln!(
                 text,
-                "line {place}: {along:.1} % along it is close to a singular point: {axis} lets it go at {speed} {unit} there"
+                "line {place}: {along:.1} % along, the path is close to a singularity: {axis} limits the speed to {speed} {unit} there"
             );
         }
         if let Some(why) = line.blend.smaller_zone() {
             let place = line.place(recorded.program);
-            let what = if why.stops() { "its target is reached with a stop" } else { "its zone" };
+            let what = if why.stops() { "its target is reached with a stop" } else { "its zone is reduced" };
             let _ = writeln!(text, "line {place}: {what}: {why}");
         }
     }
@@ -95,7 +95,7 @@ fn summary(recorded: &Recorded) -> String {
     let percent = if time > 0.0 { 100.0 * moving / time } else { 0.0 };
     let standing = (time - moving).max(0.0);
     format!(
-        "cycle time {time:.3} s: {moving:.3} s moving ({percent:.0} %), {standing:.3} s standing; {motions}, {metres:.3} m\n"
+        "cycle time {time:.3} s: {moving:.3} s moving ({percent:.0} %), {standing:.3} s at rest; {motions}, {metres:.3} m\n"
     )
 }
 

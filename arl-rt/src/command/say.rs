@@ -45,7 +45,7 @@ pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<
             tell_line(file, line);
         }
         if alarm.calls.more > 0 {
-            tell(format_args!("and so on, {} calls more", alarm.calls.more));
+            tell(format_args!("and {} more calls", alarm.calls.more));
         }
     }
 }

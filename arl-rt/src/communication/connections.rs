@@ -11,7 +11,7 @@ use arl_motion::beside;
 use mio::{Poll, Waker};
 
 use super::opening::Opening;
-use super::shared::{LinkState, PANICKED, Shared};
+use super::shared::{LinkState, PANICKED, SharedConnection};
 use super::stream::WAKE;
 use super::worker;
 use crate::cycle::catch_panic::catch_panic;
@@ -21,7 +21,7 @@ const MAX_CLOSING: usize = 32;
 
 /// The connections that a program has opened: those of global variables and of local ones, too.
 #[derive(Default, Debug)]
-pub(crate) struct Connections(RefCell<Vec<Arc<Shared>>>);
+pub(crate) struct Connections(RefCell<Vec<Arc<SharedConnection>>>);
 
 /// The thread that opens the connections of all programs. To ask the system for a thread and descriptors, and to give
 /// them back, takes longer than a cycle should. It ends with whoever sends it orders.
@@ -31,10 +31,10 @@ pub(crate) struct Opener(RefCell<Option<Sender<Order>>>);
 /// What that thread is to do.
 #[derive(Debug)]
 struct Order {
-    shared: Arc<Shared>,
+    shared: Arc<SharedConnection>,
     opening: Opening,
     /// Connections that are over, to be given back.
-    over: Vec<Arc<Shared>>,
+    over: Vec<Arc<SharedConnection>>,
 }
 
 impl Opener {
@@ -65,7 +65,7 @@ impl Connections {
     ///
     /// # Errors
     /// The system has no threads left.
-    pub(super) fn open(&self, opener: &Opener, shared: Arc<Shared>, opening: Opening) -> io::Result<()> {
+    pub(super) fn open(&self, opener: &Opener, shared: Arc<SharedConnection>, opening: Opening) -> io::Result<()> {
         let mut list = self.0.borrow_mut();
         let over = list.extract_if(.., |shared| shared.is_over()).collect();
         opener.send(Order { shared: Arc::clone(&shared), opening, over })?;
@@ -76,7 +76,7 @@ impl Connections {
     /// Whether so many are on their way to being closed that new ones have to wait: a program that opens and closes in
     /// a loop does not pile up threads.
     pub(crate) fn are_too_many(&self) -> bool {
-        let closing = |shared: &&Arc<Shared>| shared.is_closing() && !shared.is_over();
+        let closing = |shared: &&Arc<SharedConnection>| shared.is_closing() && !shared.is_over();
         self.0.borrow().iter().filter(closing).count() >= MAX_CLOSING
     }
 
@@ -111,7 +111,7 @@ fn carry_out(orders: &Receiver<Order>) {
 }
 
 /// Starts the thread of a connection.
-fn start(shared: &Arc<Shared>, opening: Opening) -> io::Result<()> {
+fn start(shared: &Arc<SharedConnection>, opening: Opening) -> io::Result<()> {
     let poll = Poll::new()?;
     shared.wakes_by(Waker::new(poll.registry(), WAKE)?);
     let served = Arc::clone(shared);

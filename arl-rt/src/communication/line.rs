@@ -36,7 +36,7 @@ mod tty {
     use rustix::termios::{self, ControlModes, OptionalActions, QueueSelector, Termios};
 
     use super::LineSettings;
-    use crate::communication::stream::{STREAM, Stream};
+    use crate::communication::stream::{PolledStream, STREAM};
     use crate::values::{Parity, Stopbits};
 
     /// An open serial line that says when it is ready instead of waiting.
@@ -47,7 +47,7 @@ mod tty {
         /// Opens the line for this process alone, with what it still held thrown away.
         ///
         /// # Errors
-        /// There is no such device, it is no serial line, somebody else has it open, or it has no such settings.
+        /// There is no such device, it is not a serial line, somebody else has it open, or it has no such settings.
         pub(crate) fn open(&self) -> io::Result<Line> {
             let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::NONBLOCK | OFlags::CLOEXEC;
             let file = File::from(rustix::fs::open(self.device.as_str(), flags, Mode::empty())?);
@@ -68,7 +68,7 @@ mod tty {
             // What a device does not do it leaves out without a word. A pseudo terminal has neither bits nor parity.
             let set = termios::tcgetattr(&file)?;
             if set.input_speed() != self.baud {
-                let text = format!("it does not do {} bit/s", self.baud);
+                let text = format!("it does not support {} bit/s", self.baud);
                 return Err(io::Error::new(ErrorKind::Unsupported, text));
             }
             termios::tcflush(&file, QueueSelector::IOFlush)?;
@@ -118,7 +118,7 @@ mod tty {
         }
     }
 
-    impl Stream for Line {
+    impl PolledStream for Line {
         /// The system sends what it has taken, also after the line is closed.
         fn finish(&mut self) -> bool {
             false
@@ -138,7 +138,7 @@ pub(super) fn open(_: &mio::Poll, _: &LineSettings) -> io::Result<Option<mio::ne
     let text = if cfg!(unix) {
         "arl-rt was built without its feature `serial`"
     } else {
-        "there are no serial lines on this system yet"
+        "serial lines are not supported on this system yet"
     };
     Err(io::Error::new(io::ErrorKind::Unsupported, text))
 }

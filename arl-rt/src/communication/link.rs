@@ -6,12 +6,12 @@ use std::sync::Arc;
 use super::connections::{Connections, Opener};
 use super::inbox::Inbox;
 use super::opening::Opening;
-use super::shared::{LinkState, Shared};
+use super::shared::{LinkState, SharedConnection};
 
 /// A connection: a stream of bytes that a thread of its own serves. Nothing here waits. It closes when it is dropped,
 /// after what was sent has gone (or one second later).
 #[derive(Debug)]
-pub(crate) struct Link(Arc<Shared>);
+pub(crate) struct Link(Arc<SharedConnection>);
 
 impl Link {
     /// Begins to open a connection.
@@ -19,7 +19,7 @@ impl Link {
     /// # Errors
     /// The system has no threads left.
     pub(crate) fn open(connections: &Connections, opener: &Opener, opening: Opening) -> io::Result<Self> {
-        let shared = Arc::new(Shared::new(opening.holds()));
+        let shared = Arc::new(SharedConnection::new(opening.holds()));
         connections.open(opener, Arc::clone(&shared), opening)?;
         Ok(Self(shared))
     }
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn that_the_thread_has_the_bytes_is_not_that_there_is_no_room() {
-        let link = Link(Arc::new(Shared::new(false)));
+        let link = Link(Arc::new(SharedConnection::new(false)));
         let held = link.0.lock();
         assert_eq!(link.send(b"hello"), None);
         drop(held);

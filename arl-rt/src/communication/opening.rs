@@ -9,7 +9,7 @@ use mio::net::{TcpListener, TcpStream};
 use mio::{Events, Interest, Poll};
 
 use super::line::LineSettings;
-use super::shared::Shared;
+use super::shared::SharedConnection;
 use super::slave::SlaveSettings;
 use super::stream::{STREAM, wait};
 
@@ -64,7 +64,12 @@ impl fmt::Display for Opening {
 }
 
 /// Connects to the first address of a host that answers; nothing where the program wants it closed meanwhile.
-pub(super) fn connect(shared: &Shared, poll: &mut Poll, host: &str, port: u16) -> io::Result<Option<TcpStream>> {
+pub(super) fn connect(
+    shared: &SharedConnection,
+    poll: &mut Poll,
+    host: &str,
+    port: u16,
+) -> io::Result<Option<TcpStream>> {
     let mut last = io::Error::new(io::ErrorKind::NotFound, "the name has no address");
     for address in resolve(host, port)? {
         match reach(shared, poll, address) {
@@ -75,7 +80,7 @@ pub(super) fn connect(shared: &Shared, poll: &mut Poll, host: &str, port: u16) -
     Err(last)
 }
 
-fn reach(shared: &Shared, poll: &mut Poll, address: SocketAddr) -> io::Result<Option<TcpStream>> {
+fn reach(shared: &SharedConnection, poll: &mut Poll, address: SocketAddr) -> io::Result<Option<TcpStream>> {
     let mut stream = TcpStream::connect(address)?;
     poll.registry().register(&mut stream, STREAM, Interest::READABLE | Interest::WRITABLE)?;
     let deadline = Instant::now() + CONNECT_TIMEOUT;
@@ -98,7 +103,12 @@ fn reach(shared: &Shared, poll: &mut Poll, address: SocketAddr) -> io::Result<Op
 }
 
 /// Waits for the first client; nothing where the program wants it closed meanwhile.
-pub(super) fn accept(shared: &Shared, poll: &mut Poll, host: &str, port: u16) -> io::Result<Option<TcpStream>> {
+pub(super) fn accept(
+    shared: &SharedConnection,
+    poll: &mut Poll,
+    host: &str,
+    port: u16,
+) -> io::Result<Option<TcpStream>> {
     let address = resolve(host, port)?.into_iter().next();
     let address = address.ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "the name has no address"))?;
     let mut listener = TcpListener::bind(address)?;

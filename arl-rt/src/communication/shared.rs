@@ -28,7 +28,7 @@ pub(super) const PANICKED: &str = "its thread has panicked";
 /// What the cycle and the thread of a connection share. The bytes are behind a lock that both hold for copying only,
 /// and that the cycle does not wait for; how far the connection has come is seen without it.
 #[derive(Debug)]
-pub(super) struct Shared {
+pub(super) struct SharedConnection {
     bytes: Mutex<Bytes>,
     /// What wakes the thread, as soon as there is one.
     waker: OnceLock<Waker>,
@@ -50,7 +50,7 @@ pub(super) struct Bytes {
     pub(super) outbox: Vec<u8>,
 }
 
-impl Shared {
+impl SharedConnection {
     pub(super) fn new(holds: bool) -> Self {
         Self {
             bytes: Mutex::default(),
@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn the_cycle_does_not_wait_for_the_thread() {
-        let shared = Shared::new(true);
+        let shared = SharedConnection::new(true);
         let held = shared.lock();
         assert!(shared.try_lock().is_none());
         assert_eq!(shared.state(), LinkState::Opening);
@@ -177,10 +177,10 @@ mod tests {
     #[test]
     fn a_connection_whose_thread_panics_is_over() {
         let panics = || std::panic::panic_any("meant to be");
-        let shared = Shared::new(true);
+        let shared = SharedConnection::new(true);
         shared.end_after(panics);
         assert!(shared.state() == LinkState::Failed(PANICKED.into()) && shared.is_done());
-        let shared = Shared::new(true);
+        let shared = SharedConnection::new(true);
         shared.opened(true);
         shared.end_after(panics);
         assert!(shared.state() == LinkState::Lost(PANICKED.into()) && shared.is_done() && shared.is_free());

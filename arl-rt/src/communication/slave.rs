@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use mio::{Events, Poll};
 
 use super::line::{self, LineSettings};
-use super::shared::{LinkState, Shared};
-use super::stream::{Stream, attempt, wait};
+use super::shared::{LinkState, SharedConnection};
+use super::stream::{PolledStream, attempt, wait};
 use crate::fieldbus::modbus::SharedTables;
 use crate::fieldbus::modbus::pdu::{self, Answer};
 use crate::fieldbus::modbus::rtu::{self, LONGEST_FRAME, ReceiveBuffer, Request};
@@ -47,7 +47,7 @@ impl SlaveSettings {
 }
 
 /// Opens the line and serves it; the state that is left.
-pub(super) fn serve(shared: &Shared, poll: &mut Poll, settings: &SlaveSettings) -> LinkState {
+pub(super) fn serve(shared: &SharedConnection, poll: &mut Poll, settings: &SlaveSettings) -> LinkState {
     let mut stream = match line::open(poll, &settings.line) {
         Ok(Some(stream)) => stream,
         Ok(None) => return LinkState::Failed("closed by the program".into()),
@@ -61,9 +61,9 @@ pub(super) fn serve(shared: &Shared, poll: &mut Poll, settings: &SlaveSettings) 
 }
 
 fn exchange(
-    shared: &Shared,
+    shared: &SharedConnection,
     poll: &mut Poll,
-    stream: &mut impl Stream,
+    stream: &mut impl PolledStream,
     settings: &SlaveSettings,
 ) -> std::io::Result<()> {
     let mut events = Events::with_capacity(4);
@@ -98,9 +98,9 @@ fn exchange(
 
 /// Does what a request asks, and answers it; nothing where it is for another slave.
 fn answer(
-    shared: &Shared,
+    shared: &SharedConnection,
     poll: &mut Poll,
-    stream: &mut impl Stream,
+    stream: &mut impl PolledStream,
     settings: &SlaveSettings,
     request: &Request,
 ) -> std::io::Result<()> {
@@ -119,7 +119,12 @@ fn answer(
 const BROADCAST: u8 = 0;
 
 /// Sends an answer; a line that does not take it loses it.
-fn send(shared: &Shared, poll: &mut Poll, stream: &mut impl Stream, bytes: &[u8]) -> std::io::Result<()> {
+fn send(
+    shared: &SharedConnection,
+    poll: &mut Poll,
+    stream: &mut impl PolledStream,
+    bytes: &[u8],
+) -> std::io::Result<()> {
     let mut events = Events::with_capacity(4);
     let deadline = Instant::now() + ANSWER_TIMEOUT;
     let mut sent = 0;

@@ -12,12 +12,12 @@ pub(super) const WAKE: Token = Token(0);
 pub(super) const STREAM: Token = Token(1);
 
 /// A stream that says when it is ready instead of waiting.
-pub(super) trait Stream: Read + Write {
+pub(super) trait PolledStream: Read + Write {
     /// Says that nothing more will be sent; whether the other side can say the same.
     fn finish(&mut self) -> bool;
 }
 
-impl Stream for TcpStream {
+impl PolledStream for TcpStream {
     fn finish(&mut self) -> bool {
         self.shutdown(Shutdown::Write).is_ok()
     }

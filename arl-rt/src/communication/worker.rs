@@ -7,9 +7,9 @@ use mio::{Events, Poll};
 
 use super::line;
 use super::opening::{self, Opening};
-use super::shared::{LinkState, Shared};
+use super::shared::{LinkState, SharedConnection};
 use super::slave;
-use super::stream::{Stream, attempt, wait};
+use super::stream::{PolledStream, attempt, wait};
 
 /// The stack of the thread. Looking up names needs most of it.
 pub(super) const STACK_BYTES: usize = 512 << 10;
@@ -24,7 +24,7 @@ const SEND_TIMEOUT: Duration = Duration::from_secs(1);
 const CLOSE_TIMEOUT: Duration = Duration::from_millis(200);
 
 /// Opens a connection and serves it until it ends.
-pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
+pub(super) fn serve(shared: &SharedConnection, mut poll: Poll, opening: &Opening) {
     shared.end_after(|| match opening {
         Opening::Connect { host, port } => {
             run(shared, &mut poll, opening, |poll| opening::connect(shared, poll, host, *port))
@@ -38,8 +38,8 @@ pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
 }
 
 /// Opens a stream and carries bytes both ways; the state that it leaves. The stream is closed then.
-fn run<S: Stream>(
-    shared: &Shared,
+fn run<S: PolledStream>(
+    shared: &SharedConnection,
     poll: &mut Poll,
     opening: &Opening,
     open: impl FnOnce(&mut Poll) -> io::Result<Option<S>>,
@@ -69,7 +69,7 @@ enum Flow {
 }
 
 /// Carries bytes both ways until the cycle wants the stream closed.
-fn exchange<S: Stream>(shared: &Shared, poll: &mut Poll, stream: &mut S) -> io::Result<()> {
+fn exchange<S: PolledStream>(shared: &SharedConnection, poll: &mut Poll, stream: &mut S) -> io::Result<()> {
     let mut events = Events::with_capacity(4);
     let mut piece = vec![0; RECEIVED_BYTES];
     let mut flight = Flight::default();
@@ -93,7 +93,7 @@ fn exchange<S: Stream>(shared: &Shared, poll: &mut Poll, stream: &mut S) -> io::
 }
 
 /// Takes what has come, as far as there is room.
-fn receive(shared: &Shared, stream: &mut impl Read, piece: &mut [u8]) -> io::Result<Flow> {
+fn receive(shared: &SharedConnection, stream: &mut impl Read, piece: &mut [u8]) -> io::Result<Flow> {
     let room = shared.lock().inbox.room().min(piece.len());
     let Some(part) = piece.get_mut(..room).filter(|part| !part.is_empty()) else { return Ok(Flow::Nothing) };
     Ok(match attempt(|| stream.read(part))? {
@@ -114,7 +114,7 @@ struct Flight {
 }
 
 /// Sends the next bytes that wait.
-fn send(shared: &Shared, stream: &mut impl Write, flight: &mut Flight) -> io::Result<Flow> {
+fn send(shared: &SharedConnection, stream: &mut impl Write, flight: &mut Flight) -> io::Result<Flow> {
     if flight.gone >= flight.bytes.len() {
         *flight = Flight { bytes: std::mem::take(&mut shared.lock().outbox), gone: 0 };
     }
@@ -130,7 +130,7 @@ fn send(shared: &Shared, stream: &mut impl Write, flight: &mut Flight) -> io::Re
 
 /// Ends what is sent, and throws away what still comes until the other side ends it, too: a socket that is closed with
 /// bytes unread takes from the other side what was sent last.
-fn part<S: Stream>(poll: &mut Poll, events: &mut Events, stream: &mut S, piece: &mut [u8]) -> io::Result<()> {
+fn part<S: PolledStream>(poll: &mut Poll, events: &mut Events, stream: &mut S, piece: &mut [u8]) -> io::Result<()> {
     let deadline = Instant::now() + CLOSE_TIMEOUT;
     if !stream.finish() {
         return Ok(());

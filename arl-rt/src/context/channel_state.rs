@@ -194,7 +194,7 @@ impl ChannelState {
         };
         let more = if surplus > 0.0 { "more" } else { "less" };
         let text = format!(
-            "collision: {name} gives {:.1} {measure} {more} than the motion and the load ask for, {allowed:.1} {measure} \
+            "collision: {name} exerts {:.1} {measure} {more} than the motion and the load require; {allowed:.1} {measure} \
              are allowed",
             surplus.abs()
         );

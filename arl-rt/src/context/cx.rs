@@ -12,7 +12,7 @@ use std::task::{Context, Poll};
 
 use crate::communication::Connections;
 use crate::context::channel_state::ChannelState;
-use crate::context::events::Table;
+use crate::context::events::EventTable;
 use crate::context::frames::Frames;
 use crate::context::output::Targets;
 use crate::context::program::Program;
@@ -64,7 +64,7 @@ pub struct Cx {
     /// What runs: the program itself, the action of an event, a condition.
     level: Cell<Level>,
     /// The interrupts, timers and triggers that the program has declared.
-    events: RefCell<Table>,
+    events: RefCell<EventTable>,
     /// The connections that the program has opened.
     connections: Connections,
     /// The motion that triggers are asked about, where that is not the one being executed.
@@ -267,7 +267,7 @@ impl Cx {
     /// Checks that there is room on the stack for one more function. Functions ask before they call themselves.
     ///
     /// # Errors
-    /// [`Fault::Depth`]: functions call each other too deep.
+    /// [`Fault::Depth`]: function calls are nested too deep.
     #[inline]
     pub fn enter(&self) -> Result<(), Fault> {
         if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(()) }
@@ -315,7 +315,7 @@ impl Cx {
     }
 
     /// The interrupts, timers and triggers that the program has declared.
-    pub(crate) fn events(&self) -> &RefCell<Table> {
+    pub(crate) fn events(&self) -> &RefCell<EventTable> {
         &self.events
     }
 
@@ -388,7 +388,7 @@ impl Cx {
     pub(crate) fn load(&self, program: Rc<dyn Program>) -> Result<(), String> {
         if self.channel_state.robot().is_some_and(|unit| unit.robot().family != program.family()) {
             return Err(format!(
-                "{} is for another build of robot than that of {}",
+                "{} is for another family of robots than that of {}",
                 program.file().name(),
                 self.channel_state.id
             ));

@@ -68,7 +68,7 @@ impl Ticking {
             return false;
         }
         let length = self.interval.max(rate.period());
-        // Counted from the start, so that intervals that are no whole cycles do not drift.
+        // Counted from the start, so that intervals that are not whole cycles do not drift.
         let over = now >= self.start + rate.cycles(length * (self.ticks + 1) as f64).max(1);
         self.ticks += u64::from(over);
         over
@@ -85,7 +85,7 @@ impl Ticking {
 }
 
 /// An event that has been declared.
-pub(crate) struct Event {
+pub(crate) struct DeclaredEvent {
     /// The order of declaration.
     pub(crate) number: u64,
     /// Empty: it has none.
@@ -102,7 +102,7 @@ pub(crate) struct Event {
     room: Option<Box<dyn Act>>,
 }
 
-impl Event {
+impl DeclaredEvent {
     /// What it is, for messages.
     pub(crate) fn describe(&self) -> String {
         let what = match self.source {
@@ -164,13 +164,13 @@ pub(crate) enum Which {
 
 /// The events of a channel.
 #[derive(Default)]
-pub(crate) struct Table {
+pub(crate) struct EventTable {
     /// Interrupts and timers in the order of declaration.
-    pub(crate) interrupts: Vec<Event>,
+    pub(crate) interrupts: Vec<DeclaredEvent>,
     /// Triggers of motions that are planned, in the order of the motions.
-    pub(crate) triggers: VecDeque<Event>,
+    pub(crate) triggers: VecDeque<DeclaredEvent>,
     /// Triggers whose motion is not planned yet, with the level of the program that declared them.
-    waiting: Vec<(u32, Event)>,
+    waiting: Vec<(u32, DeclaredEvent)>,
     /// How many events have been declared.
     declared: u64,
     /// The events that wait to be handled, all of them, the first one on top; with room for all that are declared.
@@ -186,7 +186,7 @@ pub(crate) struct Declaration {
     pub(crate) code: Rc<dyn Code>,
 }
 
-impl Table {
+impl EventTable {
     /// Forgets everything.
     pub(crate) fn clear(&mut self) {
         *self = Self::default();
@@ -228,18 +228,17 @@ impl Table {
         if self.interrupts.len() < MAX_EVENTS && self.waiting.len() < MAX_EVENTS {
             return Ok(());
         }
-        let problem =
-            format!("there are {MAX_EVENTS} already, more than that are not possible: is it declared in a loop?");
+        let problem = format!("{MAX_EVENTS} are declared already, and no more are possible: is this one in a loop?");
         Err(Fault::Domain { function, problem: problem.into() })
     }
 
-    fn event(&mut self, new: Declaration) -> Event {
+    fn event(&mut self, new: Declaration) -> DeclaredEvent {
         self.declared += 1;
         self.due.reserve(self.interrupts.len() + self.triggers.len() + self.waiting.len() + 1);
         let Declaration { name, priority, source, place, code } = new;
         let name = name.unwrap_or_default();
         let room = Some(Rc::clone(&code).room());
-        Event { number: self.declared, name, priority, source, enabled: true, arrived: None, place, code, room }
+        DeclaredEvent { number: self.declared, name, priority, source, enabled: true, arrived: None, place, code, room }
     }
 
     /// Binds the triggers that a level of the program has declared to a motion.
@@ -261,8 +260,8 @@ impl Table {
     /// There is none of that name or priority.
     pub(crate) fn find(&self, function: &'static str, which: &Which) -> Result<Vec<usize>, Fault> {
         let Which::These { name, priority } = which else { return Ok((0..self.interrupts.len()).collect()) };
-        let named = |event: &Event| name.as_ref().is_some_and(|name| !name.is_empty() && event.name == *name);
-        let ranked = |event: &Event| *priority == Some(event.priority);
+        let named = |event: &DeclaredEvent| name.as_ref().is_some_and(|name| !name.is_empty() && event.name == *name);
+        let ranked = |event: &DeclaredEvent| *priority == Some(event.priority);
         let missing = |what: String| {
             Err(Fault::Domain { function, problem: format!("there is no interrupt or timer {what}").into() })
         };
@@ -313,12 +312,12 @@ impl Table {
         if !self.due.is_empty() {
             self.due.clear();
             let all = self.interrupts.iter().chain(&self.triggers);
-            self.due.extend(all.filter_map(Event::rank).map(Reverse));
+            self.due.extend(all.filter_map(DeclaredEvent::rank).map(Reverse));
         }
     }
 
     /// The event with this place in the order of declaration, in which the interrupts lie.
-    fn numbered(&mut self, number: u64) -> Option<&mut Event> {
+    fn numbered(&mut self, number: u64) -> Option<&mut DeclaredEvent> {
         match self.interrupts.binary_search_by_key(&number, |event| event.number) {
             Ok(at) => self.interrupts.get_mut(at),
             Err(_) => self.triggers.iter_mut().find(|event| event.number == number),
@@ -350,7 +349,7 @@ impl Table {
     pub(crate) fn describe(&self, place: (File, u32)) -> Option<String> {
         let waiting = self.waiting.iter().map(|(_, event)| event);
         let mut all = self.interrupts.iter().chain(&self.triggers).chain(waiting);
-        all.find(|event| event.place == place).map(Event::describe)
+        all.find(|event| event.place == place).map(DeclaredEvent::describe)
     }
 
     /// Whether an interrupt or a timer is declared.
@@ -360,8 +359,7 @@ impl Table {
 
     /// Whether a timer runs.
     pub(crate) fn ticks(&self) -> bool {
-        let ticks =
-            |event: &Event| matches!(&event.source, Source::Time(ticking) if event.enabled && !ticking.has_ended());
+        let ticks = |event: &DeclaredEvent| matches!(&event.source, Source::Time(ticking) if event.enabled && !ticking.has_ended());
         self.interrupts.iter().any(ticks)
     }
 

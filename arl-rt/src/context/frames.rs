@@ -94,7 +94,7 @@ impl Frames {
         let mut records = self.records.borrow_mut();
         let at = records.iter().position(|record| record.id == id).ok_or("the function has ended")?;
         if records.iter().skip(at).any(|record| record.is_action) {
-            return Err("the action of an event runs");
+            return Err("the action of an event is running");
         }
         records.truncate(at + 1);
         if let Some(record) = records.last_mut() {

@@ -18,10 +18,10 @@ pub enum Event {
         time: f64,
         /// The channel whose program says it.
         channel: ChannelId,
-        /// The text; what is no UTF-8 is replaced.
+        /// The text; what is not UTF-8 is replaced.
         text: String,
     },
-    /// Something is no alarm but worth a word.
+    /// Something is not an alarm but worth a word.
     Warning(String),
     /// A program came to an alarm.
     Alarm(Alarm),

@@ -122,13 +122,13 @@ impl fmt::Display for GlobalError {
         match self {
             GlobalError::NoNames { name } => write!(
                 f,
-                "global variable `{name}`: the program has none, or was compiled without their names: `arl2rs run --set`, \
+                "global variable `{name}`: the program has no globals, or was compiled without their names: `arl2rs run --set`, \
                  `arl2rs sweep` and `arl2rs build --library` make programs with them"
             ),
             GlobalError::Unknown { name, there } => write!(f, "there is no global variable `{name}`; {there}"),
             GlobalError::Ambiguous { name, files: [one, other], meant } => write!(
                 f,
-                "global variable `{name}`: there is one in {one} and one in {other}; `{meant}` is that of the first"
+                "global variable `{name}`: there is one in {one} and one in {other}; `{meant}` is the one in {one}"
             ),
             GlobalError::Value { name, literal, problem } => {
                 write!(f, "global variable `{name}` = {literal}: {problem}")

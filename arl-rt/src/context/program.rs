@@ -15,7 +15,7 @@ use arl_robot::robot::Family;
 pub type BoxFuture<'a, T = ()> = Pin<Box<dyn Future<Output = Done<T>> + 'a>>;
 
 /// A piece of program that owns what it borrows from.
-pub(crate) type Running = BoxFuture<'static>;
+pub(crate) type RunningProgram = BoxFuture<'static>;
 
 /// What can be looked for by its type.
 pub trait AsAny: Any {

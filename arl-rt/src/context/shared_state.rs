@@ -17,7 +17,7 @@ use crate::fieldbus::Buses;
 use crate::io::Image;
 use crate::storage::disk::Disk;
 use crate::storage::script_dir::ScriptDir;
-use crate::storage::state::State;
+use crate::storage::state::KeptState;
 use arl_robot::cell::Rate;
 use arl_robot::cell::Wiring;
 
@@ -37,7 +37,7 @@ pub(crate) struct SharedState {
     spoken: Cell<bool>,
     /// Alarms that nobody has asked for yet.
     alarms: RefCell<Vec<Alarm>>,
-    /// What happened that is no alarm but worth a word.
+    /// What happened that is not an alarm but worth a word.
     warnings: RefCell<Vec<String>>,
     /// Who wants to hear of alarms and warnings at once.
     listeners: RefCell<Listeners>,
@@ -45,7 +45,7 @@ pub(crate) struct SharedState {
     panicked: RefCell<Vec<&'static str>>,
     /// Threads that hear of everything.
     pub(crate) hearers: Hearers,
-    pub(crate) state: RefCell<State>,
+    pub(crate) state: RefCell<KeptState>,
     /// What writes files, beside the cycle.
     pub(crate) disk: Disk,
     /// What the cell says of the network.
@@ -83,7 +83,7 @@ pub(crate) struct Parts {
     pub(crate) output: Box<dyn Output>,
     pub(crate) listeners: Listeners,
     pub(crate) hearers: Vec<Sender<Event>>,
-    pub(crate) state: State,
+    pub(crate) state: KeptState,
     pub(crate) network: NetworkSettings,
     pub(crate) wiring: Wiring,
     pub(crate) buses: Buses,
@@ -133,7 +133,7 @@ impl SharedState {
         let lost = catch_panic(tell).is_none();
         if lost && !self.panicked.borrow().contains(&who) {
             self.panicked.borrow_mut().push(who);
-            self.warn(format!("{who} has panicked: what it was told is lost"));
+            self.warn(format!("{who} has panicked: what was reported to it is lost"));
         }
     }
 
@@ -157,7 +157,7 @@ impl SharedState {
 
     /// Notes an alarm; the one that ends a program stands before others of it.
     pub(crate) fn alarm(&self, alarm: Alarm, ends: bool) {
-        self.let_hear("what `on_alarm` was given", || {
+        self.let_hear("the function given to `on_alarm`", || {
             if let Some(listener) = &mut self.listeners.borrow_mut().alarm {
                 listener(&alarm);
             }
@@ -183,9 +183,9 @@ impl SharedState {
         std::mem::take(&mut self.alarms.borrow_mut())
     }
 
-    /// Notes what is no alarm but worth a word.
+    /// Notes what is not an alarm but worth a word.
     pub(crate) fn warn(&self, text: String) {
-        self.let_hear("what `on_warning` was given", || {
+        self.let_hear("the function given to `on_warning`", || {
             if let Some(listener) = &mut self.listeners.borrow_mut().warning {
                 listener(&text);
             }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use crate::cycle::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::storage::disk::Disk;
-use crate::storage::state::{Saved, State, StateError};
+use crate::storage::state::{KeptState, Saved, StateError};
 use crate::storage::state_format::StateFormat;
 use crate::values::{
     Array, AsScara, Controlmode, Frame, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Teach, Tool,
@@ -162,7 +162,7 @@ system! {
     servo_on_do: Cell<i32> = 0, "SERVO_ON_DO", Saved;
     /// Output that asks for a program number; 0: none.
     pgno_req_do: Cell<i32> = 0, "PGNO_REQ_DO", Saved;
-    /// Outputs that show that the robot stands at each of the five home points; 0: none.
+    /// Outputs that show that the robot is at each of the five home points; 0: none.
     at_home_do: Shared<SmallArray<i32, 5>> = SmallArray::start(), "AT_HOME_DO", Saved;
     /// Output that shows manual mode; 0: none.
     at_t1_do: Cell<i32> = 0, "AT_T1_DO", Saved;
@@ -211,9 +211,9 @@ system! {
     traj_elapse_time: Cell<f64> = 0.0, "TRAJ_ELAPSE_TIME", Reset;
     /// Time until the motion being executed ends, s. Read-only.
     traj_left_time: Cell<f64> = 0.0, "TRAJ_LEFT_TIME", Reset;
-    /// Way of the TCP since the motion being executed began, mm. Read-only.
+    /// Distance covered by the TCP since the motion being executed began, mm. Read-only.
     traj_elapse_dis: Cell<f64> = 0.0, "TRAJ_ELAPSE_DIS", Reset;
-    /// Way of the TCP until the motion being executed ends, mm. Read-only.
+    /// Distance left to the TCP until the motion being executed ends, mm. Read-only.
     traj_left_dis: Cell<f64> = 0.0, "TRAJ_LEFT_DIS", Reset;
     /// The axes of the target planned last, deg. Read-only.
     cjoint: Cell<Joint> = Joint::default(), "CJOINT", Reset;
@@ -365,12 +365,12 @@ impl<'a> RetainedVariable<'a> {
     }
 
     /// Begins to save its value.
-    pub(crate) fn save(&self, state: &mut State, disk: &Disk) -> Saved {
+    pub(crate) fn save(&self, state: &mut KeptState, disk: &Disk) -> Saved {
         state.save(self.stored, self.slot.write(), disk)
     }
 
     /// Gives it the value that was saved last, as far as this controller knows; otherwise its default.
-    fn restore(&self, state: &State) {
+    fn restore(&self, state: &KeptState) {
         match state.known(self.stored) {
             Some(text) => self.slot.read(text),
             None => self.slot.read(&(self.default)()),
@@ -434,7 +434,7 @@ fn encode<T: StateFormat>(value: &T) -> String {
 }
 
 /// Gives kept variables the values that were saved last.
-pub(crate) fn load(variables: &[RetainedVariable<'_>], state: &mut State) -> Result<(), StateError> {
+pub(crate) fn load(variables: &[RetainedVariable<'_>], state: &mut KeptState) -> Result<(), StateError> {
     for kept in variables {
         let text = state.load(kept.stored)?;
         if let Some(text) = text
@@ -449,7 +449,7 @@ pub(crate) fn load(variables: &[RetainedVariable<'_>], state: &mut State) -> Res
 
 /// Sets the variables of chapter 10.1 to what was saved last, and the names and program numbers of chapter 10.2 to
 /// their defaults.
-pub(crate) fn restore(system: &System, state: &State) {
+pub(crate) fn restore(system: &System, state: &KeptState) {
     system.pgno.set(NO_PROGRAM_NUMBER);
     for kept in system.kept() {
         if kept.always {
@@ -465,7 +465,7 @@ pub(crate) fn restore(system: &System, state: &State) {
 }
 
 /// Begins to save the variables of which every change is kept, where they have changed.
-pub(crate) fn store_changed(system: &System, state: &mut State, disk: &Disk) -> Result<(), StateError> {
+pub(crate) fn store_changed(system: &System, state: &mut KeptState, disk: &Disk) -> Result<(), StateError> {
     for kept in system.kept() {
         if kept.always && kept.slot.take_changed() {
             let text = kept.slot.write();

@@ -9,14 +9,14 @@ use super::{Outcome, State};
 use crate::builtins::event;
 use crate::context::channel_state::ChannelState;
 use crate::context::cx::{Cx, Level};
-use crate::context::program::{Program, Running};
+use crate::context::program::{Program, RunningProgram};
 use crate::context::programs::Programs;
 use crate::context::standstill::WaitsFor;
 use crate::controller::trace::Trace;
 use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::storage::data;
 use crate::storage::pointers::CurrentPointers;
-use crate::unit::Beat;
+use crate::unit::RobotCycle;
 
 /// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
 pub(super) const PROGRAM_STACK_BYTES: usize = 1 << 20;
@@ -31,7 +31,7 @@ const LONG_AT_REST: u32 = 64;
 /// What the program does.
 enum Phase {
     /// Its statements run.
-    Running(Running),
+    Running(RunningProgram),
     /// Its statements have ended; its motion and its pulses run to their end, and events are still handled.
     Concluding,
     /// It was ended; its motion runs to its end.
@@ -295,7 +295,7 @@ impl Channel {
     }
 
     /// One step of the robot and of its trace, at `time` seconds.
-    pub(super) fn step_robot(&mut self, time: f64, beat: Beat) {
+    pub(super) fn step_robot(&mut self, time: f64, beat: RobotCycle) {
         let Some(mut unit) = self.channel_state.robot_mut() else { return };
         unit.step(beat);
         let goes_on = unit.moves() && !self.channel_state.paused.get() && !unit.is_at_zero_override();
@@ -507,7 +507,7 @@ impl Channel {
 }
 
 /// The whole life of a program.
-fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
+fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> RunningProgram {
     Box::pin(async move {
         program.init(&cx).await?;
         let shared = cx.shared();
@@ -524,6 +524,6 @@ fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
 }
 
 /// The program after `restart`: its global variables keep their values.
-fn again(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
+fn again(program: Rc<dyn Program>, cx: Rc<Cx>) -> RunningProgram {
     Box::pin(async move { program.main(&cx).await })
 }

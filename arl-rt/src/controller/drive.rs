@@ -37,12 +37,12 @@ pub(super) fn drive<'a>(
     let refused = match count {
         0 => Some("robots are to be driven, but the cell has no [driver]"),
         2.. if beat.is_some() => Some(
-            "a robot that gives the beat of the cycles (protocol \"rsi\") is driven beside another one: it needs a \
-             controller of its own, as each waits for the other",
+            "a robot that sets the control cycle (protocol \"rsi\") is driven together with another one: it needs a \
+             controller of its own, as each would wait for the other",
         ),
         _ if in_its_own && (in_the_world || needs_the_world) => Some(
-            "a robot with `time = \"robot\"` can be driven neither in real time nor beside one in the time of the \
-             world: its own time is what counts",
+            "a robot with `time = \"robot\"` can be driven neither in real time nor together with one that has \
+             `time = \"world\"`: its own time is what counts",
         ),
         _ => None,
     };

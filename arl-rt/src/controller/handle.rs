@@ -124,7 +124,7 @@ impl Handle {
     /// Does what an event of a scenario does, as [`Controller::order`]: `di.5 = true`, `pendant = "pause"`.
     ///
     /// # Errors
-    /// As [`ask`](Handle::ask); or the text is no order, and nothing was done.
+    /// As [`ask`](Handle::ask); or the text is not an order, and nothing was done.
     pub fn order(&self, text: impl Into<String>) -> Result<(), HandleError> {
         let text = text.into();
         self.ask(move |controller| controller.order(&text))?.map_err(HandleError::Order)
@@ -216,7 +216,7 @@ pub enum HandleError {
     Panicked,
     /// Nobody stepped the controller in time. Nothing was done, and nothing of it will be.
     NotStepped,
-    /// It is no order, or cannot be carried out.
+    /// It is not an order, or cannot be carried out.
     Order(OrderError),
     /// There is no such input or output, or it cannot carry the value.
     Fault(Fault),
@@ -226,8 +226,8 @@ impl fmt::Display for HandleError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             HandleError::Gone => write!(f, "the controller is gone"),
-            HandleError::OwnThread => write!(f, "a handle is for other threads than that of its controller"),
-            HandleError::Panicked => write!(f, "what the controller was asked for has panicked"),
+            HandleError::OwnThread => write!(f, "a handle is for threads other than that of its controller"),
+            HandleError::Panicked => write!(f, "what the controller was asked to do has panicked"),
             HandleError::NotStepped => write!(f, "nobody steps the controller: nothing was done"),
             HandleError::Order(why) => write!(f, "{why}"),
             HandleError::Fault(fault) => write!(f, "{fault}"),
@@ -270,9 +270,9 @@ impl Desk {
 
 /// What the handles of a controller ask of it.
 #[derive(Default)]
-pub(super) struct Calls(Arc<Desk>);
+pub(super) struct HandleCalls(Arc<Desk>);
 
-impl Calls {
+impl HandleCalls {
     /// Whether anybody can ask.
     pub(super) fn is_open(&self) -> bool {
         Arc::weak_count(&self.0) > 0

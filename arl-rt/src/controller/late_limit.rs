@@ -55,10 +55,10 @@ impl fmt::Display for Lost {
         let lost = format!("{all} control cycles were lost within a second");
         match missing {
             0 => write!(f, "the computer was too busy: {lost}"),
-            missing if missing == all => write!(f, "messages of the robot did not come: {lost}"),
+            missing if missing == all => write!(f, "messages from the robot did not arrive: {lost}"),
             missing => write!(
                 f,
-                "{lost}: {missing} as messages of the robot did not come, {} as the computer was too busy",
+                "{lost}: {missing} as messages from the robot did not arrive, {} as the computer was too busy",
                 all - missing
             ),
         }
@@ -129,13 +129,13 @@ mod tests {
         let mut limit = LateLimit::new(Some(20), 1000);
         let told = |lost: Option<Lost>| lost.map(|lost| lost.to_string()).unwrap_or_default();
         let lost = limit.look(Lost::from(&lateness), 5);
-        assert_eq!(told(lost), "messages of the robot did not come: 30 control cycles were lost within a second");
+        assert_eq!(told(lost), "messages from the robot did not arrive: 30 control cycles were lost within a second");
         lateness.note_missing(20);
         lateness.note_lost(2);
         let lost = limit.look(Lost::from(&lateness), 10);
         assert_eq!(
             told(lost),
-            "22 control cycles were lost within a second: 20 as messages of the robot did not come, 2 as the computer was too busy"
+            "22 control cycles were lost within a second: 20 as messages from the robot did not arrive, 2 as the computer was too busy"
         );
     }
 

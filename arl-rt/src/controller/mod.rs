@@ -51,13 +51,13 @@ use crate::fieldbus::islands::Islands;
 use crate::io::{AxisName, Digital, Effect, IoDriver, Pendant, Playing, Pwm, RobotEffect};
 use crate::motion::{Joints, Override};
 use crate::storage::state::StateError;
-use crate::unit::{Beat, Unit};
+use crate::unit::{RobotCycle, Unit};
 use arl_robot::cell::Names;
 use arl_robot::robot::Robot;
 use channel::Channel;
 use channels::Channels;
 use external::External;
-use handle::Calls;
+use handle::HandleCalls;
 use late_limit::{LateLimit, Lost};
 use pointer_store::PointerStore;
 
@@ -133,7 +133,7 @@ pub struct Controller {
     effects: Vec<Effect>,
     external: External,
     /// What other threads ask for.
-    calls: Calls,
+    calls: HandleCalls,
     /// The state that those were told last who hear of events.
     told: State,
     /// What stores where the programs stand, if it is stored at all.
@@ -184,7 +184,8 @@ impl Controller {
         self.channels.each(Channel::poll);
         self.channels.each(Channel::handle_pending_alarm);
         let (real, due) = (self.clock.is_real(), self.clock.due(cycle, rate.period()));
-        self.channels.each(|channel| channel.step_robot(rate.time(cycle), Beat { cycle: rate.into(), real, due }));
+        self.channels
+            .each(|channel| channel.step_robot(rate.time(cycle), RobotCycle { cycle: rate.into(), real, due }));
         self.write_external_outputs();
         self.islands.write(self.shared.io.borrow().outputs_all(cycle));
         self.io.write(self.shared.io.borrow().outputs_all(cycle));
@@ -232,7 +233,7 @@ impl Controller {
     }
 
     fn warn_of_unstored(&self, problem: &StateError) {
-        self.shared.warn(format!("system variables cannot be kept: {problem}"));
+        self.shared.warn(format!("system variables cannot be saved: {problem}"));
     }
 
     /// Begins to store the changes of system variables of which every one is kept: once a second at most, and when the
@@ -722,7 +723,7 @@ pub struct StillRunning;
 
 impl std::fmt::Display for StillRunning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "the program still runs: stop it before a reset")
+        write!(f, "the program is still running: stop it before a reset")
     }
 }
 

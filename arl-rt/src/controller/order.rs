@@ -17,7 +17,7 @@ impl Controller {
     /// called by the names that the cell has for them.
     ///
     /// # Errors
-    /// The text is no order, or it names what is not there; then nothing of it was done.
+    /// The text is not an order, or it names what is not there; then nothing of it was done.
     pub fn order(&mut self, text: &str) -> Result<(), OrderError> {
         let order = Order::parse(text, &self.names).map_err(|error| OrderError::Text(error.message))?;
         let robots: Vec<_> = self.channels.units().map(|unit| unit.borrow().shared_robot()).collect();
@@ -40,7 +40,7 @@ impl Controller {
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum OrderError {
-    /// The text is no order: what is wrong with it.
+    /// The text is not an order: what is wrong with it.
     Text(String),
     /// It is for a signal, an axis or a robot that is not there, or that cannot do it: which.
     NotThere(String),

@@ -4,7 +4,7 @@ use super::channel::Channel;
 use super::channels::Channels;
 use super::{Controller, Outcome, State};
 use crate::io::Pendant;
-use crate::unit::hold::{Held, Pressed};
+use crate::unit::hold::{HeldButton, PressOutcome};
 
 impl Controller {
     /// Presses a button of the teach pendant, for all channels. A button that cannot act now gives a warning
@@ -131,7 +131,7 @@ impl Controller {
     }
 
     /// A button that moves a robot, of a foreground channel from 1 on, is pressed.
-    pub(crate) fn hold(&mut self, channel: u8, held: &Held) -> Result<Pressed, String> {
+    pub(crate) fn hold(&mut self, channel: u8, held: &HeldButton) -> Result<PressOutcome, String> {
         let found = self.channels.numbered(channel);
         hold(found.ok_or_else(|| format!("there is no channel {channel}"))?, held)
     }
@@ -140,7 +140,7 @@ impl Controller {
     ///
     /// # Errors
     /// It does not move the robot any more.
-    pub(crate) fn keep_on(&mut self, channel: u8, held: &Held) -> Result<(), String> {
+    pub(crate) fn keep_on(&mut self, channel: u8, held: &HeldButton) -> Result<(), String> {
         let unit = self.channels.numbered(channel).and_then(|channel| channel.channel_state().robot_mut());
         unit.map_or(Ok(()), |mut unit| unit.keep_on(held))
     }
@@ -219,7 +219,7 @@ fn may_go_on(channel: &Channel, what: &str) -> bool {
 fn is_held(channel: &Channel, what: &str) -> bool {
     let held = channel.channel_state().robot().is_some_and(|unit| unit.is_held());
     if held {
-        refuse(channel, what, "a button moves the robot, or it has not come to rest since");
+        refuse(channel, what, "a button moves the robot, or the robot has not stopped since");
     }
     held
 }
@@ -271,7 +271,7 @@ fn reset(channel: &mut Channel, ended: bool) {
     match channel.state() {
         // What runs in the background stays when the others begin again.
         State::Running if ended => {}
-        State::Running => refuse(channel, "reset", "the program runs: pause it first"),
+        State::Running => refuse(channel, "reset", "the program is running: pause it first"),
         State::Paused => channel.end(Outcome::Stopped),
         State::Ended if channel.channel_state().robot().is_some_and(|unit| !unit.has_servo()) => {
             refuse(channel, "reset", "the servo is off");
@@ -314,7 +314,7 @@ fn servo_on(channel: &Channel) {
 /// Jogs an axis, from 1.
 pub(super) fn jog(channel: &Channel, axis: usize, by: f64) {
     if channel.state() == State::Running {
-        refuse(channel, "jogging", "the program runs: pause it first");
+        refuse(channel, "jogging", "the program is running: pause it first");
         return;
     }
     let paused = channel.state() == State::Paused;
@@ -330,13 +330,13 @@ pub(super) fn jog(channel: &Channel, axis: usize, by: f64) {
 }
 
 /// A button that moves the robot of a channel is pressed.
-fn hold(channel: &Channel, held: &Held) -> Result<Pressed, String> {
+fn hold(channel: &Channel, held: &HeldButton) -> Result<PressOutcome, String> {
     let state = channel.state();
     if state == State::Running {
-        return Err("the program runs: pause it first".into());
+        return Err("the program is running: pause it first".into());
     }
     let unit = channel.channel_state().robot_mut();
-    unit.map_or(Ok(Pressed::Begun), |mut unit| unit.press(held, state == State::Paused))
+    unit.map_or(Ok(PressOutcome::Begun), |mut unit| unit.press(held, state == State::Paused))
 }
 
 /// Moves an axis, from 1, by hand.

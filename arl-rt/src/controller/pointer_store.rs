@@ -9,7 +9,7 @@ use arl_motion::beside;
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::channel_id::MOST_FOREGROUND;
 use crate::cycle::try_lock::try_lock;
-use crate::storage::pointers::{self, CurrentPointers, Table};
+use crate::storage::pointers::{self, CurrentPointers, PointerTable};
 use crate::storage::state::{self, Storage};
 
 /// How long the thread waits before it stores what has changed, unless the programs have ended: what a kill may cost.
@@ -55,7 +55,7 @@ impl Exchange {
     }
 
     /// The thread: stores what has changed since `kept`, which is there already.
-    fn run(&self, storage: &mut dyn Storage, kept: &Table) {
+    fn run(&self, storage: &mut dyn Storage, kept: &PointerTable) {
         let mut stored = pointers::written(kept);
         let mut told = None;
         let mut pending = self.lock();
@@ -80,7 +80,7 @@ impl Exchange {
                 Ok(()) => (stored, told) = (text, None),
                 // Once, however often it is tried.
                 Err(error) if told.as_ref() != Some(&error) => {
-                    pending.problem = Some(format!("where the programs stand cannot be kept: {error}"));
+                    pending.problem = Some(format!("the program pointers cannot be saved: {error}"));
                     told = Some(error);
                 }
                 Err(_) => {}
@@ -101,7 +101,7 @@ impl PointerStore {
     ///
     /// # Errors
     /// The system gives no thread.
-    pub(super) fn start(mut storage: Box<dyn Storage + Send>, kept: Table) -> std::io::Result<Self> {
+    pub(super) fn start(mut storage: Box<dyn Storage + Send>, kept: PointerTable) -> std::io::Result<Self> {
         let exchange = Arc::new(Exchange { pending: Mutex::default(), changed: Condvar::new() });
         let shared = Arc::clone(&exchange);
         let thread = std::thread::Builder::new().name("arl-pointers".into());
@@ -198,7 +198,8 @@ mod tests {
     #[test]
     fn a_storage_that_panics_is_told_and_tried_again() {
         let (sender, stored) = channel();
-        let mut pointer_store = PointerStore::start(Box::new(PanicsOnce(false, sender)), Table::default()).unwrap();
+        let mut pointer_store =
+            PointerStore::start(Box::new(PanicsOnce(false, sender)), PointerTable::default()).unwrap();
         let now = CurrentPointers { program: Some((File::new("a.arl"), 3)), motion: None };
         assert_eq!(pointer_store.note([now].into_iter(), false), None);
         let told = pointer_store.settle().unwrap();

@@ -13,7 +13,7 @@ pub(crate) const COLUMNS: usize = 21;
 /// and deg.
 pub(crate) const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
 
-/// The column behind them with the file that the line is of, where it is asked for.
+/// The column behind them with the file that the line belongs to, where it is asked for.
 pub(crate) const FILE_COLUMN: &str = "file";
 
 /// Which columns a trace has behind those that every one has.
@@ -33,7 +33,7 @@ impl More {
         for name in text.split(',').map(str::trim) {
             match name {
                 FILE_COLUMN => more.file = true,
-                _ => return Err(format!("`{name}` is no column: expected {FILE_COLUMN}")),
+                _ => return Err(format!("`{name}` is not a column: expected {FILE_COLUMN}")),
             }
         }
         Ok(more)

@@ -94,7 +94,7 @@ impl fmt::Display for Lateness {
         write!(f, "cycles: {}, the latest began {longest:.3} ms late; {late} too late, {lost} lost", self.cycles())?;
         match self.missing {
             0 => writeln!(f)?,
-            missing => writeln!(f, ", {missing} of them without a message of the robot")?,
+            missing => writeln!(f, ", {missing} of them without a message from the robot")?,
         }
         for (within, count) in self.histogram() {
             writeln!(f, "{:>10} us late at most: {count}", within.as_micros())?;

@@ -112,8 +112,8 @@ mod system {
             }
             // One that is kept from other programs is none of those that we have, and can be had all the same.
             Core::Number(core) if core < CpuSet::MAX_CPU => core,
-            Core::Number(core) => return Err(format!("no computer has a core {core}")),
-            Core::Last if ours.len() < 2 => return Err("there is only one for all threads".to_owned()),
+            Core::Number(core) => return Err(format!("there is no core {core}")),
+            Core::Last if ours.len() < 2 => return Err("there is only one core for all threads".to_owned()),
             Core::Last => ours.last().copied().unwrap_or_default(),
         };
         let mut own = CpuSet::new();
@@ -134,7 +134,7 @@ mod system {
     /// superuser there is none.
     fn lock_memory() -> Result<(), String> {
         if let (Some(most), false) = (getrlimit(Resource::Memlock).current, geteuid().is_root()) {
-            return Err(format!("only {} KiB may be (`ulimit -l`): it has to be unlimited", most / 1024));
+            return Err(format!("only {} KiB may be locked (`ulimit -l`): it must be unlimited", most / 1024));
         }
         mlockall(MlockAllFlags::CURRENT | MlockAllFlags::FUTURE).map_err(|error| error.to_string())
     }
@@ -143,7 +143,7 @@ mod system {
         let value = ThreadPriorityValue::try_from(priority).map_err(|why| why.to_owned())?;
         let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
         let done = set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Crossplatform(value), policy);
-        done.map_err(|error| format!("{error} (`ulimit -r` says which may be)"))
+        done.map_err(|error| format!("{error} (`ulimit -r` shows which are allowed)"))
     }
 
     /// What a thread beside the cycle has inherited from it is not for it. What it may not do makes it no slower.
@@ -210,7 +210,7 @@ mod system {
         let why = if cfg!(target_os = "linux") {
             "it was built without the feature `realtime`"
         } else {
-            "only Linux does so"
+            "only Linux supports it"
         };
         vec![why.to_owned()]
     }

@@ -41,7 +41,7 @@ impl ErrorCode {
 
 impl fmt::Display for ErrorCode {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "code {} of the bus", self.0)
+        write!(f, "bus error code {}", self.0)
     }
 }
 

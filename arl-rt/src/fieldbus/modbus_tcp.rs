@@ -24,7 +24,7 @@ impl ModbusTcp {
         let server = Server::start(address, settings.connections, self.tables.clone());
         let server = server.map_err(|error| {
             format!(
-                "the Modbus TCP server cannot listen on {address}, so that no PLC reaches the registers: {error}; the \
+                "the Modbus TCP server cannot listen on {address}, so no PLC can reach the registers: {error}; the \
                  table [modbus_tcp] of the cell file may name another `address` or `port`{}",
                 if address.port() < 1024 { " (ports below 1024 often need special rights)" } else { "" }
             )

@@ -83,7 +83,7 @@ mod tests {
             (1, f64::NAN, "not NaN V"),
             (2, 3.999, "AO 2 carries 4 to 20 mA, not 3.999 mA"),
             (2, 20.5, "not 20.5 mA"),
-            (3, 5.0, "AO 3 does not exist: channels 1 to 2 are there"),
+            (3, 5.0, "AO 3 does not exist: this cell has channels 1 to 2"),
         ] {
             let error = row.set(channel, value).unwrap_err();
             assert_eq!(error.number(), 20010);

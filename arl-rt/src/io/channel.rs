@@ -4,7 +4,7 @@ use crate::fault::Fault;
 
 /// An output, by its channel from 1.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Output {
+pub enum OutputSignal {
     /// A digital one.
     Digital(usize),
     /// An analog one.
@@ -16,7 +16,7 @@ pub(super) fn place(name: &str, channel: i32, count: usize) -> Result<usize, Fau
     match usize::try_from(channel) {
         Ok(number) if (1..=count).contains(&number) => Ok(number - 1),
         _ if count == 0 => Err(channel_fault(format!("{name} {channel} does not exist: this cell has no {name}"))),
-        _ => Err(channel_fault(format!("{name} {channel} does not exist: channels 1 to {count} are there"))),
+        _ => Err(channel_fault(format!("{name} {channel} does not exist: this cell has channels 1 to {count}"))),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::{error, fmt, io};
 
-use super::channel::Output;
+use super::channel::OutputSignal;
 use super::image::{Inputs, Outputs};
 
 /// Exchanges inputs and outputs with the outside, once a cycle. All calls must return at once: what takes time, like a
@@ -77,7 +77,7 @@ pub trait IoDriver {
 
     /// Whether an output of this cycle ([`Outputs::cycle`]), or of a later one, has got to where it goes: `syncdo` and
     /// `syncao` wait for it. Asked after [`read`](IoDriver::read).
-    fn has_reached(&self, _output: Output, _cycle: u64) -> bool {
+    fn has_reached(&self, _output: OutputSignal, _cycle: u64) -> bool {
         true
     }
 

@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use super::Channels;
 use super::analog_row::AnalogRow;
 use super::bits::Bits;
-use super::channel::{Output, channel_fault, place};
+use super::channel::{OutputSignal, channel_fault, place};
 use crate::fault::Fault;
 
 /// The most channels that one call may name.
@@ -26,7 +26,7 @@ pub struct Image {
     running_pulses: usize,
     pwm: [Pwm; PWM_CHANNELS],
     /// Outputs that a program waits for, and the cycle in which it set them.
-    awaited: Vec<(Output, u64)>,
+    awaited: Vec<(OutputSignal, u64)>,
     /// Outputs that change when a motion of a channel has ended: for each channel, in the order of its motions.
     after_motion: Vec<VecDeque<AfterMotion>>,
 }
@@ -133,7 +133,7 @@ impl Image {
     }
 
     /// Waits for outputs that were set in this cycle to get to where they go.
-    pub(crate) fn await_outputs(&mut self, outputs: impl Iterator<Item = Output>, cycle: u64) {
+    pub(crate) fn await_outputs(&mut self, outputs: impl Iterator<Item = OutputSignal>, cycle: u64) {
         for output in outputs {
             match self.awaited.iter_mut().find(|(known, _)| *known == output) {
                 Some((_, since)) => *since = cycle,
@@ -143,12 +143,12 @@ impl Image {
     }
 
     /// Whether one of these is waited for.
-    pub(crate) fn awaits(&self, mut outputs: impl Iterator<Item = Output>) -> bool {
+    pub(crate) fn awaits(&self, mut outputs: impl Iterator<Item = OutputSignal>) -> bool {
         !self.awaited.is_empty() && outputs.any(|output| self.awaited.iter().any(|(awaited, _)| *awaited == output))
     }
 
     /// Those are not waited for any more that have got to where they go.
-    pub(crate) fn outputs_reached(&mut self, has: impl Fn(Output, u64) -> bool) {
+    pub(crate) fn outputs_reached(&mut self, has: impl Fn(OutputSignal, u64) -> bool) {
         self.awaited.retain(|(output, since)| !has(*output, *since));
     }
 
@@ -224,7 +224,7 @@ impl Image {
         let name = what.name();
         if first > last {
             return Err(channel_fault(format!(
-                "{name} {from} to {to} is a reversed range: the first channel comes first, {to} to {from}"
+                "{name} {from} to {to} is a reversed range: the lower number comes first, {to} to {from}"
             )));
         }
         if i64::from(to) - i64::from(from) >= MAX_GROUP_CHANNELS {
@@ -475,11 +475,11 @@ mod tests {
             image.set_digitals(Digital::Do, 1, 33, 0).unwrap_err().to_string(),
             image.analog_output(9).unwrap_err().to_string(),
         ];
-        assert_eq!(texts[0], "DI 0 does not exist: channels 1 to 64 are there");
-        assert_eq!(texts[1], "DO 65 does not exist: channels 1 to 64 are there");
+        assert_eq!(texts[0], "DI 0 does not exist: this cell has channels 1 to 64");
+        assert_eq!(texts[1], "DO 65 does not exist: this cell has channels 1 to 64");
         assert!(texts[2].contains("reversed"), "{}", texts[2]);
         assert!(texts[3].contains("more than 32"), "{}", texts[3]);
-        assert_eq!(texts[4], "AO 9 does not exist: channels 1 to 8 are there");
+        assert_eq!(texts[4], "AO 9 does not exist: this cell has channels 1 to 8");
     }
 
     #[test]

@@ -12,7 +12,7 @@ mod scenario;
 
 pub use arl_motion::Override;
 pub use arl_robot::channels::{AnalogType, Channels};
-pub use channel::Output;
+pub use channel::OutputSignal;
 pub use driver::{DriverError, IoDriver, SimulatedIo};
 pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};

@@ -28,7 +28,7 @@ pub(crate) struct StoredPointers {
 }
 
 /// What was kept of all foreground channels, by their numbers from 1.
-pub(crate) type Table = [StoredPointers; MOST_FOREGROUND];
+pub(crate) type PointerTable = [StoredPointers; MOST_FOREGROUND];
 
 /// The pointers of a channel as they are now; nothing as long as they are still those that were kept.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
@@ -60,7 +60,7 @@ const PROGRAM: &str = "program";
 const MOTION: &str = "motion";
 
 /// As text: a line for each pointer.
-pub(crate) fn written(table: &Table) -> String {
+pub(crate) fn written(table: &PointerTable) -> String {
     let mut text = String::new();
     for (number, kept) in (1..).zip(table) {
         for (word, spot) in [(PROGRAM, &kept.program), (MOTION, &kept.motion)] {
@@ -75,8 +75,8 @@ pub(crate) fn written(table: &Table) -> String {
 }
 
 /// Back from text; nothing where it is none that was written.
-pub(crate) fn read(text: &str) -> Option<Table> {
-    let mut table = Table::default();
+pub(crate) fn read(text: &str) -> Option<PointerTable> {
+    let mut table = PointerTable::default();
     for line in text.lines() {
         let mut words = line.split_ascii_whitespace();
         let word = words.next()?;
@@ -101,13 +101,13 @@ mod tests {
 
     #[test]
     fn text_gives_the_pointers_back() {
-        let mut table = Table::default();
+        let mut table = PointerTable::default();
         table[0] = StoredPointers { program: Some((File::new("a b \u{e4}.arl"), 12).into()), motion: None };
         table[5] = StoredPointers::default()
             .renewed(&CurrentPointers { program: None, motion: Some((File::new("c.arl"), 0)) });
         let text = written(&table);
         assert_eq!(read(&text), Some(table), "{text}");
-        assert_eq!(read(""), Some(Table::default()));
+        assert_eq!(read(""), Some(PointerTable::default()));
     }
 
     #[test]

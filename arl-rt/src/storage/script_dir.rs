@@ -58,7 +58,7 @@ impl ScriptDir {
                 }
             }
         }
-        if named && !text.contains('\0') { Ok(path) } else { Err(problem("this is no name of a file")) }
+        if named && !text.contains('\0') { Ok(path) } else { Err(problem("this is not a file name")) }
     }
 
     /// Appends to a file; it is made where it is missing, its directory is not.

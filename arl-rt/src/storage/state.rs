@@ -120,7 +120,7 @@ impl fmt::Display for StateError {
 impl std::error::Error for StateError {}
 
 /// The kept values, with what is known to be stored.
-pub(crate) struct State {
+pub(crate) struct KeptState {
     storage: Box<dyn Storage>,
     /// Another way to them, for the thread that stores; without one they are stored at once.
     beside: Option<Arc<Mutex<Box<dyn Storage + Send>>>>,
@@ -140,7 +140,7 @@ struct Saving {
 /// What becomes of a value that is being stored, for who asks: nothing before it is known, and once.
 pub(crate) type Saved = Rc<Cell<Option<Result<(), StateError>>>>;
 
-impl State {
+impl KeptState {
     pub(crate) fn new(mut storage: Box<dyn Storage>) -> Self {
         storage.begin();
         let beside = storage.another().map(|storage| Arc::new(Mutex::new(storage)));
@@ -161,7 +161,7 @@ impl State {
         Ok(Some(text.to_owned()))
     }
 
-    /// Begins to write a value; [`State::collect`] tells when it is there.
+    /// Begins to write a value; [`KeptState::collect`] tells when it is there.
     pub(crate) fn save(&mut self, name: &'static str, text: String, disk: &Disk) -> Saved {
         let asker = Saved::default();
         match &self.beside {
@@ -287,7 +287,7 @@ mod tests {
         directory.store("I", b"two").unwrap();
         assert_eq!(directory.load("I").unwrap().as_deref(), Some(&b"two"[..]));
         assert_eq!(fs::read_dir(&path).unwrap().count(), 1, "nothing is left beside it");
-        let mut state = State::new(Box::new(directory));
+        let mut state = KeptState::new(Box::new(directory));
         let error = state.load("I").unwrap_err();
         assert!(error.place.ends_with("I.state") && error.problem.contains("damaged"), "{error}");
         fs::remove_dir_all(&path).unwrap();

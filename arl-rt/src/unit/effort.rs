@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// What a scenario does to the robot.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub(crate) struct Outside {
+pub(crate) struct ExternalForces {
     /// A force at the TCP, in the world, N.
     pub(crate) force: [f64; 3],
     /// Torques on the axes, Nm (N).
@@ -46,7 +46,7 @@ pub(crate) struct Collision {
 pub(super) struct Effort {
     /// `None`: the robot file has no masses.
     model: Option<Dynamics>,
-    outside: Outside,
+    outside: ExternalForces,
     /// What the driver has measured in the last cycle.
     measured: Option<Axes>,
     /// By how much the axes may differ from the model while collisions are looked for.
@@ -58,7 +58,7 @@ pub(super) struct Effort {
 impl Effort {
     pub(super) fn new(robot: &Robot) -> Self {
         let model = Dynamics::new(robot);
-        Self { model, outside: Outside::default(), measured: None, allowed: None, greatest: None }
+        Self { model, outside: ExternalForces::default(), measured: None, allowed: None, greatest: None }
     }
 
     pub(super) fn model(&self) -> Option<&Dynamics> {
@@ -77,7 +77,7 @@ impl Effort {
         }
     }
 
-    pub(super) fn outside_mut(&mut self) -> &mut Outside {
+    pub(super) fn outside_mut(&mut self) -> &mut ExternalForces {
         &mut self.outside
     }
 
@@ -104,7 +104,7 @@ impl Effort {
                 surplus = measured;
                 surplus.iter_mut().zip(asked).for_each(|(surplus, asked)| *surplus -= asked);
             }
-            _ if self.outside == Outside::default() => surplus = [0.0; ROBOT_AXES],
+            _ if self.outside == ExternalForces::default() => surplus = [0.0; ROBOT_AXES],
             _ => {
                 let force = rig.base.rotation.inverse() * Vector3::from(self.outside.force);
                 let tcp = rig.tcp_at(&robot.kinematics.forward(&moving.at.axes));

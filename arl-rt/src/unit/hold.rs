@@ -20,7 +20,7 @@ const THERE: f64 = 1e-6;
 
 /// What is moved while somebody holds it.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Held {
+pub(crate) enum HeldButton {
     /// An axis, from 1, towards the end of its range.
     Axis {
         /// From 1; external ones come behind the robot's own.
@@ -61,7 +61,7 @@ pub(super) enum Button {
 
 /// What pressing a button has led to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Pressed {
+pub(crate) enum PressOutcome {
     /// The robot moves, or there was nothing to do.
     Begun,
     /// The robot comes to rest first.
@@ -75,23 +75,23 @@ impl Unit {
     }
 
     /// A button is pressed. `paused`: the robot's program is.
-    pub(crate) fn press(&mut self, held: &Held, paused: bool) -> Result<Pressed, String> {
+    pub(crate) fn press(&mut self, held: &HeldButton, paused: bool) -> Result<PressOutcome, String> {
         if self.button != Button::Free {
-            return Ok(Pressed::Waits);
+            return Ok(PressOutcome::Waits);
         }
         if paused {
             self.pause();
         }
         self.may_be_jogged()?;
         self.begin(held)?;
-        Ok(Pressed::Begun)
+        Ok(PressOutcome::Begun)
     }
 
     /// The button is still pressed: where an end was reached the robot goes on.
     ///
     /// # Errors
     /// Something else has stopped the robot, or there is no way farther: it takes another press.
-    pub(crate) fn keep_on(&mut self, held: &Held) -> Result<(), String> {
+    pub(crate) fn keep_on(&mut self, held: &HeldButton) -> Result<(), String> {
         if self.button != Button::Held {
             return Err("the robot was stopped".into());
         }
@@ -119,9 +119,9 @@ impl Unit {
         }
     }
 
-    fn begin(&mut self, held: &Held) -> Result<(), String> {
+    fn begin(&mut self, held: &HeldButton) -> Result<(), String> {
         match held {
-            Held::Axis { axis, up } => {
+            HeldButton::Axis { axis, up } => {
                 let mut target = *self.setpoint();
                 let range = self.robot.axes.get(axis.wrapping_sub(1)).map(|axis| [axis.min, axis.max]);
                 let place = self.axis_of(&mut target, *axis)?;
@@ -129,14 +129,14 @@ impl Unit {
                 *place = if *up { high } else { low };
                 self.hold_to(target)
             }
-            Held::To(axes) => {
+            HeldButton::To(axes) => {
                 let mut target = *self.setpoint();
                 for (axis, value) in (1..).zip(axes) {
                     *self.axis_of(&mut target, axis)? = *value;
                 }
                 self.hold_to(target)
             }
-            Held::Tcp { along, turns, of } => self.hold_tcp(along, *turns, *of),
+            HeldButton::Tcp { along, turns, of } => self.hold_tcp(along, *turns, *of),
         }
     }
 
@@ -161,7 +161,9 @@ impl Unit {
     fn hold_tcp(&mut self, along: &Vector3<f64>, turns: bool, of: Seen) -> Result<(), String> {
         let rig = self.rig();
         if let Carried::Workpiece(_) = rig.carried {
-            return Err("the robot holds the workpiece and the tool stands: its axes can be moved".into());
+            return Err(
+                "the robot holds the workpiece and the tool is stationary: move the robot's axes instead".into()
+            );
         }
         let here = *self.setpoint();
         let tcp = rig.tcp_at(&self.robot.kinematics.forward(&here.axes));
@@ -185,6 +187,6 @@ impl Unit {
                 return Ok(());
             }
         }
-        Err("there is no way farther in this direction".into())
+        Err("the robot cannot move farther in this direction".into())
     }
 }

@@ -29,7 +29,7 @@ use arl_robot::kinematics::{Axes, Frame, frame_components};
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES, Robot};
 use changes::{Change, Changes};
 use effort::Effort;
-pub(crate) use effort::{Collision, Outside, SENSITIVITY};
+pub(crate) use effort::{Collision, ExternalForces, SENSITIVITY};
 use hold::Button;
 pub(crate) use moving::Moving;
 use refusal::alarm;
@@ -45,7 +45,7 @@ const REST: Joints = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_
 
 /// A cycle, as a robot sees it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Beat {
+pub(crate) struct RobotCycle {
     /// Its length.
     pub(crate) cycle: Cycle,
     /// Whether it takes the time that it stands for.
@@ -288,7 +288,7 @@ impl Unit {
     }
 
     /// What pushes the robot.
-    pub(crate) fn outside_mut(&mut self) -> &mut Outside {
+    pub(crate) fn outside_mut(&mut self) -> &mut ExternalForces {
         self.effort.outside_mut()
     }
 
@@ -545,7 +545,7 @@ impl Unit {
     }
 
     /// One interpolation step, and the exchange with the driver.
-    pub(crate) fn step(&mut self, beat: Beat) {
+    pub(crate) fn step(&mut self, beat: RobotCycle) {
         let period = beat.cycle.period();
         self.queue.follow_real_time(beat.real);
         let step = self.queue.step(beat.cycle, self.speed_override);
@@ -575,7 +575,7 @@ impl Unit {
     }
 
     /// Tells the driver where the robot shall be, and hears where it is.
-    fn exchange(&mut self, beat: Beat) {
+    fn exchange(&mut self, beat: RobotCycle) {
         let setpoint = self.setpoint_of(beat);
         let feedback = if self.closed { Feedback::none() } else { self.driver.exchange(&setpoint) };
         let position = feedback.position.filter(|position| is_finite(position, &self.robot));
@@ -593,7 +593,7 @@ impl Unit {
         self.supervise(&feedback, &setpoint);
     }
 
-    fn setpoint_of(&self, beat: Beat) -> Setpoint {
+    fn setpoint_of(&self, beat: RobotCycle) -> Setpoint {
         let (period, deadline) = (beat.cycle.period(), beat.due);
         if matches!(self.motors, Motors::Off | Motors::ComingOn) {
             // They are asked for nothing but to stay.

@@ -7,7 +7,7 @@ use arl_robot::robot::{Axis, Robot};
 
 /// An axis at a position that it cannot have.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Outside<'a> {
+pub(crate) struct OutOfRange<'a> {
     axis: &'a Axis,
     at: f64,
 }
@@ -20,10 +20,10 @@ pub(super) fn axes_at<'a>(position: &'a Joints, robot: &'a Robot) -> impl Iterat
 }
 
 /// The first axis that is at no number, or farther outside of its range than what counts as settled.
-pub(crate) fn first_outside<'a>(position: &'a Joints, robot: &'a Robot) -> Option<Outside<'a>> {
+pub(crate) fn first_outside<'a>(position: &'a Joints, robot: &'a Robot) -> Option<OutOfRange<'a>> {
     let near = robot.drives.settled;
     let is_inside = |axis: &Axis, at: f64| at >= axis.min - near && at <= axis.max + near;
-    axes_at(position, robot).find(|(axis, at)| !is_inside(axis, *at)).map(|(axis, at)| Outside { axis, at })
+    axes_at(position, robot).find(|(axis, at)| !is_inside(axis, *at)).map(|(axis, at)| OutOfRange { axis, at })
 }
 
 /// The unit of an axis.
@@ -31,11 +31,11 @@ pub(super) fn unit(axis: &Axis) -> &'static str {
     if axis.linear { "mm" } else { "deg" }
 }
 
-impl fmt::Display for Outside<'_> {
+impl fmt::Display for OutOfRange<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Axis { name, min, max, .. } = self.axis;
         if !self.at.is_finite() {
-            return write!(f, "the robot reports no number as the position of {name}");
+            return write!(f, "the position that the robot reports for {name} is not a number");
         }
         let unit = unit(self.axis);
         write!(f, "the robot reports {name} at {:.3} {unit}, outside of its range of {min} to {max} {unit}", self.at)

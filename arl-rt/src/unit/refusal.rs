@@ -32,7 +32,7 @@ impl Mounts {
                 Some((other, line)) => format!("of {}:{line}", other.name()),
                 None => format!("in {variable}"),
             };
-            Some(format!("; this motion gives no `{label}:`, so the {name} {{{}}} {from} holds", frame.join(",")))
+            Some(format!("; this motion gives no `{label}:`, so the {name} {{{}}} {from} applies", frame.join(",")))
         });
         words.collect()
     }
@@ -103,7 +103,7 @@ fn words(error: &PlanError) -> String {
     const ABOVE_ZERO: &str = "it must be a number above 0";
     match error {
         PlanError::LoneCircle => {
-            "one ccir alone makes no arc: it takes another one right behind it, before the program waits for the robot"
+            "one ccir alone makes no arc: another one must follow directly, before the program waits for the robot"
                 .into()
         }
         PlanError::AboveLimit { height, highest } => {
@@ -115,11 +115,9 @@ fn words(error: &PlanError) -> String {
         PlanError::NoHighestSpeed { value } => {
             format!("the highest speed of velset in mm/s is {value}: {ABOVE_ZERO}")
         }
-        PlanError::NoWayBack => {
-            "the robot cannot go straight back to its path: it stands in another configuration, or \
-             in another turn of an axis, than where it was stopped; movej it near that place first"
-                .into()
-        }
+        PlanError::NoWayBack => "the robot cannot go straight back to its path: it is in another configuration, or \
+             in another turn of an axis, than when it was stopped; movej it near that position first"
+            .into(),
         error => error.to_string(),
     }
 }

@@ -46,7 +46,7 @@ impl<'a> Start<'a> {
     pub fn begin_at(&self, position: Joints) -> Result<Joints, String> {
         match range::first_outside(&position, self.robot) {
             None => Ok(position),
-            Some(outside) => Err(format!("{outside}: is the robot file that of this robot?")),
+            Some(outside) => Err(format!("{outside}: does the robot file match this robot?")),
         }
     }
 }

@@ -126,18 +126,18 @@ impl Unit {
                 self.motors = Motors::On;
                 return Ok(true);
             }
-            Motors::GoingOff => return Err("the robot has not come to rest yet".into()),
+            Motors::GoingOff => return Err("the robot has not stopped yet".into()),
             Motors::Off => {}
         }
         if self.silent > 0 {
-            return Err("no position feedback comes from the robot".into());
+            return Err("there is no position feedback from the robot".into());
         }
         if let Some(outside) = range::first_outside(&self.reported.at, &self.robot) {
             return Err(outside.to_string());
         }
         let moves = self.reported.rates.iter().chain(&self.reported.external_rates).any(|rate| rate.abs() > STILL);
         if !self.queue.rests() || moves {
-            return Err("the robot has not come to rest yet".into());
+            return Err("the robot has not stopped yet".into());
         }
         let here = self.reported.at;
         let near = threshold.is_some_and(|threshold| self.commanded.at.is_at(&here, threshold));
@@ -148,7 +148,7 @@ impl Unit {
             }
             self.step_beside();
             if !self.go_where_it_is() {
-                return Err("motions of it are still under way".into());
+                return Err("its motions are still under way".into());
             }
         }
         self.supervision.begin();
@@ -224,7 +224,7 @@ impl Unit {
             return Err("the servo is off".into());
         }
         if !self.queue.rests() {
-            return Err("the robot has not come to rest yet".into());
+            return Err("the robot has not stopped yet".into());
         }
         Ok(())
     }
@@ -261,10 +261,10 @@ impl Unit {
     pub(crate) fn move_by_hand(&mut self, axis: usize, by: f64) -> Result<(), String> {
         is_distance(by)?;
         if self.motors != Motors::Off {
-            return Err("its servo is on, the motors hold it".into());
+            return Err("its servo is on: the motors hold it".into());
         }
         if !self.queue.rests() {
-            return Err("the robot has not come to rest yet".into());
+            return Err("the robot has not stopped yet".into());
         }
         let mut here = self.reported.at;
         *self.axis_of(&mut here, axis)? += by;

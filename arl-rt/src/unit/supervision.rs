@@ -94,10 +94,10 @@ impl Supervision {
             Some((off, axis)) => {
                 let (name, unit) = (&axis.name, unit(axis));
                 format!(
-                    "the robot has not come to rest on its set-point within {limit} s: {name} is {off:.4} {unit} away, {near} {unit} count as settled"
+                    "the robot has not settled at its set-point within {limit} s: {name} is {off:.4} {unit} away; up to {near} {unit} counts as settled"
                 )
             }
-            None => format!("the robot has not come to rest on its set-point within {limit} s"),
+            None => format!("the robot has not settled at its set-point within {limit} s"),
         };
         Some(Fault::NotSettling(text.into()))
     }
@@ -137,7 +137,7 @@ fn position(position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
 /// What is wrong with the torques that it measures: nobody would find a collision by them.
 fn torque(feedback: &Feedback) -> Option<Fault> {
     let torque = feedback.torque.as_ref()?;
-    let text = "the robot reports no number as a torque of its motors";
+    let text = "a motor torque that the robot reports is not a number";
     (!is_all_finite(torque)).then(|| Fault::NoFeedback(text.into()))
 }
 

@@ -24,7 +24,7 @@ pub trait Literal: Print {
         self.put(value, names)
     }
 
-    /// Appends the value as a literal that can be read back. Bytes of a string that are no text are replaced.
+    /// Appends the value as a literal that can be read back. Bytes of a string that are not text are replaced.
     fn write(&self, out: &mut String);
 }
 

@@ -188,7 +188,7 @@ structures! {
     #[derive(Copy)]
     Tool "tool"; {
         t_frame "The tool's frame, on the flange (or in the world where it is stationary).": Frame = Frame::default(),
-        stationary "Whether the tool stands in the world instead of on the flange.": bool = false,
+        stationary "Whether the tool is fixed in the world instead of on the flange.": bool = false,
     }
 
     /// A workpiece.
@@ -228,7 +228,7 @@ structures! {
     /// Where the blending into the next motion begins, six-axis robots.
     #[derive(Copy)]
     Slip "slip", 5 by position, last shown if |slip| super::is_set(slip.jdis); {
-        perdis "Share of the motion that may be blended, %; goes before all others.": f64 = UNSET,
+        perdis "Share of the motion that may be blended, %; takes precedence over all others.": f64 = UNSET,
         pdis "Distance of the TCP from the target, mm.": f64 = UNSET,
         odis "Angle of the tool from its target, deg.": f64 = UNSET,
         ejdis "Rotating external axes from their target, deg.": f64 = UNSET,
@@ -243,7 +243,7 @@ structures! {
         ejdis "Rotating external axes from their target, deg.": f64 = UNSET,
         eldis "Linear external axes from their target, mm.": f64 = UNSET,
         odis "Angle of the tool from its target, deg.": f64 = UNSET,
-        perdis "Share of the motion that may be blended, %; goes before all others.": f64 = UNSET,
+        perdis "Share of the motion that may be blended, %; takes precedence over all others.": f64 = UNSET,
     }
 
     /// Speeds of the axes of a six-axis robot.

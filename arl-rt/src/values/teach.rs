@@ -66,7 +66,7 @@ fn written(value: &impl Literal) -> String {
 /// Gives a variable the value of a literal, in words of ARL; `sizes` are those of an array of several dimensions.
 ///
 /// # Errors
-/// The text is no literal, or does not fit: in words.
+/// The text is not a literal, or does not fit: in words.
 pub(crate) fn teach_text(variable: &dyn Teach, onto: Onto, sizes: &[usize], literal: &str) -> Result<(), String> {
     let mut names = Interner::default();
     let parsed = arl_lang::parse_expression(literal, &mut names, arl_lang::ParseOptions::default());

@@ -97,7 +97,7 @@ impl fmt::Display for TeachError {
             }
             TeachProblem::Twice(name) => write!(f, "component {name} is set twice"),
             TeachProblem::Mixed => {
-                write!(f, "values with and without names, or rows and elements, stand side by side in braces")
+                write!(f, "the braces mix values with and without names, or rows and elements")
             }
             TeachProblem::TooMany { expected, most } => write!(f, "{expected} takes at most {most} values"),
         }

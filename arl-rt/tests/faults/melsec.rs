@@ -127,7 +127,7 @@ fn an_answer_of_another_length_is_an_alarm() {
         stream.write_all(b"\xd0\0\0\xff\xff\x03\0\x04\0\0\0ab").unwrap();
         until_it_goes(stream);
     });
-    assert_eq!(told, "alarm 20050: read: the PLC sent 2 bytes in place of 4 (t.arl:2)");
+    assert_eq!(told, "alarm 20050: read: the PLC sent 2 bytes instead of 4 (t.arl:2)");
 }
 
 /// The answer with bytes changed, cut off, doubled or put in, by a number.
@@ -152,8 +152,8 @@ fn damaged(seed: u64) -> Vec<u8> {
     bytes
 }
 
-/// The PLC goes after each: what is no answer, or not all of one, is an alarm; of one that is whole the next question
-/// is.
+/// The PLC goes after each: what is not an answer, or not all of one, is an alarm; of one that is whole the next
+/// question is.
 #[test]
 fn damaged_answers_are_told_and_nothing_is_left_of_them() {
     for seed in 0..60 {

@@ -27,7 +27,7 @@ pub(crate) fn new(folder: &Path) -> Result<(), Failure> {
     check_name(&name)?;
     let is_empty = std::fs::read_dir(folder).map(|mut entries| entries.next().is_none());
     if folder.exists() && !is_empty.unwrap_or(false) {
-        return Err(Failure::Usage(format!("{} is there already, and not empty", folder.display())));
+        return Err(Failure::Usage(format!("{} already exists and is not empty", folder.display())));
     }
     std::fs::create_dir_all(folder).map_err(|error| Failure::io("make the folder", folder, &error))?;
     for (file, text) in FILES {
@@ -59,10 +59,10 @@ fn check_name(name: &str) -> Result<(), Failure> {
         return wrong("it is a word of the language");
     }
     if ["arl", "cell"].contains(&name.to_ascii_lowercase().as_str()) {
-        return wrong("a file of this name beside it is about something else");
+        return wrong("a settings file with this name has another meaning");
     }
     if is_data(Path::new(name)) {
-        return wrong("names with `_data` at the end are those of data files");
+        return wrong("names that end in `_data` are those of data files");
     }
     Ok(())
 }

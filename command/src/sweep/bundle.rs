@@ -4,9 +4,9 @@
 use super::cell_files::CellFiles;
 use super::folder::{Folder, Spread};
 use super::looking::{self, Looking};
-use super::parameter::Parameters;
 use super::result::RunResult;
 use super::table::Settings;
+use crate::parameters::Parameters;
 use crate::variables;
 use arl_lang::files::is_data;
 use arl_project::cache::Kind;
@@ -87,7 +87,7 @@ impl Bundle {
         if let Some(outside) = data.chain(others).find(|path| !path.starts_with(&folder)) {
             let (outside, folder) = (outside.display(), folder.display());
             let text =
-                format!("{outside} lies outside of {folder}: a sweep takes programs and data files of one folder");
+                format!("{outside} lies outside of {folder}: a sweep takes programs and data files from one folder");
             return Err(Failure::Usage(text));
         }
         let mut bundle =
@@ -135,7 +135,7 @@ impl Bundle {
     /// There is no such parameter, or its value is none.
     pub fn words(&self, row: &Parameters) -> Result<Vec<String>, String> {
         if row.option("start-time").is_some_and(|time| time == "now") {
-            return Err("start-time: a run of a sweep is the same every time, so `now` is no time for it".into());
+            return Err("start-time: a run of a sweep is the same every time, so `now` is not possible".into());
         }
         let mut words = self.words.clone();
         words.extend(self.file_words(row));
@@ -271,7 +271,7 @@ impl Parameters {
     /// The files that are named.
     fn files(&self) -> impl Iterator<Item = &str> {
         let named = ["robot", "io"].into_iter().filter_map(|name| Some((name, self.option(name)?.as_str()?)));
-        // What is no file, and does not look like one, is told of by the run.
+        // What is not a file, and does not look like one, is told of by the run.
         let is_file = |file: &str| Path::new(file).is_file() || file.ends_with(".toml") || file.contains(['/', '\\']);
         let is_robot_file = move |file: &str| Robot::text(file).is_none() && is_file(file);
         named.filter(move |(name, file)| *name == "io" || is_robot_file(file)).map(|(_, file)| file)
@@ -304,7 +304,7 @@ fn gather(folder: &Path, all: &mut Vec<PathBuf>) -> Result<(), Failure> {
 
 fn too_much(folder: &Path) -> Failure {
     Failure::Usage(format!(
-        "{} has more than {MOST_FILES} programs and texts, or {} MB: they go along with the runs, so give the program a folder of its own",
+        "{} has more than {MOST_FILES} programs and texts, or more than {} MB of them: they are copied for the runs, so give the program its own folder",
         folder.display(),
         MOST_BYTES >> 20
     ))

@@ -40,7 +40,7 @@ impl CellFiles<'_> {
         let outside = |_| {
             let (cell, file, folder) = (self.cell.display(), file.display(), folder.display());
             Failure::Usage(format!(
-                "{cell} names {file}, which lies outside of {folder}, the folder that goes along with the runs"
+                "{cell} names {file}, which lies outside of {folder}, the folder that is copied for the runs"
             ))
         };
         file.strip_prefix(folder).map(|below| format!("{place}/{}", with_slashes(below))).map_err(outside)
@@ -76,7 +76,7 @@ impl CellFiles<'_> {
         if found.len() == count && found.iter().all(|file| clean(file).starts_with(folder)) {
             return Ok(());
         }
-        let text = "a file is named by a path from the root or by a package: where the runs are made it is found only by a path from the file that \
+        let text = "a file is named by an absolute path or by a package: where the runs are made, it is found only by a path relative to the file that \
                     names it";
         Err(Failure::Usage(format!("{}: {text}", self.cell.display())))
     }

@@ -108,8 +108,7 @@ impl Looking {
             let cell = run::cell(&options)?;
             let outside = scenery::named(&cell).find(|file| !clean(file).starts_with(&self.folder) || !file.is_file());
             if let Some(file) = outside {
-                let text =
-                    "is not among the files of the sweep: a cell names shapes by paths from its folder, in it or below";
+                let text = "is not among the files of the sweep: a cell must name shapes by relative paths, in its folder or below";
                 return Err(Failure::Usage(format!("{} {text}", file.display())));
             }
             let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;

@@ -9,7 +9,6 @@ mod cell_files;
 mod folder;
 mod kept;
 mod looking;
-mod parameter;
 mod parquet;
 mod pool;
 mod result;
@@ -17,6 +16,7 @@ mod table;
 mod worker;
 
 use crate::args::SweepOptions;
+pub use crate::parameters::{Parameters, as_arl};
 use arl_project::cache::Cache;
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
@@ -27,7 +27,6 @@ pub use bundle::{Bundle, MAX_TIME};
 pub use folder::Spread;
 use indicatif::{ProgressBar, ProgressStyle};
 pub use kept::Kept;
-pub use parameter::{Parameters, as_arl};
 use pool::Work;
 pub use result::{Row, RunResult};
 use std::ops::ControlFlow;
@@ -89,12 +88,12 @@ pub(crate) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
             .map_err(|error| Failure::Other(format!("cannot write {}: {error}", out.display())))?;
     }
     if interrupt::was_pressed() {
-        show::warning("interrupted: what was done is kept, and will not be done again");
+        show::warning("interrupted: finished runs are kept and will not be repeated");
         return Ok(Exit::INTERRUPTED);
     }
     if lost > 0 {
         let runs = if lost == 1 { "1 run".to_owned() } else { format!("{lost} runs") };
-        show::warning(&format!("{runs} did not come to an end: their rows say why"));
+        show::warning(&format!("{runs} could not be completed: the rows say why"));
         return Ok(Exit::from(LOST));
     }
     Ok(Exit::SUCCESS)
@@ -128,7 +127,7 @@ pub(crate) fn all(
 fn kept(bundle: &Bundle, mut warn: impl FnMut(&str)) -> Result<Kept, Failure> {
     let path = Cache::find()?.results(&bundle.key());
     Ok(Kept::open(&path).unwrap_or_else(|error| {
-        warn(&format!("results cannot be kept for the next time: {error}"));
+        warn(&format!("results cannot be kept for the next sweep: {error}"));
         Kept::nothing()
     }))
 }

@@ -3,9 +3,9 @@
 use super::bundle::Bundle;
 use super::folder::Spread;
 use super::kept::Kept;
-use super::parameter::Parameters;
 use super::result::{Row, RunResult};
 use super::worker::Worker;
+use crate::parameters::Parameters;
 use std::collections::BTreeMap;
 use std::io;
 use std::ops::ControlFlow;
@@ -68,7 +68,7 @@ pub(super) fn run(
         let (mut waiting, mut expected) = (BTreeMap::new(), 0);
         'all: for Came { at, words, result, keeps } in results {
             if keeps && let Err(error) = lock(&kept).keep(&words, &result) {
-                warn(&format!("results cannot be kept for the next time: {error}"));
+                warn(&format!("results cannot be kept for the next sweep: {error}"));
             }
             waiting.insert(at, result);
             while let Some(result) = waiting.remove(&expected) {

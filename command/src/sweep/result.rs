@@ -1,7 +1,7 @@
 //! What came of a run: a row of the results.
 
 use super::looking::Contacts;
-use super::parameter::Parameters;
+use crate::parameters::Parameters;
 use arl_wire::Contact;
 use serde::{Deserialize, Serialize};
 
@@ -123,7 +123,7 @@ impl RunResult {
     /// the same run gives it again.
     ///
     /// # Errors
-    /// This is no answer, or the run was not heard to its end.
+    /// This is not an answer, or the run was not heard to its end.
     pub(super) fn of_answer(line: &str, contacts: Contacts) -> Result<(Self, bool), String> {
         let answer: Answer = serde_json::from_str(line).map_err(|error| error.to_string())?;
         let Some(Summary { outcome, code, cycle_time, moving, standing, motions, way, alarms, real_time }) =
@@ -135,7 +135,7 @@ impl RunResult {
         let collisions = match contacts {
             Contacts::All(contacts) => Some(contacts.into_iter().map(Collision::from).collect()),
             Contacts::Unasked | Contacts::Unknown => None,
-            Contacts::Broken => return Err("nobody heard its run to the end".into()),
+            Contacts::Broken => return Err("its run was not observed to the end".into()),
         };
         let messages = answer.said.into_iter().filter_map(|said| said.message);
         let shown = messages.filter(|message| message.hmi || message.console);

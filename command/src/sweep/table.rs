@@ -1,6 +1,6 @@
 //! The file of a sweep: a program, what is the same in all runs, and a table of parameters.
 
-use super::parameter::Parameters;
+use crate::parameters::Parameters;
 use arl_robot::regular_file;
 use arl_robot::settings::Source;
 use arl_terminal::failure::Failure;
@@ -56,7 +56,7 @@ impl Settings {
         }
         for (name, seconds) in [("timeout", self.timeout), ("max-time", self.max_time)] {
             if seconds.is_some_and(|seconds| !(0.0..=LONGEST).contains(&seconds)) {
-                return Err(format!("{name}: expected seconds from 0 to {LONGEST}"));
+                return Err(format!("{name}: expected a time from 0 to {LONGEST} s"));
             }
         }
         Ok(())
@@ -176,7 +176,7 @@ fn values_of(place: &str, values: &Value) -> Result<Vec<Value>, String> {
         Value::Object(range) => {
             if !["from", "to", "count"].iter().any(|key| range.contains_key(*key)) {
                 return Err(format!(
-                    "{EXPECTED}; a place with points in it stands in quotes: \"global.pitch\" = [80, 100]"
+                    "{EXPECTED}; a place with dots in it must be in quotes: \"global.pitch\" = [80, 100]"
                 ));
             }
             let number = |key: &str| range.get(key).and_then(Value::as_f64).filter(|number| number.is_finite());
@@ -243,7 +243,7 @@ mod tests {
             ("program = \"a\"\n[grid]\nseed = 3\n", "[grid] seed: expected a list"),
             ("program = \"a\"\n[grid]\nseed = { from = 1, to = 2 }\n", "with a count from 2 to 10000000"),
             ("program = \"a\"\n[grid]\nseed = []\n", "expected a list"),
-            ("program = \"a\"\n[grid]\nglobal.pitch = [1]\n", "stands in quotes"),
+            ("program = \"a\"\n[grid]\nglobal.pitch = [1]\n", "must be in quotes"),
             (
                 "program = \"a\"\n[grid]\na = { from = 1, to = 2, count = 9000 }\nb = { from = 1, to = 2, count = 9000 }\n",
                 "more than",

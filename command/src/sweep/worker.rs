@@ -56,7 +56,7 @@ impl Worker {
     pub fn new(spread: &Spread, timeout: Option<f64>, clearance: Option<f64>) -> Result<Self, String> {
         let timeout =
             Duration::try_from_secs_f64(timeout.unwrap_or(TIMEOUT)).map_err(|error| format!("timeout: {error}"))?;
-        let folder = Folder::new(spread).map_err(|error| format!("the folder of a worker: {error}"))?;
+        let folder = Folder::new(spread).map_err(|error| format!("cannot prepare the folder of a worker: {error}"))?;
         let secret = Secret::new().map_err(|failure| failure.to_string())?;
         let looking = clearance.map(|clearance| Looking::new(clearance, folder.path(), secret.clone()));
         Ok(Self { folder, timeout, process: None, secret, looking })
@@ -72,7 +72,10 @@ impl Worker {
                 return None;
             }
             if let Err(error) = self.folder.restore() {
-                return Some((RunResult::lost("crashed", format!("the folder of a worker: {error}")), false));
+                return Some((
+                    RunResult::lost("crashed", format!("cannot prepare the folder of a worker: {error}")),
+                    false,
+                ));
             }
             let (answer, contacts) = match self.answer(words, is_enough) {
                 Ok(answered) => answered,
@@ -81,7 +84,7 @@ impl Worker {
             match answer {
                 Ok(answer) => match RunResult::of_answer(&answer, contacts) {
                     Ok(result) => return Some(result),
-                    Err(problem) => why = format!("its answer is none: {problem}"),
+                    Err(problem) => why = format!("its answer is not valid: {problem}"),
                 },
                 Err(Lost::Crashed(how)) => why = how,
                 Err(Lost::Hung) => {
@@ -152,7 +155,7 @@ impl Worker {
         self.secret.hand_over(&mut command);
         let mut child = command.spawn()?;
         let (Some(questions), Some(out)) = (child.stdin.take(), child.stdout.take()) else {
-            return Err(std::io::Error::other("it has no streams"));
+            return Err(std::io::Error::other("its standard input or output is missing"));
         };
         let (tell, answers) = channel();
         std::thread::spawn(move || {
@@ -234,7 +237,7 @@ mod tests {
         assert_eq!(result.outcome, "crashed");
         assert_eq!(result.problem.as_deref(), Some("its process ended: exit status: 7"));
         let result = ran(&mut worker("read -r line; echo nothing; read -r line", 60.0));
-        assert!(result.problem.is_some_and(|why| why.starts_with("its answer is none")), "it says nothing of use");
+        assert!(result.problem.is_some_and(|why| why.starts_with("its answer is not valid")), "it says nothing of use");
     }
 
     #[test]

@@ -11,7 +11,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// A case as Rust.
-pub(super) struct Case {
+pub(super) struct EmittedCase {
     /// The ARL file.
     pub(super) source: PathBuf,
     /// What it became, with the programs that its cell names.
@@ -32,7 +32,7 @@ pub(super) const CASE: &str = "ARL2RS_CASE";
 pub(super) fn compile(
     place: &Place,
     runtime: &Unpacked,
-    cases: &[Case],
+    cases: &[EmittedCase],
     progress: &Progress,
 ) -> Result<Vec<Result<Compiled, String>>, Failure> {
     let names: Vec<String> = cases.iter().map(|case| name(&case.source)).collect();
@@ -63,7 +63,7 @@ pub(super) fn compile(
             return Err(cargo::bug(&built.errors, Path::new("every case")));
         }
     }
-    Err(Failure::Other("bug in arl2rs: the emitted Rust does not compile, whatever is left out".into()))
+    Err(Failure::Other("bug in arl2rs: the emitted Rust does not compile, whichever case is left out".into()))
 }
 
 /// Stands between the name of a case and the number of a program beside it.
@@ -109,7 +109,7 @@ fn name(source: &Path) -> String {
 fn write(
     place: &Place,
     runtime: &Unpacked,
-    cases: &[Case],
+    cases: &[EmittedCase],
     names: &[String],
     kept: impl Iterator<Item = usize>,
     parts: usize,

@@ -16,7 +16,7 @@ pub(super) fn run(case: &Case, came: &Outcome) -> Result<(), String> {
         _ => false,
     };
     if came.late || !ended {
-        return Err("so that nothing was blessed".into());
+        return Err("so nothing was blessed".into());
     }
     let alarm = alarm.filter(|_| came.code == Some(3));
     if case.out.is_some() || case.is_new || alarm.is_none() {
@@ -34,7 +34,7 @@ pub(super) fn run(case: &Case, came: &Outcome) -> Result<(), String> {
 /// Writes the errors that came into `.err`.
 pub(super) fn errors(case: &Case, came: &[FoundError]) -> Result<(), String> {
     if came.is_empty() {
-        return Err("it has no errors any more: remove its .err".into());
+        return Err("it no longer has errors: remove its .err".into());
     }
     let line = |error: &FoundError| {
         // What was expected of a line and came stays as somebody wrote it.

@@ -21,7 +21,7 @@ pub(super) struct Case {
     pub(super) alarm: Option<ExpectedAlarm>,
     /// What the outside does.
     pub(super) scenario: Option<PathBuf>,
-    /// Whether nothing is expected of it yet.
+    /// Whether it has no expected results yet.
     pub(super) is_new: bool,
     /// The robot that it is for: its own, or that of its project.
     pub(super) robot: Option<String>,
@@ -121,7 +121,7 @@ pub(super) fn find(folder: &Path, new: bool) -> std::io::Result<Vec<Found>> {
 fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, String> {
     if !expects && !new {
         let files = format!("{stem}.out, {stem}.err or {stem}.alarm");
-        return Err(format!("nothing is expected of it: add {files}, or let --bless write what comes"));
+        return Err(format!("it has no expected results: add {files}, or let --bless write them"));
     }
     let path = |ending: &str| source.with_file_name(format!("{stem}{ending}"));
     let bytes = |ending: &str| match regular_file::read(&path(ending)) {
@@ -169,10 +169,12 @@ fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, Str
         source: source.to_path_buf(),
     };
     if case.options.background && case.errors.is_none() {
-        return Err(format!("a background program does not run alone: {stem}.err says what is wrong with it"));
+        return Err(format!("a background program does not run alone: add {stem}.err with its expected errors"));
     }
     if case.errors.is_some() && (case.out.is_some() || case.alarm.is_some()) {
-        return Err(format!("a program with errors does not run: either {stem}.err or {stem}.out and {stem}.alarm"));
+        return Err(format!(
+            "a program with errors does not run: keep either {stem}.err or {stem}.out and {stem}.alarm"
+        ));
     }
     Ok(case)
 }

@@ -38,11 +38,11 @@ pub(super) fn parse_errors(text: &str) -> Result<Vec<ExpectedError>, String> {
         let (number, fragment) = line.trim().split_once(char::is_whitespace).unwrap_or((line.trim(), ""));
         let line = number
             .parse()
-            .map_err(|_| format!("{}: expected a line number and a piece of the message, found `{number}`", at + 1))?;
+            .map_err(|_| format!("{}: expected a line number and a part of the message, found `{number}`", at + 1))?;
         expected.push(ExpectedError { line, fragment: fragment.trim().to_string() });
     }
     if expected.is_empty() {
-        return Err("1: expected at least one error: a line number and a piece of the message".into());
+        return Err("1: expected at least one error: a line number and a part of the message".into());
     }
     Ok(expected)
 }

@@ -17,7 +17,7 @@ pub(super) fn judged(case: &Case, outcome: &Outcome, bless: bool) -> Done {
 fn judge(case: &Case, outcome: &Outcome) -> Verdict {
     let mut problems = Vec::new();
     if case.is_new {
-        problems.push("nothing is expected of it yet".to_string());
+        problems.push("it has no expected results yet".to_string());
     }
     if outcome.late {
         let said = outcome.said.trim();
@@ -28,7 +28,7 @@ fn judge(case: &Case, outcome: &Outcome) -> Verdict {
         && *expected != outcome.out
     {
         let difference = diff::diff(expected, &outcome.out);
-        problems.push(format!("other output than expected (- expected, + came):\n{difference}"));
+        problems.push(format!("the output differs (- expected, + actual):\n{difference}"));
     }
     let said = || if outcome.said.trim().is_empty() { String::new() } else { format!("\n{}", outcome.said.trim_end()) };
     match (&case.alarm, outcome.code) {
@@ -37,10 +37,14 @@ fn judge(case: &Case, outcome: &Outcome) -> Verdict {
             Some((number, line)) => {
                 if expected.number.is_some_and(|expected| expected != number) || expected.line != line {
                     let wanted = expected.number.map_or("*".to_string(), |number| number.to_string());
-                    problems.push(format!("alarm {wanted} {} expected, {number} {line} came{}", expected.line, said()));
+                    problems.push(format!(
+                        "expected alarm {wanted} in line {}, found {number} in line {line}{}",
+                        expected.line,
+                        said()
+                    ));
                 }
             }
-            None => problems.push(format!("an alarm was expected, and none was told{}", said())),
+            None => problems.push(format!("an alarm was expected, but none was reported{}", said())),
         },
         (Some(_), _) => problems.push(format!("an alarm was expected, but it {}{}", ending(outcome), said())),
         (None, Some(0)) => {}
@@ -57,7 +61,7 @@ fn ending(outcome: &Outcome) -> String {
     match outcome.code {
         Some(0) => "ended".into(),
         Some(3) => "ended with an alarm".into(),
-        Some(4) if outcome.said.contains(STANDSTILL) => "waits for what nobody brings about".into(),
+        Some(4) if outcome.said.contains(STANDSTILL) => "waits for something that never happens".into(),
         Some(4) => "ran out of controller time".into(),
         Some(101) => "ended by a bug in arl2rs".into(),
         Some(code) => format!("ended with exit code {code}"),

@@ -79,7 +79,7 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
             Ok(case) if case.runs() => match emit(case, &emitting) {
                 Ok(rust) => {
                     runs.push((at, case));
-                    emitted.push(batch::Case { source: found.source.clone(), rust });
+                    emitted.push(batch::EmittedCase { source: found.source.clone(), rust });
                     None
                 }
                 Err(failure) => Some(Done::failed(failure)),
@@ -108,7 +108,7 @@ fn find(dirs: &[PathBuf], new: bool) -> Result<Vec<Found>, Failure> {
         let found = case::find(&folder, new)
             .map_err(|error| Failure::Usage(format!("cannot read the folder {}: {error}", dir.display())))?;
         if found.is_empty() {
-            let sidecars = "a NAME.arl with NAME.out, NAME.err or NAME.alarm beside it";
+            let sidecars = "expected a NAME.arl with NAME.out, NAME.err or NAME.alarm beside it";
             return Err(Failure::Usage(format!("{} has no case: {sidecars}", dir.display())));
         }
         all.extend(found);
@@ -173,7 +173,7 @@ fn check(case: &Case, bless: bool) -> Done {
         let expected = case.errors.as_deref().unwrap_or_default();
         let found = found_errors(&compiled, &compiled.checked.files);
         let Some(lines) = expect::compare_errors(expected, &found) else { return Ok(()) };
-        let problem = format!("other errors than expected (- expected, + came):\n{lines}");
+        let problem = format!("the errors differ (- expected, + actual):\n{lines}");
         match bless {
             true => bless::errors(case, &found).map_err(|why| format!("{problem}\n{why}")),
             false => Err(problem),
@@ -205,7 +205,7 @@ fn name_of_run(dirs: &[PathBuf], kept_as: &str) -> PathBuf {
 fn run_all(
     name: &Path,
     runs: &[(usize, &Case)],
-    emitted: &[batch::Case],
+    emitted: &[batch::EmittedCase],
     options: &TestOptions,
     progress: &Progress,
 ) -> Result<Vec<Done>, Failure> {
@@ -219,7 +219,8 @@ fn run_all(
     let runtime = Runtime::find().unpack(&cache)?;
     let compiled = batch::compile(&place, &runtime, emitted, progress)?;
     let scratch = PrivateFolder::new("arl2rs-test-");
-    let scratch = scratch.map_err(|error| Failure::Other(format!("there is no place for cases: {error}")))?;
+    let scratch =
+        scratch.map_err(|error| Failure::Other(format!("cannot make a temporary folder for the cases: {error}")))?;
     let mut coverage = coverage::Coverage::default();
     let mut places = Vec::new();
     if options.coverage.is_some() {
@@ -249,7 +250,7 @@ fn run_all(
                     Err(error) => Done::failed(format!("cannot run it: {error}")),
                 },
                 Err(errors) => {
-                    Done::failed(format!("bug in arl2rs: the Rust that it became does not compile\n{errors}"))
+                    Done::failed(format!("bug in arl2rs: the Rust code generated from it does not compile\n{errors}"))
                 }
             };
             if let Ok(mut done) = done.lock()

@@ -145,7 +145,7 @@ fn targets_that_a_robot_cannot_reach_are_warned_of() {
     folder.write("taught_data.arl", "joint FAR = {500,-90,90,0,45,0}\n");
     let answer = folder.arl2rs(&["check", "far.arl", "--robot", "kr10-r1420"]);
     answer.is(0, "").says("far.arl:6:").says("ARL0907").says("j1 at 500 deg").says("-170 to 170 deg");
-    answer.says("far.arl:9:").says("ARL0908").says("99.697 mm out of the reach of kr10-r1420").says("2 warnings");
+    answer.says("far.arl:9:").says("ARL0908").says("99.697 mm beyond the reach of kr10-r1420").says("2 warnings");
     // The tool holds from its line on. Points of data files count as they are now; without a robot nothing is sure.
     let answer = folder.arl2rs(&["check", "tool.arl", "--robot", "kr10-r1420"]);
     answer.is(0, "").says("tool.arl:9:").says("tool.arl:10:").says("tool.arl:12:").says("4 warnings");

@@ -55,7 +55,7 @@ fn a_check_finds_collisions_before_anybody_looks() {
     folder.write("island.toml", "[[island]]\naddress = \"127.0.0.1\"\ndi = [{ channel = 1, discrete_input = 0 }]\n");
     folder.write("arl.toml", "");
     let refused = folder.arl2rs(&["check", "--collisions", "--cell", "island.toml", "a.arl"]);
-    refused.is(2, "").says("a check runs no program whose cell has [[island]]");
+    refused.is(2, "").says("a check does not run a program whose cell has [[island]]");
 }
 
 #[test]

@@ -130,5 +130,5 @@ fn permissions_and_links_stay() {
     assert!(folder.path.join("link.arl").is_symlink());
     assert_eq!(std::fs::metadata(&real).expect("there").permissions().mode() & 0o777, 0o640);
     symlink("/dev/zero", folder.path.join("zero.arl")).expect("a link");
-    folder.arl2rs(&["fmt", "zero.arl"]).is(1, "").says("cannot read zero.arl: this is no regular file");
+    folder.arl2rs(&["fmt", "zero.arl"]).is(1, "").says("cannot read zero.arl: this is not a regular file");
 }

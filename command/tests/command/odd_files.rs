@@ -1,4 +1,4 @@
-//! What is no regular file, and what cannot be written.
+//! What is not a regular file, and what cannot be written.
 #![cfg(unix)]
 
 use super::{Answer, Folder};
@@ -41,10 +41,10 @@ fn settings_are_read_from_regular_files() {
     let folder = Folder::new("devices").with("a.arl", PRINTS);
     symlink("/dev/zero", folder.path.join("zero.toml")).expect("a link");
     for option in ["--robot", "--cell", "--io"] {
-        folder.arl2rs(&["run", "a.arl", option, "zero.toml"]).is(2, "").says("this is no regular file");
+        folder.arl2rs(&["run", "a.arl", option, "zero.toml"]).is(2, "").says("this is not a regular file");
     }
-    folder.arl2rs(&["check", "a.arl", "--cell", "zero.toml"]).is(2, "").says("this is no regular file");
-    folder.arl2rs(&["robots", "--import", "zero.toml"]).is(2, "").says("this is no regular file");
+    folder.arl2rs(&["check", "a.arl", "--cell", "zero.toml"]).is(2, "").says("this is not a regular file");
+    folder.arl2rs(&["robots", "--import", "zero.toml"]).is(2, "").says("this is not a regular file");
 }
 
 #[test]
@@ -58,8 +58,8 @@ fn programs_read_and_write_regular_files() {
     folder.write("kept.txt", "kept");
     symlink("kept.txt", folder.path.join("link.txt")).expect("a link");
     folder.arl2rs(&["run", "reads.arl"]).is(3, "").says("alarm 10064");
-    folder.arl2rs(&["run", "writes.arl"]).is(3, "").says("this is no regular file");
-    folder.arl2rs(&["run", "saves.arl"]).says("this is no regular file");
+    folder.arl2rs(&["run", "writes.arl"]).is(3, "").says("this is not a regular file");
+    folder.arl2rs(&["run", "saves.arl"]).says("this is not a regular file");
     // Links to files are followed.
     folder.write("reads.arl", &reads.replace("zero", "link"));
     folder.arl2rs(&["run", "reads.arl"]).is(0, "kept\n");
@@ -73,7 +73,7 @@ fn pipe(folder: &Folder, name: &str) {
 
 #[test]
 fn what_is_no_regular_file_is_refused_wherever_a_file_is_named() {
-    const WORDS: &str = "no regular file";
+    const WORDS: &str = "not a regular file";
     let folder = Folder::new("pipes").with("a.arl", PRINTS).with("sub/a.arl", PRINTS);
     for name in ["pipe.arl", "pipe.toml", "pipe.csv", "pipe.mcap", "pipe.urdf", "p_data.arl", "sub/arl.toml", "t/c.arl"]
     {
@@ -114,5 +114,5 @@ fn a_program_that_becomes_a_pipe_is_not_waited_for() {
     folder.arl2rs(&["run", "a.arl"]).is(0, "part 1\npart 2\npart 3\n");
     std::fs::remove_file(folder.path.join("a_data.arl")).expect("removed");
     pipe(&folder, "a_data.arl");
-    folder.arl2rs(&["run", "a.arl"]).is(1, "").says("no regular file");
+    folder.arl2rs(&["run", "a.arl"]).is(1, "").says("not a regular file");
 }

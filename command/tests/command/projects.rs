@@ -29,7 +29,7 @@ fn a_program_needs_a_name_and_a_place() {
         ("While", "a word of the language"),
         ("rack_data", "data files"),
         ("full", "not empty"),
-        ("cell", "about something else"),
+        ("cell", "has another meaning"),
     ] {
         folder.arl2rs(&["new", name]).is(2, "").says(words);
     }
@@ -101,7 +101,7 @@ fn a_scenario_tells_where_it_names_what_is_not_there() {
     let folder = Folder::new("scenario_lines")
         .with("a.arl", WAITS)
         .with("s.toml", "[[event]]\nat = 1\ndi.1 = true\n\n[[event]]\nat = 2\ndi.99 = true\n");
-    folder.arl2rs(&["run", "a.arl", "--io", "s.toml"]).is(2, "").says("s.toml:5: the scenario sets an input");
+    folder.arl2rs(&["run", "a.arl", "--io", "s.toml"]).is(2, "").says("s.toml:5: the scenario cannot set an input");
 }
 
 #[test]

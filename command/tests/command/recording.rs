@@ -58,7 +58,7 @@ fn a_program_goes_on_where_its_recording_cannot_be_written() {
     let answer = command.stdin(Stdio::null()).output().expect("the command starts");
     let said = String::from_utf8_lossy(&answer.stderr);
     assert_eq!((answer.status.code(), &*answer.stdout), (Some(0), &b"go\nthere\n"[..]), "{said}");
-    assert!(said.contains("the recording full.mcap is not whole"), "{said}");
+    assert!(said.contains("the recording full.mcap is incomplete"), "{said}");
 }
 
 #[cfg(unix)]

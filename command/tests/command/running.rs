@@ -58,15 +58,15 @@ fn exit_codes_tell_how_it_ended() {
     // The same text, written again, is what the program was compiled from.
     folder.write("alarm.arl", "func void main()\n    int a = 0\n    print 1\n    print 2 / a\nendfunc\n");
     folder.arl2rs(&["run", "alarm.arl"]).is(3, "1\n").says("  4 | print 2 / a\n");
-    folder
-        .arl2rs(&["run", "endless.arl", "--max-time", "2.5"])
-        .is(4, "1\n")
-        .says("the program stands at endless.arl:4");
+    folder.arl2rs(&["run", "endless.arl", "--max-time", "2.5"]).is(4, "1\n").says("the program is at endless.arl:4");
     folder.write(
         "endless.arl",
         "func void main()\n    int k = 1\n    while(k > 0)\n        k = 1 + k % 9\n    endwhile\nendfunc\n",
     );
-    folder.arl2rs(&["run", "endless.arl", "--max-time", "0.1"]).is(4, "").says("the program calculates in endless.arl");
+    folder
+        .arl2rs(&["run", "endless.arl", "--max-time", "0.1"])
+        .is(4, "")
+        .says("the program is calculating in endless.arl");
     folder.arl2rs(&["run", "wrong.arl"]).is(1, "").says("ARL0211");
     folder.arl2rs(&["run", "endless.arl", "--robot", "none"]).is(2, "").says("none: no robot of this name is built in");
     folder.arl2rs(&["run", "endless.arl", "--io", "none.toml"]).is(2, "").says("none.toml");
@@ -92,7 +92,7 @@ fn an_interrupt_ends_with_130() {
 fn real_time_is_asked_for_and_the_report_says_how_late_cycles_began() {
     let folder = Folder::new("realtime").with("a.arl", "func void main()\n    waittime 0.05\n    print 7\nendfunc\n");
     let answer = folder.arl2rs(&["run", "a.arl", "--realtime=1023", "--report=r.jsonl"]);
-    answer.is(0, "7\n").says("not as --realtime asks: no core of its own: core 1023: ");
+    answer.is(0, "7\n").says("--realtime has no full effect: no core of its own: core 1023: ");
     let report = std::fs::read_to_string(folder.path.join("r.jsonl")).expect("a report");
     let said = report.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
     let clock = said.map(|object| object["clock"].clone()).find(|clock| !clock.is_null()).expect("the clock");
@@ -192,7 +192,7 @@ fn motions_stand_under_the_files_of_their_lines() {
         .is(0, "")
         .says("\n          3  movej  ")
         .says("\nparts.arl:3  lin  ")
-        .says("close to a singular point: j4");
+        .says("close to a singularity: j4");
     run(&["--report=way.json", "--format", "json"]).is(0, "");
     let same = folder.arl2rs(&["compare", "way.json", "way.mcap"]);
     assert!(same.code == Some(0) && same.out.starts_with("nothing differs: "), "{}", same.out);
@@ -208,7 +208,7 @@ fn motions_stand_under_the_files_of_their_lines() {
     }
     folder.arl2rs(&["plot", "way.csv", "again.svg"]).is(0, "");
     assert!(folder.read("again.svg").contains(">parts.arl:3</text>"));
-    run(&["--trace", "way.csv", "--trace-columns", "line"]).is(2, "").says("`line` is no column: expected file");
+    run(&["--trace", "way.csv", "--trace-columns", "line"]).is(2, "").says("`line` is not a column: expected file");
 }
 
 #[test]
@@ -238,7 +238,7 @@ fn a_report_says_what_each_line_did() {
     let folder =
         Folder::new("report").with("way.arl", program).with("still.arl", "func void main()\n    print 1\nendfunc\n");
     let answer = folder.arl2rs(&["run", "way.arl", "--report"]);
-    answer.is(0, "").says("line  motion  runs  programmed").says("s standing; 4 motions");
+    answer.is(0, "").says("line  motion  runs  programmed").says("s at rest; 4 motions");
     let row = answer.err.lines().find(|line| line.contains("lin ")).expect("a row of lin").to_owned();
     let words: Vec<&str> = row.split_whitespace().collect();
     // The last one is not blended.
@@ -302,5 +302,5 @@ fn an_alarm_tells_its_line_and_the_calls_that_led_there() {
     let folder = Folder::new("calls").with("a.arl", program);
     let ran = folder.arl2rs(&["run", "a.arl"]);
     ran.is(3, "").says("(a.arl:3)\n  3 | return sizes[n]\ncalled in a.arl:6\n  6 | if(n > 40) return deep(n)\n");
-    ran.says("called in a.arl:7\n").says("and so on, 20 calls more\n");
+    ran.says("called in a.arl:7\n").says("and 20 more calls\n");
 }

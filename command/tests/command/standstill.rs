@@ -14,9 +14,9 @@ fn a_run_ends_where_nothing_can_change() {
         .says("  a.arl:3 waits for its condition, which does not hold");
     // Where time is limited, and where there is no hurry, the program goes on waiting.
     let limited = folder.arl2rs(&["run", "a.arl", "--max-time", "0.001"]);
-    limited.is(4, "before\n").says("the time is over: 0.001 s");
+    limited.is(4, "before\n").says("the time limit of 0.001 s has passed");
     let real = folder.arl2rs(&["run", "a.arl", "--clock", "real", "--max-time", "0.05"]);
-    real.is(4, "before\n").says("the time is over: 0.05 s");
+    real.is(4, "before\n").says("the time limit of 0.05 s has passed");
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn a_case_that_waits_in_vain_fails_unless_it_sets_a_time() {
     assert_eq!(answer.code, Some(1));
     for words in [
         "1 passed, 3 failed",
-        "it waits for what nobody brings about",
+        "it waits for something that never happens",
         "button.arl:2 waits for the start button",
         "motion.arl:12 waits for motion that is stopped",
         "channel 1: several.arl:2 waits for its condition",

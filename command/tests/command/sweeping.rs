@@ -32,10 +32,10 @@ fn single_values_are_others_for_a_run() {
         ("global.pitch=\"x\"", "expected a value of type double, found a string"),
         (
             "io.event.2.at=1",
-            "s.toml: `event.2.at` is not there: at `event` `2` is no entry: there are 1, which count from 1",
+            "s.toml: `event.2.at` does not exist: at `event` `2` is not an entry: there are 1, counted from 1",
         ),
         ("robot.axis.1.vel=fast", "[[axis]]"),
-        ("cell.io.di=4", "--set cell.io.di: --cell has to name the file"),
+        ("cell.io.di=4", "--set cell.io.di: name the file with --cell"),
         ("pitch=1", "expected a place and a value"),
     ] {
         let (code, _, error) = said(&[change]);
@@ -113,7 +113,7 @@ fn runs_that_do_not_come_to_an_end_say_why() {
     );
     assert!(all[3]["problem"].as_str().is_some_and(|why| why.contains("there is no parameter `speed`")), "{}", all[3]);
     assert_eq!(output.code, Some(1));
-    output.says("3 runs did not come to an end");
+    output.says("3 runs could not be completed");
 }
 
 #[test]
@@ -247,7 +247,7 @@ fn shapes_go_along_with_the_runs_from_wherever_a_cell_names_them() {
     sweep("\"cell.body.1.mesh\" = \"none.stl\"").is(1, "").says("none.stl");
     // Where the runs are made, there is nothing but what goes along.
     folder.write("cell.toml", &wall(&folder.path.join("other.stl").display().to_string()));
-    sweep("").is(2, "").says("named by a path from the root");
+    sweep("").is(2, "").says("named by an absolute path");
     folder.write("programs/cell.toml", &wall("../other.stl"));
     folder.write("s.toml", "program = \"programs/p.arl\"\ncell = \"programs/cell.toml\"\nclearance = 1\n");
     folder.arl2rs(&["sweep", "s.toml"]).is(2, "").says("lies outside of");
@@ -308,7 +308,7 @@ fn hostile_tables_are_refused_in_words() {
     let grid = "{ from = 1, to = 2, count = 100000 }";
     sweep(&format!("[grid]\nseed = {grid}\noverride = {grid}\n")).is(2, "").says("more than 10000000 runs");
     for number in ["nan", "inf", "-inf"] {
-        sweep(&format!("set.\"global.pitch\" = {number}\n")).is(2, "").says("null, nan and inf are none");
+        sweep(&format!("set.\"global.pitch\" = {number}\n")).is(2, "").says("not null, nan or inf");
         sweep(&format!("max-time = {number}\n")).is(2, "").says("max-time: expected seconds");
         sweep(&format!("grid.seed = {{ from = {number}, to = 2, count = 3 }}\n")).is(2, "").says("[grid] seed");
     }

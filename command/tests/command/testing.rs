@@ -42,9 +42,9 @@ fn cases_pass_or_show_what_differs() {
     assert_eq!(both.out.lines().last(), Some("6 passed, 5 failed"), "{}", both.out);
     let parts = [
         "FAILED bad/alarm.arl\n  an alarm was expected, but it ended",
-        "FAILED bad/error.arl\n  other errors than expected (- expected, + came):\n  -3\n  +2 ",
-        "FAILED bad/nothing.arl\n  nothing is expected of it",
-        "FAILED bad/out.arl\n  other output than expected (- expected, + came):\n  -3\n  +2\n",
+        "FAILED bad/error.arl\n  the errors differ (- expected, + actual):\n  -3\n  +2 ",
+        "FAILED bad/nothing.arl\n  it has no expected results",
+        "FAILED bad/out.arl\n  the output differs (- expected, + actual):\n  -3\n  +2\n",
         "FAILED bad/refused.arl\n  it does not compile:\n  error[ARL",
     ];
     for part in parts {
@@ -149,7 +149,7 @@ endfunc
 fn mistakes_are_those_that_the_cell_makes() {
     let folder = Folder::new("test_cell")
         .with("part.arl", "func void main()\n  print getdi(part)\nendfunc\n")
-        .with("part.err", "2 the cell calls di.1 so\n")
+        .with("part.err", "2 that is the cell's name for di.1\n")
         .with("part.toml", "cell = \"line.cell\"\n")
         .with("line.cell", "[names]\n\"di.1\" = \"part\"\n");
     folder.arl2rs(&["test", "."]).is(0, "1 passed, 0 failed\n");

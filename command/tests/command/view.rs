@@ -56,7 +56,7 @@ fn a_recording_is_served_to_its_own_page_only() {
         ("GET /api/run/0", "Origin: http://example.com\r\n"),
         ("GET /api/run/0", "Host: example.com\r\n"),
         ("GET /", "Host: localhost\r\n"),
-        // Nobody who is no page gives orders.
+        // Nobody who is not a page gives orders.
         ("POST /api/order", ""),
         ("POST /api/order", "Origin: null\r\n"),
     ] {
@@ -103,8 +103,8 @@ fn the_time_of_a_scenario_begins_with_the_start_button() {
 fn what_is_no_recording_is_refused() {
     let folder = Folder::new("view_wrong").with("a.mcap", "no recording").with("a.arl", MOVES);
     folder.arl2rs(&["view", "none.mcap"]).is(1, "").says("cannot read none.mcap");
-    folder.arl2rs(&["view", "a.mcap"]).is(1, "").says("a.mcap is no recording of a run");
-    folder.arl2rs(&["view", "a.mcap", "a.arl"]).is(2, "").says("what runs is shown alone");
+    folder.arl2rs(&["view", "a.mcap"]).is(1, "").says("a.mcap is not a recording of a run");
+    folder.arl2rs(&["view", "a.mcap", "a.arl"]).is(2, "").says("it can only be shown alone");
     folder.arl2rs(&["view", "a.mcap", "--robot", "scara"]).is(2, "").says("leave these options out");
     folder.arl2rs(&["view"]).is(2, "");
     folder
@@ -137,8 +137,8 @@ fn two_runs_are_compared_by_line() {
     assert_eq!(told["lines"][0]["line"], 3);
     folder.arl2rs(&["compare", "a.json", "none.json"]).is(1, "").says("cannot read none.json");
     let folder = folder.with("wrong.json", "{\"version\":1}").with("wrong.mcap", "nothing");
-    folder.arl2rs(&["compare", "a.json", "wrong.json"]).is(1, "").says("wrong.json is no report of a whole run");
-    folder.arl2rs(&["compare", "wrong.mcap", "a.json"]).is(1, "").says("wrong.mcap is no recording of a run");
+    folder.arl2rs(&["compare", "a.json", "wrong.json"]).is(1, "").says("wrong.json is not a report of a whole run");
+    folder.arl2rs(&["compare", "wrong.mcap", "a.json"]).is(1, "").says("wrong.mcap is not a recording of a run");
 }
 
 #[test]

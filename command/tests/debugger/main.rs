@@ -80,10 +80,10 @@ fn variables_are_shown_and_set() {
         ("log(0)", "log: 0 is not above 0"),
         ("abs(25.0) / 2", "12.5"),
         ("bitcheck(5.0, 0)", "bitcheck does not take these arguments here: see `arl2rs doc bitcheck`"),
-        ("fmod(y:3, x:10)", "arguments stand in their order here, without labels and units"),
+        ("fmod(y:3, x:10)", "arguments are given in order here, without labels and units"),
         ("sqrt(name)", "sqrt does not take these arguments here: see `arl2rs doc sqrt`"),
-        ("setdo(1, true)", "setdo is not called while the program stands"),
-        ("add(1, 2)", "only built-in functions are called while the program stands, and add is none"),
+        ("setdo(1, true)", "setdo cannot be called while the program is halted"),
+        ("add(1, 2)", "only built-in functions can be called while the program is halted, and add is not one"),
         ("nothing", "there is no variable nothing here"),
     ] {
         assert_eq!(client.value(expression), value, "{expression}");
@@ -458,14 +458,14 @@ fn clocks_and_connections_are_shown() {
     let mut client = Client::running(&folder, json!({}), &[11]);
     client.halt();
     let (_, locals) = client.scope("Locals");
-    assert!(locals.contains(&"own = 0.500 s, stands".to_owned()), "{locals:?}");
-    assert_eq!(client.value("all"), "0.750 s, runs");
+    assert!(locals.contains(&"own = 0.500 s, stopped".to_owned()), "{locals:?}");
+    assert_eq!(client.value("all"), "0.750 s, running");
     assert_eq!(client.value("line"), "closed");
     let (globals, _) = client.scope("Globals");
     let file = client.ask("variables", json!({"variablesReference": globals}))["variables"][0].clone();
     assert_eq!(
         client.parts(&file["variablesReference"]),
-        ["all = 0.750 s, runs", "line = closed", "each = {0.000 s, stands; 0.000 s, stands}"]
+        ["all = 0.750 s, running", "line = closed", "each = {0.000 s, stopped; 0.000 s, stopped}"]
     );
     assert_eq!(client.value("all = 3"), "3 does not fit: expected a value of type clock");
 }

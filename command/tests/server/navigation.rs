@@ -121,11 +121,11 @@ fn names_that_would_mean_something_else_are_refused() {
         params["newName"] = json!(name);
         client.refused("textDocument/rename", params)
     };
-    for (name, said) in [("while", "word of the language"), ("2nd", "is no name"), ("a b", "is no name")] {
+    for (name, said) in [("while", "word of the language"), ("2nd", "is not a name"), ("a b", "is not a name")] {
         assert!(refused("int ", "count", name).contains(said), "{name}");
     }
     // A local would hide a global; one of the same name is there already.
-    assert!(refused("int ", "count", "home").contains("meaning already"));
+    assert!(refused("int ", "count", "home").contains("already has a meaning"));
     assert!(refused("int ", "count", "rows").contains("twice"));
     assert!(refused("again:\n", "movej", "go").contains("part of the language"));
     assert!(refused("&& !", "rack", "shelf").contains("rename the file"));

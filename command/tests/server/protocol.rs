@@ -22,7 +22,7 @@ fn diagnostics_carry_the_version_that_they_are_about() {
 fn malformed_messages_end_nothing() {
     let folder = Folder::new("malformed");
     let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
-    client.send_text("{ this is no JSON");
+    client.send_text("{ this is not JSON");
     assert_eq!(client.message().unwrap()["error"]["code"], -32700);
     client.send_text("[1, 2]");
     assert_eq!(client.message().unwrap()["error"]["code"], -32600);
@@ -181,7 +181,7 @@ fn a_change_of_a_range_that_is_none_is_refused() {
         client.edit(&uri, json!([{"range": range, "text": ""}]));
         client.ask("workspace/symbol", json!({"query": ""}));
         let told = client.shown.pop().unwrap_or_default();
-        assert!(told.contains("a range that is none"), "{line}: {told}");
+        assert!(told.contains("an invalid range"), "{line}: {told}");
     }
     // The text is still there.
     let symbols = client.ask("textDocument/documentSymbol", json!({"textDocument": {"uri": uri}}));
@@ -205,7 +205,7 @@ fn pipes_and_devices_in_the_workspace_stop_nothing() {
     client.set(&uri, "import \"pipe.arl\"\nimport \"zero.arl\"\nfunc void main()\nendfunc\n");
     let told = client.diagnostics(&uri);
     let messages: Vec<&str> = told.iter().filter_map(|one| one["message"].as_str()).collect();
-    assert_eq!(messages.iter().filter(|text| text.contains("no regular file")).count(), 2, "{messages:?}");
+    assert_eq!(messages.iter().filter(|text| text.contains("not a regular file")).count(), 2, "{messages:?}");
     let main = folder.uri("main.arl");
     client.set(&main, "func void main()\nendfunc\n");
     // What is wrong with the data file is not told of its program.

@@ -31,7 +31,7 @@ pub(super) struct Link {
     answered: Option<u64>,
     /// A robot that had no answer for more ms of its time has given up.
     pub(super) given_up_ms: u64,
-    /// Whether something has come that is no message.
+    /// Whether something has come that is not a message.
     odd: bool,
     /// Where the robot's time counts: for how long to wait for it.
     pub(super) patience: Option<Patience>,
@@ -90,7 +90,7 @@ impl Link {
         self.message = None;
         self.receive(Instant::now() + limit);
         self.message.ok_or_else(|| match self.odd {
-            true => format!("what comes to {} is no message of RSI, or it lacks AIPos or IPOC", self.listen),
+            true => format!("what {} receives is not an RSI message, or it lacks AIPos or IPOC", self.listen),
             false => self.sender.missing(&self.listen, limit.as_secs()),
         })
     }

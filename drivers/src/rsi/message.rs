@@ -125,7 +125,7 @@ fn number_of(tag: &BytesStart<'_>, key: &str) -> Option<u64> {
         .ok()
 }
 
-/// The attributes `A1` to `A6`, with another letter for other axes; `None`: one is no number.
+/// The attributes `A1` to `A6`, with another letter for other axes; `None`: one is not a number.
 fn numbers(tag: &BytesStart<'_>, letter: u8, places: &mut [Option<f64>; 6]) -> Option<()> {
     for attribute in tag.attributes().with_checks(false) {
         let attribute = attribute.ok()?;

@@ -109,7 +109,8 @@ impl RobotDriver for RsiArm {
         let first = link.wait(BEGIN)?;
         if first.delay > 0 {
             return Err(
-                "RSI runs already, and may hold a correction of a run before: start it again, after arl2rs".into()
+                "RSI is already running and may hold a correction from an earlier run: start it again, after arl2rs"
+                    .into(),
             );
         }
         let (mut last, mut steps) = (first, [0; FIRST]);
@@ -127,14 +128,16 @@ impl RobotDriver for RsiArm {
         fits(&steps, start.period)?;
         if last.external < self.external {
             let (has, needs) = (last.external, self.external);
-            return Err(format!("its messages have {has} external axes in `EIPos`, the robot file {needs}").into());
+            return Err(
+                format!("its messages have {has} external axes in `EIPos`, but the robot file has {needs}").into()
+            );
         }
         if last.ready == Some(false) {
             return Err("its drives are off: switch them on, and start RSI again".into());
         }
         let moved = difference(&start.begin_at(last.position)?, &self.origin);
         if moved.axes.iter().chain(&moved.external).any(|by| by.abs() > STANDS) {
-            return Err("the robot moves, though nobody has asked it to".into());
+            return Err("the robot is moving, though it was not commanded to".into());
         }
         // The first cycle answers.
         link.give_back(last);
@@ -198,5 +201,5 @@ fn fits(steps: &[u64], period: f64) -> Result<(), String> {
     if (step as f64 - own).abs() < 1e-6 {
         return Ok(());
     }
-    Err(format!("the robot has cycles of {step} ms, the cell of {own} ms: `cycle = {step}` of [controller] is right"))
+    Err(format!("the robot has cycles of {step} ms, but the cell has {own} ms: set `cycle = {step}` in [controller]"))
 }

@@ -60,12 +60,12 @@ impl Sender {
         if !std::mem::replace(&mut self.followed_is_known, true) {
             let ip = followed.ip().to_canonical();
             return Some(format!(
-                "the robot at {followed} is followed, which was the first to send to {listen}: \
-                 `address = \"{ip}\"` of [driver] in the cell lets it be no other one"
+                "the robot at {followed} is used, as it was the first to send to {listen}: \
+                 `address = \"{ip}\"` of [driver] in the cell makes sure that it is no other one"
             ));
         }
         let other = self.other.filter(|_| !std::mem::replace(&mut self.other_is_known, true))?;
-        Some(format!("{other} sends to {listen}, too, and is not heard: the robot is {followed}"))
+        Some(format!("{other} sends to {listen}, too, and is ignored: the robot is {followed}"))
     }
 
     /// Why nothing that counts has come to `listen` for `seconds`, where anything has come at all.
@@ -137,7 +137,7 @@ mod tests {
         sender.note_other(at("10.0.0.3:7"));
         assert_eq!(
             sender.take_warning("*:1").unwrap(),
-            "10.0.0.2:7 sends to *:1, too, and is not heard: the robot is 10.0.0.1:5"
+            "10.0.0.2:7 sends to *:1, too, and is ignored: the robot is 10.0.0.1:5"
         );
         assert_eq!(sender.take_warning("*:1"), None);
     }

@@ -154,14 +154,14 @@ impl Link {
             if state.axes != self.axes {
                 let said = |(own, external): (u8, u8)| format!("{own} axes and {external} external ones");
                 return Err(format!(
-                    "the arm at {address} has {}, the robot file {}",
+                    "the arm at {address} has {}, but the robot file has {}",
                     said(state.axes),
                     said(self.axes)
                 ));
             }
             return Ok(state);
         }
-        Err(format!("no arm answers at {address}: nothing that is an answer came within {} s", ANSWER.as_secs()))
+        Err(format!("no arm answers at {address}: no valid answer within {} s", ANSWER.as_secs()))
     }
 
     /// Switches the motors on, and waits until they are; where the arm is then. Until that it is asked to stay where it
@@ -245,7 +245,7 @@ impl Link {
         loop {
             match self.receive() {
                 Ok(Some(state)) if state.answers >= command => return Some(state),
-                // Who sends without end what is no answer does not keep it from ending.
+                // Who sends without end what is not an answer does not keep it from ending.
                 Ok(_) if Instant::now() < until => {}
                 Ok(_) => return None,
                 Err(Empty) if readable::wait_until(&self.socket, until) => {}

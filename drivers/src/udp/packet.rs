@@ -88,7 +88,7 @@ impl Command {
 }
 
 impl State {
-    /// What a packet says; `None`: it is no state of an arm.
+    /// What a packet says; `None`: it is not a state of an arm.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         if bytes.len() != STATE_LENGTH {
             return None;

@@ -97,7 +97,7 @@ impl Breakpoints {
             let line = functions.iter().filter_map(|lines| lines.range(wanted.line..).next()).min().copied();
             told.push(match (line, self.made(&wanted)) {
                 _ if files.is_empty() => unknown("this file does not belong to the program"),
-                (None, _) => unknown("no statement stands here or below"),
+                (None, _) => unknown("there is no statement here or below"),
                 (_, Err(why)) => unknown(&why),
                 (Some(line), Ok(made)) => {
                     let id = made.id;
@@ -120,7 +120,9 @@ impl Breakpoints {
             let entries = programs.map(|programs| programs.entries(&wanted.name));
             told.push(match (entries, self.made(&wanted)) {
                 (None, _) => unknown("the program is not known yet"),
-                (Some(entries), _) if entries.is_empty() => unknown("there is no such function with a statement"),
+                (Some(entries), _) if entries.is_empty() => {
+                    unknown("there is no function of this name that has a statement")
+                }
                 (_, Err(why)) => unknown(&why),
                 (Some(entries), Ok(made)) => {
                     let id = made.id;
@@ -140,7 +142,7 @@ impl Breakpoints {
         let hit_condition = match filled(&wanted.hit_condition) {
             None => None,
             Some(text) => Some(HitCondition::parse(&text).ok_or_else(|| {
-                format!("`{text}` is no hit count: expected a number, or one behind `>`, `>=`, `==` or `%`")
+                format!("`{text}` is not a hit count: expected a number, or `>`, `>=`, `==` or `%` and a number")
             })?),
         };
         let condition = filled(&wanted.condition);

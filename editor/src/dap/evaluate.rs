@@ -55,7 +55,7 @@ pub(super) trait Source {
     /// What a function gives for these arguments.
     ///
     /// # Errors
-    /// It is not called while the program stands, or does not take them.
+    /// It cannot be called while the program is halted, or does not take them.
     fn call(&mut self, function: &str, arguments: &[String]) -> Result<Variable>;
 
     fn family(&self) -> Family;
@@ -63,7 +63,7 @@ pub(super) trait Source {
 
 /// What is named by an expression: a variable, and the way to a part of it.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Place {
+pub(super) struct NamedPlace {
     pub(super) root: Root,
     pub(super) path: Vec<Part>,
 }
@@ -78,7 +78,7 @@ pub(super) enum Root {
 /// An expression, or an assignment to a place.
 pub(super) enum Input {
     Value(Value),
-    Assignment(Place, Value),
+    Assignment(NamedPlace, Value),
 }
 
 type Result<T> = std::result::Result<T, String>;
@@ -104,7 +104,7 @@ pub(super) fn evaluate(text: &str, source: &mut dyn Source) -> Result<Input> {
             let one = Given { value: Value::Int(1), written: Some(operators::Literal::None), is_name: false };
             let before = evaluator.given(inner)?;
             if !matches!(before.value, Value::Int(_) | Value::Uint(_) | Value::Byte(_)) {
-                return Err(format!("a {} is not counted up or down", before.value.ty()));
+                return Err(format!("a {} cannot be counted up or down", before.value.ty()));
             }
             let value = binary(op, &before, &one)?;
             Ok(Input::Assignment(place, value))
@@ -113,7 +113,7 @@ pub(super) fn evaluate(text: &str, source: &mut dyn Source) -> Result<Input> {
     }
 }
 
-/// Why a text is no expression.
+/// Why a text is not an expression.
 pub(super) fn unreadable(text: &str) -> Option<String> {
     parsed(text, &mut Interner::default()).err()
 }
@@ -127,7 +127,7 @@ fn parsed(text: &str, names: &mut Interner) -> Result<Expr> {
 }
 
 /// What an expression names.
-pub(super) fn place(text: &str, source: &mut dyn Source) -> Result<Place> {
+pub(super) fn place(text: &str, source: &mut dyn Source) -> Result<NamedPlace> {
     let mut names = Interner::default();
     let expr = parsed(text, &mut names)?;
     Evaluator { names: &names, source }.place(&expr)
@@ -201,7 +201,7 @@ impl Value {
         let fitting = self.scalar().and_then(|value| operators::fit(&value, operators::Literal::None, Base::Bool));
         match fitting {
             Some(hir::Value::Bool(truth)) => Ok(truth),
-            _ => Err(format!("{} is no condition", self.ty())),
+            _ => Err(format!("{} is not a condition", self.ty())),
         }
     }
 }
@@ -312,7 +312,7 @@ impl Evaluator<'_> {
             ExprKind::Binary(op, sides) => self.binary(*op, &sides.0, &sides.1),
             ExprKind::Assign(..) | ExprKind::Step(..) => Err("only the whole input can be an assignment".into()),
             ExprKind::Brace(_) => self.assigned(expr),
-            ExprKind::Splice(_) | ExprKind::Error => Err("this is no expression".into()),
+            ExprKind::Splice(_) | ExprKind::Error => Err("this is not an expression".into()),
         }
     }
 
@@ -353,7 +353,7 @@ impl Evaluator<'_> {
     }
 
     /// The value as its place has it; what has no place among plain values is left to the program.
-    fn fitting(&mut self, place: &Place, given: Given) -> Result<Value> {
+    fn fitting(&mut self, place: &NamedPlace, given: Given) -> Result<Value> {
         let (ty, _) = self.found(place)?;
         let wanted = base_type(&ty.to_ascii_lowercase());
         let Some((wanted, value)) = wanted.zip(given.value.scalar()) else { return Ok(given.value) };
@@ -378,7 +378,7 @@ impl Evaluator<'_> {
                 let mut arguments = Vec::new();
                 for argument in &call.args {
                     if argument.label.is_some() || argument.unit.is_some() {
-                        return Err("arguments stand in their order here, without labels and units".into());
+                        return Err("arguments are given in order here, without labels and units".into());
                     }
                     let value = self.assigned(&argument.value)?;
                     arguments.push(format!("{}:{}", value.ty(), value.literal().text()));
@@ -395,21 +395,21 @@ impl Evaluator<'_> {
     }
 
     /// The variable and the part of it that an expression names.
-    fn place(&mut self, expr: &Expr) -> Result<Place> {
+    fn place(&mut self, expr: &Expr) -> Result<NamedPlace> {
         let named = |name: &str| Root::Variable(None, name.to_owned());
         match &expr.kind {
-            ExprKind::Name(symbol) => Ok(Place { root: named(self.names.name(*symbol)), path: Vec::new() }),
+            ExprKind::Name(symbol) => Ok(NamedPlace { root: named(self.names.name(*symbol)), path: Vec::new() }),
             ExprKind::System(symbol) => {
                 let name = self.names.name(*symbol);
-                let whole = || Place { root: Root::System(name.to_owned()), path: Vec::new() };
-                Ok(system_element(name).map_or_else(whole, |(variable, number)| Place {
+                let whole = || NamedPlace { root: Root::System(name.to_owned()), path: Vec::new() };
+                Ok(system_element(name).map_or_else(whole, |(variable, number)| NamedPlace {
                     root: Root::System(variable.name.to_owned()),
                     path: vec![Part::At(number as usize)],
                 }))
             }
             ExprKind::Path { scope, name, .. } => {
                 let (scope, name) = (self.names.name(scope.symbol).to_owned(), self.names.name(name.symbol).to_owned());
-                Ok(Place { root: Root::Variable(Some(scope), name), path: Vec::new() })
+                Ok(NamedPlace { root: Root::Variable(Some(scope), name), path: Vec::new() })
             }
             ExprKind::Field(inner, name) => {
                 let mut place = self.place(inner)?;
@@ -426,12 +426,12 @@ impl Evaluator<'_> {
                 place.path.push(Part::At(at));
                 Ok(place)
             }
-            _ => Err("this names no variable".into()),
+            _ => Err("this does not name a variable".into()),
         }
     }
 
     /// The type and value of what is named.
-    fn found(&mut self, place: &Place) -> Result<(String, Literal)> {
+    fn found(&mut self, place: &NamedPlace) -> Result<(String, Literal)> {
         let variable = match &place.root {
             Root::Variable(module, name) => self.source.variable(module.as_deref(), name)?,
             Root::System(name) => self.source.system(name)?,
@@ -452,7 +452,7 @@ impl Evaluator<'_> {
 pub(super) fn part_type(ty: &str, part: &Part, family: Family) -> Result<String> {
     match part {
         Part::At(_) => {
-            let (base, sizes) = ty.split_once('[').ok_or_else(|| format!("{ty} is no array"))?;
+            let (base, sizes) = ty.split_once('[').ok_or_else(|| format!("{ty} is not an array"))?;
             let rest = sizes.split_once(']').map_or("", |(_, rest)| rest);
             Ok(format!("{base}{rest}"))
         }
@@ -624,10 +624,10 @@ mod tests {
         for (text, words) in [
             ("nothing", "there is no variable nothing"),
             ("count / 0", "alarm 20001: division by zero"),
-            ("mask << 9", "alarm 20002: shift by 9: a value of 8 bits is shifted by 0 to 7"),
+            ("mask << 9", "alarm 20002: shift by 9: a value of 8 bits can be shifted by 0 to 7"),
             ("1.5 % 0.0", "alarm 20001: division by zero"),
             ("home.cfg + (bits + 0)", "int + uint is not possible"),
-            ("home.x++", "a double is not counted up or down"),
+            ("home.x++", "a double cannot be counted up or down"),
             ("mask = 300", "300 does not fit: a byte holds 0 to 255"),
             ("late = \"a\"", "\"a\" does not fit: expected a value of type bool"),
             ("home + home", "pose + pose is not possible"),

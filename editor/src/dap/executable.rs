@@ -18,7 +18,8 @@ impl Executable {
     /// # Errors
     /// It cannot be copied.
     pub(super) fn of(ready: &Ready) -> Result<Self, String> {
-        let folder = PrivateFolder::new(PREFIX).map_err(|error| format!("there is no place for a program: {error}"))?;
+        let folder = PrivateFolder::new(PREFIX)
+            .map_err(|error| format!("cannot make a temporary folder for the program: {error}"))?;
         let path = folder.path().join(format!("program{}", std::env::consts::EXE_SUFFIX));
         std::fs::hard_link(&ready.program, &path)
             .or_else(|_| std::fs::copy(&ready.program, &path).map(|_| ()))

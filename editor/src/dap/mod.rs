@@ -42,7 +42,7 @@ pub fn dap() -> Exit {
     std::thread::spawn(move || {
         let mut input = Messages::new(std::io::stdin().lock());
         while let Some(body) = input.next_message() {
-            // What is no request has nobody who waits for an answer.
+            // What is not a request has nobody who waits for an answer.
             if let Ok(request) = serde_json::from_slice::<protocol::Request>(&body)
                 && requests.send(Event::Request(request)).is_err()
             {

@@ -113,7 +113,7 @@ fn accept(port: Port, child: &mut Child) -> Result<TcpStream, String> {
     let start = Instant::now();
     let gone = || -> std::io::Result<Option<String>> {
         Ok(match child.try_wait()? {
-            Some(status) => Some(format!("the program ended before it began ({status})")),
+            Some(status) => Some(format!("the program ended before it connected ({status})")),
             None => (start.elapsed() > LONGEST_START).then(|| "the program does not answer".to_owned()),
         })
     };

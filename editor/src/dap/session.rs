@@ -447,7 +447,7 @@ impl Session {
     fn truth(&mut self, condition: &str, frame: usize) -> Result<bool, String> {
         match evaluate(condition, &mut self.source(frame)?)? {
             Input::Value(value) => value.truth(),
-            Input::Assignment(..) => Err("this assigns; `==` compares".into()),
+            Input::Assignment(..) => Err("this is an assignment; `==` compares".into()),
         }
     }
 

@@ -28,7 +28,11 @@ impl State {
     /// It cannot be copied.
     pub(super) fn begin(&self) -> Result<&Path, String> {
         let failed = |error: &std::io::Error| format!("cannot copy {}: {error}", self.original.display());
-        let copy = self.copy.as_ref().map_err(|error| format!("there is no place for a state: {error}"))?.path();
+        let copy = self
+            .copy
+            .as_ref()
+            .map_err(|error| format!("cannot make a temporary folder for the state: {error}"))?
+            .path();
         for entry in std::fs::read_dir(copy).map_err(|error| failed(&error))?.flatten() {
             std::fs::remove_file(entry.path()).map_err(|error| failed(&error))?;
         }

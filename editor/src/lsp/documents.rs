@@ -21,7 +21,7 @@ pub(super) struct Document {
 
 impl Document {
     pub(super) fn new(mut text: String, version: i32) -> Self {
-        // A byte order mark is no part of the program.
+        // A byte order mark is not part of the program.
         if text.starts_with('\u{feff}') {
             text.remove(0);
         }

@@ -41,7 +41,7 @@ pub(super) fn hints(server: &Server, params: InlayHintParams) -> Result<Option<V
     Ok(find())
 }
 
-/// The name of the parameter, where the value does not say it itself: a literal is no name.
+/// The name of the parameter, where the value does not say it itself: a literal is not a name.
 fn label(file: &File, argument: &Argument) -> Option<String> {
     if argument.labelled || !is_literal(file.program.at(argument.at)) {
         return None;

@@ -1,7 +1,7 @@
 //! What the name under the cursor is.
 
 use super::describe::describe;
-use super::places::Place;
+use super::places::FilePlace;
 use super::server::{Refusal, Server};
 use super::signals;
 use arl_lang::lexer::{Lexeme, lexemes};
@@ -34,7 +34,7 @@ fn keyword(text: &str, offset: u32) -> Option<(String, Span)> {
 }
 
 /// The name of the signal whose number stands at a place.
-fn signal(place: &Place) -> Option<(String, Span)> {
+fn signal(place: &FilePlace) -> Option<(String, Span)> {
     let argument = signals::argument_at(&place.file, place.offset)?;
     let (signal, name) = signals::named(&place.file, argument)?;
     Some((format!("`{signal}` is `{name}`"), argument.at.span))

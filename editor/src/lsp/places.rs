@@ -27,12 +27,12 @@ impl File {
 }
 
 /// A byte in a file of a checked program.
-pub(super) struct Place {
+pub(super) struct FilePlace {
     pub(super) file: File,
     pub(super) offset: u32,
 }
 
-impl Place {
+impl FilePlace {
     /// The name at the place.
     pub(super) fn mention(&self) -> Option<&Mention> {
         self.file.index().at(self.file.id, self.offset)
@@ -53,15 +53,15 @@ impl Server {
     }
 
     /// The place that a request is about.
-    pub(super) fn place(&self, at: &TextDocumentPositionParams) -> Option<Place> {
+    pub(super) fn place(&self, at: &TextDocumentPositionParams) -> Option<FilePlace> {
         self.place_at(&at.text_document.uri, at.position)
     }
 
     /// The place with this address.
-    pub(super) fn place_at(&self, uri: &Uri, position: Position) -> Option<Place> {
+    pub(super) fn place_at(&self, uri: &Uri, position: Position) -> Option<FilePlace> {
         let file = self.file(&path_of(uri))?;
         let offset = file.text(self)?.offset(position);
-        Some(Place { file, offset })
+        Some(FilePlace { file, offset })
     }
 
     /// A place of a program as the protocol writes it.

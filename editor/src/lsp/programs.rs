@@ -96,11 +96,11 @@ impl Program {
 
 /// All programs that were checked, by their main files.
 #[derive(Debug, Default)]
-pub(super) struct Programs {
+pub(super) struct CheckedPrograms {
     known: RefCell<BTreeMap<PathBuf, Result<Rc<Program>, Bug>>>,
 }
 
-impl Programs {
+impl CheckedPrograms {
     /// The main file of the program that tells about a file: a data file is seen by the program beside it.
     pub(super) fn root(&self, path: &Path, documents: &Documents) -> PathBuf {
         owner(path).filter(|owner| documents.exists(owner)).unwrap_or_else(|| path.to_path_buf())

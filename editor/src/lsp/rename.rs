@@ -3,7 +3,7 @@
 //! The new text is checked before anything is changed: every name of every program has to mean what it meant.
 
 use super::navigation::uses_of;
-use super::places::{Declared, Place};
+use super::places::{Declared, FilePlace};
 use super::programs::Program;
 use super::server::{Refusal, Server};
 use arl_lang::lexer::{Lexeme, lexemes};
@@ -48,7 +48,7 @@ pub(super) fn rename(server: &Server, params: RenameParams) -> Result<Option<Wor
     let at = &params.text_document_position_params;
     let Some(place) = server.place(at) else { return Ok(None) };
     let Some(mention) = place.mention() else {
-        return Err(Refusal::new("there is no name here that could be changed"));
+        return Err(Refusal::new("there is no name here that can be renamed"));
     };
     renamable(&place.file.program, mention)?;
     let name = params.new_name.trim();
@@ -66,7 +66,7 @@ pub(super) fn rename(server: &Server, params: RenameParams) -> Result<Option<Wor
 
 /// Refuses where the old name stands somewhere that the checker did not get to, behind a mistake: nobody knows whether
 /// it means the same there.
-fn is_known_everywhere(place: &Place, program: &Program) -> Result<(), Refusal> {
+fn is_known_everywhere(place: &FilePlace, program: &Program) -> Result<(), Refusal> {
     let Some(mention) = place.mention() else { return Ok(()) };
     let (old, own) = (place.file.program.at(mention.at), place.file.index());
     if !program.checked.has_errors() {
@@ -103,7 +103,8 @@ fn may_be_a_name(name: &str) -> Result<(), Refusal> {
     let mut characters = name.chars();
     let begins_well = characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
     if !begins_well || !characters.all(|one| one.is_ascii_alphanumeric() || one == '_') {
-        let text = format!("`{name}` is no name: a name has letters, digits and `_`, and begins with no digit");
+        let text =
+            format!("`{name}` is not a name: a name has letters, digits and `_`, and does not begin with a digit");
         return Err(Refusal::new(text));
     }
     if arl_lang::is_reserved(name) {
@@ -164,7 +165,7 @@ impl<'a> Edited<'a> {
         };
         let clash = |path: &Path, line: u32| {
             let place = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-            let text = format!("`{name}` has a meaning already: {place}, line {line} would not mean what it means now");
+            let text = format!("`{name}` already has a meaning: {place}, line {line} would change its meaning");
             Err(Refusal::new(text))
         };
         for ((file, source), number) in program.checked.files.iter().zip(0..) {
@@ -186,7 +187,7 @@ impl<'a> Edited<'a> {
             let new = after.checked.diagnostics.iter().find(|one| one.message.contains(&format!("`{name}`")));
             let said =
                 new.map_or_else(String::new, |one| format!(" (line {}: {})", known(one.primary.at), one.message));
-            return Err(Refusal::new(format!("`{name}` would be a mistake{said}")));
+            return Err(Refusal::new(format!("`{name}` would cause an error{said}")));
         }
         Ok(())
     }

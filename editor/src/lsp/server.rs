@@ -6,7 +6,7 @@
 
 use super::documents::{Document, Documents};
 use super::markup::Formats;
-use super::programs::{Program, Programs};
+use super::programs::{CheckedPrograms, Program};
 use super::projects::Projects;
 use super::settings::Settings;
 use super::text::Encoding;
@@ -70,7 +70,7 @@ pub(super) struct Server {
     options: Rc<CheckOptions>,
     projects: Projects,
     pub(super) documents: Documents,
-    programs: Programs,
+    programs: CheckedPrograms,
     pub(super) workspace: Workspace,
     /// Files whose diagnostics have to be told, the most urgent ones first, each once.
     stale: VecDeque<PathBuf>,
@@ -92,7 +92,7 @@ impl Server {
             options: Rc::default(),
             projects: Projects::default(),
             documents: Documents::default(),
-            programs: Programs::default(),
+            programs: CheckedPrograms::default(),
             workspace: Workspace::default(),
             stale: VecDeque::new(),
             told: BTreeSet::new(),
@@ -252,7 +252,7 @@ impl Server {
                 });
             }
             "textDocument/didChange" if has_range_of_none(&params) => {
-                self.complain("a change names a range that is none: the server goes on with the text that it had");
+                self.complain("a change has an invalid range: the server keeps the text that it had");
             }
             "textDocument/didChange" => {
                 self.with(method, params, |server, params: DidChangeTextDocumentParams| {
@@ -297,7 +297,7 @@ impl Server {
     fn with<P: DeserializeOwned>(&mut self, method: &str, params: Value, take: impl FnOnce(&mut Self, P)) {
         match serde_json::from_value(params) {
             Ok(params) => take(self, params),
-            Err(error) => self.complain(&format!("`{method}` makes no sense: {error}")),
+            Err(error) => self.complain(&format!("`{method}` has invalid parameters: {error}")),
         }
     }
 

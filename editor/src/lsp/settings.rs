@@ -35,7 +35,7 @@ impl Settings {
             None => return Ok(None),
         };
         let read = serde_json::from_value(own.clone());
-        read.map(Some).map_err(|error| format!("the settings of arl2rs: {error}"))
+        read.map(Some).map_err(|error| format!("invalid settings of arl2rs: {error}"))
     }
 
     /// How to check with them. Relative paths count from the workspace's folder. `beside` says what they do not.

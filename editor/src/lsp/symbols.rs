@@ -64,7 +64,7 @@ pub(super) fn of_workspace(
     params: WorkspaceSymbolParams,
 ) -> Result<Option<WorkspaceSymbolResponse>, Refusal> {
     let mut paths: Vec<_> = server.workspace.programs().chain(server.documents.paths()).cloned().collect();
-    // Data files are no programs of their own.
+    // Data files are not programs of their own.
     let data: Vec<_> = paths.iter().filter_map(|path| data_beside(path)).collect();
     paths.extend(data);
     paths.sort();

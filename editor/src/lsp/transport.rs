@@ -1,7 +1,7 @@
 //! Messages over standard input and output.
 //!
-//! A message that is no JSON, or not what the protocol allows, is answered and passed over: its header tells its
-//! length. What stands between messages and is no header is passed over, too.
+//! A message that is not JSON, or not what the protocol allows, is answered and passed over: its header tells its
+//! length. What stands between messages and is not a header is passed over, too.
 
 use crate::framing::{self, Messages};
 use gen_lsp_types::ErrorCodes;
@@ -19,7 +19,7 @@ pub(super) enum Incoming {
     Notification(String, Value),
     /// The answer to a request of ours.
     Response,
-    /// Something that is no message, and the answer to it.
+    /// Something that is not a message, and the answer to it.
     Malformed(Value),
 }
 
@@ -90,7 +90,7 @@ fn message(mut value: Value) -> Incoming {
         (None, Some(method)) => Incoming::Notification(method, params),
         (id, _) => {
             let id = id.flatten().unwrap_or(Id::Null);
-            let text = "this is no request, notification or response";
+            let text = "this is not a request, notification or response";
             Incoming::Malformed(refusal(&id, ErrorCodes::InvalidRequest, text))
         }
     }

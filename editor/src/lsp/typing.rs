@@ -146,7 +146,7 @@ fn surroundings(text: &str, word: u32) -> Surroundings {
     }
 }
 
-/// Where a word is no word: in a text, where that is the path of an import, or in a comment.
+/// Where a word is not a word: in a text, where that is the path of an import, or in a comment.
 fn unread(text: &str, line: &[(Lexeme, Span)]) -> Surroundings {
     if let [(_, first), .., (Lexeme::Faulty, last)] = line
         && first.text(text).eq_ignore_ascii_case("import")

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use tree_sitter::{Language, Node, Parser, Query, Tree};
 
-/// Files that have no `.err` beside them, and are no ARL nonetheless, and why.
+/// Files that have no `.err` beside them, and are not ARL nonetheless, and why.
 const REFUSED: [(&str, &str); 4] = [
     ("editors/vscode/tests/grammar/comments_and_strings.arl", "has a wrong escape, for its colour"),
     ("editors/vscode/tests/grammar/numbers_and_units.arl", "has wrong numbers, for their colour"),

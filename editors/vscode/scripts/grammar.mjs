@@ -91,7 +91,7 @@ const repository = {
     match: "(\\\\)[ \\t]*\\n",
     captures: captures("punctuation.separator.continuation.arl"),
   },
-  // A case has its value between the word and the colon; that value is no label.
+  // A case has its value between the word and the colon; that value is not a label.
   cases: {
     patterns: [
       {

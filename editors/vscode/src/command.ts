@@ -34,7 +34,7 @@ async function wantsRetry(): Promise<boolean> {
   const what =
     setting === ""
       ? "The command arl2rs was found neither in PATH nor in ~/.cargo/bin."
-      : `The setting arl2rs.path names no command: ${setting}`;
+      : `The setting arl2rs.path does not name a command: ${setting}`;
   const how = "In a checkout of arl2rs, `cargo install --locked --path command` installs it.";
   const settings = "Open Settings";
   const retry = "Try Again";

@@ -21,7 +21,7 @@ const HEAD = /^FAILED (.+)$/;
 const COUNTS = /^(\d+) passed(?:, (\d+) failed)?$/;
 const ALARM = /^alarm \d+: .* \(([^()]+):(\d+)\)$/m;
 const ARROW = /^ *--> (.+?):(\d+):(\d+)$/m;
-const DIFFERENCE = /^other (?:output|errors) than expected \(- expected, \+ came\):$/;
+const DIFFERENCE = /^the (?:output differs|errors differ) \(- expected, \+ actual\):$/;
 
 /** The report in a text. */
 export function readReport(text: string): Report {

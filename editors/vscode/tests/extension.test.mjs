@@ -69,7 +69,7 @@ test("it registers its commands, and says where the command is missing", async (
   await extension.deactivate();
 });
 
-const on_windows = process.platform === "win32" && "a script is no command on Windows";
+const on_windows = process.platform === "win32" && "a script is not a command on Windows";
 
 test("it says where the command is too old for a server", { skip: on_windows }, async () => {
   const old = join(tools, "arl2rs");

@@ -22,7 +22,7 @@ pub(super) fn read() -> Result<Option<u64>, Failure> {
     match std::env::var(VARIABLE) {
         Ok(words) if !words.trim().is_empty() => of(words.trim()).ok_or_else(|| {
             Failure::Usage(format!(
-                "{VARIABLE} is how many gigabytes the cache may take, at least {}, or `none`, but it is `{words}`",
+                "{VARIABLE} is `{words}`: expected how many gigabytes the cache may take, at least {}, or `none`",
                 LEAST / 1_000_000_000
             ))
         }),

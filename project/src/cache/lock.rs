@@ -121,7 +121,7 @@ mod tests {
         for (code, help) in [
             (13, "set ARL2RS_CACHE to a folder that can be written"),
             (30, "set ARL2RS_CACHE to a folder that can be written"),
-            (28, "make room; `arl2rs clean` removes what was compiled"),
+            (28, "free some space; `arl2rs clean` removes what was compiled"),
         ] {
             let error = std::io::Error::from_raw_os_error(code);
             let told = unusable("lock", Path::new("/cache/lock"), &error).to_string();

@@ -35,7 +35,7 @@ impl Cache {
     /// `$ARL2RS_CACHE`, else the user's cache folder.
     ///
     /// # Errors
-    /// There is no such folder, or `$ARL2RS_CACHE_LIMIT` is no limit.
+    /// There is no such folder, or `$ARL2RS_CACHE_LIMIT` is not a limit.
     pub fn find() -> Result<Self, Failure> {
         let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let home = || {
@@ -165,7 +165,7 @@ impl Place {
     /// # Errors
     /// As for [`Lock::take`].
     pub fn lock(&self, shared: bool) -> Result<Lock, Failure> {
-        Lock::take(&self.folder, shared, "waiting for another arl2rs that compiles this program")
+        Lock::take(&self.folder, shared, "waiting for another arl2rs that is compiling this program")
     }
 }
 

@@ -41,7 +41,7 @@ after(() => rmSync(path, { recursive: true, force: true }));
 const state = (page) =>
   page.evaluate(() => ({ time: window.page.time, playing: window.page.playing, drawn: window.page.scene.drawn, end: window.page.end }));
 
-test("another tool is no motion", { skip }, async (test) => {
+test("another tool is not a motion", { skip }, async (test) => {
   const program = `tool grip = {{0, 0, 180, 0, 0, 0}, false}
 func void main()
   movej j:{0,-90,90,0,30,0}, vp:50%

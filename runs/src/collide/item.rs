@@ -26,7 +26,7 @@ pub(super) struct Item {
     /// It is there only while this has this level.
     pub(super) when: Option<(Signal, bool)>,
     /// What it is of a body that a robot takes along, if it is.
-    pub(super) part: Option<Part>,
+    pub(super) part: Option<CarriedForm>,
     /// Such a body is not there, or it is held and this is how it stands, or the other way round.
     pub(super) absent: bool,
     /// The names of what it may touch, and of kinds.
@@ -44,7 +44,7 @@ pub(super) enum Limb {
 
 /// A form of a body that a robot takes along.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct CarriedForm {
     /// Which body of the cell.
     pub(super) body: usize,
     /// Where the form is in the body.
@@ -148,7 +148,7 @@ pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<I
         };
         let by = grip.channel as usize - 1;
         // Where it is will be said.
-        let standing = Item { part: Some(Part { body: number, piece, by }), absent: true, ..item };
+        let standing = Item { part: Some(CarriedForm { body: number, piece, by }), absent: true, ..item };
         items.push(Item { holder: Holder::Flange { arm: by }, ..standing.clone() });
         items.push(standing);
     }

@@ -26,8 +26,7 @@ impl Mesh {
         let corners: Vec<Vector> = stl.corners.iter().map(corner).collect();
         let is_far = |corner: &&Vector| corner.is_nan() || corner.abs().max_element() > LARGEST_MM;
         if let Some(far) = corners.iter().find(is_far) {
-            let why =
-                format!("a corner is at {far} mm; the farthest that can be is {LARGEST_MM} mm: is its `scale` right?");
+            let why = format!("a corner is at {far} mm; the limit is {LARGEST_MM} mm: is its `scale` right?");
             return Err(cannot(&why));
         }
         Ok(Self { corners, triangles: stl.triangles })

@@ -262,7 +262,7 @@ impl Hears for Collisions {
     }
 
     fn broken(&self) -> String {
-        "collisions are not looked for".into()
+        "collisions are no longer looked for".into()
     }
 }
 
@@ -330,7 +330,7 @@ fn links(scenery: &Scenery, tell: &dyn Fn(&str)) -> Vec<Vec<Item>> {
             match item::of_link(channel, (link, last), looks) {
                 Ok(forms) => items.extend(forms),
                 Err(problem) => {
-                    let text = format!("{problem}; the robot of channel {} touches as capsules do", channel + 1);
+                    let text = format!("{problem}; the robot of channel {} is checked as capsules", channel + 1);
                     tell(&text);
                     return Vec::new();
                 }

@@ -347,7 +347,7 @@ fn what_is_wrong_with_bodies_is_said() {
     };
     assert!(refused(None).contains("body `a`: cannot read"));
     assert!(refused(Some(b"solid nothing")).contains("no triangles"));
-    assert!(refused(Some(b"no solid")).contains("it is no STL file: text would begin with `solid`"));
+    assert!(refused(Some(b"no solid")).contains("it is not an STL file: text would begin with `solid`"));
     assert!(refused(Some(b"solid\nfacet\nouter loop\nvertex 1 2 inf")).contains("line 4: expected a finite number"));
     assert!(refused(Some(&[0; 90])).contains("no triangles"));
     let triangle = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
@@ -356,7 +356,7 @@ fn what_is_wrong_with_bodies_is_said() {
     assert_eq!(triangle.farthest(), 1000.0);
     assert!(triangle.hull(&file).is_ok());
     let far = mesh::Mesh::load(&file, [1e7, 1.0, 1.0]).err().unwrap_or_default();
-    assert!(far.contains("the farthest that can be is 1000000 mm: is its `scale` right?"), "{far}");
+    assert!(far.contains("the limit is 1000000 mm: is its `scale` right?"), "{far}");
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

@@ -2,7 +2,7 @@
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
-use super::model::Model;
+use super::model::PendantModel;
 use arl_wire::Inside;
 
 /// What a key asks for.
@@ -32,7 +32,7 @@ const OVERRIDE_STEP: f64 = 10.0;
 const PAGE: isize = 8;
 
 /// Does what a key asks of the screen, and says what it asks of the program.
-pub(super) fn press(key: KeyEvent, model: &mut Model) -> Option<Wish> {
+pub(super) fn press(key: KeyEvent, model: &mut PendantModel) -> Option<Wish> {
     if key.kind == KeyEventKind::Release {
         return None;
     }
@@ -54,7 +54,7 @@ fn order_of(typed: String) -> String {
 }
 
 /// A key while an order is being typed.
-fn edit(key: KeyCode, mut typed: String, model: &mut Model) -> Option<Wish> {
+fn edit(key: KeyCode, mut typed: String, model: &mut PendantModel) -> Option<Wish> {
     match key {
         KeyCode::Enter if typed.trim().is_empty() => return None,
         KeyCode::Enter => return Some(Wish::Order(order_of(typed))),
@@ -67,7 +67,7 @@ fn edit(key: KeyCode, mut typed: String, model: &mut Model) -> Option<Wish> {
     None
 }
 
-fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
+fn command(key: KeyCode, model: &mut PendantModel) -> Option<Wish> {
     let now = model.speed_override();
     match key {
         KeyCode::Char('q') => Some(Wish::Leave),
@@ -107,19 +107,19 @@ fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
 }
 
 /// Asks what is inside the program of the channel that is shown.
-fn look_inside(model: &mut Model) -> Wish {
+fn look_inside(model: &mut PendantModel) -> Wish {
     (model.inside, model.scrolled) = (Some(Inside::default()), 0);
     Wish::Order(format!("inside = {}", model.shown + 1))
 }
 
 /// Scrolls the variables, as far as there are any.
-fn scroll(model: &mut Model, by: isize) -> Option<Wish> {
+fn scroll(model: &mut PendantModel, by: isize) -> Option<Wish> {
     let last = model.inside.as_ref().map_or(0, |inside| inside.variable_lines().saturating_sub(1));
     model.scrolled = model.scrolled.saturating_add_signed(by).min(last);
     None
 }
 
-fn change_override(percent: f64, model: &mut Model) -> Wish {
+fn change_override(percent: f64, model: &mut PendantModel) -> Wish {
     let percent = percent.clamp(0.0, 100.0);
     model.ask_for_override(percent);
     Wish::Order(format!("override = {percent}"))
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
     use arl_wire::{Line, State};
 
-    fn type_in(model: &mut Model, text: &str) -> Option<Wish> {
+    fn type_in(model: &mut PendantModel, text: &str) -> Option<Wish> {
         let key = |letter| match letter {
             '\n' => KeyCode::Enter,
             '\x08' => KeyCode::Backspace,
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn keys_are_orders() {
-        let mut model = Model::default();
+        let mut model = PendantModel::default();
         assert_eq!(type_in(&mut model, "p"), Some(Wish::Order("pendant = \"pause\"".into())));
         assert_eq!(type_in(&mut model, "q"), Some(Wish::Leave));
         assert_eq!(type_in(&mut model, "z"), None);
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn the_override_goes_in_tens() {
-        let mut model = Model::default();
+        let mut model = PendantModel::default();
         for (now, key, then) in
             [(100.0, "-", 90.0), (95.0, "-", 90.0), (95.0, "+", 100.0), (100.0, "+", 100.0), (5.0, "-", 0.0)]
         {
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn no_press_is_lost_between_two_states() {
-        let mut model = Model::default();
+        let mut model = PendantModel::default();
         model.state.speed_override = 100.0;
         assert_eq!(type_in(&mut model, "---"), Some(Wish::Order("override = 70".into())));
         assert_eq!(type_in(&mut model, "+"), Some(Wish::Order("override = 80".into())));
@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn variables_come_and_go_with_a_key_and_follow_the_channel() {
-        let mut model = Model::default();
+        let mut model = PendantModel::default();
         model.state.channels = vec![Default::default(), Default::default()];
         assert_eq!(type_in(&mut model, "v"), Some(Wish::Order("inside = 1".into())));
         press(KeyCode::PageDown.into(), &mut model);
@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn inputs_are_typed() {
-        let mut model = Model::default();
+        let mut model = PendantModel::default();
         assert_eq!(type_in(&mut model, "i5 = tr\x08rue\n"), Some(Wish::Order("di.5 = true".into())));
         assert_eq!(model.typed, None);
         assert_eq!(type_in(&mut model, ":ai.2 = 4.2\n"), Some(Wish::Order("ai.2 = 4.2".into())));

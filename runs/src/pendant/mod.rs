@@ -16,12 +16,12 @@ use std::time::{Duration, Instant};
 
 use ratatui::crossterm::event::{self, Event};
 
-use crate::link::Link;
+use crate::link::ProgramLink;
 use crate::listen::{self, Hears};
 use arl_terminal::failure::Failure;
 use arl_terminal::show;
 use keys::Wish;
-use model::Model;
+use model::PendantModel;
 use sources::Sources;
 
 /// How long the screen waits for a key before it looks for news.
@@ -42,8 +42,8 @@ pub fn run<L>(
         command.args(["--state-interval", listen::STATE_INTERVAL]);
     }
     let program = PathBuf::from(command.get_program());
-    let mut link = Link::start(command).map_err(|error| Failure::io("start", &program, &error))?;
-    let mut model = Model::new(Sources::read(files));
+    let mut link = ProgramLink::start(command).map_err(|error| Failure::io("start", &program, &error))?;
+    let mut model = PendantModel::new(Sources::read(files));
     drop(lock);
     let shown = ratatui::try_init().and_then(|mut terminal| {
         show::keep_warnings();
@@ -64,8 +64,8 @@ pub fn run<L>(
 /// Shows the program until it has ended.
 fn show(
     terminal: &mut ratatui::DefaultTerminal,
-    link: &mut Link,
-    model: &mut Model,
+    link: &mut ProgramLink,
+    model: &mut PendantModel,
     hearers: &mut Vec<Box<dyn Hears>>,
 ) -> std::io::Result<u8> {
     loop {

@@ -23,7 +23,7 @@ pub(super) enum Weight {
 
 /// What the screen knows.
 #[derive(Default)]
-pub(super) struct Model {
+pub(super) struct PendantModel {
     pub(super) hello: Hello,
     pub(super) state: State,
     pub(super) sources: Sources,
@@ -48,7 +48,7 @@ pub(super) struct Model {
     pub(super) leaving: bool,
 }
 
-impl Model {
+impl PendantModel {
     /// A program of which only the texts are known yet.
     pub(super) fn new(sources: Sources) -> Self {
         Self { sources, ..Self::default() }

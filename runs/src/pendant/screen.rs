@@ -8,7 +8,7 @@ use ratatui::widgets::{Block, Paragraph};
 
 use super::inside;
 use super::keys;
-use super::model::{Model, Weight};
+use super::model::{PendantModel, Weight};
 use arl_wire::{Axis, Channel, Runs, State};
 
 pub(super) const QUIET: Style = Style::new().fg(Color::DarkGray);
@@ -35,7 +35,7 @@ const NARROW: Form = Form { side: 31, bar: 0, signals: 16, number: (8, 2) };
 const ROOM: u16 = 110;
 
 /// Draws everything anew.
-pub(super) fn draw(frame: &mut Frame<'_>, model: &Model) {
+pub(super) fn draw(frame: &mut Frame<'_>, model: &PendantModel) {
     let form = if frame.area().width >= ROOM { WIDE } else { NARROW };
     let feet = foot_lines(model, frame.area().width);
     let foot = Constraint::Length(feet.len() as u16);
@@ -53,7 +53,14 @@ pub(super) fn draw(frame: &mut Frame<'_>, model: &Model) {
     frame.render_widget(Paragraph::new(feet), foot);
 }
 
-fn draw_robot_and_io(frame: &mut Frame<'_>, area: Rect, model: &Model, channel: &Channel, runs: &Runs, form: Form) {
+fn draw_robot_and_io(
+    frame: &mut Frame<'_>,
+    area: Rect,
+    model: &PendantModel,
+    channel: &Channel,
+    runs: &Runs,
+    form: Form,
+) {
     let height = runs.axes.len() as u16 + 4;
     let [axes, io] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
     frame.render_widget(Paragraph::new(axis_lines(runs, channel, form)).block(titled(&robot_title(runs))), axes);
@@ -61,7 +68,7 @@ fn draw_robot_and_io(frame: &mut Frame<'_>, area: Rect, model: &Model, channel: 
 }
 
 /// The channel that is shown.
-fn shown(model: &Model) -> (Channel, Runs) {
+fn shown(model: &PendantModel) -> (Channel, Runs) {
     let channel = model.state.channels.get(model.shown).cloned().unwrap_or_default();
     let runs = model.hello.channels.get(model.shown).cloned().unwrap_or_default();
     (channel, runs)
@@ -71,7 +78,7 @@ pub(super) fn titled(title: &str) -> Block<'static> {
     Block::bordered().title(format!(" {title} ")).border_style(QUIET)
 }
 
-fn title_line(model: &Model, channel: &Channel) -> Line<'static> {
+fn title_line(model: &PendantModel, channel: &Channel) -> Line<'static> {
     let state = &model.state;
     let word = match channel.state.as_str() {
         "" => "starting",
@@ -97,7 +104,7 @@ fn state_style(word: &str) -> Style {
     Style::new().fg(Color::Black).bg(color).add_modifier(Modifier::BOLD)
 }
 
-fn draw_source(frame: &mut Frame<'_>, area: Rect, model: &Model, channel: &Channel) {
+fn draw_source(frame: &mut Frame<'_>, area: Rect, model: &PendantModel, channel: &Channel) {
     let block = titled(&channel.file);
     let inner = block.inner(area);
     let lines = model.sources.around(&channel.file, channel.line, usize::from(inner.height));
@@ -151,7 +158,7 @@ fn decimals(value: f64, form: Form) -> String {
 }
 
 /// The signals that have names, then all in rows.
-fn io_lines(model: &Model, form: Form) -> Vec<Line<'static>> {
+fn io_lines(model: &PendantModel, form: Form) -> Vec<Line<'static>> {
     let state = &model.state;
     let mut lines: Vec<Line<'static>> =
         model.hello.names.iter().map(|(signal, name)| named_signal(signal, name, state)).collect();
@@ -204,7 +211,7 @@ fn signals(name: &str, first: usize, levels: &[u8]) -> Line<'static> {
     Line::from(spans)
 }
 
-fn draw_log(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+fn draw_log(frame: &mut Frame<'_>, area: Rect, model: &PendantModel) {
     let block = titled("messages");
     let height = usize::from(block.inner(area).height);
     let first = model.log.len().saturating_sub(height);
@@ -222,7 +229,7 @@ fn weight_style(weight: Weight) -> Style {
 }
 
 /// The keys, or what is being typed, in as many lines as they need.
-fn foot_lines(model: &Model, width: u16) -> Vec<Line<'static>> {
+fn foot_lines(model: &PendantModel, width: u16) -> Vec<Line<'static>> {
     if let Some(typed) = &model.typed {
         let example = model.hello.names.iter().find(|(signal, _)| signal.starts_with("di."));
         let example = example.map_or("di.5", |(_, name)| name);
@@ -230,7 +237,7 @@ fn foot_lines(model: &Model, width: u16) -> Vec<Line<'static>> {
         return vec![Line::from(vec![
             Span::styled("set ", STRONG),
             Span::raw(format!("{typed}▏")),
-            Span::styled(format!("  like {example} = true, override = 50; Enter does it, Esc does not"), QUIET),
+            Span::styled(format!("  like {example} = true, override = 50; Enter sends it, Esc cancels"), QUIET),
         ])];
     }
     let orders = keys::ORDERS.iter().map(|(key, name, _)| (key.to_string(), *name));
@@ -266,12 +273,12 @@ mod tests {
         "line":3,"motion_file":"pick.arl","motion_line":2,"axes":[-0.0001,-190],"tcp":[1,2.5,3,4,5,6]}],
         "di":"010000000","do":"1","ai":[4.25],"ao":[]}}"#;
 
-    fn screen(lines: &[&str], change: impl FnOnce(&mut Model)) -> String {
+    fn screen(lines: &[&str], change: impl FnOnce(&mut PendantModel)) -> String {
         screen_of(120, lines, change)
     }
 
-    fn screen_of(width: u16, lines: &[&str], change: impl FnOnce(&mut Model)) -> String {
-        let mut model = Model::new(Sources::of("pick.arl", "func void main()\nmovej p1\nlin p2\nendfunc"));
+    fn screen_of(width: u16, lines: &[&str], change: impl FnOnce(&mut PendantModel)) -> String {
+        let mut model = PendantModel::new(Sources::of("pick.arl", "func void main()\nmovej p1\nlin p2\nendfunc"));
         for line in lines {
             model.hear(serde_json::from_str::<Line>(line).unwrap());
         }
@@ -361,7 +368,7 @@ mod tests {
 
     #[test]
     fn a_small_terminal_is_no_reason_to_panic() {
-        let mut model = Model::default();
+        let mut model = PendantModel::default();
         model.hear(serde_json::from_str(HELLO).unwrap());
         model.hear(serde_json::from_str(STATE).unwrap());
         for (width, height) in [(1, 1), (10, 3), (47, 9)] {

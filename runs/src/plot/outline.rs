@@ -1,7 +1,7 @@
 //! The first look at a trace: how long, how far, which motions. The second one draws.
 
 use super::robot::AXES;
-use super::trace::{Movement, Place, Row};
+use super::trace::{Movement, ProgramLine, Row};
 use arl_terminal::failure::Failure;
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 /// A motion, or a part of one between two standstills: from when to when its line was executed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Stretch {
-    pub(super) place: Place,
+    pub(super) place: ProgramLine,
     pub(super) motion: u64,
     /// s.
     pub(super) from: f64,
@@ -25,9 +25,9 @@ pub(super) struct Outline {
     pub(super) space: [[f64; 2]; 3],
     pub(super) stretches: Vec<Stretch>,
     /// The lines with motions, in the order of their first execution.
-    pub(super) lines: Vec<Place>,
+    pub(super) lines: Vec<ProgramLine>,
     /// Where each line is among them.
-    places: HashMap<Place, usize>,
+    places: HashMap<ProgramLine, usize>,
     /// The files that the trace names, and the one that has `main` where that is known.
     files: Vec<String>,
     main: Option<String>,
@@ -99,12 +99,12 @@ impl Outline {
     }
 
     /// The file of a line, where the trace names it.
-    pub(super) fn file(&self, line: Place) -> Option<&str> {
+    pub(super) fn file(&self, line: ProgramLine) -> Option<&str> {
         self.files.get(line.file).map(String::as_str).filter(|name| !name.is_empty())
     }
 
     /// `12`, or `grips.arl:12` where it is not in the file that has `main`.
-    pub(super) fn label(&self, line: Place) -> String {
+    pub(super) fn label(&self, line: ProgramLine) -> String {
         let number = line.line;
         // Where nobody says which file has it, the number is enough as long as there is one file.
         let is_in_main = |file: &str| self.main.as_deref().map_or(self.files.len() == 1, |main| main == file);
@@ -115,7 +115,7 @@ impl Outline {
     }
 
     /// How often a line was executed.
-    pub(super) fn runs(&self, line: Place) -> usize {
+    pub(super) fn runs(&self, line: ProgramLine) -> usize {
         self.stretches
             .iter()
             .filter(|stretch| stretch.place == line)
@@ -130,12 +130,12 @@ impl Outline {
     }
 
     /// Where a line is among the lines with motions.
-    pub(super) fn place(&self, line: Place) -> Option<usize> {
+    pub(super) fn place(&self, line: ProgramLine) -> Option<usize> {
         self.places.get(&line).copied()
     }
 
     /// The colour of a line's motions.
-    pub(super) fn colour(&self, line: Place) -> &'static str {
+    pub(super) fn colour(&self, line: ProgramLine) -> &'static str {
         colour(self.place(line).unwrap_or(0))
     }
 }
@@ -153,8 +153,8 @@ pub(super) fn colour(at: usize) -> &'static str {
 mod tests {
     use super::*;
 
-    fn place(line: u32) -> Place {
-        Place { file: 0, line }
+    fn place(line: u32) -> ProgramLine {
+        ProgramLine { file: 0, line }
     }
 
     fn row(t: f64, line: u32, motion: u64, x: f64) -> Row {
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn lines_of_other_files_are_lines_of_their_own() {
-        let at = |t: f64, file: usize| Row { place: Place { file, line: 7 }, ..row(t, 7, 1, t) };
+        let at = |t: f64, file: usize| Row { place: ProgramLine { file, line: 7 }, ..row(t, 7, 1, t) };
         let rows = [(0.0, 0), (0.001, 0), (0.002, 1), (0.003, 1)].map(|(t, file)| Ok(at(t, file)));
         let outline = Outline::of(rows.into_iter()).unwrap().unwrap();
         let names = ["a.arl".to_owned(), "b.arl".to_owned()];

@@ -7,7 +7,7 @@ pub(super) const AXES: usize = 12;
 
 /// An axis in a trace.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Axis {
+pub(super) struct TraceAxis {
     pub(super) name: String,
     /// deg/s, or mm/s for linear ones.
     pub(super) vel: f64,
@@ -20,7 +20,7 @@ pub(super) struct Axis {
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Robot {
     pub(super) name: String,
-    pub(super) axes: Vec<Axis>,
+    pub(super) axes: Vec<TraceAxis>,
     /// The highest speed of the TCP on lines, mm/s.
     pub(super) tcp: f64,
 }
@@ -30,7 +30,7 @@ impl Robot {
     pub(super) fn of(robot: robot::Robot) -> Self {
         let own = robot.own_axes().len();
         let columns = (0..own).chain(robot::ROBOT_AXES..AXES);
-        let axis = |(axis, column): (&robot::Axis, usize)| Axis {
+        let axis = |(axis, column): (&robot::Axis, usize)| TraceAxis {
             name: axis.name.clone(),
             vel: axis.vel,
             linear: axis.linear,

@@ -5,7 +5,7 @@ use super::robot::Robot;
 use super::scale::{Scale, label, step, ticks};
 use super::svg::{Anchor, Area, Picture, short};
 use super::thin::OverTime;
-use super::trace::Moved;
+use super::trace::RobotMotion;
 
 /// px that a line's number needs in its band.
 const DIGIT: f64 = 6.2;
@@ -54,7 +54,7 @@ impl<'a> Times<'a> {
     }
 
     /// The next cycle.
-    pub(super) fn push(&mut self, moved: &Moved) {
+    pub(super) fn push(&mut self, moved: &RobotMotion) {
         let x = self.across.at(moved.row.t);
         match moved.speed {
             Some(speed) => self.speed_line.push([x, self.upward.at(speed)]),

@@ -16,7 +16,7 @@ const COLUMNS: usize = 21;
 
 /// A line of a program.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub(super) struct Place {
+pub(super) struct ProgramLine {
     /// Its file, by its place among those that the trace names ([`Rows::files`]).
     pub(super) file: usize,
     pub(super) line: u32,
@@ -28,7 +28,7 @@ pub(super) struct Row {
     /// s.
     pub(super) t: f64,
     /// The line of the motion that is executed; 0: none.
-    pub(super) place: Place,
+    pub(super) place: ProgramLine,
     /// The running number of the motion; 0: none.
     pub(super) motion: u64,
     /// deg (mm); NaN for axes that are not there.
@@ -49,7 +49,7 @@ impl Rows {
     /// Opens a trace file and checks its header.
     ///
     /// # Errors
-    /// It cannot be read, or is no trace.
+    /// It cannot be read, or is not a trace.
     pub(super) fn open(path: &Path) -> Result<Self, Failure> {
         let opened = regular_file::expect(path).and_then(|()| File::open(path));
         let file = opened.map_err(|error| Failure::io("read the trace", path, &error))?;
@@ -60,7 +60,7 @@ impl Rows {
             }
             Some(Err(error)) => Err(Failure::io("read the trace", path, &error)),
             _ => Err(Failure::Usage(format!(
-                "{} is not a trace of a run: its first line must be `{HEADER}`, with or without `{FILE_COLUMN}` behind",
+                "{} is not a trace of a run: its first line must be `{HEADER}`, with or without `{FILE_COLUMN}` after it",
                 path.display()
             ))),
         }
@@ -108,7 +108,7 @@ fn row(text: &str, files: &mut Vec<String>) -> Option<Row> {
         (0, _) => 0,
         (_, file) => place(files, &file.unwrap_or_default()),
     };
-    Some(Row { t, place: Place { file, line }, motion, axes, tcp })
+    Some(Row { t, place: ProgramLine { file, line }, motion, axes, tcp })
 }
 
 /// Where a file is among those that are known.
@@ -128,7 +128,7 @@ fn unquoted(field: &str) -> String {
 
 /// How the robot moved in one cycle.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Moved {
+pub(super) struct RobotMotion {
     /// The row at the end of the cycle.
     pub(super) row: Row,
     /// Speeds of the axes in deg/s (mm/s); NaN for axes that are not there.
@@ -137,7 +137,7 @@ pub(super) struct Moved {
     pub(super) speed: Option<f64>,
 }
 
-impl Moved {
+impl RobotMotion {
     /// Whether nothing moved.
     pub(super) fn stands(&self) -> bool {
         self.speed == Some(0.0) && self.axes.iter().all(|speed| speed.is_nan() || *speed == 0.0)
@@ -155,10 +155,10 @@ pub(super) struct Movement {
 
 impl Movement {
     /// How the robot moved from the row before to this one; the first row is where it stands.
-    pub(super) fn next(&mut self, row: Row) -> Moved {
+    pub(super) fn next(&mut self, row: Row) -> RobotMotion {
         let Some((before, speed_before)) = self.last else {
             self.last = Some((row, 0.0));
-            return Moved { row, axes: row.axes.map(|axis| axis * 0.0), speed: Some(0.0) };
+            return RobotMotion { row, axes: row.axes.map(|axis| axis * 0.0), speed: Some(0.0) };
         };
         let period = (row.t - before.t).max(1e-9);
         let mut axes = row.axes;
@@ -169,7 +169,7 @@ impl Movement {
         let speed = way / period;
         let other_tool = row.motion != before.motion && speed - speed_before > TOOL_CHANGE * period;
         self.last = Some((row, if other_tool { speed_before } else { speed }));
-        Moved { row, axes, speed: (!other_tool).then_some(speed) }
+        RobotMotion { row, axes, speed: (!other_tool).then_some(speed) }
     }
 }
 
@@ -181,7 +181,7 @@ mod tests {
     fn rows_are_read_and_empty_axes_are_absent() {
         let files = &mut Vec::new();
         let found = row("0.001000,12,3,1,2,3,4,,,9,,,,,,100,200,300,0,0,0", files).unwrap();
-        let place = |file| Place { file, line: 12 };
+        let place = |file| ProgramLine { file, line: 12 };
         assert_eq!((found.t, found.place, found.motion, found.tcp), (0.001, place(0), 3, [100.0, 200.0, 300.0]));
         assert_eq!((found.axes[3], found.axes[6]), (4.0, 9.0));
         assert!(found.axes[4].is_nan() && found.axes[11].is_nan());
@@ -203,7 +203,7 @@ mod tests {
         let at = |t: f64, motion: u64, x: f64, j1: f64| {
             let mut axes = [f64::NAN; AXES];
             axes[0] = j1;
-            Row { t, place: Place { file: 0, line: 1 }, motion, axes, tcp: [x, 0.0, 0.0] }
+            Row { t, place: ProgramLine { file: 0, line: 1 }, motion, axes, tcp: [x, 0.0, 0.0] }
         };
         let mut movement = Movement::default();
         assert_eq!(movement.next(at(0.0, 1, 5.0, 1.0)).speed, Some(0.0));

@@ -1,10 +1,10 @@
-//! The way of the TCP from the top, the front and the side, all at one scale.
+//! The path of the TCP from the top, the front and the side, all at one scale.
 
 use super::outline::{Outline, colour};
 use super::scale::{Scale, label, step, ticks};
 use super::svg::{Anchor, Area, Picture};
 use super::thin::Line;
-use super::trace::{Moved, Place};
+use super::trace::{ProgramLine, RobotMotion};
 use std::collections::{BTreeMap, HashSet};
 
 /// What the axes of the world are called.
@@ -32,13 +32,13 @@ struct View {
     /// How many lines are drawn as one.
     together: usize,
     /// The way so far, by line of the program: the first of those that are drawn as one.
-    ways: BTreeMap<Place, Line>,
-    current: Option<Place>,
+    ways: BTreeMap<ProgramLine, Line>,
+    current: Option<ProgramLine>,
     last: Option<[f64; 2]>,
     /// Pieces of way that are there already: a program's loop draws its way once.
-    drawn: HashSet<(Place, [i32; 4])>,
+    drawn: HashSet<(ProgramLine, [i32; 4])>,
     /// Where the lines' numbers may stand: line and place.
-    marks: Vec<(Place, [f64; 2])>,
+    marks: Vec<(ProgramLine, [f64; 2])>,
 }
 
 /// The three views.
@@ -82,7 +82,7 @@ impl Views {
     }
 
     /// The next cycle.
-    pub(super) fn push(&mut self, outline: &Outline, moved: &Moved) {
+    pub(super) fn push(&mut self, outline: &Outline, moved: &RobotMotion) {
         self.views.iter_mut().for_each(|view| view.push(outline, moved));
     }
 
@@ -95,7 +95,7 @@ impl Views {
 }
 
 impl View {
-    fn push(&mut self, outline: &Outline, moved: &Moved) {
+    fn push(&mut self, outline: &Outline, moved: &RobotMotion) {
         let component = |at: usize| moved.row.tcp.get(at).copied().unwrap_or_default();
         let point = [self.across.at(component(self.right)), self.upward.at(component(self.up))];
         let before = self.last.replace(point);
@@ -131,7 +131,7 @@ impl View {
     }
 
     /// The first of the lines that a line is drawn with.
-    fn drawn_as(&self, outline: &Outline, line: Place) -> Place {
+    fn drawn_as(&self, outline: &Outline, line: ProgramLine) -> ProgramLine {
         let first = outline.place(line).and_then(|at| outline.lines.get(at / self.together * self.together));
         first.copied().unwrap_or(line)
     }
@@ -230,7 +230,7 @@ mod tests {
         let row = |line: u32| {
             let angle = f64::from(line) / f64::from(lines) * turns * std::f64::consts::TAU;
             let tcp = [900.0 + 100.0 * angle.cos(), 100.0 * angle.sin(), 500.0];
-            let place = Place { file: 0, line: line + 1 };
+            let place = ProgramLine { file: 0, line: line + 1 };
             Row { t: f64::from(line) * 1e-3, place, motion: u64::from(line) + 1, axes: [f64::NAN; AXES], tcp }
         };
         let outline = Outline::of((0..lines).map(|line| Ok(row(line)))).unwrap().unwrap();

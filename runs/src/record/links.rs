@@ -12,7 +12,7 @@ use arl_wire::{Channel, Limb, LinkJoint, Placed, Runs, placed};
 pub(super) const WORLD: &str = "world";
 
 /// The arm of a channel.
-pub(super) struct Arm {
+pub(super) struct RecordedArm {
     /// Before the name of each of its frames and joints.
     prefix: String,
     pub(super) robot: String,
@@ -24,11 +24,11 @@ pub(super) struct Arm {
     pub(super) stands: Frame,
     pub(super) axes: Vec<Own>,
     /// What its external axes move.
-    pub(super) carriers: Vec<Moved>,
+    pub(super) carriers: Vec<Carried>,
 }
 
 /// What an external axis moves.
-pub(super) struct Moved {
+pub(super) struct Carried {
     pub(super) frame: String,
     /// The frame that it is on.
     pub(super) parent: String,
@@ -44,7 +44,7 @@ pub(super) struct Own {
     pub(super) linear: bool,
 }
 
-impl Arm {
+impl RecordedArm {
     /// The robot of a channel, from 0.
     pub(super) fn new(prefix: String, runs: &Runs, channel: usize, carriers: &[Carrier]) -> Self {
         let own = |axis: &arl_wire::Axis| {
@@ -55,7 +55,7 @@ impl Arm {
         let moved = |carrier: &Carrier| {
             let (axis, about) = runs.external(carrier.number)?;
             let below = carrier.on.and_then(|on| carriers.get(on)).map_or_else(|| WORLD.to_owned(), named);
-            Some(Moved { frame: named(carrier), parent: below, joint: carrier.joint(about.is_linear()), axis })
+            Some(Carried { frame: named(carrier), parent: below, joint: carrier.joint(about.is_linear()), axis })
         };
         let its_own = carriers.iter().filter(|carrier| carrier.channel as usize == channel + 1);
         Self {
@@ -115,7 +115,7 @@ impl Arm {
 
     /// What its external axes move, as [`chain`](Self::chain).
     pub(super) fn carried(&self) -> impl Iterator<Item = Link> {
-        self.carriers.iter().map(|Moved { frame, parent, joint, axis }| Link {
+        self.carriers.iter().map(|Carried { frame, parent, joint, axis }| Link {
             frame: frame.clone(),
             parent: parent.clone(),
             origin: arl_wire::written(&joint.origin).to_vec(),
@@ -164,7 +164,7 @@ impl Arm {
         add(before, self.flange_frame(), &placed(&self.flange));
         add(WORLD.into(), self.tcp_frame(), &components(&said.tcp));
         add(WORLD.into(), self.workpiece_frame(), &components(&said.workpiece));
-        for Moved { frame, parent, joint, axis } in &self.carriers {
+        for Carried { frame, parent, joint, axis } in &self.carriers {
             add(parent.clone(), frame.clone(), &joint.at(said.axes.get(*axis).copied().unwrap_or_default()));
         }
         all

@@ -255,7 +255,7 @@ pub(crate) struct Motion {
     pub(crate) start: f64,
     #[prost(double, tag = "6")]
     pub(crate) duration: f64,
-    /// The way of the TCP in mm.
+    /// The path of the TCP in mm.
     #[prost(double, tag = "7")]
     pub(crate) way: f64,
     /// The programmed and the highest speed, and their unit.

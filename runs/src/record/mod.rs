@@ -92,6 +92,6 @@ impl Hears for Recording {
     }
 
     fn broken(&self) -> String {
-        format!("the recording {} is not whole", self.path.display())
+        format!("the recording {} is incomplete", self.path.display())
     }
 }

@@ -11,7 +11,7 @@ use arl_wire::{Channel, Place, Placing, Runs};
 
 /// Where parts are.
 #[derive(Default)]
-pub(super) struct Parts {
+pub(super) struct RecordedParts {
     /// By their numbers, with the names of their frames: those that robots hold.
     held: BTreeMap<usize, (String, Place)>,
     /// Whether there are any.
@@ -22,7 +22,7 @@ pub(super) struct Parts {
     flanges: Vec<Frame>,
 }
 
-impl Parts {
+impl RecordedParts {
     /// Those of a scenery.
     pub(super) fn of(scenery: &Scenery) -> Self {
         let are_there = scenery.bodies.iter().any(|(body, _)| body.grip.is_some());

@@ -2,12 +2,12 @@
 
 use mcap::McapResult;
 
-use super::links::Arm;
+use super::links::RecordedArm;
 use super::messages::{
     Axis, Blend, Cell, Channel, Closest, Contact, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log,
     Motion, Name, Runs, Timestamp,
 };
-use super::parts::Parts;
+use super::parts::RecordedParts;
 use super::scene::Scene;
 use super::schemas::{self, Schema};
 use super::sink::Sink;
@@ -21,11 +21,11 @@ const FRAMES_INTERVAL_S: f64 = 0.02;
 pub(crate) struct Recorder<S> {
     sink: S,
     /// The arm of each channel, where it has one.
-    arms: Vec<Option<Arm>>,
+    arms: Vec<Option<RecordedArm>>,
     /// What stands in the cell, or is carried.
     scene: Scene,
     /// The frames of what robots take along.
-    parts: Parts,
+    parts: RecordedParts,
     /// What was written last of each topic: what stays the same is not written again.
     last: Last,
     /// The time of the last state, in s.
@@ -53,7 +53,7 @@ impl<S: Sink> Recorder<S> {
             sink,
             arms: Vec::new(),
             scene: Scene::new(scenery),
-            parts: Parts::of(scenery),
+            parts: RecordedParts::of(scenery),
             last: Last::default(),
             time: 0.0,
             frames_due: 0.0,
@@ -102,7 +102,7 @@ impl<S: Sink> Recorder<S> {
     }
 
     /// The robots' arms by channels, once the program has said them.
-    pub(super) fn arms(&self) -> &[Option<Arm>] {
+    pub(super) fn arms(&self) -> &[Option<RecordedArm>] {
         &self.arms
     }
 
@@ -115,7 +115,7 @@ impl<S: Sink> Recorder<S> {
         let robots = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count();
         let arm = |(at, runs): (usize, &arl_wire::Runs)| {
             let prefix = if robots > 1 { format!("channel_{}/", at + 1) } else { String::new() };
-            (!runs.links.is_empty()).then(|| Arm::new(prefix, runs, at, &self.scene.scenery().carriers))
+            (!runs.links.is_empty()).then(|| RecordedArm::new(prefix, runs, at, &self.scene.scenery().carriers))
         };
         self.arms = hello.channels.iter().enumerate().map(arm).collect();
         let axis = |axis: &arl_wire::Axis| Axis {
@@ -124,13 +124,13 @@ impl<S: Sink> Recorder<S> {
             min: axis.min,
             max: axis.max,
         };
-        let runs = |(runs, arm): (&arl_wire::Runs, &Option<Arm>)| Runs {
+        let runs = |(runs, arm): (&arl_wire::Runs, &Option<RecordedArm>)| Runs {
             program: runs.program.clone(),
             robot: runs.robot.clone().unwrap_or_default(),
             axes: runs.axes.iter().map(axis).collect(),
-            links: arm.iter().flat_map(Arm::chain).collect(),
-            tcp: arm.as_ref().map(Arm::tcp_frame).unwrap_or_default(),
-            carriers: arm.iter().flat_map(Arm::carried).collect(),
+            links: arm.iter().flat_map(RecordedArm::chain).collect(),
+            tcp: arm.as_ref().map(RecordedArm::tcp_frame).unwrap_or_default(),
+            carriers: arm.iter().flat_map(RecordedArm::carried).collect(),
         };
         let name = |(signal, name): (&String, &String)| Name { signal: signal.clone(), name: name.clone() };
         let channels = hello.channels.iter().zip(&self.arms).map(runs).collect();

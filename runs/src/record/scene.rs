@@ -7,7 +7,7 @@ use arl_robot::cell::{Body, Holder, Solid};
 use arl_robot::kinematics::Frame;
 use arl_robot::regular_file;
 
-use super::links::{Arm, WORLD, parts, straight};
+use super::links::{RecordedArm, WORLD, parts, straight};
 use super::messages::{self, Color, Cylinder, Model, Pose, SceneEntity, SceneEntityDeletion, SceneUpdate, Timestamp};
 use crate::scenery::{Looks, Piece, Scenery, Shape, stl};
 use arl_terminal::show;
@@ -54,7 +54,12 @@ impl Scene {
     }
 
     /// Bodies that are there from now on, and those that are not any more, by the levels of inputs and outputs.
-    pub(super) fn bodies(&mut self, state: &State, arms: &[Option<Arm>], now: Timestamp) -> Option<SceneUpdate> {
+    pub(super) fn bodies(
+        &mut self,
+        state: &State,
+        arms: &[Option<RecordedArm>],
+        now: Timestamp,
+    ) -> Option<SceneUpdate> {
         let mut update = SceneUpdate::default();
         for ((body, looks), shown) in self.scenery.bodies.iter().zip(&mut self.shown) {
             if body.grip.is_some() {
@@ -77,7 +82,12 @@ impl Scene {
     }
 
     /// A body that robots take along is elsewhere.
-    pub(super) fn place(&mut self, placing: &Placing, arms: &[Option<Arm>], now: Timestamp) -> Option<SceneUpdate> {
+    pub(super) fn place(
+        &mut self,
+        placing: &Placing,
+        arms: &[Option<RecordedArm>],
+        now: Timestamp,
+    ) -> Option<SceneUpdate> {
         let (body, looks) = self.scenery.bodies.get(placing.body)?;
         let shown = self.shown.get_mut(placing.body)?;
         let was_shown = std::mem::replace(shown, placing.place.is_some());
@@ -95,7 +105,7 @@ impl Scene {
     }
 
     /// The limbs of all robots.
-    pub(super) fn robots(&mut self, arms: &[Option<Arm>]) -> SceneUpdate {
+    pub(super) fn robots(&mut self, arms: &[Option<RecordedArm>]) -> SceneUpdate {
         let mut entities = Vec::new();
         for (channel, arm) in arms.iter().enumerate() {
             let Some(arm) = arm else { continue };
@@ -109,11 +119,11 @@ impl Scene {
 }
 
 /// The frame of what a body is fixed to.
-pub(super) fn frame_of(holder: Holder, arms: &[Option<Arm>], scenery: &Scenery) -> String {
+pub(super) fn frame_of(holder: Holder, arms: &[Option<RecordedArm>], scenery: &Scenery) -> String {
     let arm = |channel: u32| arms.get(channel as usize - 1)?.as_ref();
     let frame = match holder {
         Holder::World => None,
-        Holder::Flange(channel) => arm(channel).map(Arm::flange_frame),
+        Holder::Flange(channel) => arm(channel).map(RecordedArm::flange_frame),
         Holder::Carrier(at) => {
             let carrier = scenery.carriers.get(at);
             carrier.and_then(|carrier| Some(arm(carrier.channel)?.carrier_frame(&carrier.axis)))
@@ -143,7 +153,7 @@ fn drawn(
 }
 
 /// A limb as a capsule.
-fn capsules(arm: &Arm, limb: &Limb) -> SceneEntity {
+fn capsules(arm: &RecordedArm, limb: &Limb) -> SceneEntity {
     let frame_id = if limb.link == 0 { arm.base() } else { arm.link(limb.link) };
     let (spheres, cylinders) = capsule(limb);
     let id = arm.joint(&limb.name);
@@ -152,7 +162,7 @@ fn capsules(arm: &Arm, limb: &Limb) -> SceneEntity {
 
 /// The links of a robot that has a shape of its own. Links that people call the same are one thing to them: `the
 /// forearm`, and what axis 4 turns of it; such a one has its link behind its name.
-fn links(arm: &Arm, shape: &Shape, meshes: &mut Meshes) -> Vec<SceneEntity> {
+fn links(arm: &RecordedArm, shape: &Shape, meshes: &mut Meshes) -> Vec<SceneEntity> {
     let mut entities: Vec<SceneEntity> = Vec::new();
     for (link, looks) in shape.links().filter(|(_, looks)| !looks.seen.is_empty()) {
         let frame_id = if link == 0 { arm.base() } else { arm.link(link) };

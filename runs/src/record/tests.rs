@@ -243,6 +243,7 @@ fn bodies_come_and_go_with_their_signal() {
 }
 
 /// A message with a value in each of its fields.
+#[expect(clippy::too_many_lines, reason = "a message of each kind")]
 fn filled() -> Vec<(&'static Schema, Vec<u8>)> {
     let timestamp = Some(Timestamp { seconds: 1, nanos: 2 });
     let (vector, quaternion) = (Vector3 { x: 1.0, y: 2.0, z: 3.0 }, Quaternion { x: 1.0, y: 2.0, z: 3.0, w: 4.0 });

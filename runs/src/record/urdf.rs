@@ -9,7 +9,7 @@ use arl_robot::kinematics::Frame;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use percent_encoding::{AsciiSet, CONTROLS, utf8_percent_encode};
 
-use super::links::{Arm, Moved, Own, WORLD, straight};
+use super::links::{Carried, Own, RecordedArm, WORLD, straight};
 use super::scene::frame_of;
 use crate::scenery::{Looks, Piece, Scenery, Shape};
 use arl_wire::{Limb, placed};
@@ -21,7 +21,7 @@ const EFFORT: f64 = 1000.0;
 const VELOCITY: f64 = 10.0;
 
 /// The description of these arms, by channels, and of what is around them.
-pub(super) fn urdf(arms: &[Option<Arm>], scenery: &Scenery) -> String {
+pub(super) fn urdf(arms: &[Option<RecordedArm>], scenery: &Scenery) -> String {
     let mut out = String::from("<?xml version=\"1.0\"?>\n<robot name=\"cell\">\n");
     let _ = writeln!(out, "  <link name=\"{WORLD}\"/>");
     for (channel, arm) in arms.iter().enumerate() {
@@ -36,7 +36,7 @@ pub(super) fn urdf(arms: &[Option<Arm>], scenery: &Scenery) -> String {
     out
 }
 
-fn add_arm(out: &mut String, arm: &Arm, shape: Option<&Shape>) {
+fn add_arm(out: &mut String, arm: &RecordedArm, shape: Option<&Shape>) {
     let _ = writeln!(out, "  <!-- {} -->", escaped(&arm.robot).replace("--", "- -"));
     for number in 0..=arm.links.len() {
         let name = if number == 0 { arm.base() } else { arm.link(number) };
@@ -54,7 +54,7 @@ fn add_arm(out: &mut String, arm: &Arm, shape: Option<&Shape>) {
         let moves = moves(own, joined.axis);
         joint(out, (kind(own), &arm.joint(&own.name)), [&before, &arm.link(at + 1)], &place, &moves);
     }
-    for Moved { frame, parent, joint: moved, axis } in &arm.carriers {
+    for Carried { frame, parent, joint: moved, axis } in &arm.carriers {
         let Some(own) = arm.axes.get(*axis) else { continue };
         let _ = writeln!(out, "  <link name=\"{frame}\"/>");
         joint(

@@ -124,7 +124,7 @@ fn placed((pose, size, color): (Option<&Pose>, Option<&Vector3>, Option<&Color>)
 }
 
 fn link(Link { origin, axis, .. }: &Link) -> Result<(), String> {
-    at_most("numbers of a place", origin.len(), 7)?;
+    at_most("numbers of a pose", origin.len(), 7)?;
     at_most("numbers of a direction", axis.len(), 3)?;
     numbers("a link", origin)?;
     numbers("a link", axis)
@@ -132,7 +132,7 @@ fn link(Link { origin, axis, .. }: &Link) -> Result<(), String> {
 
 /// x, y, z, a, b, c, or nothing.
 fn frame(what: &str, values: &[f64]) -> Result<(), String> {
-    at_most("numbers of a place", values.len(), 6)?;
+    at_most("numbers of a pose", values.len(), 6)?;
     numbers(what, values)
 }
 
@@ -142,7 +142,7 @@ fn at_most(what: &str, count: usize, most: usize) -> Result<(), String> {
 
 fn numbers(what: &str, values: &[f64]) -> Result<(), String> {
     let wrong = values.iter().find(|value| value.is_nan() || value.abs() > LARGEST);
-    wrong.map_or(Ok(()), |value| Err(format!("{what}: {value:?} is no value that a run can have")))
+    wrong.map_or(Ok(()), |value| Err(format!("{what}: {value:?} is not a value that a run can have")))
 }
 
 #[cfg(test)]
@@ -169,11 +169,11 @@ mod tests {
         let topic = "/arl/channel_1";
         assert_eq!(Store::default().take(topic, 0, &channel(|_| {})), Ok(()));
         refused(topic, &channel(|of| of.axes = vec![0.0; 200_000]), "it has 200000 axes, and a run has 12 at most");
-        refused(topic, &channel(|of| of.axes[3] = f64::NAN), "the axes: NaN is no value that a run can have");
+        refused(topic, &channel(|of| of.axes[3] = f64::NAN), "the axes: NaN is not a value that a run can have");
         refused(topic, &channel(|of| of.tcp[0] = f64::INFINITY), "the TCP: inf");
-        refused(topic, &channel(|of| of.base = vec![1e300; 6]), "the base: 1e300 is no value");
+        refused(topic, &channel(|of| of.base = vec![1e300; 6]), "the base: 1e300 is not a value");
         refused(topic, &channel(|of| of.time = f64::NAN), "the time: NaN");
-        refused(topic, &channel(|of| of.tcp = vec![0.0; 7]), "7 numbers of a place");
+        refused(topic, &channel(|of| of.tcp = vec![0.0; 7]), "7 numbers of a pose");
         let io = Io { di: vec![false; 3_000_000], ..Io::default() };
         refused("/arl/io", &io.encode_to_vec(), "it has 3000000 signals of a kind, and a run has 10000 at most");
         let io = Io { ao: vec![0.0, f64::NAN], ..Io::default() };

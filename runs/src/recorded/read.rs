@@ -21,12 +21,12 @@ const RECORD_HEAD: usize = 1 + 8;
 /// The run of a recording.
 ///
 /// # Errors
-/// There is no such file, or it is no recording of a run.
+/// There is no such file, or it is not a recording of a run.
 pub(crate) fn read(path: &Path) -> Result<Store, Failure> {
     let cannot = |error: std::io::Error| Failure::io("read", path, &error);
     let mut file = regular_file::expect(path).and_then(|()| std::fs::File::open(path)).map_err(cannot)?;
     let size = file.metadata().map_err(cannot)?.len();
-    of(&mut file, size).map_err(|why| Failure::Other(format!("{} is no recording of a run: {why}", path.display())))
+    of(&mut file, size).map_err(|why| Failure::Other(format!("{} is not a recording of a run: {why}", path.display())))
 }
 
 /// The run of a recording of so many bytes.
@@ -38,7 +38,7 @@ pub(crate) fn of(file: &mut impl Read, size: u64) -> Result<Store, String> {
     let mut reading = Reading { store: &mut store, topics: HashMap::new() };
     let trouble = reading.read_all(file, size).err();
     if store.cell.channels.is_empty() {
-        return Err(trouble.unwrap_or_else(|| "it says nothing of robots or programs (topic /arl/cell)".to_owned()));
+        return Err(trouble.unwrap_or_else(|| "it has no data about robots or programs (topic /arl/cell)".to_owned()));
     }
     store.trouble = trouble.map(|why| format!("the recording ends after {:.3} s: {why}", store.end));
     Ok(store)
@@ -75,7 +75,9 @@ impl Reading<'_> {
     /// The records of a chunk. None of them reaches beyond it, whatever it says of itself.
     fn chunk(&mut self, compression: &str, mut rest: &[u8]) -> Result<(), String> {
         if !compression.is_empty() {
-            return Err(format!("it is compressed by {compression}, which is not read: save it without compression"));
+            return Err(format!(
+                "it is compressed with {compression}, which is not supported: save it without compression"
+            ));
         }
         while let Some((head, behind)) = rest.split_first_chunk::<RECORD_HEAD>() {
             let [opcode, length @ ..] = *head;
@@ -95,7 +97,7 @@ impl Reading<'_> {
             Record::Message { header, data } => {
                 if let Some(topic) = self.topics.get(&header.channel_id) {
                     let taken = self.store.take(topic, header.log_time, &data);
-                    taken.map_err(|error| format!("a message of {topic} is not understood ({error})"))?;
+                    taken.map_err(|error| format!("a message of {topic} cannot be read ({error})"))?;
                 }
             }
             Record::Attachment { header, data, .. } if header.media_type.starts_with("text/") => {

@@ -119,7 +119,7 @@ fn contacts(one: &Summary, other: &Summary) -> Vec<String> {
     };
     let (before, after) = (pairs(one), pairs(other));
     let gone = before.keys().filter(|pair| !after.contains_key(pair));
-    let gone = gone.map(|(one, other)| format!("{one} does not come near {other} any more"));
+    let gone = gone.map(|(one, other)| format!("{one} no longer comes near {other}"));
     let new = after.iter().filter_map(|(pair, now)| {
         let (one, other) = pair;
         match before.get(pair) {

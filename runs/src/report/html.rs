@@ -46,9 +46,9 @@ fn add_channel(out: &mut String, channel: &OfChannel) {
     let metres = way / 1000.0;
     let _ = writeln!(
         out,
-        "<p>{moving:.3} s moving, {standing:.3} s standing; {motions} motions, {metres:.3} m. \
-         <small>In the bars: moving, then standing. Way: the path of the TCP, with zones and weave. Closest limit: of those in the robot \
-         file the one of which most was used, by the set-points; tcp: along its path, not across it.</small></p>"
+        "<p>{moving:.3} s moving, {standing:.3} s at rest; {motions} motions, {metres:.3} m. \
+         <small>In the bars: moving, then standing. Way: the path of the TCP, with zones and weave. Closest limit: the limit in the robot \
+         file that the set-points used most of; tcp: along its path, not across it.</small></p>"
     );
     out.push_str(
         "<table><tr><th>line<th>motion<th>runs<th>moving s<th>standing s<th class=\"bar\"><th>way mm<th>blend<th>closest limit</tr>\n",

@@ -80,7 +80,7 @@ impl Hears for Reporting {
     }
 
     fn broken(&self) -> String {
-        "there is no report".to_owned()
+        "the report could not be written".to_owned()
     }
 }
 
@@ -110,7 +110,7 @@ fn summary(file: &Path) -> Result<Summary, Failure> {
     }
     let bytes = regular_file::read(file).map_err(fail)?;
     serde_json::from_slice(&bytes).map_err(|error| {
-        let what = "no report of a whole run, as `arl2rs run --report=FILE --format json` makes it";
+        let what = "not a report of a whole run as `arl2rs run --report=FILE --format json` writes it";
         Failure::Other(format!("{} is {what}: {error}", file.display()))
     })
 }

@@ -74,7 +74,7 @@ fn a_pair_that_touches_more_often_is_told() {
     let of = |times: usize| Summary { contacts: vec![contact(); times], ..run() };
     let told = |before, now| Differences::between(&of(before), &of(now)).to_string();
     assert!(told(3, 1).contains("arm 1 came near post 3 times, now once"), "{}", told(3, 1));
-    assert!(told(3, 0).contains("arm 1 does not come near post any more"));
+    assert!(told(3, 0).contains("arm 1 no longer comes near post"));
     assert_eq!(told(2, 2), "nothing differs: 1.500 s\n");
 }
 

@@ -11,7 +11,7 @@ use percent_encoding::percent_decode_str;
 use urdf_rs::{Geometry, Link, Material, Pose};
 
 use super::{Looks, Piece};
-use crate::urdf::{self, Place, Tree};
+use crate::urdf::{self, Transform, Tree};
 
 /// A URDF has lengths in m.
 const MM: f64 = 1000.0;
@@ -32,7 +32,7 @@ pub(super) fn of_body(file: &Path) -> Result<Looks, String> {
 /// The same of a text; meshes count from the folder of `file`.
 ///
 /// # Errors
-/// It is no URDF, or names a mesh that cannot be read.
+/// It is not URDF, or names a mesh that cannot be read.
 #[cfg(any(test, feature = "fuzzing"))]
 pub fn of_text(text: &str, file: &Path) -> Result<Looks, String> {
     of_description(&Description::of(text, file)?)
@@ -74,7 +74,7 @@ impl Description {
     }
 
     /// How these links look together, each at its place in a common frame.
-    pub(super) fn looks(&self, tree: &Tree<'_>, links: &[(&str, Place)]) -> Result<Looks, String> {
+    pub(super) fn looks(&self, tree: &Tree<'_>, links: &[(&str, Transform)]) -> Result<Looks, String> {
         let mut looks = Looks::default();
         for (name, place) in links {
             let Some(link) = tree.link(name) else { continue };
@@ -114,11 +114,11 @@ impl Description {
     }
 
     fn pieces(&self, origin: &Pose, geometry: &Geometry, color: Option<[f64; 4]>) -> Result<Vec<Piece>, String> {
-        let at = frame(&Place::of_urdf(origin.xyz.0, origin.rpy.0));
+        let at = frame(&Transform::of_urdf(origin.xyz.0, origin.rpy.0));
         let one = |at: Frame, solid: Solid| Piece { at, solid, color };
         let has_size = |sizes: &[f64]| {
             let all = sizes.iter().all(|size| *size > 0.0 && size.is_finite());
-            all.then_some(()).ok_or_else(|| "it has a form of no size".to_owned())
+            all.then_some(()).ok_or_else(|| "it has a form whose size is not finite and above 0".to_owned())
         };
         Ok(match geometry {
             Geometry::Box { size } => {
@@ -142,7 +142,7 @@ impl Description {
             Geometry::Mesh { filename, scale } => {
                 let scale = scale.map_or([1.0; 3], |scale| scale.0);
                 if scale.iter().any(|scale| !scale.is_finite() || *scale == 0.0) {
-                    return Err("it has a form of no size".to_owned());
+                    return Err("it has a mesh whose `scale` is 0 or not finite".to_owned());
                 }
                 let file = self.mesh(filename)?;
                 vec![one(at, Solid::Mesh { file, scale: scale.map(|scale| scale * MM) })]
@@ -154,7 +154,7 @@ impl Description {
     fn mesh(&self, name: &str) -> Result<PathBuf, String> {
         let is_stl = Path::new(name).extension().is_some_and(|end| end.eq_ignore_ascii_case("stl"));
         if !is_stl {
-            return Err(format!("the mesh `{name}` is no STL file, and no other kind can be read"));
+            return Err(format!("the mesh `{name}` is not an STL file: other formats cannot be read"));
         }
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let Some(in_package) = name.strip_prefix("package://").or_else(|| name.strip_prefix("model://")) else {
@@ -166,7 +166,7 @@ impl Description {
         let (package, path) = in_package.split_once('/').ok_or_else(|| format!("`{name}` names no file"))?;
         let found = packages(folder, package).into_iter().map(|folder| folder.join(path)).find(|file| file.is_file());
         found.ok_or_else(|| {
-            format!("`{name}` is not found: no folder `{package}` above this file or on ROS_PACKAGE_PATH has it")
+            format!("`{name}` is not found: no folder `{package}` above this file, in ROS_PACKAGE_PATH or in AMENT_PREFIX_PATH has it")
         })
     }
 
@@ -196,7 +196,7 @@ fn packages(folder: &Path, package: &str) -> Vec<PathBuf> {
 }
 
 /// A place of a URDF as a frame in mm.
-pub(super) fn frame(place: &Place) -> Frame {
+pub(super) fn frame(place: &Transform) -> Frame {
     let [x, y, z] = place.at.map(|value| value * MM);
     let [first, second, third] = place.turn;
     let rows = [first, second, third].concat();

@@ -48,7 +48,7 @@ pub(super) fn fit(chain: &Chain, robot: &Robot, order: &[usize]) -> Result<Vec<O
 /// What would be right.
 pub(super) fn made_of(robot: &Robot) -> String {
     let axes = robot.own_axes().len();
-    format!("a URDF of {axes} joints fits the robot file that `arl2rs robots --import` makes of it")
+    format!("a URDF with {axes} joints fits the robot file that `arl2rs robots --import` makes from it")
 }
 
 /// Where a link of the URDF is in a link of the robot, if that is the same at all positions.

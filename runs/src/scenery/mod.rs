@@ -103,7 +103,7 @@ fn has_axis(robot: &Robot, Carrier { axis, channel, .. }: &Carrier) -> Result<()
     let known: Vec<&str> = robot.external_axes().iter().map(|external| &*external.name).collect();
     let has = if known.is_empty() { "no external axes".to_owned() } else { format!("only {}", known.join(", ")) };
     let text = format!(
-        "the cell has a [[carrier]] of the axis `{axis}`: the robot {} of channel {channel} has {has}",
+        "the cell has a [[carrier]] for the axis `{axis}`, but the robot {} of channel {channel} has {has}",
         robot.name
     );
     Err(Failure::Usage(text))
@@ -112,7 +112,7 @@ fn has_axis(robot: &Robot, Carrier { axis, channel, .. }: &Carrier) -> Result<()
 fn shape_of(robot: &Robot, stands: &Stands, tell: &dyn Fn(&str)) -> Result<Option<Shape>, Failure> {
     let Some(file) = &stands.urdf else { return Ok(None) };
     let shape = Shape::read(file, robot);
-    let tell = |problem| tell(&format!("{}: {problem}; the robot has capsules in its place", file.display()));
+    let tell = |problem| tell(&format!("{}: {problem}; capsules are used for the robot instead", file.display()));
     Ok(shape.map_err(tell).ok())
 }
 

@@ -26,7 +26,11 @@ impl Shape {
         let chain = Chain::of(&tree)?;
         let axes = robot.own_axes().len();
         if chain.joints.len() != axes {
-            return Err(format!("its arm has {} moving joints, {} has {axes} axes", chain.joints.len(), robot.name));
+            return Err(format!(
+                "its arm has {} moving joints, but {} has {axes} axes",
+                chain.joints.len(),
+                robot.name
+            ));
         }
         let order = urdf::order(&chain)?;
         let fitted = fit(&chain, robot, &order)?;
@@ -40,7 +44,7 @@ impl Shape {
                 continue;
             }
             let wrong =
-                || format!("its link `{root}` does not move as any link of {} does; {}", robot.name, made_of(robot));
+                || format!("its link `{root}` does not move like any link of {}; {}", robot.name, made_of(robot));
             let (link, there) = fitted.ok_or_else(wrong)?;
             let moved = |piece: Piece| Piece { at: there * piece.at, ..piece };
             if let Some(of_link) = links.get_mut(link) {

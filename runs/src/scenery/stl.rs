@@ -1,7 +1,7 @@
 //! Triangles of STL files, as text or as bytes.
 //!
 //! Text comes in many hands' spelling: solids without a name or without an end, capitals, blanks and a byte order mark
-//! before, names in any encoding, line ends of CR, normals that are no numbers. All of it is read, every solid of the
+//! before, names in any encoding, line ends of CR, normals that are not numbers. All of it is read, every solid of the
 //! file. Normals say nothing that corners do not say, and are passed over.
 
 mod text;
@@ -88,14 +88,14 @@ fn each_of_bytes(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), Strin
     let body = bytes.get(HEADER..).and_then(<[u8]>::split_first_chunk::<COUNT>);
     let Some((count, body)) = body else {
         return Err(format!(
-            "it is no STL file: text would begin with `solid`, and {} bytes are too few for the other form",
+            "it is not an STL file: text would begin with `solid`, and {} bytes are too few for the binary form",
             bytes.len()
         ));
     };
     let count = u32::from_le_bytes(*count) as usize;
     let is_there = body.len() / TRIANGLE;
     if is_there < count {
-        return Err(format!("it is cut off: it says that it has {count} triangles, and has {is_there}"));
+        return Err(format!("it is cut off: it announces {count} triangles, but has {is_there}"));
     }
     for (number, triangle) in (1..).zip(body.chunks_exact(TRIANGLE).take(count)) {
         let corners = triangle.get(CORNERS..CORNERS + 3 * CORNER).unwrap_or_default();
@@ -106,7 +106,7 @@ fn each_of_bytes(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), Strin
         });
         let corners = [(); 3].map(|()| found.next().unwrap_or([f32::NAN; 3]));
         if corners.as_flattened().iter().any(|value| !value.is_finite()) {
-            return Err(format!("a corner of triangle {number} is no place: {}", written(&corners)));
+            return Err(format!("a corner of triangle {number} is not a finite position: {}", written(&corners)));
         }
         take(corners)?;
     }

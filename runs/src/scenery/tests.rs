@@ -127,20 +127,20 @@ fn another_robot_is_refused_by_name() {
             "/no folder/a.stl",
         ),
         (good.clone(), "hsr065", "its arm has 6 moving joints, hsr065 has 4 axes"),
-        (good.replace("0.05", "0"), "kr10", "link `link_1`: it has a form of no size"),
+        (good.replace("0.05", "0"), "kr10", "link `link_1`: it has a form whose size is not finite and above 0"),
         (
             good.replace("<sphere radius=\"0.05\"/>", "<mesh filename=\"package://no_such/a.stl\"/>"),
             "kr10",
             "is not found: no folder `no_such`",
         ),
-        (good.replace("<sphere radius=\"0.05\"/>", "<mesh filename=\"a.dae\"/>"), "kr10", "`a.dae` is no STL file"),
+        (good.replace("<sphere radius=\"0.05\"/>", "<mesh filename=\"a.dae\"/>"), "kr10", "`a.dae` is not an STL file"),
         (
             arm([""; 7]).replace("<visual><geometry><box size=\"0.1 0.2 0.3\"/></geometry></visual>", ""),
             "kr10",
             "none of its links has a form",
         ),
         ("<robot xmlns:xacro=\"\"><xacro:macro/></robot>".into(), "kr10", "this is a xacro file"),
-        ("no xml".into(), "kr10", "this is no URDF"),
+        ("no xml".into(), "kr10", "this is not URDF"),
     ] {
         let robot = if robot == "kr10" { kr10().name.clone() } else { robot.to_owned() };
         let problem = refused(&text, &robot);
@@ -181,7 +181,7 @@ fn a_scara_has_its_shape_too() {
     assert_eq!(forms(&read(&urdf("prismatic", "revolute", BALL)).unwrap()), [0, 0, 1, 1, 1]);
     assert_eq!(forms(&read(&urdf("revolute", "prismatic", "")).unwrap()), [0, 0, 1, 0, 1]);
     let problem = read(&urdf("revolute", "prismatic", BALL)).unwrap_err();
-    assert!(problem.contains("its link `between` does not move as any link of"), "{problem}");
+    assert!(problem.contains("its link `between` does not move like any link of"), "{problem}");
     let higher = urdf("prismatic", "revolute", BALL).replace(&format!("0 0 {z}"), "0 0 0.5");
     let problem = read(&higher).unwrap_err();
     assert!(problem.contains("its flange is") && problem.contains("mm from that of"), "{problem}");

@@ -1,6 +1,6 @@
 //! The moving joints of a URDF, from the base to the flange.
 
-use super::place::{Place, Vector, length};
+use super::place::{Transform, Vector, length};
 use super::tree::Tree;
 use super::vet::vet;
 use urdf_rs::{Joint, JointType, Robot};
@@ -14,7 +14,7 @@ pub struct Moving {
     /// Whether it slides instead of turning.
     pub(super) slides: bool,
     /// From the frame that the joint before moves to its own.
-    pub(super) origin: Place,
+    pub(super) origin: Transform,
     /// In its own frame.
     pub(super) axis: Vector,
     /// rad or m, per s.
@@ -29,7 +29,7 @@ pub struct Chain {
     pub(super) name: String,
     /// Its joints, from the base on.
     pub joints: Vec<Moving>,
-    pub(super) flange: Place,
+    pub(super) flange: Transform,
 }
 
 /// Links of these names behind the last joint are the flange, the first found goes first.
@@ -39,27 +39,27 @@ impl Chain {
     /// The chain of a robot.
     ///
     /// # Errors
-    /// Its moving joints are no chain, or have no range.
+    /// Its moving joints are not a chain, or have no range.
     pub fn of(tree: &Tree<'_>) -> Result<Self, String> {
         let robot = tree.robot();
-        let mut chain = Chain { name: robot.name.clone(), joints: Vec::new(), flange: Place::ORIGIN };
-        let (mut link, mut carried) = (tree.root(), Place::ORIGIN);
+        let mut chain = Chain { name: robot.name.clone(), joints: Vec::new(), flange: Transform::ORIGIN };
+        let (mut link, mut carried) = (tree.root(), Transform::ORIGIN);
         for _ in &robot.joints {
             let joint = match tree.moving_behind(link).as_slice() {
                 [] => break,
                 [joint] => *joint,
                 [one, other, ..] => {
                     return Err(format!(
-                        "behind the link `{link}` moving joints go two ways, by `{}` and by `{}`; a robot file has one arm",
+                        "after the link `{link}` the moving joints branch into `{}` and `{}`; a robot file has one arm",
                         one.name, other.name
                     ));
                 }
             };
-            let origin = carried.then(&Place::of_urdf(joint.origin.xyz.0, joint.origin.rpy.0));
+            let origin = carried.then(&Transform::of_urdf(joint.origin.xyz.0, joint.origin.rpy.0));
             carried = match moving(joint, origin)? {
                 Some(moving) => {
                     chain.joints.push(moving);
-                    Place::ORIGIN
+                    Transform::ORIGIN
                 }
                 None => origin,
             };
@@ -71,14 +71,14 @@ impl Chain {
 
     /// The frames that the joints move, then the flange, in the base, when the joints stand at these positions (rad,
     /// m).
-    pub fn forward(&self, at: &[f64]) -> Vec<Place> {
-        let mut place = Place::ORIGIN;
+    pub fn forward(&self, at: &[f64]) -> Vec<Transform> {
+        let mut place = Transform::ORIGIN;
         let mut all = Vec::new();
         for (joint, at) in self.joints.iter().zip(at) {
             let own = if joint.slides {
-                Place::shift(joint.axis.map(|component| component * at))
+                Transform::shift(joint.axis.map(|component| component * at))
             } else {
-                Place::about(joint.axis, *at)
+                Transform::about(joint.axis, *at)
             };
             place = place.then(&joint.origin).then(&own);
             all.push(place);
@@ -94,14 +94,14 @@ impl Chain {
 /// It is none, or a number in it is none that a robot can have.
 pub fn parse(text: &str) -> Result<Robot, String> {
     if text.contains("xacro:") {
-        return Err("this is a xacro file; make a URDF of it first: `xacro FILE.xacro > FILE.urdf`".to_owned());
+        return Err("this is a xacro file; make a URDF from it first: `xacro FILE.xacro > FILE.urdf`".to_owned());
     }
     vet(text)?;
-    urdf_rs::read_from_string(text).map_err(|error| format!("this is no URDF: {error}"))
+    urdf_rs::read_from_string(text).map_err(|error| format!("this is not URDF: {error}"))
 }
 
 /// The joint, if it moves.
-fn moving(joint: &Joint, origin: Place) -> Result<Option<Moving>, String> {
+fn moving(joint: &Joint, origin: Transform) -> Result<Option<Moving>, String> {
     let name = &joint.name;
     let (slides, around) = match joint.joint_type {
         JointType::Fixed => return Ok(None),
@@ -137,9 +137,9 @@ fn moving(joint: &Joint, origin: Place) -> Result<Option<Moving>, String> {
 }
 
 /// The flange behind the last moving link: a link of a usual name that is fixed to it, or that link itself.
-fn flange(tree: &Tree<'_>, link: &str) -> Place {
-    let Some(link) = tree.link(link) else { return Place::ORIGIN };
+fn flange(tree: &Tree<'_>, link: &str) -> Transform {
+    let Some(link) = tree.link(link) else { return Transform::ORIGIN };
     let found = tree.fixed_to(&link.name, &[]);
     let named = FLANGES.iter().find_map(|name| found.iter().find(|(link, _)| link.ends_with(name)));
-    named.map_or(Place::ORIGIN, |(_, place)| *place)
+    named.map_or(Transform::ORIGIN, |(_, place)| *place)
 }

@@ -1,12 +1,14 @@
 //! Which lengths of a robot file describe a chain of joints.
 
 use super::chain::{Chain, Moving};
-use super::place::{Place, Vector, cross, dot, length, plus};
+use super::place::{Transform, Vector, cross, dot, length, plus};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Differences that count as none: m, and the sine of an angle.
 const NEAR: f64 = 1e-6;
 const PARALLEL: f64 = 1e-5;
+
+const UP: Vector = [0.0, 0.0, 1.0];
 
 /// The geometry of a six-axis robot: m, rad.
 #[derive(Clone, Copy, Debug)]
@@ -33,10 +35,10 @@ struct Line {
     along: Vector,
 }
 
-fn lines(chain: &Chain) -> (Vec<Line>, Place) {
+fn lines(chain: &Chain) -> (Vec<Line>, Transform) {
     let mut places = chain.forward(&vec![0.0; chain.joints.len()]);
-    let flange = places.pop().unwrap_or(Place::ORIGIN);
-    let line = |(place, joint): (&Place, &Moving)| Line { at: place.at, along: place.turned(joint.axis) };
+    let flange = places.pop().unwrap_or(Transform::ORIGIN);
+    let line = |(place, joint): (&Transform, &Moving)| Line { at: place.at, along: place.turned(joint.axis) };
     (places.iter().zip(&chain.joints).map(line).collect(), flange)
 }
 
@@ -59,25 +61,12 @@ fn distance(point: Vector, line: &Line) -> f64 {
 pub(super) fn six_axes(chain: &Chain) -> Result<SixAxes, String> {
     let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
     let ([n1, n2, n3, n4, n5, n6], (all, flange)) = (names.as_slice(), lines(chain)) else {
-        return Err(format!("{} joints are not six", names.len()));
+        return Err(format!("{} joints: expected six", names.len()));
     };
     let [l1, l2, l3, l4, l5, l6] = all.as_slice() else { return Err("six axes are needed".to_owned()) };
-    let up = [0.0, 0.0, 1.0];
-    if !parallel(l1.along, up) {
-        return Err(format!(
-            "axis 1 (`{n1}`) does not stand upright in the base; the robot file has no place for that"
-        ));
-    }
-    if distance([0.0; 3], l1) > NEAR {
-        return Err(format!("axis 1 (`{n1}`) does not go through the base's origin; move the base's frame onto it"));
-    }
-    if !parallel(l2.along, l3.along) || dot(l2.along, up).abs() > PARALLEL {
-        return Err(format!("axes 2 and 3 (`{n2}`, `{n3}`) are not level and parallel: this arm does not fit"));
-    }
-    let [x, y, _] = l2.along;
-    let (t1, sign2) = nearest(-x, y);
+    let (t1, sign2) = shoulder([n1, n2, n3], [l1, l2, l3])?;
     // From here on in the arm's plane: x in front, y along axis 2, z up.
-    let back = Place::about(up, -t1);
+    let back = Transform::about(UP, -t1);
     let into = |line: &Line| Line { at: back.turned(line.at), along: back.turned(line.along) };
     let [l2, l3, l4, l5, l6] = [l2, l3, l4, l5, l6].map(into);
     let flange = back.then(&flange);
@@ -88,19 +77,8 @@ pub(super) fn six_axes(chain: &Chain) -> Result<SixAxes, String> {
     }
     let t2 = (x3 - a1).atan2(z3 - c1);
 
-    let Some(centre) = meeting(&l5, &l6) else {
-        return Err(format!("axes 5 and 6 (`{n5}`, `{n6}`) do not meet at a right angle: no spherical wrist"));
-    };
-    if distance(centre, &l4) > NEAR {
-        return Err(format!(
-            "axis 4 (`{n4}`) misses the point where axes 5 and 6 meet by {:.3} mm: no spherical wrist",
-            1e3 * distance(centre, &l4)
-        ));
-    }
-    let [fx, fy, fz] = l4.along;
-    if fy.abs() > PARALLEL {
-        return Err(format!("axis 4 (`{n4}`) does not lie in the plane of the arm"));
-    }
+    let centre = wrist_centre([n4, n5, n6], [&l4, &l5, &l6])?;
+    let [fx, _, fz] = l4.along;
     let [wx, b, wz] = centre;
     let (mut sign4, mut t23) = (1.0, fx.atan2(fz));
     let along = |t: f64| (wx - x3) * t.sin() + (wz - z3) * t.cos();
@@ -130,17 +108,17 @@ pub(super) fn six_axes(chain: &Chain) -> Result<SixAxes, String> {
     } else {
         1.0
     };
-    let hand = |v: Vector| Place::about(up, -t4).turned(forearm(v));
+    let hand = |v: Vector| Transform::about(UP, -t4).turned(forearm(v));
     let [hx, _, hz] = hand(l6.along.map(|component| component * sign6));
     let t5 = hx.atan2(hz);
     // Where the flange's z does not point outwards along axis 6, its x tells nothing.
-    let [px, py, _] = Place::about([0.0, 1.0, 0.0], -t5).turned(hand(flange.column(0)));
+    let [px, py, _] = Transform::about([0.0, 1.0, 0.0], -t5).turned(hand(flange.column(0)));
     let t6 = if faces * sign6 > 1.0 - PARALLEL { py.atan2(px) } else { 0.0 };
     let side = |v: Vector| {
         let [_, y, _] = v;
         y.signum()
     };
-    let signs = [dot(l1.along, up).signum(), sign2, side(l3.along), sign4, sign5, sign6];
+    let signs = [dot(l1.along, UP).signum(), sign2, side(l3.along), sign4, sign5, sign6];
     let t3 = wrapped(t23 - t2);
     let fit = SixAxes {
         lengths: [a1, a2, b, c1, c2, c3, out.abs()],
@@ -149,6 +127,40 @@ pub(super) fn six_axes(chain: &Chain) -> Result<SixAxes, String> {
     };
     proven(chain, &fit, faces * sign6 > 1.0 - PARALLEL)?;
     Ok(fit)
+}
+
+/// Where axis 1 stands when it brings the arm's plane to that of x and z, and the sign of axis 2. Axes 1 to 3 have
+/// these names.
+fn shoulder([n1, n2, n3]: [&str; 3], [l1, l2, l3]: [&Line; 3]) -> Result<(f64, f64), String> {
+    if !parallel(l1.along, UP) {
+        return Err(format!("axis 1 (`{n1}`) is not vertical in the base; a robot file cannot describe that"));
+    }
+    if distance([0.0; 3], l1) > NEAR {
+        return Err(format!("axis 1 (`{n1}`) does not go through the base's origin; move the base's frame onto it"));
+    }
+    if !parallel(l2.along, l3.along) || dot(l2.along, UP).abs() > PARALLEL {
+        return Err(format!("axes 2 and 3 (`{n2}`, `{n3}`) are not level and parallel: this arm does not fit"));
+    }
+    let [x, y, _] = l2.along;
+    Ok(nearest(-x, y))
+}
+
+/// The point where axes 4 to 6, which have these names, meet.
+fn wrist_centre([n4, n5, n6]: [&str; 3], [l4, l5, l6]: [&Line; 3]) -> Result<Vector, String> {
+    let Some(centre) = meeting(l5, l6) else {
+        return Err(format!("axes 5 and 6 (`{n5}`, `{n6}`) do not meet at a right angle: no spherical wrist"));
+    };
+    if distance(centre, l4) > NEAR {
+        return Err(format!(
+            "axis 4 (`{n4}`) misses the point where axes 5 and 6 meet by {:.3} mm: no spherical wrist",
+            1e3 * distance(centre, l4)
+        ));
+    }
+    let [_, fy, _] = l4.along;
+    if fy.abs() > PARALLEL {
+        return Err(format!("axis 4 (`{n4}`) does not lie in the plane of the arm"));
+    }
+    Ok(centre)
 }
 
 fn wrapped(angle: f64) -> f64 {
@@ -166,14 +178,14 @@ fn meeting(a: &Line, b: &Line) -> Option<Vector> {
 }
 
 /// The pose of the flange that the geometry gives.
-fn forward(fit: &SixAxes, at: &[f64]) -> Place {
+fn forward(fit: &SixAxes, at: &[f64]) -> Transform {
     let [a1, a2, b, c1, c2, c3, c4] = fit.lengths;
     let (y, z) = ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
     let steps =
         [(z, [a1, b, c1]), (y, [0.0, 0.0, c2]), (y, [a2, 0.0, c3]), (z, [0.0; 3]), (y, [0.0; 3]), (z, [0.0, 0.0, c4])];
-    let mut place = Place::ORIGIN;
+    let mut place = Transform::ORIGIN;
     for (((axis, shift), at), (sign, offset)) in steps.iter().zip(at).zip(fit.signs.iter().zip(&fit.offsets)) {
-        place = place.then(&Place::about(*axis, at * sign - offset)).then(&Place::shift(*shift));
+        place = place.then(&Transform::about(*axis, at * sign - offset)).then(&Transform::shift(*shift));
     }
     place
 }
@@ -188,7 +200,7 @@ fn proven(chain: &Chain, fit: &SixAxes, turned: bool) -> Result<(), String> {
         let apart = (0..3).map(|column| length(plus(found.column(column), expected.column(column), -1.0)));
         if off > 1e-4 || (turned && apart.fold(0.0, f64::max) > 1e-3) {
             return Err(format!(
-                "no geometry of a six-axis robot file leads to the flange of this one: it is {:.3} mm off",
+                "no geometry of a six-axis robot file gives the flange of this robot: it is {:.3} mm off",
                 off * 1e3
             ));
         }
@@ -227,13 +239,13 @@ pub(super) fn scara(chain: &Chain) -> Result<Scara, String> {
     let ([x, y, _], [fx, fy, z0]) = (l2.at, flange.at);
     if y.abs() > NEAR || fy.abs() > NEAR || x < NEAR || fx - x < NEAR {
         return Err(
-            "at zero of all joints the arm is not stretched along x; a SCARA's robot file has no offsets".to_owned()
+            "with all joints at zero the arm is not stretched along x; a SCARA's robot file has no offsets".to_owned()
         );
     }
     let [.., turning] = order;
     let off = all.get(turning).map_or(0.0, |line| distance(flange.at, line));
     if off > NEAR {
-        return Err(format!("the flange is {:.3} mm beside the axis that turns it", off * 1e3));
+        return Err(format!("the flange is {:.3} mm off the axis that turns it", off * 1e3));
     }
     Ok(Scara { l1: x, l2: fx - x, z0, order })
 }

@@ -12,7 +12,7 @@ use arl_terminal::failure::Failure;
 use chain::Moving;
 pub use chain::{Chain, parse};
 use fit::{Scara, SixAxes};
-pub use place::Place;
+pub use place::Transform;
 use std::fmt::Write;
 use std::path::Path;
 pub use tree::Tree;
@@ -33,7 +33,7 @@ ori_jerk = 20000.0
 /// The robot file of the robot in a URDF file.
 ///
 /// # Errors
-/// It cannot be read, is no URDF, or of a robot that has no robot file: why.
+/// It cannot be read, is not URDF, or of a robot that has no robot file: why.
 pub fn import(file: &Path) -> Result<String, Failure> {
     let text = regular_file::read_text(file)
         .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", file.display())))?;
@@ -73,7 +73,7 @@ pub fn robot_file(text: &str, from: &str) -> Result<String, String> {
     };
     let name = toml::Value::String(chain.name.clone());
     let mut out = format!(
-        "# Made from {from}.\n# Assumed, because a URDF does not tell: acceleration 5 x the speed per second, jerk 60 x the \
+        "# Made from {from}.\n# Assumed, because a URDF does not say: acceleration 5 x the speed per second, jerk 60 x the \
          speed per second\n# squared, and all of [tcp].\n\nname = {name}\nfamily = \"{family}\"\nprofile = \"S\"\n\n\
          {geometry}\n{TCP}"
     );

@@ -5,7 +5,7 @@ pub(super) type Vector = [f64; 3];
 
 /// A rotation (rows of its matrix) and a translation in m.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct Transform {
     /// The rows of its matrix.
     pub turn: [Vector; 3],
     /// Its origin, in m.
@@ -29,8 +29,9 @@ pub(super) fn length(v: Vector) -> f64 {
     dot(v, v).sqrt()
 }
 
-impl Place {
-    pub(super) const ORIGIN: Place = Place { turn: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], at: [0.0; 3] };
+impl Transform {
+    pub(super) const ORIGIN: Transform =
+        Transform { turn: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], at: [0.0; 3] };
 
     /// A turn by `angle` (rad) about `axis`, a unit vector.
     pub(super) fn about(axis: Vector, angle: f64) -> Self {
@@ -58,11 +59,11 @@ impl Place {
         self.turn.map(|row| dot(row, v))
     }
 
-    pub(super) fn then(&self, next: &Place) -> Place {
+    pub(super) fn then(&self, next: &Transform) -> Transform {
         let columns = [0, 1, 2].map(|column| self.turned(next.column(column)));
         let [x, y, z] = columns;
         let row = |pick: fn(Vector) -> f64| [pick(x), pick(y), pick(z)];
-        Place {
+        Transform {
             turn: [row(|[a, ..]| a), row(|[_, b, _]| b), row(|[.., c]| c)],
             at: plus(self.turned(next.at), self.at, 1.0),
         }

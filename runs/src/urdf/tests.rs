@@ -121,15 +121,12 @@ fn what_does_not_fit_is_told() {
         let problem = robot_file(text, "x.urdf").expect_err(words);
         assert!(problem.contains(words), "{problem}\ninstead of {words}");
     };
-    refused("<robot name='a'>", "this is no URDF");
-    refused("<robot xmlns:xacro='x'><xacro:macro/></robot>", "make a URDF of it first");
+    refused("<robot name='a'>", "this is not URDF");
+    refused("<robot xmlns:xacro='x'><xacro:macro/></robot>", "make a URDF from it first");
     refused(&urdf(&KR10[..5]), "has 5 moving joints (joint_a1, joint_a2, joint_a3, joint_a4, joint_a5)");
     refused("<robot name=\"a\"><link name=\"x\"/></robot>", "has 0 moving joints;");
     let kr10 = |at, joint| changed(KR10, at, joint);
-    refused(
-        &kr10(0, ("joint_a1", "revolute", "0 0 0.450", "0 0 0", "0 1 0")),
-        "axis 1 (`joint_a1`) does not stand upright",
-    );
+    refused(&kr10(0, ("joint_a1", "revolute", "0 0 0.450", "0 0 0", "0 1 0")), "axis 1 (`joint_a1`) is not vertical");
     refused(&kr10(0, ("joint_a1", "revolute", "0.1 0 0.450", "0 0 0", "0 0 1")), "base's origin");
     refused(&kr10(2, ("joint_a3", "revolute", "0.610 0 0", "0 0 0", "0 0 1")), "not level and parallel");
     refused(&kr10(2, ("joint_a3", "revolute", "0 0.610 0", "0 0 0", "0 1 0")), "are the same line");
@@ -153,6 +150,6 @@ fn what_does_not_fit_is_told() {
         "<link name=\"finger\"/><joint name=\"grip\" type=\"prismatic\"><parent link=\"joint_a3_link\"/>\
          <child link=\"finger\"/><limit lower=\"0\" upper=\"1\" effort=\"0\" velocity=\"1\"/></joint></robot>",
     );
-    refused(&fork, "moving joints go two ways, by `joint_a4` and by `grip`");
+    refused(&fork, "moving joints branch into `joint_a4` and `grip`");
     refused(&urdf(&KR10).replace("</robot>", "<link name=\"loose\"/></robot>"), "`base_link` and `loose`");
 }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use urdf_rs::{Joint, JointType, Link, Robot};
 
-use super::place::Place;
+use super::place::Transform;
 
 /// The links and joints of a robot: one link is the root, and one joint leads to each other one.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ impl<'a> Tree<'a> {
     /// That of a robot.
     ///
     /// # Errors
-    /// Its links are no tree: what is wrong.
+    /// Its links are not a tree: what is wrong.
     pub fn of(robot: &'a Robot) -> Result<Self, String> {
         let mut links = HashMap::with_capacity(robot.links.len());
         for (at, link) in robot.links.iter().enumerate() {
@@ -76,14 +76,14 @@ impl<'a> Tree<'a> {
     }
 
     /// A link, and those behind it with joints at 0, each with its place. The joints `moving` are not gone over.
-    pub fn fixed_to(&self, link: &'a str, moving: &[&str]) -> Vec<(&'a str, Place)> {
-        let mut found: Vec<(&str, Place)> = vec![(link, Place::ORIGIN)];
+    pub fn fixed_to(&self, link: &'a str, moving: &[&str]) -> Vec<(&'a str, Transform)> {
+        let mut found: Vec<(&str, Transform)> = vec![(link, Transform::ORIGIN)];
         let mut at = 0;
         while let Some((link, place)) = found.get(at).copied() {
             at += 1;
             let joints = self.numbers_behind(link).iter().filter_map(|at| self.robot.joints.get(*at));
             for joint in joints.filter(|joint| !moving.contains(&joint.name.as_str())) {
-                let own = Place::of_urdf(joint.origin.xyz.0, joint.origin.rpy.0);
+                let own = Transform::of_urdf(joint.origin.xyz.0, joint.origin.rpy.0);
                 found.push((&joint.child.link, place.then(&own)));
             }
         }
@@ -104,7 +104,7 @@ impl<'a> Tree<'a> {
             order.extend(child(joint).and_then(|link| self.behind.get(link)).into_iter().flatten());
         }
         if order.len() < self.robot.joints.len() {
-            return Err("some of its joints go round in a circle".to_owned());
+            return Err("some of its joints form a loop".to_owned());
         }
         for joint in order.into_iter().rev() {
             let behind = child(joint).and_then(|link| self.behind.get(link)).into_iter().flatten();
@@ -126,12 +126,12 @@ fn moves_itself(joint: &Joint) -> bool {
 fn root(robot: &Robot, leads: &[Option<usize>]) -> Result<usize, String> {
     let mut roots = leads.iter().enumerate().filter(|(_, leads)| leads.is_none()).map(|(at, _)| at);
     let Some(root) = roots.next() else {
-        return Err("no link is the base: the joints go round in a circle".to_owned());
+        return Err("no link is the base: the joints form a loop".to_owned());
     };
     let name = |at: usize| robot.links.get(at).map_or("", |link| &link.name);
     match roots.next() {
         None => Ok(root),
-        Some(second) => Err(format!("two links have no joint to them: `{}` and `{}`", name(root), name(second))),
+        Some(second) => Err(format!("two links have no parent joint: `{}` and `{}`", name(root), name(second))),
     }
 }
 
@@ -154,9 +154,9 @@ mod tests {
     #[test]
     fn links_that_are_no_tree_are_refused() {
         for (text, words) in [
-            (urdf("a b c", &[["j", "a", "b"]]), "two links have no joint to them: `a` and `c`"),
+            (urdf("a b c", &[["j", "a", "b"]]), "two links have no parent joint: `a` and `c`"),
             (urdf("a b", &[["j", "a", "b"], ["k", "b", "a"]]), "no link is the base"),
-            (urdf("a b c", &[["j", "b", "c"], ["k", "c", "b"]]), "some of its joints go round in a circle"),
+            (urdf("a b c", &[["j", "b", "c"], ["k", "c", "b"]]), "some of its joints form a loop"),
             (urdf("a b c", &[["j", "a", "c"], ["k", "b", "c"]]), "two joints lead to the link `c`: `j` and `k`"),
             (urdf("a b", &[["j", "a", "c"]]), "the joint `j` names the link `c`, which is not there"),
             (urdf("a a", &[["j", "a", "a"]]), "two links have the name `a`"),

@@ -48,7 +48,7 @@ const NUMBERS: &[(&str, &str, usize, f64)] = &[
 /// With the line.
 pub(super) fn vet(text: &str) -> Result<(), String> {
     let mut reader = Reader::from_str(text);
-    let mut at = Place { text, offset: 0, line: 1 };
+    let mut at = Transform { text, offset: 0, line: 1 };
     let mut depth = 0;
     // The part of the robot that is gone through, by its element and its name.
     let mut part: Option<String> = None;
@@ -56,7 +56,7 @@ pub(super) fn vet(text: &str) -> Result<(), String> {
         let begins = reader.buffer_position();
         let event = reader.read_event();
         at.go_to(usize::try_from(begins).unwrap_or(usize::MAX));
-        match event.map_err(|error| format!("this is no URDF: line {}: {error}", at.line))? {
+        match event.map_err(|error| format!("this is not URDF: line {}: {error}", at.line))? {
             Event::Start(tag) => {
                 look_at(&tag, depth, &mut part, at.line)?;
                 depth += 1;
@@ -112,13 +112,13 @@ fn are_numbers(text: &str, count: usize, most: f64) -> bool {
 }
 
 /// A place in a text, with its line from 1.
-struct Place<'a> {
+struct Transform<'a> {
     text: &'a str,
     offset: usize,
     line: usize,
 }
 
-impl Place<'_> {
+impl Transform<'_> {
     fn go_to(&mut self, offset: usize) {
         let over = self.text.as_bytes().get(self.offset..offset).unwrap_or_default();
         self.line += over.iter().filter(|byte| **byte == b'\n').count();
@@ -151,7 +151,7 @@ mod tests {
             (robot("<joint name=\"j\"><limit lower=\"-inf\"/></joint>"), "line 3: `lower` of `limit` of the joint `j`"),
             (robot("<material name=\"m\"><color rgba=\"1 1 1\"/></material>"), "expected 4 numbers"),
             (robot(&"<link>".repeat(70)), "line 3: elements are nested deeper than 64"),
-            (robot("</link>"), "this is no URDF: line 3: "),
+            (robot("</link>"), "this is not URDF: line 3: "),
         ] {
             let problem = vet(&text).expect_err(words);
             assert!(problem.contains(words), "{problem}\ninstead of {words}");

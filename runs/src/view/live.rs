@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use mcap::McapResult;
 
-use crate::link::Link;
+use crate::link::ProgramLink;
 use crate::listen::{self, Hears};
 use crate::record::{Recorder, Schema, Sink};
 use crate::recorded::Store;
@@ -21,7 +21,7 @@ const LOOK_INTERVAL: Duration = Duration::from_millis(4);
 
 /// A program that runs.
 pub(super) struct Live {
-    link: Arc<Mutex<Link>>,
+    link: Arc<Mutex<ProgramLink>>,
 }
 
 impl Live {
@@ -29,16 +29,16 @@ impl Live {
     pub(super) fn start(mut command: Command, hearers: &[Box<dyn Hears>]) -> std::io::Result<Self> {
         command.args(["--live", "--paused", "--each-motion", "--state-interval", listen::STATE_INTERVAL]);
         command.args(listen::wishes(hearers));
-        Ok(Self { link: Arc::new(Mutex::new(Link::start(command)?)) })
+        Ok(Self { link: Arc::new(Mutex::new(ProgramLink::start(command)?)) })
     }
 
     /// Gives the program an order, a line.
     ///
     /// # Errors
-    /// It is no line.
+    /// It is not a line.
     pub(super) fn order(&self, order: &str) -> Result<(), String> {
         if order.contains(char::is_control) {
-            return Err("an order is one line".to_owned());
+            return Err("an order must be a single line".to_owned());
         }
         self.link.lock().unwrap_or_else(PoisonError::into_inner).order(order);
         Ok(())
@@ -108,7 +108,7 @@ impl Hears for Growing {
     }
 
     fn broken(&self) -> String {
-        "the page shows nothing new".to_owned()
+        "the page is no longer updated".to_owned()
     }
 }
 

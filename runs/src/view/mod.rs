@@ -31,7 +31,7 @@ use answer::{About, Known};
 use arl_terminal::failure::Failure;
 use arl_terminal::{interrupt, show};
 use live::Live;
-use serve::{Answer, Asked, ToPage};
+use serve::{Answer, PageRequest, ToPage};
 use teach::Teacher;
 
 /// At most so many rows are told at once.
@@ -108,7 +108,7 @@ pub fn program<L>(program: Program<'_>, lock: L, page: Page) -> Result<Exit, Fai
 /// Serves the page, tells its address and opens it.
 fn serve(shown: &Arc<Shown>, page: Page) -> Result<JoinHandle<()>, Failure> {
     let shown = Arc::clone(shown);
-    let to_page = |address| ToPage::new(address, move |asked: &Asked<'_>| shown.answer(asked));
+    let to_page = |address| ToPage::new(address, move |asked: &PageRequest<'_>| shown.answer(asked));
     let (address, server) =
         http::serve(page.port, http::Limits::USUAL, to_page).map_err(|error| http::refusal(page.port, &error))?;
     let url = format!("http://{address}/");
@@ -116,7 +116,7 @@ fn serve(shown: &Arc<Shown>, page: Page) -> Result<JoinHandle<()>, Failure> {
     // Nobody may read it.
     let _ = writeln!(out, "{url}").and_then(|()| out.flush());
     if page.opens && open::that_detached(&url).is_err() {
-        show::warning("no browser opens by itself: open the address above");
+        show::warning("cannot open a browser: open the address above");
     }
     Ok(server)
 }
@@ -130,7 +130,7 @@ fn recording(file: &Path) -> Result<Store, Failure> {
 }
 
 impl Shown {
-    fn answer(&self, asked: &Asked<'_>) -> Answer {
+    fn answer(&self, asked: &PageRequest<'_>) -> Answer {
         if let Some((kind, bytes)) = page::file(asked.path) {
             return Answer::Bytes(kind, bytes.to_vec());
         }
@@ -145,9 +145,7 @@ impl Shown {
             },
             Some(["teach", rest @ ..]) => match &self.teacher {
                 Some(teacher) => teacher.answer(rest, asked.order),
-                None => {
-                    Answer::Refused("points are only written where the command was started with --teach".to_owned())
-                }
+                None => Answer::Refused("points are only written if the command was started with --teach".to_owned()),
             },
             Some(["order"]) => match (&self.live, asked.order) {
                 (Some(live), Some(order)) => {
@@ -168,7 +166,7 @@ impl Shown {
     }
 }
 
-fn of_run(store: &Store, about: About<'_>, path: &[&str], asked: &Asked<'_>) -> Answer {
+fn of_run(store: &Store, about: About<'_>, path: &[&str], asked: &PageRequest<'_>) -> Answer {
     match path {
         [] => Answer::Json(answer::run(store, about)),
         ["news"] => Answer::Json(answer::news(store, &known(asked))),
@@ -188,7 +186,7 @@ fn of_run(store: &Store, about: About<'_>, path: &[&str], asked: &Asked<'_>) -> 
     }
 }
 
-fn known(asked: &Asked<'_>) -> Known {
+fn known(asked: &PageRequest<'_>) -> Known {
     Known {
         scene: asked.count("scene"),
         controller: asked.count("controller"),

@@ -5,7 +5,7 @@ use std::net::SocketAddr;
 use super::http::{Answers, Rank, Request, Response, Status};
 
 /// What is asked for.
-pub(super) struct Asked<'a> {
+pub(super) struct PageRequest<'a> {
     pub(super) path: &'a str,
     pub(super) query: &'a str,
     /// What is sent, where something is to be done.
@@ -22,7 +22,7 @@ pub(super) enum Answer {
     Refused(String),
 }
 
-impl Asked<'_> {
+impl PageRequest<'_> {
     /// A number of the query: `from=1.5`.
     pub(super) fn number(&self, name: &str) -> Option<f64> {
         self.text(name)?.parse().ok().filter(|number: &f64| number.is_finite())
@@ -45,7 +45,7 @@ pub(super) struct ToPage<F> {
     answer: F,
 }
 
-impl<F: Fn(&Asked<'_>) -> Answer> ToPage<F> {
+impl<F: Fn(&PageRequest<'_>) -> Answer> ToPage<F> {
     /// For the server at this address.
     pub(super) fn new(address: SocketAddr, answer: F) -> Self {
         let port = address.port();
@@ -58,11 +58,11 @@ impl<F: Fn(&Asked<'_>) -> Answer> ToPage<F> {
             "GET" => None,
             "POST" => {
                 let text = std::str::from_utf8(&request.body);
-                Some(text.map_err(|_| (Status::BadRequest, "an order is a text in UTF-8".to_owned()))?)
+                Some(text.map_err(|_| (Status::BadRequest, "an order must be UTF-8 text".to_owned()))?)
             }
             _ => return Err((Status::MethodNotAllowed, "only GET and POST".to_owned())),
         };
-        match (self.answer)(&Asked { path: &request.path, query: &request.query, order }) {
+        match (self.answer)(&PageRequest { path: &request.path, query: &request.query, order }) {
             Answer::Bytes(kind, bytes) => Ok(Response::new(Status::Ok, kind, bytes)),
             Answer::Json(value) => Ok(Response::new(Status::Ok, "application/json", value.to_string().into_bytes())),
             Answer::NotFound => Err((Status::NotFound, "there is no such page".to_owned())),
@@ -74,7 +74,7 @@ impl<F: Fn(&Asked<'_>) -> Answer> ToPage<F> {
     /// computer.
     fn expect_own(&self, request: &Request) -> Result<(), String> {
         if !self.hosts.contains(&request.host) {
-            return Err(format!("this server is http://{}, and nothing else", self.hosts[0]));
+            return Err(format!("this server answers requests for http://{} only", self.hosts[0]));
         }
         let own = |origin: &str| self.hosts.iter().any(|own| origin.strip_prefix("http://") == Some(own));
         match &request.origin {
@@ -85,7 +85,7 @@ impl<F: Fn(&Asked<'_>) -> Answer> ToPage<F> {
     }
 }
 
-impl<F: Fn(&Asked<'_>) -> Answer + Send + Sync + 'static> Answers for ToPage<F> {
+impl<F: Fn(&PageRequest<'_>) -> Answer + Send + Sync + 'static> Answers for ToPage<F> {
     fn answer(&self, request: &Request) -> (Rank, Response) {
         let response = self.respond(request);
         let rank = match &response {

@@ -226,4 +226,4 @@ def test_no_arm_is_there(bench):
     peer = bench.udp(bench.arm())
     peer.take = lambda *_: None
     run = bench.run(peer, TURN)
-    assert run.code == 2 and re.search(r"no arm answers at 127.0.0.1:\d+: nothing that is an answer came within 3 s", run.err), run.err
+    assert run.code == 2 and re.search(r"no arm answers at 127.0.0.1:\d+: no valid answer within 3 s", run.err), run.err

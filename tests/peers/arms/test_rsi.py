@@ -31,4 +31,4 @@ def test_another_cycle_is_refused(bench):
     text = bench.cell.read_text().replace("cycle = 12.0", "cycle = 4.0")
     bench.cell.write_text(text)
     run = bench.finish(peer, process)
-    assert run.code == 2 and "the robot has cycles of 12 ms, the cell of 4 ms: `cycle = 12`" in run.err, run.err
+    assert run.code == 2 and "the robot has cycles of 12 ms, but the cell has 4 ms: set `cycle = 12`" in run.err, run.err

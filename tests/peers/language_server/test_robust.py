@@ -112,7 +112,7 @@ async def test_notices_that_are_not_known_are_passed_over(editor):
 
 async def test_what_is_no_message_is_answered_and_passed_over(editor):
     for body in [
-        b"{ this is no JSON",
+        b"{ this is not JSON",
         b"",
         b"[]",
         b"7",

@@ -39,7 +39,7 @@ struct Running {
     waits_for: Option<Condition>,
     /// None for `main`.
     priority: Option<i32>,
-    /// For an action that is no script.
+    /// For an action that is not a script.
     turns: Option<Action>,
 }
 

@@ -159,7 +159,7 @@ impl Case {
     fn turned_out(&self, said: &str) -> Option<TurnedOut> {
         let (_, alarm) = said.split_once("alarm 20020: j")?;
         let (axis, rest) = alarm.split_once(" would have to go to ")?;
-        let (to, _) = rest.split_once(", its range is ")?;
+        let (to, _) = rest.split_once(", but its range is ")?;
         let line = rest.rsplit_once("(main.arl:")?.1.split(')').next()?.parse().ok()?;
         let (axis, to) = (axis.parse::<usize>().ok()?.checked_sub(1)?, to.parse::<f64>().ok()?);
         let range = self.robot.axes[axis].min..=self.robot.axes[axis].max;

@@ -313,6 +313,7 @@ impl Reader<'_> {
         self.speeds = Speeds { axes: parts[0] / 100.0, tcp: parts[1], ori: parts[2], exj: parts[3], exl: parts[4] };
     }
 
+    #[expect(clippy::too_many_lines, reason = "one arm for each motion")]
     fn motion(&mut self, line: usize, head: &str, rest: &str) {
         let mut motion = Motion {
             line,

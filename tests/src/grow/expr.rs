@@ -446,7 +446,7 @@ impl Grower {
             _ => self.any_base(),
         };
         match base {
-            // There may be no variable of it.
+            // There may not be a variable of it.
             Base::Struct(_) => match self.place(Type::one(base), false, depth.min(1)) {
                 Some(_) => self.expr(base, depth),
                 None => self.expr(Base::Int, depth),

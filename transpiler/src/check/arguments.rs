@@ -5,7 +5,7 @@
 //! goes to the first free one and takes its type.
 
 use super::call::family_name;
-use super::context::{Body, Checker};
+use super::context::{CheckedBody, Checker};
 use super::convert::{Typed, number};
 use super::name::constant;
 use crate::diagnostics::arguments::ArgumentProblem;
@@ -26,7 +26,7 @@ use std::collections::HashMap;
 use std::fmt;
 
 /// Who gets the arguments.
-pub(crate) enum Callee {
+pub(crate) enum CheckedCallee {
     /// A function of the program.
     User(FuncId),
     /// A built-in.
@@ -78,12 +78,14 @@ fn other_motion(params: &[Parameter<'_>], given: Base) -> Option<String> {
         motion.filter(move |entry| entry.motion == Some(kind)).map(|entry| entry.name).next()
     };
     match given {
-        Base::Struct(Struct::Pose) if wants(Struct::Joint) => {
-            Some(format!("the target is a joint here, the positions of the axes; to a pose goes `{}`", of_kind(false)?))
-        }
-        Base::Struct(Struct::Joint) if wants(Struct::Pose) => {
-            Some(format!("the target is a pose here; to a joint, the positions of the axes, goes `{}`", of_kind(true)?))
-        }
+        Base::Struct(Struct::Pose) if wants(Struct::Joint) => Some(format!(
+            "the target here is a joint, the positions of the axes; to go to a pose, use `{}`",
+            of_kind(false)?
+        )),
+        Base::Struct(Struct::Joint) if wants(Struct::Pose) => Some(format!(
+            "the target here is a pose; to go to a joint, the positions of the axes, use `{}`",
+            of_kind(true)?
+        )),
         _ => None,
     }
 }
@@ -118,10 +120,16 @@ impl Labels {
 
 impl<'a> Checker<'a> {
     /// Binds arguments. `None` where anything is wrong; everything wrong is reported.
-    pub(crate) fn bind(&mut self, body: &mut Body, callee: &Callee, args: &[Arg], span: Span) -> Option<Vec<Bound>> {
+    pub(crate) fn bind(
+        &mut self,
+        body: &mut CheckedBody,
+        callee: &CheckedCallee,
+        args: &[Arg],
+        span: Span,
+    ) -> Option<Vec<Bound>> {
         let name = self.callee_name(callee);
         let params = self.parameters(callee);
-        let by_type = matches!(callee, Callee::Builtin(entry) if entry.kind == Kind::Instruction);
+        let by_type = matches!(callee, CheckedCallee::Builtin(entry) if entry.kind == Kind::Instruction);
         let pairs = self.pair(body, callee, span, &params, args, by_type);
         // An argument without a parameter was reported, here or where its variable is declared.
         let mut good = pairs.len() == args.len();
@@ -137,7 +145,7 @@ impl<'a> Checker<'a> {
                 good = false;
             }
         }
-        if let Callee::Builtin(entry) = callee {
+        if let CheckedCallee::Builtin(entry) = callee {
             good &= self.exclusions(body, entry, &pairs, args);
         }
         let mut bound = Vec::new();
@@ -156,7 +164,7 @@ impl<'a> Checker<'a> {
                 bound.push(Bound { param: at, value: Passed::Value(value) });
             }
         }
-        if let Callee::Builtin(entry) = callee {
+        if let CheckedCallee::Builtin(entry) = callee {
             good &= self.check_length(body, entry, &bound).is_some();
         }
         good.then_some(bound)
@@ -165,8 +173,8 @@ impl<'a> Checker<'a> {
     /// A mandatory argument that is missing, most often because what stands there is of another type than it seems.
     fn report_missing(
         &mut self,
-        body: &Body,
-        callee: &Callee,
+        body: &CheckedBody,
+        callee: &CheckedCallee,
         missing: &Parameter<'_>,
         params: &[Parameter<'_>],
         pairs: &[Pair<'_>],
@@ -214,10 +222,10 @@ impl<'a> Checker<'a> {
         self.report_in::<()>(body.module, span, problem, &labels);
     }
 
-    fn callee_name(&self, callee: &Callee) -> &'a str {
+    fn callee_name(&self, callee: &CheckedCallee) -> &'a str {
         match callee {
-            Callee::Builtin(entry) => entry.name,
-            Callee::User(func) => self
+            CheckedCallee::Builtin(entry) => entry.name,
+            CheckedCallee::User(func) => self
                 .funcs
                 .get(func.0 as usize)
                 .map(|slot| self.text(slot.module, slot.ast.name.span))
@@ -225,10 +233,10 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn callee_signature(&self, callee: &Callee) -> String {
+    fn callee_signature(&self, callee: &CheckedCallee) -> String {
         match callee {
-            Callee::Builtin(entry) => self.signature(entry),
-            Callee::User(func) => {
+            CheckedCallee::Builtin(entry) => self.signature(entry),
+            CheckedCallee::User(func) => {
                 let Some(slot) = self.funcs.get(func.0 as usize) else { return String::new() };
                 let params = slot.ast.params.iter().map(|param| self.excerpt(slot.module, param.span));
                 format!("{}({})", self.text(slot.module, slot.ast.name.span), listed(params))
@@ -236,9 +244,9 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn parameters(&self, callee: &Callee) -> Vec<Parameter<'a>> {
+    fn parameters(&self, callee: &CheckedCallee) -> Vec<Parameter<'a>> {
         match callee {
-            Callee::Builtin(entry) => entry
+            CheckedCallee::Builtin(entry) => entry
                 .params
                 .iter()
                 .map(|param| Parameter {
@@ -256,7 +264,7 @@ impl<'a> Checker<'a> {
                     foreign: param.family.filter(|_| !param.is_of(self.family())),
                 })
                 .collect(),
-            Callee::User(func) => {
+            CheckedCallee::User(func) => {
                 let Some(slot) = self.funcs.get(func.0 as usize) else { return Vec::new() };
                 let types = slot.params.iter();
                 types
@@ -283,8 +291,8 @@ impl<'a> Checker<'a> {
     /// Finds the parameter of each argument.
     fn pair<'e>(
         &mut self,
-        body: &mut Body,
-        callee: &Callee,
+        body: &mut CheckedBody,
+        callee: &CheckedCallee,
         span: Span,
         params: &[Parameter<'_>],
         args: &'e [Arg],
@@ -340,8 +348,8 @@ impl<'a> Checker<'a> {
 
     fn labelled(
         &mut self,
-        body: &Body,
-        callee: &Callee,
+        body: &CheckedBody,
+        callee: &CheckedCallee,
         params: &[Parameter<'_>],
         places: &Labels,
         label: ast::Ident,
@@ -382,8 +390,8 @@ impl<'a> Checker<'a> {
     #[expect(clippy::too_many_arguments, reason = "the state of one walk over the arguments")]
     fn by_position(
         &mut self,
-        body: &Body,
-        callee: &Callee,
+        body: &CheckedBody,
+        callee: &CheckedCallee,
         name: &str,
         params: &[Parameter<'_>],
         arg: &Arg,
@@ -407,7 +415,7 @@ impl<'a> Checker<'a> {
 
     fn by_type(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         callee: &str,
         params: &[Parameter<'_>],
         arg: &Arg,
@@ -481,7 +489,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn exclusions(&mut self, body: &Body, entry: &'static Entry, pairs: &[Pair<'_>], args: &[Arg]) -> bool {
+    fn exclusions(&mut self, body: &CheckedBody, entry: &'static Entry, pairs: &[Pair<'_>], args: &[Arg]) -> bool {
         let given =
             |name: &str| pairs.iter().find(|pair| entry.params.get(pair.param).is_some_and(|param| param.name == name));
         let mut good = true;
@@ -500,7 +508,7 @@ impl<'a> Checker<'a> {
     /// Checks one argument against its parameter.
     fn pass(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         callee: &str,
         param: &Parameter<'_>,
         arg: &Arg,
@@ -550,7 +558,7 @@ impl<'a> Checker<'a> {
     /// A value for a parameter that takes several types as they are.
     fn unconverted(
         &mut self,
-        body: &Body,
+        body: &CheckedBody,
         what: fmt::Arguments<'_>,
         ty: &ParamType,
         mode: Mode,
@@ -576,7 +584,12 @@ impl<'a> Checker<'a> {
 
     /// What is wrong with a value that assigns to a label, as if that were a variable, where there is none of this
     /// name.
-    fn assigned_label(&self, body: &Body, params: &[Parameter<'_>], value: &ast::Expr) -> Option<ArgumentProblem> {
+    fn assigned_label(
+        &self,
+        body: &CheckedBody,
+        params: &[Parameter<'_>],
+        value: &ast::Expr,
+    ) -> Option<ArgumentProblem> {
         let ast::ExprKind::Assign(None, sides) = &value.kind else { return None };
         let ast::ExprKind::Name(symbol) = sides.0.kind else { return None };
         let name = self.names.name(symbol);
@@ -587,12 +600,12 @@ impl<'a> Checker<'a> {
     }
 
     /// A handle where any value may stand.
-    fn report_no_text<T>(&mut self, body: &Body, expr: &Expr) -> Option<T> {
+    fn report_no_text<T>(&mut self, body: &CheckedBody, expr: &Expr) -> Option<T> {
         let what = format!("a {}", self.type_name(expr.ty));
         self.report(body, expr.span, TypeProblem::NoValue { what })
     }
 
-    fn pass_out(&mut self, body: &mut Body, callee: &str, param: &Parameter<'_>, arg: &Arg) -> Option<Passed> {
+    fn pass_out(&mut self, body: &mut CheckedBody, callee: &str, param: &Parameter<'_>, arg: &Arg) -> Option<Passed> {
         let is_place = matches!(
             arg.value.kind,
             ast::ExprKind::Name(_)
@@ -628,7 +641,7 @@ impl<'a> Checker<'a> {
         self.report(body, arg.value.span, problem)
     }
 
-    fn check_unit(&mut self, body: &Body, param: &Parameter<'_>, arg: &Arg) -> Option<()> {
+    fn check_unit(&mut self, body: &CheckedBody, param: &Parameter<'_>, arg: &Arg) -> Option<()> {
         let Some((unit, span)) = arg.unit else { return Some(()) };
         let number = match &arg.value.kind {
             ast::ExprKind::Unary(ast::UnaryOp::Negate, operand) => &operand.kind,
@@ -647,7 +660,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether the array that is given has what a constant length says.
-    fn check_length(&mut self, body: &Body, entry: &Entry, bound: &[Bound]) -> Option<()> {
+    fn check_length(&mut self, body: &CheckedBody, entry: &Entry, bound: &[Bound]) -> Option<()> {
         let mut pairs = bound.iter().filter_map(|bound| Some((bound, entry.params.get(bound.param)?)));
         let counting = pairs.find_map(|(bound, param)| Some((&bound.value, param.name, param.counts?)));
         let Some((Passed::Value(length), parameter, bits)) = counting else { return Some(()) };
@@ -668,7 +681,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether a constant name is that of a system variable that can be saved.
-    fn check_kept(&mut self, body: &Body, param: &Parameter<'_>, value: &Expr) -> Option<()> {
+    fn check_kept(&mut self, body: &CheckedBody, param: &Parameter<'_>, value: &Expr) -> Option<()> {
         let ExprKind::Const(Value::String(text)) = &value.kind else { return Some(()) };
         let is_kept = |variable: &SystemVariable| match variable.restore {
             Restore::Saved => true,
@@ -684,7 +697,7 @@ impl<'a> Checker<'a> {
         self.report(body, value.span, ArgumentProblem::NotKept { name: name.into(), near })
     }
 
-    fn check_range(&mut self, body: &Body, param: &Parameter<'_>, value: &Expr) -> Option<()> {
+    fn check_range(&mut self, body: &CheckedBody, param: &Parameter<'_>, value: &Expr) -> Option<()> {
         let Some(number) = number(value) else { return Some(()) };
         let parameter = String::from(param.name);
         if param.set && number == UNSET {

@@ -1,6 +1,6 @@
 //! Values in braces: structures by position or by name, arrays flat or nested.
 
-use super::context::{Body, Checker, State};
+use super::context::{CheckState, CheckedBody, Checker};
 use super::convert::number;
 use crate::diagnostics::components::ComponentRange;
 use crate::diagnostics::doubts::Doubt;
@@ -22,7 +22,13 @@ struct Few<'a> {
 
 impl Checker<'_> {
     /// `{..}` as a value of type `want`.
-    pub(crate) fn brace(&mut self, body: &mut Body, items: &[BraceItem], want: Type, span: Span) -> Option<Expr> {
+    pub(crate) fn brace(
+        &mut self,
+        body: &mut CheckedBody,
+        items: &[BraceItem],
+        want: Type,
+        span: Span,
+    ) -> Option<Expr> {
         if want.is_array() {
             let dims: Vec<u16> = want.dims().to_vec();
             let mut elements = Vec::new();
@@ -38,7 +44,7 @@ impl Checker<'_> {
         }
     }
 
-    fn structure(&mut self, body: &mut Body, items: &[BraceItem], id: Struct, span: Span) -> Option<Expr> {
+    fn structure(&mut self, body: &mut CheckedBody, items: &[BraceItem], id: Struct, span: Span) -> Option<Expr> {
         if let Some(problem) = self.flat_structure(body, items, id) {
             return self.report(body, span, problem);
         }
@@ -106,7 +112,7 @@ impl Checker<'_> {
 
     /// What is wrong with the values of a structure that holds structures, where those have no braces of their own:
     /// `wobj w = {500,-650,100,0,0,0}`.
-    fn flat_structure(&self, body: &Body, items: &[BraceItem], id: Struct) -> Option<TypeProblem> {
+    fn flat_structure(&self, body: &CheckedBody, items: &[BraceItem], id: Struct) -> Option<TypeProblem> {
         let def = id.def(self.family());
         let mut rest = items.iter().peekable();
         let mut written = Vec::new();
@@ -149,13 +155,13 @@ impl Checker<'_> {
         is_its && matches!(value, ast::ExprKind::Int(..) | ast::ExprKind::Double(_))
     }
 
-    fn item_text(&self, body: &Body, item: &BraceItem) -> String {
+    fn item_text(&self, body: &CheckedBody, item: &BraceItem) -> String {
         let span = item.name.map_or(item.value.span, |name| name.span.to(item.value.span));
         self.text(body.module, span).to_string()
     }
 
     /// Warns of a constant that makes no sense in a component.
-    pub(crate) fn check_component(&mut self, body: &Body, id: Struct, index: usize, value: &Expr) {
+    pub(crate) fn check_component(&mut self, body: &CheckedBody, id: Struct, index: usize, value: &Expr) {
         let def = id.def(self.family());
         let Some(component) = def.components.get(index) else { return };
         let (Some(range), Some(number)) = (component.range, number(value)) else { return };
@@ -177,7 +183,7 @@ impl Checker<'_> {
     /// program has no such function, it is the component and its value.
     fn parenthesised_item(
         &self,
-        body: &Body,
+        body: &CheckedBody,
         item: &BraceItem,
         id: Struct,
         any_named: bool,
@@ -193,7 +199,7 @@ impl Checker<'_> {
     /// Fills `out` with the elements of an array of the given (remaining) dimensions.
     fn array(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         items: &[BraceItem],
         want: Type,
         dims: &[u16],
@@ -250,7 +256,7 @@ impl Checker<'_> {
     }
 
     /// Warns of braces that give some elements of an array, or some of its rows, a value and the others none.
-    fn doubt_few(&mut self, body: &Body, want: Type, few: &Few<'_>, span: Span) {
+    fn doubt_few(&mut self, body: &CheckedBody, want: Type, few: &Few<'_>, span: Span) {
         let Few { given, size, of, dims } = *few;
         if (2..size).contains(&given) {
             let is_whole = dims.len() == want.dims().len();
@@ -266,7 +272,7 @@ impl Checker<'_> {
     }
 
     /// Whether the braces of an array of several dimensions are rows of braces, not elements one after the other.
-    fn is_nested(&mut self, body: &Body, items: &[BraceItem], base: Base) -> bool {
+    fn is_nested(&mut self, body: &CheckedBody, items: &[BraceItem], base: Base) -> bool {
         let first_brace = |items: &[BraceItem]| match items.first().map(|item| &item.value.kind) {
             Some(ast::ExprKind::Brace(inner)) => Some(inner.len()),
             _ => None,
@@ -279,7 +285,7 @@ impl Checker<'_> {
     }
 
     /// Whether a variable, an element of one, or a call has a value of this type, as far as its name tells.
-    fn plainly_is(&mut self, body: &Body, expr: &ast::Expr, base: Base) -> bool {
+    fn plainly_is(&mut self, body: &CheckedBody, expr: &ast::Expr, base: Base) -> bool {
         let ty = match &expr.kind {
             ast::ExprKind::Name(symbol) => match body.find(*symbol) {
                 Some(local) => body.local_type(local),
@@ -304,14 +310,14 @@ impl Checker<'_> {
 
     /// The type of a global variable; none while that is being checked, which looks at its own value then.
     pub(crate) fn global_type(&mut self, id: GlobalId) -> Option<Type> {
-        if self.globals.get(id.0 as usize)?.state != State::Busy {
+        if self.globals.get(id.0 as usize)?.state != CheckState::Busy {
             self.check_global(id);
         }
-        self.globals.get(id.0 as usize).filter(|slot| slot.state == State::Done)?.ty
+        self.globals.get(id.0 as usize).filter(|slot| slot.state == CheckState::Done)?.ty
     }
 
     /// What a call gives, where that does not depend on its arguments.
-    fn call_type(&self, body: &Body, call: &ast::Call) -> Option<Type> {
+    fn call_type(&self, body: &CheckedBody, call: &ast::Call) -> Option<Type> {
         let module = match call.module {
             Some(module) => self.find_module(body, module)?,
             None => body.module,

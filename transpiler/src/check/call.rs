@@ -1,7 +1,7 @@
 //! Calls: which function a name means, and what comes out.
 
-use super::arguments::Callee;
-use super::context::{Body, Checker};
+use super::arguments::CheckedCallee;
+use super::context::{CheckedBody, Checker};
 use super::convert::Typed;
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::names::NameProblem;
@@ -17,7 +17,7 @@ use arl_lang::symbol::Symbol;
 
 impl Checker<'_> {
     /// A call as an expression; its type may be void.
-    pub(crate) fn call(&mut self, body: &mut Body, call: &ast::Call, span: Span) -> Option<Expr> {
+    pub(crate) fn call(&mut self, body: &mut CheckedBody, call: &ast::Call, span: Span) -> Option<Expr> {
         if let Some(scope) = call.module {
             let Some(module) = self.find_module(body, scope) else { return self.unknown_module(body, scope) };
             self.used_modules.insert((body.module, module));
@@ -54,7 +54,7 @@ impl Checker<'_> {
         entries
     }
 
-    fn unknown_function<T>(&mut self, body: &mut Body, call: &ast::Call) -> Option<T> {
+    fn unknown_function<T>(&mut self, body: &mut CheckedBody, call: &ast::Call) -> Option<T> {
         self.expect(body, call.name.symbol, call.name.span, Wanted::Function);
         let is_of_others = elsewhere::word(self.names.name(call.name.symbol)).is_some();
         for arg in &call.args {
@@ -80,14 +80,14 @@ impl Checker<'_> {
         self.report(body, call.name.span, NameProblem::UnknownFunction { name, near, is_instruction, motion })
     }
 
-    fn call_user(&mut self, body: &mut Body, func: FuncId, call: &ast::Call, span: Span) -> Option<Expr> {
+    fn call_user(&mut self, body: &mut CheckedBody, func: FuncId, call: &ast::Call, span: Span) -> Option<Expr> {
         self.check_signature(func);
         self.mention(body, call.name.span, Meaning::Function(func));
         let slot = self.funcs.get(func.0 as usize)?;
         let (module, name_span) = (slot.module, slot.ast.name.span);
         let declared = self.text(module, name_span);
         self.strict_case(body, call.name.span, declared);
-        let args = self.bind(body, &Callee::User(func), &call.args, call.name.span);
+        let args = self.bind(body, &CheckedCallee::User(func), &call.args, call.name.span);
         let slot = self.funcs.get(func.0 as usize)?;
         let result = slot.result;
         let count = slot.params.len();
@@ -101,7 +101,13 @@ impl Checker<'_> {
         Some(Expr { ty: Type::scalar(result?), kind: ExprKind::Call(func, values), span })
     }
 
-    fn call_builtin(&mut self, body: &mut Body, all: &'static [Entry], call: &ast::Call, span: Span) -> Option<Expr> {
+    fn call_builtin(
+        &mut self,
+        body: &mut CheckedBody,
+        all: &'static [Entry],
+        call: &ast::Call,
+        span: Span,
+    ) -> Option<Expr> {
         let family = self.family();
         let of_family = |entry: &&Entry| entry.family.is_none_or(|only| only == family);
         let mut overloads: Vec<&'static Entry> = all.iter().filter(of_family).collect();
@@ -129,14 +135,14 @@ impl Checker<'_> {
             }
         };
         self.mention(body, call.name.span, Meaning::Builtin(entry));
-        let args = self.bind(body, &Callee::Builtin(entry), &call.args, call.name.span)?;
+        let args = self.bind(body, &CheckedCallee::Builtin(entry), &call.args, call.name.span)?;
         self.builtin(body, entry, args, call.name.span, span)
     }
 
     /// The finished use of a built-in; refuses what a background channel cannot do.
     pub(crate) fn builtin(
         &mut self,
-        body: &Body,
+        body: &CheckedBody,
         entry: &'static Entry,
         args: Vec<Bound>,
         name: Span,
@@ -150,12 +156,12 @@ impl Checker<'_> {
     }
 
     /// `typeof(e)`: known here, so `e` (which may be a handle) is not evaluated.
-    fn type_of(&mut self, body: &mut Body, entry: &'static Entry, call: &ast::Call, span: Span) -> Option<Expr> {
+    fn type_of(&mut self, body: &mut CheckedBody, entry: &'static Entry, call: &ast::Call, span: Span) -> Option<Expr> {
         let [arg] = call.args.as_slice() else {
-            self.bind(body, &Callee::Builtin(entry), &call.args, call.name.span);
+            self.bind(body, &CheckedCallee::Builtin(entry), &call.args, call.name.span);
             return None;
         };
-        self.expect_argument(body, &Callee::Builtin(entry), call.name.span, arg, &[0], Some(0));
+        self.expect_argument(body, &CheckedCallee::Builtin(entry), call.name.span, arg, &[0], Some(0));
         let typed = self.expr(body, &arg.value, None)?;
         if typed.expr.ty.base == Base::Void {
             return self.report_no_value(body, &typed.expr);
@@ -165,7 +171,7 @@ impl Checker<'_> {
         Some(Expr { ty: Type::scalar(Base::String), kind, span })
     }
 
-    pub(crate) fn report_family<T>(&mut self, body: &Body, span: Span, entry: &Entry) -> Option<T> {
+    pub(crate) fn report_family<T>(&mut self, body: &CheckedBody, span: Span, entry: &Entry) -> Option<T> {
         let family = family_name(entry.family.unwrap_or_default());
         self.report(body, span, SupportProblem::OtherFamily { name: entry.name.into(), family })
     }
@@ -173,7 +179,7 @@ impl Checker<'_> {
     /// The overload that the arguments fit best; of equals the first.
     fn choose_overload(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         overloads: &[&'static Entry],
         call: &ast::Call,
     ) -> Option<&'static Entry> {

@@ -48,7 +48,7 @@ pub(crate) struct ModuleScope {
 
 /// How far a declaration has been checked.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum State {
+pub(crate) enum CheckState {
     Pending,
     Busy,
     Done,
@@ -63,7 +63,7 @@ pub(crate) struct GlobalSlot<'a> {
     pub(crate) item: u32,
     /// The variable of this module that has the name already.
     pub(crate) earlier: Option<GlobalId>,
-    pub(crate) state: State,
+    pub(crate) state: CheckState,
     /// `None` until checked, and where the declaration is wrong.
     pub(crate) ty: Option<Type>,
     pub(crate) value: Option<Value>,
@@ -77,14 +77,14 @@ pub(crate) struct FuncSlot<'a> {
     pub(crate) module: ModuleId,
     pub(crate) ast: &'a ast::Func,
     pub(crate) item: u32,
-    pub(crate) state: State,
+    pub(crate) state: CheckState,
     pub(crate) params: Vec<Option<Type>>,
     pub(crate) result: Option<Base>,
     pub(crate) checked: Option<hir::Func>,
 }
 
 /// What is known inside one function (or one initialiser).
-pub(crate) struct Body {
+pub(crate) struct CheckedBody {
     pub(crate) module: ModuleId,
     /// Number of the item in its file: what is declared above is known.
     pub(crate) item: u32,
@@ -94,7 +94,7 @@ pub(crate) struct Body {
     pub(crate) locals: Vec<hir::Local>,
     /// Types of the locals; `None` where a declaration was wrong.
     pub(crate) types: Vec<Option<Type>>,
-    pub(crate) labels: Vec<hir::Label>,
+    pub(crate) labels: Vec<hir::GotoLabel>,
     pub(crate) label_names: HashMap<Symbol, LabelId>,
     pub(crate) loops: u32,
     pub(crate) switches: u32,
@@ -107,9 +107,9 @@ pub(crate) struct Body {
     homes: Vec<usize>,
 }
 
-impl Body {
+impl CheckedBody {
     pub(crate) fn new(module: ModuleId, item: u32) -> Self {
-        Body {
+        CheckedBody {
             module,
             item,
             func: None,
@@ -128,7 +128,7 @@ impl Body {
         }
     }
 
-    /// Opens a scope; give the result back to [`Body::leave`].
+    /// Opens a scope; give the result back to [`CheckedBody::leave`].
     pub(crate) fn enter(&mut self) -> usize {
         std::mem::replace(&mut self.begin, self.undo.len())
     }
@@ -169,7 +169,7 @@ impl Body {
         self.find(symbol).filter(|local| self.homes.get(local.0 as usize) == Some(&self.begin))
     }
 
-    /// Adds a variable; it is known from [`Body::reveal`] on.
+    /// Adds a variable; it is known from [`CheckedBody::reveal`] on.
     pub(crate) fn add_local(&mut self, local: hir::Local, ty: Option<Type>) -> LocalId {
         self.locals.push(local);
         self.types.push(ty);
@@ -230,7 +230,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Reports a problem. The result is always `None`, so that `return self.report(..)` gives up on an expression.
-    pub(crate) fn report<T>(&mut self, body: &Body, span: Span, problem: impl Problem) -> Option<T> {
+    pub(crate) fn report<T>(&mut self, body: &CheckedBody, span: Span, problem: impl Problem) -> Option<T> {
         self.report_in(body.module, span, problem, &[])
     }
 
@@ -262,7 +262,7 @@ impl<'a> Checker<'a> {
 
     /// With `--strict`, warns where a name is written in another case than it was declared in, or as another edition of
     /// the language spells it.
-    pub(crate) fn strict_case(&mut self, body: &Body, span: Span, declared: &str) {
+    pub(crate) fn strict_case(&mut self, body: &CheckedBody, span: Span, declared: &str) {
         if !self.options.strict {
             return;
         }
@@ -277,7 +277,7 @@ impl<'a> Checker<'a> {
     }
 
     /// With `--strict`, warns of a form that the manual does not have.
-    pub(crate) fn strict_form(&mut self, body: &Body, span: Span, what: &str) {
+    pub(crate) fn strict_form(&mut self, body: &CheckedBody, span: Span, what: &str) {
         if self.options.strict {
             self.report::<()>(body, span, ConstantProblem::Extended { what: what.into() });
         }

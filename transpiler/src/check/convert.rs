@@ -1,6 +1,6 @@
 //! Which value fits where: constants by their value, everything else by Table 2-1 and its extensions.
 
-use super::context::{Body, Checker};
+use super::context::{CheckedBody, Checker};
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, Type, Value};
@@ -51,23 +51,25 @@ fn unquoted(expr: &Expr, to: Base) -> Option<String> {
     let is_number = matches!(to, Base::Int | Base::Uint | Base::Byte | Base::Double);
     let number = text.trim().parse::<f64>().is_ok().then(|| text.trim());
     let reads = if to == Base::Int { "; `toint(text, dec)` reads one from a text" } else { "" };
-    is_number.then(|| format!("a number stands without quotes: `{}`{reads}", number.unwrap_or("250")))
+    is_number.then(|| format!("a number is written without quotes: `{}`{reads}", number.unwrap_or("250")))
 }
 
 /// The function or way that does what no implicit conversion does.
 pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
     let words = match (from, to) {
         (Base::Double, Base::Int | Base::Uint | Base::Byte) => {
-            "`toint(...)` cuts the fraction; `toint(trunc(..., 0, true))` rounds"
+            "`toint(...)` cuts off the fraction; `toint(trunc(..., 0, true))` rounds"
         }
         (Base::String, Base::Int) => "`toint(text, dec)` reads a number from a text",
         (Base::String, Base::Double) => "`scan` reads numbers from a text",
         (Base::Void | Base::Handle(_), _) => return None,
-        (Base::Bool, Base::Int | Base::Uint | Base::Byte | Base::Double) => "a bool is no number: choose one with `if`",
+        (Base::Bool, Base::Int | Base::Uint | Base::Byte | Base::Double) => {
+            "a bool is not a number: choose one with `if`"
+        }
         (_, Base::String) => "`tostr(...)` makes a text of any value",
         (Base::Int, Base::Byte) => "only constants of 0 to 255 fit a byte; `tobytes(...)` takes an int apart",
         (Base::Int, Base::Uint) => "only constants of 0 or more fit a uint",
-        (Base::Uint, Base::Int) => "a uint may be beyond int: keep it in a uint or a double",
+        (Base::Uint, Base::Int) => "a uint may be too large for an int: keep it in a uint or a double",
         (Base::Struct(Struct::Tool | Struct::Wobj), Base::Struct(Struct::Tool | Struct::Wobj)) => {
             "`t:` takes the tool (a `tool`), `w:` the workpiece frame (a `wobj`): are the two swapped?"
         }
@@ -81,11 +83,11 @@ pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
 
 impl Checker<'_> {
     /// The expression as a value of type `to`. `what` names the place that wants it: "the condition", "`vp`".
-    pub(crate) fn coerce(&mut self, body: &Body, typed: Typed, to: Type, what: impl Display) -> Option<Expr> {
+    pub(crate) fn coerce(&mut self, body: &CheckedBody, typed: Typed, to: Type, what: impl Display) -> Option<Expr> {
         self.coerced(body, typed, to, &what)
     }
 
-    fn coerced(&mut self, body: &Body, typed: Typed, to: Type, what: &dyn Display) -> Option<Expr> {
+    fn coerced(&mut self, body: &CheckedBody, typed: Typed, to: Type, what: &dyn Display) -> Option<Expr> {
         let Typed { expr, literal } = typed;
         let from = expr.ty;
         if literal == Literal::Wide && to != Type::scalar(Base::Uint) {
@@ -139,20 +141,20 @@ impl Checker<'_> {
     }
 
     /// What to write in place of a text that is the name of a variable of the wanted type, or of a signal.
-    fn without_quotes(&mut self, body: &Body, expr: &Expr, to: Type) -> Option<String> {
+    fn without_quotes(&mut self, body: &CheckedBody, expr: &Expr, to: Type) -> Option<String> {
         let ExprKind::Const(Value::String(text)) = &expr.kind else { return None };
         let symbol = self.names.find(&text.to_ascii_lowercase());
         let local = symbol.and_then(|symbol| body.find(symbol)).and_then(|local| body.local_type(local));
         let global = symbol.and_then(|symbol| self.find_global(body, symbol));
         let found = local.or_else(|| self.global_type(global?.0));
         if found.is_some_and(|found| !found.is_array() && conversion(found.base, to.base).is_some()) {
-            return Some(format!("a name stands without quotes: `{text}`"));
+            return Some(format!("a name is written without quotes: `{text}`"));
         }
         let (signal, channel) = self.signal_named(text)?;
-        Some(format!("the cell calls {signal} so; a program gives its number: `{channel}`"))
+        Some(format!("that is the cell's name for {signal}; a program uses its number: `{channel}`"))
     }
 
-    fn warn_extended(&mut self, body: &Body, expr: &Expr, to: Type) {
+    fn warn_extended(&mut self, body: &CheckedBody, expr: &Expr, to: Type) {
         let constant = matches!(&expr.kind, ExprKind::Const(value) if integer(value).is_some());
         let extended = match (expr.ty.base, to.base) {
             (_, Base::Enum(_)) => true,
@@ -165,7 +167,7 @@ impl Checker<'_> {
     }
 
     /// Reports that something without a value stands where one is wanted.
-    pub(crate) fn report_no_value<T>(&mut self, body: &Body, expr: &Expr) -> Option<T> {
+    pub(crate) fn report_no_value<T>(&mut self, body: &CheckedBody, expr: &Expr) -> Option<T> {
         let what = format!("`{}`", self.excerpt(body.module, expr.span));
         self.report(body, expr.span, TypeProblem::NoValue { what })
     }

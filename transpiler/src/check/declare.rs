@@ -1,7 +1,7 @@
 //! Declarations: globals, signatures, locals.
 
 use super::call::family_name;
-use super::context::{Body, Checker, FuncSlot, GlobalSlot, ModuleScope, State};
+use super::context::{CheckState, CheckedBody, Checker, FuncSlot, GlobalSlot, ModuleScope};
 use super::statements::near_instruction;
 use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::modules::ModuleProblem;
@@ -49,7 +49,7 @@ impl<'a> Checker<'a> {
             var,
             item,
             earlier,
-            state: State::Pending,
+            state: CheckState::Pending,
             ty: None,
             value: None,
             init: None,
@@ -75,7 +75,7 @@ impl<'a> Checker<'a> {
             module,
             ast: func,
             item,
-            state: State::Pending,
+            state: CheckState::Pending,
             params: Vec::new(),
             result: None,
             checked: None,
@@ -87,15 +87,15 @@ impl<'a> Checker<'a> {
         let Some(slot) = self.globals.get_mut(id.0 as usize) else { return };
         let (module, decl, var, item) = (slot.module, slot.decl, slot.var, slot.item);
         match slot.state {
-            State::Done => return,
-            State::Busy => {
+            CheckState::Done => return,
+            CheckState::Busy => {
                 let name = self.text(module, var.name.span).to_string();
                 self.report_circular(module, var.name.span, &name);
                 return;
             }
-            State::Pending => slot.state = State::Busy,
+            CheckState::Pending => slot.state = CheckState::Busy,
         }
-        let mut body = Body::new(module, item);
+        let mut body = CheckedBody::new(module, item);
         let ty = self.declared_type(&mut body, &decl.ty, var.name, &var.dims);
         if let Some(slot) = self.globals.get_mut(id.0 as usize) {
             slot.ty = ty;
@@ -107,7 +107,7 @@ impl<'a> Checker<'a> {
             self.must_be_reported(module, var.name.span);
         }
         if let Some(slot) = self.globals.get_mut(id.0 as usize) {
-            slot.state = State::Done;
+            slot.state = CheckState::Done;
             slot.init = init;
             slot.value = value;
         }
@@ -127,12 +127,12 @@ impl<'a> Checker<'a> {
     /// Checks a function's parameters and result, once.
     pub(crate) fn check_signature(&mut self, id: FuncId) {
         let Some(slot) = self.funcs.get_mut(id.0 as usize) else { return };
-        if slot.state != State::Pending {
+        if slot.state != CheckState::Pending {
             return;
         }
-        slot.state = State::Busy;
+        slot.state = CheckState::Busy;
         let (module, func, item) = (slot.module, slot.ast, slot.item);
-        let mut body = Body::new(module, item);
+        let mut body = CheckedBody::new(module, item);
         let result = self.base_type(&body, &func.result);
         let result = match result {
             Some(base @ Base::Handle(_)) => {
@@ -154,14 +154,14 @@ impl<'a> Checker<'a> {
             params.push(ty);
         }
         if let Some(slot) = self.funcs.get_mut(id.0 as usize) {
-            slot.state = State::Done;
+            slot.state = CheckState::Done;
             slot.params = params;
             slot.result = result;
         }
     }
 
     /// The base type of this name, `void` included.
-    pub(crate) fn base_type(&mut self, body: &Body, name: &ast::TypeRef) -> Option<Base> {
+    pub(crate) fn base_type(&mut self, body: &CheckedBody, name: &ast::TypeRef) -> Option<Base> {
         let folded = self.names.name(name.name);
         let Some(base) = catalog::base_type(folded).filter(|base| base.is_system() == name.system) else {
             self.expect(body, name.name, name.span, Wanted::Type);
@@ -191,7 +191,7 @@ impl<'a> Checker<'a> {
     /// A type with its array sizes, as a variable may have it.
     fn declared_type(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         ty: &ast::TypeRef,
         name: ast::Ident,
         dims: &[ast::Expr],
@@ -213,7 +213,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn array_size(&mut self, body: &mut Body, dim: &ast::Expr) -> Option<u32> {
+    fn array_size(&mut self, body: &mut CheckedBody, dim: &ast::Expr) -> Option<u32> {
         let typed = self.expr(body, dim, Some(Type::scalar(Base::Int)))?;
         let size = typed.value().and_then(crate::operators::integer).and_then(|size| u32::try_from(size).ok());
         match size {
@@ -223,7 +223,13 @@ impl<'a> Checker<'a> {
     }
 
     /// The checked initialiser of a variable.
-    fn initialiser(&mut self, body: &mut Body, decl: &ast::Decl, var: &ast::Var, ty: Option<Type>) -> Option<Expr> {
+    fn initialiser(
+        &mut self,
+        body: &mut CheckedBody,
+        decl: &ast::Decl,
+        var: &ast::Var,
+        ty: Option<Type>,
+    ) -> Option<Expr> {
         let Some(init) = &var.init else {
             if decl.constant.is_some() {
                 let name = self.text(body.module, var.name.span).to_string();
@@ -246,7 +252,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Declares local variables; one statement each.
-    pub(crate) fn local_decl(&mut self, body: &mut Body, decl: &ast::Decl, out: &mut Vec<Stmt>) {
+    pub(crate) fn local_decl(&mut self, body: &mut CheckedBody, decl: &ast::Decl, out: &mut Vec<Stmt>) {
         if self.is_instruction(body, decl) {
             self.report_unknown_instruction::<()>(body, decl.ty.name, decl.ty.span);
             return;
@@ -268,7 +274,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether what reads like a declaration is meant as an instruction: `movel p`, `waitutil ready`.
-    fn is_instruction(&self, body: &Body, decl: &ast::Decl) -> bool {
+    fn is_instruction(&self, body: &CheckedBody, decl: &ast::Decl) -> bool {
         let name = self.names.name(decl.ty.name);
         let plain = decl.constant.is_none() && !decl.ty.system && decl.vars.iter().all(|var| var.init.is_none());
         if !plain || catalog::base_type(name).is_some() || looks_like_type(name) {
@@ -285,7 +291,7 @@ impl<'a> Checker<'a> {
     /// Makes a local variable known; one of the same name in the same scope is an error.
     pub(crate) fn declare_local(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         name: ast::Ident,
         ty: Option<Type>,
         constant: bool,
@@ -336,7 +342,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// Whether a name that is no type is near to one.
+/// Whether a name that is not a type is near to one.
 fn looks_like_type(name: &str) -> bool {
     elsewhere::type_of(name).is_some() || catalog::renamed(name).is_some() || near_type(name).is_some()
 }

@@ -1,8 +1,8 @@
 //! Warnings of what a program may say, and most often does not mean.
 
-use super::context::{Body, Checker};
+use super::context::{CheckedBody, Checker};
 use super::convert::number;
-use super::first_motion::{Globals, known_structure};
+use super::first_motion::{GlobalPoints, known_structure};
 use crate::diagnostics::doubts::Doubt;
 use crate::diagnostics::{Diagnostic, Label, Location, Problem};
 use crate::effects::flow::blocks;
@@ -16,7 +16,7 @@ use std::collections::HashSet;
 
 impl Checker<'_> {
     /// Warns of an assignment where a condition stands.
-    pub(crate) fn doubt_condition(&mut self, body: &Body, condition: &ast::Expr) {
+    pub(crate) fn doubt_condition(&mut self, body: &CheckedBody, condition: &ast::Expr) {
         match &condition.kind {
             ast::ExprKind::Assign(None, _) => {
                 self.report::<()>(body, condition.span, Doubt::AssignedCondition);
@@ -34,7 +34,7 @@ impl Checker<'_> {
 impl Checker<'_> {
     /// Warns of a local variable with the name of another one outside, where that is spelled in another case: whoever
     /// wrote both took them for two.
-    pub(crate) fn doubt_hidden(&mut self, body: &Body, name: ast::Ident) {
+    pub(crate) fn doubt_hidden(&mut self, body: &CheckedBody, name: ast::Ident) {
         let (module, outside, what) = match body.find(name.symbol).and_then(|local| body.locals.get(local.0 as usize)) {
             Some(local) => (body.module, local.span, if local.constant { "constant" } else { "variable" }),
             None => {
@@ -53,13 +53,13 @@ impl Checker<'_> {
     }
 
     /// Whether a name is written as a global variable is declared that a local one hides: then that one was meant.
-    pub(crate) fn means_hidden(&self, body: &Body, symbol: Symbol, span: Span) -> bool {
+    pub(crate) fn means_hidden(&self, body: &CheckedBody, symbol: Symbol, span: Span) -> bool {
         let global = self.find_global(body, symbol).and_then(|(id, _)| self.globals.get(id.0 as usize));
         global.is_some_and(|slot| self.text(slot.module, slot.var.name.span) == self.text(body.module, span))
     }
 
     /// Warns of a bare number that is much too small in the unit of a parameter where others are often meant.
-    pub(crate) fn doubt_scale(&mut self, body: &Body, parameter: &str, units: &[ast::Unit], value: &Expr) {
+    pub(crate) fn doubt_scale(&mut self, body: &CheckedBody, parameter: &str, units: &[ast::Unit], value: &Expr) {
         let Some(scale) = SCALES.iter().find(|scale| units.contains(&scale.unit)) else { return };
         let Some(number) = number(value) else { return };
         if let Some(doubt) = scale.doubt(parameter, number) {
@@ -89,7 +89,7 @@ const SCALES: [Scale; 3] = [
         factor: 1000.0,
         written: "mm/s",
     },
-    Scale { unit: ast::Unit::Percent, most: 1.0, found: "a share", wanted: "%", factor: 100.0, written: "%" },
+    Scale { unit: ast::Unit::Percent, most: 1.0, found: "a fraction", wanted: "%", factor: 100.0, written: "%" },
     Scale { unit: ast::Unit::Millimetre, most: 0.1, found: "metres", wanted: "mm", factor: 1000.0, written: "mm" },
 ];
 
@@ -98,7 +98,8 @@ impl Scale {
         let looks = number > 0.0 && number < self.most && number.fract() != 0.0;
         let meant = (number * self.factor * 1000.0).round() / 1000.0;
         let (found, wanted, unit) = (self.found, self.wanted, self.written);
-        let right = format!("`{meant}{unit}` if that is meant, else `{number}{unit}`: with its unit it is not doubted");
+        let right =
+            format!("`{meant}{unit}` if that is meant, else `{number}{unit}`: with its unit there is no warning");
         looks.then(|| Doubt::OtherScale { name: name.into(), value: number.to_string(), found, wanted, right })
     }
 }
@@ -149,7 +150,7 @@ fn other_units(program: &Program, tell: &mut dyn FnMut(&Func, Span, Doubt)) {
             }
             for bound in &motion.args {
                 let Passed::Value(target) = &bound.value else { continue };
-                if let Some((id, values)) = known_structure(program, func, Globals::AsTaught, target)
+                if let Some((id, values)) = known_structure(program, func, GlobalPoints::AsTaught, target)
                     && seen.insert(values.as_ptr())
                     && let Some(doubt) = other_unit(program.family, id, values)
                 {

@@ -1,6 +1,6 @@
 //! Expressions.
 
-use super::context::{Body, Checker};
+use super::context::{CheckedBody, Checker};
 use super::convert::Typed;
 use super::name::constant;
 use super::place::PlaceOrValue;
@@ -18,7 +18,7 @@ use std::fmt::Display;
 impl Checker<'_> {
     /// Checks an expression. `want` is the type that its place asks for: braces, enumeration constants and spliced
     /// values need it; the caller still has to [`coerce`](Checker::coerce).
-    pub(crate) fn expr(&mut self, body: &mut Body, expr: &ast::Expr, want: Option<Type>) -> Option<Typed> {
+    pub(crate) fn expr(&mut self, body: &mut CheckedBody, expr: &ast::Expr, want: Option<Type>) -> Option<Typed> {
         let span = expr.span;
         match &expr.kind {
             ast::ExprKind::Int(number, radix) => Some(integer_literal(*number, *radix, span)),
@@ -26,7 +26,7 @@ impl Checker<'_> {
                 if self.options.strict {
                     let text = self.text(body.module, span);
                     if text.starts_with('.') || text.ends_with('.') {
-                        self.strict_form(body, span, "numbers without a digit on both sides of the point");
+                        self.strict_form(body, span, "numbers that lack a digit on one side of the point");
                     }
                 }
                 Some(constant(Value::Double(*number), span))
@@ -65,19 +65,7 @@ impl Checker<'_> {
             ast::ExprKind::Assign(Some(op), both) => {
                 self.assign_op(body, *op, &both.0, &both.1, span).map(Typed::plain)
             }
-            ast::ExprKind::Step(step, operand) => {
-                let place = self.written_place(body, operand, true)?;
-                let steps = matches!(place.ty.base, Base::Int | Base::Uint | Base::Byte) && !place.ty.is_array();
-                if !steps {
-                    let operator = if step.up { "++" } else { "--" };
-                    let left = self.type_name(place.ty);
-                    let hint = Some("only int, uint and byte variables count up and down".into());
-                    let problem = TypeProblem::Operator { operator: operator.into(), left, right: None, hint };
-                    return self.report(body, span, problem);
-                }
-                let ty = place.ty;
-                Some(Typed::plain(Expr { ty, kind: ExprKind::Step(*step, Box::new(place)), span }))
-            }
+            ast::ExprKind::Step(step, operand) => self.step(body, *step, operand, span),
             ast::ExprKind::Brace(items) => match want {
                 Some(want) => self.brace(body, items, want, span).map(Typed::plain),
                 None => self.report(body, span, TypeProblem::BraceWithoutType),
@@ -93,6 +81,21 @@ impl Checker<'_> {
         }
     }
 
+    /// `++` and `--`, in front of a variable or behind it.
+    fn step(&mut self, body: &mut CheckedBody, step: ast::Step, operand: &ast::Expr, span: Span) -> Option<Typed> {
+        let place = self.written_place(body, operand, true)?;
+        let steps = matches!(place.ty.base, Base::Int | Base::Uint | Base::Byte) && !place.ty.is_array();
+        if !steps {
+            let operator = if step.up { "++" } else { "--" };
+            let left = self.type_name(place.ty);
+            let hint = Some("only int, uint and byte variables have `++` and `--`".into());
+            let problem = TypeProblem::Operator { operator: operator.into(), left, right: None, hint };
+            return self.report(body, span, problem);
+        }
+        let ty = place.ty;
+        Some(Typed::plain(Expr { ty, kind: ExprKind::Step(step, Box::new(place)), span }))
+    }
+
     /// Whether it is a Rust value whose type was not said.
     pub(crate) fn is_untyped_splice(&self, expr: &ast::Expr) -> bool {
         let ast::ExprKind::Splice(number) = expr.kind else { return false };
@@ -100,25 +103,31 @@ impl Checker<'_> {
     }
 
     /// Checks an expression and converts it to what its place asks for.
-    pub(crate) fn expr_as(&mut self, body: &mut Body, expr: &ast::Expr, to: Type, what: impl Display) -> Option<Expr> {
+    pub(crate) fn expr_as(
+        &mut self,
+        body: &mut CheckedBody,
+        expr: &ast::Expr,
+        to: Type,
+        what: impl Display,
+    ) -> Option<Expr> {
         let typed = self.expr(body, expr, Some(to))?;
         self.coerce(body, typed, to, what)
     }
 
     /// Checks a condition.
-    pub(crate) fn condition(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<Expr> {
+    pub(crate) fn condition(&mut self, body: &mut CheckedBody, expr: &ast::Expr) -> Option<Expr> {
         self.doubt_condition(body, expr);
         self.expr_as(body, expr, Type::scalar(Base::Bool), "a condition")
     }
 
-    fn value_of(&mut self, body: &mut Body, found: PlaceOrValue) -> Typed {
+    fn value_of(&mut self, body: &mut CheckedBody, found: PlaceOrValue) -> Typed {
         match found {
             PlaceOrValue::Place(place) => self.read(body, place),
             PlaceOrValue::Value(typed) => typed,
         }
     }
 
-    fn assign(&mut self, body: &mut Body, target: &ast::Expr, value: &ast::Expr, span: Span) -> Option<Expr> {
+    fn assign(&mut self, body: &mut CheckedBody, target: &ast::Expr, value: &ast::Expr, span: Span) -> Option<Expr> {
         let place = self.written_place(body, target, false);
         let want = place.as_ref().map(|place| place.ty);
         let value = match (&place, &value.kind) {
@@ -137,7 +146,7 @@ impl Checker<'_> {
     }
 
     /// Warns of a constant that a system variable does not take.
-    fn check_taken(&mut self, body: &Body, place: &Place, value: &Expr) {
+    fn check_taken(&mut self, body: &CheckedBody, place: &Place, value: &Expr) {
         let (Root::System(variable), ExprKind::Const(_)) = (&place.root, &value.kind) else { return };
         if let Some(takes) = limit(place, Some(value)) {
             let value_text = self.excerpt(body.module, value.span);
@@ -148,7 +157,7 @@ impl Checker<'_> {
 
     fn assign_op(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         op: BinaryOp,
         target: &ast::Expr,
         value: &ast::Expr,
@@ -177,7 +186,7 @@ impl Checker<'_> {
     }
 
     /// Reports an index or literal problem of a value that nobody converts: a decimal beyond int.
-    pub(crate) fn refuse_wide(&mut self, body: &Body, typed: &Typed) -> Option<()> {
+    pub(crate) fn refuse_wide(&mut self, body: &CheckedBody, typed: &Typed) -> Option<()> {
         if typed.literal == Literal::Wide {
             let text = self.text(body.module, typed.expr.span).to_string();
             return self.report(body, typed.expr.span, TypeProblem::WideLiteral { text });

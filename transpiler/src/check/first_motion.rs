@@ -45,7 +45,7 @@ fn may_move(stmt: &Stmt) -> bool {
 fn missing(program: &Program, main: &Func, motion: &Builtin) -> Option<String> {
     let target = motion.args.iter().find(|bound| bound.param == 0)?;
     let Passed::Value(target) = &target.value else { return None };
-    let (id, values) = known_structure(program, main, Globals::Constant, target)?;
+    let (id, values) = known_structure(program, main, GlobalPoints::Constant, target)?;
     let needed: &[&str] = match id {
         Struct::Joint => &["j1", "j2", "j3", "j4", "j5", "j6"],
         Struct::Pose => &["x", "y", "z", "a", "b", "c"],
@@ -65,7 +65,7 @@ fn missing(program: &Program, main: &Func, motion: &Builtin) -> Option<String> {
     not(feature = "tools"),
     expect(dead_code, reason = "only the command and editors know robots and their targets")
 )]
-pub(super) enum Globals {
+pub(super) enum GlobalPoints {
     /// Constants whose value no data file gives.
     Constant,
     /// All that no statement writes, but not those of data files: the program teaches them while it runs.
@@ -78,7 +78,7 @@ pub(super) enum Globals {
 pub(super) fn known_structure<'a>(
     program: &'a Program,
     func: &'a Func,
-    globals: Globals,
+    globals: GlobalPoints,
     target: &'a Expr,
 ) -> Option<(Struct, &'a [Option<Expr>])> {
     match &known_value(program, func, globals, target)?.kind {
@@ -91,7 +91,7 @@ pub(super) fn known_structure<'a>(
 pub(super) fn known_value<'a>(
     program: &'a Program,
     func: &'a Func,
-    globals: Globals,
+    globals: GlobalPoints,
     value: &'a Expr,
 ) -> Option<&'a Expr> {
     let ExprKind::Place(place) = &value.kind else { return Some(value) };
@@ -110,9 +110,9 @@ pub(super) fn known_value<'a>(
             // A data file may set it at load.
             let data = program.modules.get(global.module.0 as usize)?.data;
             let known = match globals {
-                Globals::Constant => global.constant && !data,
-                Globals::Unwritten => !global.mutated && !data,
-                Globals::AsTaught => !global.mutated,
+                GlobalPoints::Constant => global.constant && !data,
+                GlobalPoints::Unwritten => !global.mutated && !data,
+                GlobalPoints::AsTaught => !global.mutated,
             };
             global.init.as_ref().filter(|_| known)
         }

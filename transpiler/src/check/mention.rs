@@ -1,8 +1,8 @@
 //! Records what names mean, for editors: called wherever the checker has resolved one. Without
 //! [`CheckOptions::index`](crate::CheckOptions) all of this does nothing.
 
-use super::arguments::Callee;
-use super::context::{Body, Checker};
+use super::arguments::CheckedCallee;
+use super::context::{CheckedBody, Checker};
 use crate::diagnostics::Files;
 use crate::hir::{FuncId, ModuleId, Type};
 use crate::index::{
@@ -43,7 +43,7 @@ impl Recorder {
 
 impl Checker<'_> {
     /// Records what the name at `span` means.
-    pub(crate) fn mention(&mut self, body: &Body, span: Span, meaning: Meaning) {
+    pub(crate) fn mention(&mut self, body: &CheckedBody, span: Span, meaning: Meaning) {
         self.mention_in(body.module, span, meaning, Role::Uses);
     }
 
@@ -59,7 +59,7 @@ impl Checker<'_> {
     }
 
     /// Records what the name `symbol` means, which may stand in parentheses, or behind `module::`, under `span`.
-    pub(crate) fn mention_within(&mut self, body: &Body, span: Span, symbol: Symbol, meaning: Meaning) {
+    pub(crate) fn mention_within(&mut self, body: &CheckedBody, span: Span, symbol: Symbol, meaning: Meaning) {
         if self.recorder.is_some() {
             let span = self.name_within(body, span, symbol);
             self.mention(body, span, meaning);
@@ -67,7 +67,7 @@ impl Checker<'_> {
     }
 
     /// Where the name itself stands under a span that may hold parentheses, comments and `module::`, too.
-    fn name_within(&self, body: &Body, span: Span, symbol: Symbol) -> Span {
+    fn name_within(&self, body: &CheckedBody, span: Span, symbol: Symbol) -> Span {
         let name = self.names.name(symbol);
         let text = self.text(body.module, span);
         if text.len() == name.len() {
@@ -82,7 +82,7 @@ impl Checker<'_> {
     }
 
     /// Records that the place that begins at `start` is written.
-    pub(crate) fn mention_written(&mut self, body: &Body, start: u32) {
+    pub(crate) fn mention_written(&mut self, body: &CheckedBody, start: u32) {
         let file = self.file(body.module);
         let Some(recorder) = &mut self.recorder else { return };
         let is_root = |mention: &&mut Mention| {
@@ -97,7 +97,7 @@ impl Checker<'_> {
     }
 
     /// Records a local variable where it is declared.
-    pub(crate) fn mention_local(&mut self, body: &Body, name: ast::Ident, info: LocalInfo) {
+    pub(crate) fn mention_local(&mut self, body: &CheckedBody, name: ast::Ident, info: LocalInfo) {
         let at = self.location(body.module, name.span);
         if let Some(recorder) = &mut self.recorder {
             recorder.index.locals.insert(at, info);
@@ -106,7 +106,14 @@ impl Checker<'_> {
     }
 
     /// Records which parameter an argument goes to.
-    pub(crate) fn mention_argument(&mut self, body: &Body, callee: &Callee, name: Span, arg: &ast::Arg, param: usize) {
+    pub(crate) fn mention_argument(
+        &mut self,
+        body: &CheckedBody,
+        callee: &CheckedCallee,
+        name: Span,
+        arg: &ast::Arg,
+        param: usize,
+    ) {
         if self.recorder.is_none() {
             return;
         }
@@ -151,7 +158,7 @@ impl Checker<'_> {
     }
 
     /// Notes what was looked for where the word stands.
-    pub(crate) fn expect(&mut self, body: &Body, symbol: Symbol, span: Span, wanted: Wanted) {
+    pub(crate) fn expect(&mut self, body: &CheckedBody, symbol: Symbol, span: Span, wanted: Wanted) {
         if !self.is_marker(symbol) {
             return;
         }
@@ -180,8 +187,8 @@ impl Checker<'_> {
     /// Notes the arguments around the word, where one of them is it.
     pub(crate) fn expect_argument(
         &mut self,
-        body: &Body,
-        callee: &Callee,
+        body: &CheckedBody,
+        callee: &CheckedCallee,
         name: Span,
         arg: &ast::Arg,
         taken: &[usize],
@@ -206,7 +213,14 @@ impl Checker<'_> {
     }
 
     /// Notes the arguments around the word, where no parameter is left for it.
-    pub(crate) fn expect_nothing(&mut self, body: &Body, callee: &Callee, name: Span, arg: &ast::Arg, taken: &[usize]) {
+    pub(crate) fn expect_nothing(
+        &mut self,
+        body: &CheckedBody,
+        callee: &CheckedCallee,
+        name: Span,
+        arg: &ast::Arg,
+        taken: &[usize],
+    ) {
         self.expect_argument(body, callee, name, arg, taken, None);
         if let ast::ExprKind::Name(symbol) = arg.value.kind {
             self.expect(body, symbol, arg.value.span, Wanted::Nothing);
@@ -216,20 +230,20 @@ impl Checker<'_> {
     /// The same for an argument of a function whose overload is not chosen yet: the first one stands for all.
     pub(crate) fn expect_of_overloads(
         &mut self,
-        body: &Body,
+        body: &CheckedBody,
         overloads: &[&'static Entry],
         call: &ast::Call,
         at: usize,
     ) {
         if let (true, Some(first), Some(arg)) = (self.is_marked(), overloads.first(), call.args.get(at)) {
-            self.expect_argument(body, &Callee::Builtin(first), call.name.span, arg, &vec![1; at], Some(at));
+            self.expect_argument(body, &CheckedCallee::Builtin(first), call.name.span, arg, &vec![1; at], Some(at));
         }
     }
 
     /// Notes that the name of a component is looked for, where an unnamed value among named ones is the word.
     pub(crate) fn expect_component(
         &mut self,
-        body: &Body,
+        body: &CheckedBody,
         id: Struct,
         value: &ast::Expr,
         taken: impl Iterator<Item = bool>,
@@ -241,7 +255,7 @@ impl Checker<'_> {
     }
 
     /// Notes that what is done at an event is looked for, where that is the word.
-    pub(crate) fn expect_action(&mut self, body: &Body, expr: &ast::Expr) {
+    pub(crate) fn expect_action(&mut self, body: &CheckedBody, expr: &ast::Expr) {
         if let ast::ExprKind::Name(symbol) = expr.kind {
             self.expect(body, symbol, expr.span, Wanted::Action);
         }
@@ -342,10 +356,10 @@ impl Checker<'_> {
     }
 
     /// The meaning of the parameter of a call.
-    pub(crate) fn parameter_meaning(&self, callee: &Callee, at: usize) -> Option<Meaning> {
+    pub(crate) fn parameter_meaning(&self, callee: &CheckedCallee, at: usize) -> Option<Meaning> {
         match callee {
-            Callee::Builtin(entry) => Some(Meaning::Parameter(entry, at)),
-            Callee::User(func) => {
+            CheckedCallee::Builtin(entry) => Some(Meaning::Parameter(entry, at)),
+            CheckedCallee::User(func) => {
                 let slot = self.funcs.get(func.0 as usize)?;
                 let declared = slot.ast.params.get(at)?.name.span;
                 Some(Meaning::Local(self.location(slot.module, declared)))
@@ -354,11 +368,11 @@ impl Checker<'_> {
     }
 }
 
-impl Callee {
+impl CheckedCallee {
     fn indexed(&self) -> index::Callee {
         match self {
-            Callee::Builtin(entry) => index::Callee::Builtin(entry),
-            Callee::User(func) => index::Callee::Function(*func),
+            CheckedCallee::Builtin(entry) => index::Callee::Builtin(entry),
+            CheckedCallee::User(func) => index::Callee::Function(*func),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a name means where it stands.
 
-use super::context::{Body, Checker};
+use super::context::{CheckedBody, Checker};
 use super::convert::Typed;
 use super::place::PlaceOrValue;
 use crate::diagnostics::names::NameProblem;
@@ -18,7 +18,7 @@ impl Checker<'_> {
     /// a hexadecimal number that begins with a letter.
     pub(crate) fn name(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         symbol: Symbol,
         span: Span,
         want: Option<Type>,
@@ -79,7 +79,7 @@ impl Checker<'_> {
         self.unknown_variable(body, symbol, span, want)
     }
 
-    fn unknown_variable<T>(&mut self, body: &Body, symbol: Symbol, span: Span, want: Option<Type>) -> Option<T> {
+    fn unknown_variable<T>(&mut self, body: &CheckedBody, symbol: Symbol, span: Span, want: Option<Type>) -> Option<T> {
         self.expect(body, symbol, span, Wanted::Value(want));
         let name = self.names.name(symbol);
         if let Some(now) = catalog::renamed(name) {
@@ -133,7 +133,7 @@ impl Checker<'_> {
     }
 
     /// `module::name` where an imported module has a variable or function of this name.
-    pub(crate) fn member_named(&self, body: &Body, symbol: Symbol, function: bool) -> Option<String> {
+    pub(crate) fn member_named(&self, body: &CheckedBody, symbol: Symbol, function: bool) -> Option<String> {
         let imports = &self.module(body.module)?.imports;
         let has = |module: &ModuleId| {
             let scope = self.scopes.get(module.0 as usize)?;
@@ -145,7 +145,7 @@ impl Checker<'_> {
     }
 
     /// The text that is probably meant by a name that is not known: a file's, or any where a string is wanted.
-    fn unquoted(&self, body: &Body, span: Span, want: Option<Type>) -> Option<String> {
+    fn unquoted(&self, body: &CheckedBody, span: Span, want: Option<Type>) -> Option<String> {
         const FILES: [&str; 3] = [".arl", ".txt", ".log"];
         let name = self.text(body.module, span);
         let behind = self.text(body.module, Span::new(span.end, span.end + FILES[0].len() as u32));
@@ -156,12 +156,12 @@ impl Checker<'_> {
     }
 
     /// A global of this module or of its data file, and whether it is declared above.
-    pub(crate) fn find_global(&self, body: &Body, symbol: Symbol) -> Option<(GlobalId, bool)> {
+    pub(crate) fn find_global(&self, body: &CheckedBody, symbol: Symbol) -> Option<(GlobalId, bool)> {
         if let Some(id) = self.scopes.get(body.module.0 as usize)?.globals.get(&symbol) {
             let slot = self.globals.get(id.0 as usize)?;
             // Inside its own declaration a variable is not known yet, but those before it on the line are.
             let visible =
-                slot.item < body.item || (slot.item == body.item && slot.state == super::context::State::Done);
+                slot.item < body.item || (slot.item == body.item && slot.state == super::context::CheckState::Done);
             return Some((*id, visible));
         }
         let data = self.module(body.module)?.data_module?;
@@ -170,7 +170,7 @@ impl Checker<'_> {
     }
 
     /// A global of this module, which has to be declared above.
-    fn own_global(&mut self, body: &Body, id: GlobalId, visible: bool, span: Span) -> Option<PlaceOrValue> {
+    fn own_global(&mut self, body: &CheckedBody, id: GlobalId, visible: bool, span: Span) -> Option<PlaceOrValue> {
         if !visible {
             self.mention_global(body, id, span);
             let name = self.text(body.module, span).to_string();
@@ -181,7 +181,7 @@ impl Checker<'_> {
         self.global(body, id, span)
     }
 
-    fn global(&mut self, body: &Body, id: GlobalId, span: Span) -> Option<PlaceOrValue> {
+    fn global(&mut self, body: &CheckedBody, id: GlobalId, span: Span) -> Option<PlaceOrValue> {
         self.check_global(id);
         self.mention_global(body, id, span);
         let slot = self.globals.get(id.0 as usize)?;
@@ -202,7 +202,7 @@ impl Checker<'_> {
         Some(PlaceOrValue::Place(Place { root: Root::Global(id), path: Vec::new(), ty: ty?, span }))
     }
 
-    fn mention_global(&mut self, body: &Body, id: GlobalId, span: Span) {
+    fn mention_global(&mut self, body: &CheckedBody, id: GlobalId, span: Span) {
         if let Some(symbol) = self.globals.get(id.0 as usize).map(|slot| slot.var.name.symbol) {
             self.mention_within(body, span, symbol, Meaning::Global(id));
         }
@@ -211,7 +211,7 @@ impl Checker<'_> {
     /// `scope::name`: a module's variable or an enumeration's constant.
     pub(crate) fn path(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         scope: ast::Ident,
         system: bool,
         name: ast::Ident,
@@ -252,7 +252,7 @@ impl Checker<'_> {
         self.unknown_module(body, scope)
     }
 
-    fn unknown_constant<T>(&mut self, body: &Body, id: Enum, span: Span) -> Option<T> {
+    fn unknown_constant<T>(&mut self, body: &CheckedBody, id: Enum, span: Span) -> Option<T> {
         let def = id.def();
         let problem = NameProblem::UnknownConstant {
             name: self.text(body.module, span).into(),
@@ -262,7 +262,7 @@ impl Checker<'_> {
         self.report(body, span, problem)
     }
 
-    pub(crate) fn unknown_module<T>(&mut self, body: &Body, scope: ast::Ident) -> Option<T> {
+    pub(crate) fn unknown_module<T>(&mut self, body: &CheckedBody, scope: ast::Ident) -> Option<T> {
         if self.module(body.module).is_some_and(|module| module.missing.contains(&scope.symbol)) {
             return None;
         }
@@ -274,7 +274,7 @@ impl Checker<'_> {
 
     pub(crate) fn not_in_module<T>(
         &mut self,
-        body: &Body,
+        body: &CheckedBody,
         module: ModuleId,
         name: ast::Ident,
         what: &'static str,
@@ -296,7 +296,7 @@ impl Checker<'_> {
     }
 
     /// The module that a name in front of `::` means.
-    pub(crate) fn find_module(&self, body: &Body, scope: ast::Ident) -> Option<ModuleId> {
+    pub(crate) fn find_module(&self, body: &CheckedBody, scope: ast::Ident) -> Option<ModuleId> {
         let here = self.module(body.module)?;
         if here.name == scope.symbol {
             return Some(body.module);
@@ -308,7 +308,7 @@ impl Checker<'_> {
     }
 }
 
-impl Body {
+impl CheckedBody {
     /// The visible local whose name is nearest.
     fn nearest_local(&self, hints: &mut Hints, names: &Interner, name: &str) -> Option<String> {
         hints.nearest(name, self.visible().len(), || self.visible().map(|symbol| names.name(symbol))).map(Into::into)

@@ -1,6 +1,6 @@
 //! Types of operators.
 
-use super::context::{Body, Checker};
+use super::context::{CheckedBody, Checker};
 use super::convert::Typed;
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::types::TypeProblem;
@@ -15,7 +15,14 @@ const INT: Type = Type::scalar(Base::Int);
 
 impl Checker<'_> {
     /// `left op right`
-    pub(crate) fn binary(&mut self, body: &Body, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
+    pub(crate) fn binary(
+        &mut self,
+        body: &CheckedBody,
+        op: BinaryOp,
+        left: Typed,
+        right: Typed,
+        span: Span,
+    ) -> Option<Typed> {
         for side in [&left, &right] {
             if side.expr.ty.base == Base::Void {
                 return self.report_no_value(body, &side.expr);
@@ -34,7 +41,7 @@ impl Checker<'_> {
         }
     }
 
-    fn shift(&mut self, body: &Body, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
+    fn shift(&mut self, body: &CheckedBody, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
         let (left, right) = (self.number(left), self.number(right));
         let is_array = left.expr.ty.is_array() || right.expr.ty.is_array();
         let operation = operators::binary(op, left.operand(), right.operand()).filter(|_| !is_array);
@@ -50,7 +57,7 @@ impl Checker<'_> {
         self.finish(body, op, left.expr, count, operation.result, span)
     }
 
-    fn arithmetic(&mut self, body: &Body, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
+    fn arithmetic(&mut self, body: &CheckedBody, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
         let (left_ty, right_ty) = (left.expr.ty, right.expr.ty);
         if left_ty.is_array() || right_ty.is_array() {
             if op.compares() {
@@ -81,12 +88,19 @@ impl Checker<'_> {
         }
     }
 
-    fn compare_bools(&mut self, body: &Body, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
+    fn compare_bools(
+        &mut self,
+        body: &CheckedBody,
+        op: BinaryOp,
+        left: Typed,
+        right: Typed,
+        span: Span,
+    ) -> Option<Typed> {
         if operators::binary(op, left.operand(), right.operand()).is_none() {
             let hint = match op {
                 BinaryOp::BitAnd => Some("`&&` combines conditions"),
                 BinaryOp::BitOr => Some("`||` combines conditions"),
-                BinaryOp::BitXor => Some("`!=` tells whether two conditions differ"),
+                BinaryOp::BitXor => Some("`!=` is true where two conditions differ"),
                 _ => None,
             };
             return self.operator_problem(body, op, &left, &right, span, hint);
@@ -96,7 +110,7 @@ impl Checker<'_> {
         self.finish(body, op, left, right, Base::Bool, span)
     }
 
-    fn numbers(&mut self, body: &Body, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
+    fn numbers(&mut self, body: &CheckedBody, op: BinaryOp, left: Typed, right: Typed, span: Span) -> Option<Typed> {
         let left = self.number(left);
         let right = self.number(right);
         let Some(operation) = operators::binary(op, left.operand(), right.operand()) else {
@@ -104,7 +118,7 @@ impl Checker<'_> {
             let bits = matches!(op, BinaryOp::BitAnd | BinaryOp::BitOr | BinaryOp::BitXor);
             let numbers = bases.iter().all(|base| matches!(base, Base::Byte | Base::Int | Base::Uint | Base::Double));
             let hint = if bits && numbers && bases.contains(&Base::Double) {
-                Some("bits are those of int, uint and byte")
+                Some("bit operators work on int, uint and byte only")
             } else if bases.contains(&Base::Uint) && bases.contains(&Base::Int) {
                 Some("uint and int do not mix: convert one of them through a double, or use constants that fit")
             } else {
@@ -142,7 +156,7 @@ impl Checker<'_> {
     /// The finished operator; constant operands are computed.
     fn finish(
         &mut self,
-        body: &Body,
+        body: &CheckedBody,
         op: BinaryOp,
         left: Expr,
         right: Expr,
@@ -162,7 +176,7 @@ impl Checker<'_> {
     }
 
     /// `op operand`
-    pub(crate) fn unary(&mut self, body: &Body, op: UnaryOp, operand: Typed, span: Span) -> Option<Typed> {
+    pub(crate) fn unary(&mut self, body: &CheckedBody, op: UnaryOp, operand: Typed, span: Span) -> Option<Typed> {
         if operand.expr.ty.base == Base::Void {
             return self.report_no_value(body, &operand.expr);
         }
@@ -190,7 +204,14 @@ impl Checker<'_> {
         self.finish_unary(body, op, operand, result, span)
     }
 
-    fn finish_unary(&mut self, body: &Body, op: UnaryOp, operand: Typed, result: Base, span: Span) -> Option<Typed> {
+    fn finish_unary(
+        &mut self,
+        body: &CheckedBody,
+        op: UnaryOp,
+        operand: Typed,
+        result: Base,
+        span: Span,
+    ) -> Option<Typed> {
         let ty = Type::scalar(result);
         if let Some(computed) = operand.value().and_then(|value| operators::compute_unary(op, value)) {
             let value = self.held(body, computed, span);
@@ -202,7 +223,7 @@ impl Checker<'_> {
     }
 
     /// The value, with a warning where it has wrapped.
-    fn held(&mut self, body: &Body, computed: Computed, span: Span) -> Value {
+    fn held(&mut self, body: &CheckedBody, computed: Computed, span: Span) -> Value {
         let Computed { value, wrapped } = computed;
         if wrapped {
             let held = integer(&value).unwrap_or_default().to_string();
@@ -212,7 +233,14 @@ impl Checker<'_> {
         value
     }
 
-    fn unary_problem<T>(&mut self, body: &Body, op: UnaryOp, ty: Type, span: Span, hint: Option<&str>) -> Option<T> {
+    fn unary_problem<T>(
+        &mut self,
+        body: &CheckedBody,
+        op: UnaryOp,
+        ty: Type,
+        span: Span,
+        hint: Option<&str>,
+    ) -> Option<T> {
         let problem = TypeProblem::Operator {
             operator: op.text().into(),
             left: self.type_name(ty),
@@ -224,7 +252,7 @@ impl Checker<'_> {
 
     fn operator_problem<T>(
         &mut self,
-        body: &Body,
+        body: &CheckedBody,
         op: BinaryOp,
         left: &Typed,
         right: &Typed,

@@ -1,6 +1,6 @@
 //! Variables, components and elements: what can be read and written.
 
-use super::context::{Body, Checker};
+use super::context::{CheckedBody, Checker};
 use super::convert::Typed;
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::names::NameProblem;
@@ -21,7 +21,7 @@ pub(crate) enum PlaceOrValue {
 
 impl Checker<'_> {
     /// A variable with its components and elements, or a value with components.
-    pub(crate) fn place_or_value(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<PlaceOrValue> {
+    pub(crate) fn place_or_value(&mut self, body: &mut CheckedBody, expr: &ast::Expr) -> Option<PlaceOrValue> {
         match &expr.kind {
             ast::ExprKind::Field(inner, name) => self.field(body, inner, *name, expr.span),
             ast::ExprKind::Index(_) => self.element(body, expr),
@@ -33,7 +33,7 @@ impl Checker<'_> {
     }
 
     /// The value of a place.
-    pub(crate) fn read(&mut self, body: &mut Body, place: Place) -> Typed {
+    pub(crate) fn read(&mut self, body: &mut CheckedBody, place: Place) -> Typed {
         if let Root::Local(local) = place.root
             && let Some(local) = body.local(local)
         {
@@ -44,7 +44,7 @@ impl Checker<'_> {
     }
 
     /// `$NAME`
-    fn system(&mut self, body: &Body, symbol: arl_lang::symbol::Symbol, span: Span) -> Option<PlaceOrValue> {
+    fn system(&mut self, body: &CheckedBody, symbol: arl_lang::symbol::Symbol, span: Span) -> Option<PlaceOrValue> {
         let name = self.names.name(symbol);
         if let Some((variable, number)) = catalog::system_element(name) {
             return self.system_element(body, variable, number, span);
@@ -70,7 +70,7 @@ impl Checker<'_> {
     /// `$tool3`: the element `$TOOLS[3]` by its default name.
     fn system_element(
         &mut self,
-        body: &Body,
+        body: &CheckedBody,
         variable: &'static SystemVariable,
         number: u32,
         span: Span,
@@ -85,7 +85,13 @@ impl Checker<'_> {
         Some(PlaceOrValue::Place(Place { root: Root::System(variable), path, ty: array.element(), span }))
     }
 
-    fn field(&mut self, body: &mut Body, inner: &ast::Expr, name: ast::Ident, span: Span) -> Option<PlaceOrValue> {
+    fn field(
+        &mut self,
+        body: &mut CheckedBody,
+        inner: &ast::Expr,
+        name: ast::Ident,
+        span: Span,
+    ) -> Option<PlaceOrValue> {
         let inner = self.place_or_value(body, inner)?;
         let (ty, inner_span) = match &inner {
             PlaceOrValue::Place(place) => (place.ty, place.span),
@@ -118,7 +124,7 @@ impl Checker<'_> {
     }
 
     /// The index of a component by its name.
-    pub(crate) fn component(&mut self, body: &Body, id: Struct, name: ast::Ident) -> Option<usize> {
+    pub(crate) fn component(&mut self, body: &CheckedBody, id: Struct, name: ast::Ident) -> Option<usize> {
         let def = id.def(self.family());
         if let Some(index) = self.find_component(id, name.symbol) {
             self.mention(body, name.span, Meaning::Component(id, index));
@@ -147,7 +153,7 @@ impl Checker<'_> {
         })
     }
 
-    fn element(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<PlaceOrValue> {
+    fn element(&mut self, body: &mut CheckedBody, expr: &ast::Expr) -> Option<PlaceOrValue> {
         let mut indices = Vec::new();
         let mut base = expr;
         while let ast::ExprKind::Index(both) = &base.kind {
@@ -185,7 +191,7 @@ impl Checker<'_> {
     }
 
     /// An index; a constant one must be below `size`.
-    fn index(&mut self, body: &mut Body, index: &ast::Expr, size: Option<u32>) -> Option<Expr> {
+    fn index(&mut self, body: &mut CheckedBody, index: &ast::Expr, size: Option<u32>) -> Option<Expr> {
         let typed = self.expr(body, index, Some(INT))?;
         if self.cost(&typed, INT).is_none() && typed.expr.ty.base != Base::Void {
             let found = self.type_name(typed.expr.ty);
@@ -202,7 +208,7 @@ impl Checker<'_> {
     }
 
     /// A place that is written: not const, not read-only. `reads` where the old value matters, too.
-    pub(crate) fn written_place(&mut self, body: &mut Body, expr: &ast::Expr, reads: bool) -> Option<Place> {
+    pub(crate) fn written_place(&mut self, body: &mut CheckedBody, expr: &ast::Expr, reads: bool) -> Option<Place> {
         // A const with a known value reads as that value; for writing we want its name.
         if let Some((module, declared)) = self.const_declaration(body, expr) {
             let name = self.text(module, declared).to_string();
@@ -238,7 +244,7 @@ impl Checker<'_> {
     }
 
     /// Where the const variable is declared that an expression would write to.
-    fn const_declaration(&self, body: &Body, expr: &ast::Expr) -> Option<(ModuleId, Span)> {
+    fn const_declaration(&self, body: &CheckedBody, expr: &ast::Expr) -> Option<(ModuleId, Span)> {
         let global = match &expr.kind {
             ast::ExprKind::Field(inner, _) => return self.const_declaration(body, inner),
             ast::ExprKind::Index(both) => return self.const_declaration(body, &both.0),

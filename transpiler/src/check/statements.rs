@@ -1,7 +1,7 @@
 //! Statements and function bodies.
 
-use super::arguments::{Callee, does_something};
-use super::context::{Body, Checker, State};
+use super::arguments::{CheckedCallee, does_something};
+use super::context::{CheckState, CheckedBody, Checker};
 use super::convert::Typed;
 use super::doubts::is_comparison;
 use crate::diagnostics::arguments::ArgumentProblem;
@@ -26,10 +26,10 @@ impl Checker<'_> {
     pub(crate) fn check_func(&mut self, id: FuncId) {
         self.check_signature(id);
         let Some(slot) = self.funcs.get(id.0 as usize) else { return };
-        debug_assert!(slot.state == State::Done);
+        debug_assert!(slot.state == CheckState::Done);
         let (module, func, item) = (slot.module, slot.ast, slot.item);
         let (types, result) = (slot.params.clone(), slot.result);
-        let mut body = Body::new(module, item);
+        let mut body = CheckedBody::new(module, item);
         body.func = Some(id);
         body.result = result;
         let scope = body.enter();
@@ -60,7 +60,7 @@ impl Checker<'_> {
         }
     }
 
-    fn collect_labels(&mut self, body: &mut Body, block: &ast::Block) {
+    fn collect_labels(&mut self, body: &mut CheckedBody, block: &ast::Block) {
         for stmt in block {
             match &stmt.kind {
                 ast::StmtKind::Label(name) => self.add_label(body, *name),
@@ -80,7 +80,7 @@ impl Checker<'_> {
         }
     }
 
-    fn add_label(&mut self, body: &mut Body, name: ast::Ident) {
+    fn add_label(&mut self, body: &mut CheckedBody, name: ast::Ident) {
         if let Some(earlier) = body.label_names.get(&name.symbol) {
             let first = body.labels.get(earlier.0 as usize).map_or(name.span, |label| label.span);
             let text = self.text(body.module, name.span).to_string();
@@ -93,12 +93,12 @@ impl Checker<'_> {
         self.mention_in(body.module, name.span, Meaning::Label(at), Role::Declares);
         let id = LabelId(body.labels.len() as u32);
         let text = self.names.name(name.symbol).to_string();
-        body.labels.push(hir::Label { name: text, span: name.span, used: false });
+        body.labels.push(hir::GotoLabel { name: text, span: name.span, used: false });
         body.label_names.insert(name.symbol, id);
     }
 
     /// Checks statements in a scope of their own.
-    fn block(&mut self, body: &mut Body, block: &ast::Block) -> Block {
+    fn block(&mut self, body: &mut CheckedBody, block: &ast::Block) -> Block {
         let scope = body.enter();
         let checked = self.block_in_scope(body, block);
         body.leave(scope);
@@ -106,13 +106,13 @@ impl Checker<'_> {
     }
 
     /// Checks statements in the scope that is open.
-    pub(crate) fn block_in_scope(&mut self, body: &mut Body, block: &ast::Block) -> Block {
+    pub(crate) fn block_in_scope(&mut self, body: &mut CheckedBody, block: &ast::Block) -> Block {
         let mut out = Vec::with_capacity(block.len());
         block.iter().for_each(|stmt| self.statement(body, stmt, &mut out));
         out
     }
 
-    fn statement(&mut self, body: &mut Body, stmt: &ast::Stmt, out: &mut Vec<Stmt>) {
+    fn statement(&mut self, body: &mut CheckedBody, stmt: &ast::Stmt, out: &mut Vec<Stmt>) {
         let kind = match &stmt.kind {
             ast::StmtKind::Decl(decl) => {
                 self.local_decl(body, decl, out);
@@ -154,7 +154,7 @@ impl Checker<'_> {
         out.extend(kind.map(|kind| Stmt { kind, span: stmt.span }));
     }
 
-    fn expression_statement(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<StmtKind> {
+    fn expression_statement(&mut self, body: &mut CheckedBody, expr: &ast::Expr) -> Option<StmtKind> {
         if let ast::ExprKind::Name(symbol) = expr.kind
             && let Some(problem) = self.lone_word(body, symbol, expr.span)
         {
@@ -166,7 +166,7 @@ impl Checker<'_> {
     }
 
     /// Warns of an expression whose value goes nowhere, where it does nothing else.
-    fn doubt_effect(&mut self, body: &Body, expr: &ast::Expr) {
+    fn doubt_effect(&mut self, body: &CheckedBody, expr: &ast::Expr) {
         if is_comparison(expr) {
             self.report::<()>(body, expr.span, Doubt::ComparedStatement);
         } else if !does_something(expr) {
@@ -176,7 +176,7 @@ impl Checker<'_> {
 
     /// What is wrong with a name that stands alone on its line and means nothing: a word of another language, or one of
     /// ARL with a slip in it.
-    fn lone_word(&mut self, body: &Body, symbol: Symbol, span: Span) -> Option<NameProblem> {
+    fn lone_word(&mut self, body: &CheckedBody, symbol: Symbol, span: Span) -> Option<NameProblem> {
         let name = self.names.name(symbol);
         let known = body.find(symbol).is_some() || self.find_global(body, symbol).is_some();
         if known || self.names_function(body, symbol) || catalog::constant(name).is_some() {
@@ -194,7 +194,7 @@ impl Checker<'_> {
     /// An instruction; the events of a motion go before it, as triggers.
     fn instruction(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         instr: &ast::Instr,
         stmt: &ast::Stmt,
         before: &mut Vec<Stmt>,
@@ -210,7 +210,7 @@ impl Checker<'_> {
         };
         self.strict_case(body, instr.name.span, entry.name);
         self.mention(body, instr.name.span, Meaning::Builtin(entry));
-        let args = self.bind(body, &Callee::Builtin(entry), &instr.args, instr.name.span);
+        let args = self.bind(body, &CheckedCallee::Builtin(entry), &instr.args, instr.name.span);
         let triggers: Vec<Option<Expr>> =
             instr.events.iter().map(|(event, action)| self.trigger(body, event, action)).collect();
         if let Some((event, _)) = instr.events.first()
@@ -226,7 +226,7 @@ impl Checker<'_> {
     }
 
     /// The trigger that an event behind a motion is short for.
-    fn trigger(&mut self, body: &mut Body, event: &ast::Expr, action: &ast::Expr) -> Option<Expr> {
+    fn trigger(&mut self, body: &mut CheckedBody, event: &ast::Expr, action: &ast::Expr) -> Option<Expr> {
         let condition = self.condition(body, event);
         let action = self.action(body, action, None);
         self.has_conditions = true;
@@ -253,7 +253,7 @@ impl Checker<'_> {
     }
 
     /// Checks what is to be done at an event; `typed` where its type is known already.
-    pub(crate) fn action(&mut self, body: &mut Body, expr: &ast::Expr, typed: Option<Typed>) -> Option<Expr> {
+    pub(crate) fn action(&mut self, body: &mut CheckedBody, expr: &ast::Expr, typed: Option<Typed>) -> Option<Expr> {
         self.expect_action(body, expr);
         let typed = match typed {
             Some(typed) => typed,
@@ -265,7 +265,7 @@ impl Checker<'_> {
         Some(typed.expr)
     }
 
-    fn unknown_instruction<T>(&mut self, body: &mut Body, instr: &ast::Instr) -> Option<T> {
+    fn unknown_instruction<T>(&mut self, body: &mut CheckedBody, instr: &ast::Instr) -> Option<T> {
         for arg in &instr.args {
             if !matches!(arg.value.kind, ast::ExprKind::Brace(_)) {
                 self.expr(body, &arg.value, None);
@@ -274,7 +274,12 @@ impl Checker<'_> {
         self.report_unknown_instruction(body, instr.name.symbol, instr.name.span)
     }
 
-    pub(crate) fn report_unknown_instruction<T>(&mut self, body: &Body, symbol: Symbol, span: Span) -> Option<T> {
+    pub(crate) fn report_unknown_instruction<T>(
+        &mut self,
+        body: &CheckedBody,
+        symbol: Symbol,
+        span: Span,
+    ) -> Option<T> {
         self.expect(body, symbol, span, Wanted::Instruction);
         let is_function = self.names_function(body, symbol);
         let near = self.hints.nearest(self.names.name(symbol), instructions().count(), instructions).map(Into::into);
@@ -283,12 +288,12 @@ impl Checker<'_> {
     }
 
     /// Whether a function of this module or a built-in one has this name.
-    pub(crate) fn names_function(&self, body: &Body, symbol: Symbol) -> bool {
+    pub(crate) fn names_function(&self, body: &CheckedBody, symbol: Symbol) -> bool {
         let own = self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol));
         own || !catalog::functions(self.names.name(symbol)).is_empty()
     }
 
-    fn if_statement(&mut self, body: &mut Body, branches: &ast::If) -> Option<StmtKind> {
+    fn if_statement(&mut self, body: &mut CheckedBody, branches: &ast::If) -> Option<StmtKind> {
         let mut arms = Vec::new();
         let mut good = true;
         for (condition, block) in &branches.arms {
@@ -304,7 +309,7 @@ impl Checker<'_> {
     }
 
     /// The body of a loop.
-    fn looped(&mut self, body: &mut Body, block: &ast::Block) -> Block {
+    fn looped(&mut self, body: &mut CheckedBody, block: &ast::Block) -> Block {
         body.loops += 1;
         let switches = std::mem::take(&mut body.switches);
         let checked = self.block(body, block);
@@ -313,7 +318,7 @@ impl Checker<'_> {
         checked
     }
 
-    fn for_statement(&mut self, body: &mut Body, each: &ast::For) -> Option<StmtKind> {
+    fn for_statement(&mut self, body: &mut CheckedBody, each: &ast::For) -> Option<StmtKind> {
         let scope = body.enter();
         let mut init = Vec::new();
         if let Some(first) = &each.init {
@@ -339,7 +344,7 @@ impl Checker<'_> {
         Some(StmtKind::For(Box::new(For { init, condition, step, body: block, info, shared: false })))
     }
 
-    fn switch(&mut self, body: &mut Body, switch: &ast::Switch) -> Option<StmtKind> {
+    fn switch(&mut self, body: &mut CheckedBody, switch: &ast::Switch) -> Option<StmtKind> {
         let subject = self.expr(body, &switch.subject, None);
         let subject = subject.and_then(|subject| {
             let ty = subject.expr.ty;
@@ -377,7 +382,7 @@ impl Checker<'_> {
 
     fn case_value(
         &mut self,
-        body: &mut Body,
+        body: &mut CheckedBody,
         value: &ast::Expr,
         ty: Option<Type>,
         seen: &mut HashMap<String, Span>,
@@ -394,7 +399,7 @@ impl Checker<'_> {
         Some(constant)
     }
 
-    fn jump(&mut self, body: &Body, stmt: &ast::Stmt, kind: StmtKind) -> Option<StmtKind> {
+    fn jump(&mut self, body: &CheckedBody, stmt: &ast::Stmt, kind: StmtKind) -> Option<StmtKind> {
         if body.loops > 0 {
             return Some(kind);
         }
@@ -404,7 +409,7 @@ impl Checker<'_> {
         }
     }
 
-    fn goto(&mut self, body: &mut Body, name: ast::Ident) -> Option<StmtKind> {
+    fn goto(&mut self, body: &mut CheckedBody, name: ast::Ident) -> Option<StmtKind> {
         body.has_goto = true;
         if let Some(id) = body.label_names.get(&name.symbol).copied() {
             let declared = body.labels.get_mut(id.0 as usize).map(|label| {
@@ -425,7 +430,12 @@ impl Checker<'_> {
         self.report(body, name.span, NameProblem::UnknownLabel { name: name_text, near })
     }
 
-    fn return_statement(&mut self, body: &mut Body, value: Option<&ast::Expr>, stmt: &ast::Stmt) -> Option<StmtKind> {
+    fn return_statement(
+        &mut self,
+        body: &mut CheckedBody,
+        value: Option<&ast::Expr>,
+        stmt: &ast::Stmt,
+    ) -> Option<StmtKind> {
         let Some(base) = body.result else {
             value.map(|value| self.expr(body, value, None));
             return None;

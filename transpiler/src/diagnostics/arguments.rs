@@ -38,16 +38,16 @@ problems! {
             /// Bare braces.
             BareBrace { callee: String, labels: String },
         }
-        error 408 "A value where a variable is written" => {
-            /// A value where a variable is written.
+        error 408 "A value where a variable is needed" => {
+            /// A value where a variable is needed.
             NotAVariable { callee: String, parameter: String },
         }
         error 409 "A wrong unit" => {
             /// A unit that the parameter does not have.
             WrongUnit { parameter: String, unit: &'static str, units: String },
         }
-        error 410 "A unit behind something that is not a number" => {
-            /// A unit behind something that is not a number.
+        error 410 "A unit after something that is not a number" => {
+            /// A unit after something that is not a number.
             UnitOfNoNumber,
         }
         error 411 "A constant argument out of range" => {
@@ -60,11 +60,11 @@ problems! {
             /// No overload takes these types.
             NoOverload { callee: String, types: String, signatures: String },
         }
-        error 413 "Events behind something that is not a motion" => {
+        error 413 "Events after something that is not a motion" => {
             /// Events behind an instruction that is not a motion.
             Events { callee: String },
         }
-        error 414 "A length that an array does not have" => {
+        error 414 "A length that does not fit the array" => {
             /// A constant length that the array beside it does not have, which has so many bytes.
             Length { parameter: String, value: i64, bytes: usize, most: i64 },
         }
@@ -93,7 +93,7 @@ impl Problem for ArgumentProblem {
             }
             ArgumentProblem::Missing { callee, parameter, .. } => format!("`{callee}` needs its `{parameter}`"),
             ArgumentProblem::EqualsBehindLabel { label, .. } => {
-                format!("`:` stands behind the label `{label}`, not `=`")
+                format!("`:` follows the label `{label}`, not `=`")
             }
             ArgumentProblem::UnknownLabel { callee, label, .. } => {
                 format!("`{callee}` has no parameter `{label}`")
@@ -109,12 +109,12 @@ impl Problem for ArgumentProblem {
                 format!("braces need the label of the parameter of `{callee}` that they are for")
             }
             ArgumentProblem::NotAVariable { callee, parameter } => {
-                format!("`{callee}` writes to its `{parameter}`, so that must be a variable")
+                format!("`{callee}` writes to its `{parameter}`, so it must be a variable")
             }
             ArgumentProblem::WrongUnit { parameter, unit, .. } => {
                 format!("`{parameter}` is not given in {unit}")
             }
-            ArgumentProblem::UnitOfNoNumber => "a unit may follow a number only".into(),
+            ArgumentProblem::UnitOfNoNumber => "a unit can only follow a number".into(),
             ArgumentProblem::Range { parameter, value, range } => {
                 format!("`{parameter}` is {value}, but must be {range}")
             }
@@ -127,7 +127,7 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::Length { parameter, value, bytes, .. } => {
                 format!("`{parameter}` is {value}, but the array has {bytes} bytes")
             }
-            ArgumentProblem::NotKept { name, .. } => format!("\"{name}\" is no system variable that can be saved"),
+            ArgumentProblem::NotKept { name, .. } => format!("\"{name}\" is not a system variable that can be saved"),
             ArgumentProblem::NoOverload { callee, types, .. } => {
                 format!("`{callee}` does not take ({types})")
             }
@@ -153,7 +153,7 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::UnknownLabel { labels, .. } => Some(format!("its parameters are {labels}")),
             ArgumentProblem::NoParameter { other: Some(other), .. } => Some(other.clone()),
             ArgumentProblem::NoParameter { labels, .. } if labels.is_empty() => None,
-            ArgumentProblem::NoParameter { labels, .. } => Some(format!("still free are {labels}")),
+            ArgumentProblem::NoParameter { labels, .. } => Some(format!("parameters still free: {labels}")),
             ArgumentProblem::BareBrace { labels, .. } => Some(format!("write the label first: {labels}")),
             ArgumentProblem::WrongUnit { units, .. } if units.is_empty() => Some("it has no unit".into()),
             ArgumentProblem::WrongUnit { units, .. } => Some(format!("write {units}, or no unit")),
@@ -163,7 +163,7 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::Exclusive { .. } => Some("give one of them".into()),
             ArgumentProblem::NotKept { near: Some(near), .. } => Some(format!("did you mean \"{near}\"?")),
             ArgumentProblem::NotKept { near: None, .. } => Some(
-                "those of chapter 10.1 can be saved, such as \"I\" and \"TOOLS\", and the settings of chapter 9".into(),
+                "the variables of chapter 10.1 of the manual can be saved, such as \"I\" and \"TOOLS\", and the settings of chapter 9".into(),
             ),
             ArgumentProblem::NotSet { parameter } => Some(format!("give a number, or leave `{parameter}` out")),
             _ => None,

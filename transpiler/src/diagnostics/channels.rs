@@ -17,7 +17,7 @@ problems! {
             /// More channels than an int has bits.
             TooMany { kind: &'static str, from: i32, to: i32 },
         }
-        error 806 "An analog value that its channel does not carry" => {
+        error 806 "An analog value outside its channel's range" => {
             /// A value that the type of an analog output does not carry.
             Value { channel: i32, value: f64, ty: AnalogType },
         }
@@ -43,7 +43,7 @@ impl Problem for ChannelProblem {
                 format!("foreground channel {channel} does not exist: the cell has channels 1 to {count}")
             }
             ChannelProblem::Reversed { kind, from, to } => {
-                format!("{kind} {from} to {to} is a reversed range: the first channel comes first")
+                format!("{kind} {from} to {to} is a reversed range: the lower number comes first")
             }
             ChannelProblem::TooMany { kind, from, to } => {
                 format!("{kind} {from} to {to} are more than 32 channels, which is the most that one int holds")

@@ -13,13 +13,13 @@ problems! {
         }
         error 808 "Registers or bytes that a bus does not have" => {
             /// So many of these from `start` on: there are `size`, from 0 on. `result` is what becomes of the call.
-            Missing { unit: Unit, start: i64, count: i64, size: i64, result: &'static str },
+            Missing { unit: NamedUnits, start: i64, count: i64, size: i64, result: &'static str },
         }
         error 809 "A serial line without a device" => {
             /// A serial line to which the cell gives no device; it knows others.
             Line { name: String, known: Vec<String> },
         }
-        warning 853 "Registers that no PLC reaches" => {
+        warning 853 "Registers that no PLC can reach" => {
             /// Registers or coils in a cell without a server.
             Unseen { name: &'static str },
         }
@@ -28,7 +28,7 @@ problems! {
 
 /// What a call names, one of them and several.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Unit {
+pub(crate) struct NamedUnits {
     pub(crate) one: &'static str,
     pub(crate) many: &'static str,
 }
@@ -37,18 +37,18 @@ impl Problem for ConnectionProblem {
     fn message(&self) -> String {
         match self {
             ConnectionProblem::Value { param, value, accepted } => {
-                format!("`{param}` cannot be {value}: it is {accepted}")
+                format!("`{param}` cannot be {value}: it must be {accepted}")
             }
             ConnectionProblem::Missing { unit, start, count: 0 | 1, .. } => format!("there is no {} {start}", unit.one),
             ConnectionProblem::Missing { unit, start, count: ..0, .. } => {
-                format!("fewer than 0 {} from {start} on cannot be named", unit.many)
+                format!("a call cannot name fewer than 0 {} from {start} on", unit.many)
             }
             ConnectionProblem::Missing { unit, start, count, .. } => {
-                format!("{} {start} to {} are not all there", unit.many, start + count - 1)
+                format!("{} {start} to {} do not all exist", unit.many, start + count - 1)
             }
             ConnectionProblem::Line { name, .. } => format!("the cell has no device for the serial line \"{name}\""),
             ConnectionProblem::Unseen { name } => {
-                format!("`{name}` in a cell without Modbus TCP server: no PLC reaches these registers and coils")
+                format!("`{name}` in a cell without a Modbus TCP server: no PLC can reach these registers and coils")
             }
         }
     }
@@ -61,9 +61,11 @@ impl Problem for ConnectionProblem {
         Some(match self {
             ConnectionProblem::Value { .. } => "the call would end in an alarm".into(),
             ConnectionProblem::Missing { size: 0, result, .. } => format!("there are none; {result}"),
-            ConnectionProblem::Missing { size, result, .. } => format!("there are 0 to {}; {result}", size - 1),
+            ConnectionProblem::Missing { size, result, .. } => {
+                format!("the valid numbers are 0 to {}; {result}", size - 1)
+            }
             ConnectionProblem::Line { known, .. } if known.is_empty() => {
-                "[serial] of the cell file gives names their devices; a path, like /dev/ttyS0, needs none".into()
+                "[serial] of the cell file assigns devices to names; a path such as /dev/ttyS0 needs no entry".into()
             }
             ConnectionProblem::Line { known, .. } => {
                 format!("[serial] of the cell file has devices for: {}", known.join(", "))

@@ -30,15 +30,15 @@ problems! {
             /// A double divided by a literal zero.
             DoubleByZero,
         }
-        warning 951 "A name in another case than declared" => {
+        warning 951 "A name written in another case than declared" => {
             /// A name written in another case than declared.
             OtherCase { declared: String },
         }
-        warning 952 "A conversion beyond the manual" => {
+        warning 952 "A conversion that is not in the manual" => {
             /// A conversion that the controller does not know.
             ExtendedConversion { from: String, to: String },
         }
-        warning 953 "A form beyond the manual" => {
+        warning 953 "A form that is not in the manual" => {
             /// A spelling or form that the manual does not have.
             Extended { what: String },
         }
@@ -58,7 +58,7 @@ impl Problem for ConstantProblem {
             ConstantProblem::ExtendedConversion { from, to } => {
                 format!("the controller does not convert {from} to {to} by itself")
             }
-            ConstantProblem::Extended { what } => format!("the manual does not know {what}"),
+            ConstantProblem::Extended { what } => format!("the manual does not mention {what}"),
         }
     }
 

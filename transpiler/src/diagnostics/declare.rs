@@ -42,7 +42,7 @@ macro_rules! code_info {
 /// problems! {
 ///     /// What is wrong with a file.
 ///     pub(crate) enum ModuleProblem {
-///         error 601 "A file that is not there" => {
+///         error 601 "A file that does not exist" => {
 ///             /// No such file.
 ///             Missing { path: String },
 ///         }

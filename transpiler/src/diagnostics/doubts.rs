@@ -18,7 +18,7 @@ problems! {
             /// `found`: the unit that the numbers look like; `wanted`: ARL's; `example`: a value in both.
             OtherUnit { structure: &'static str, found: &'static str, wanted: &'static str, example: String },
         }
-        warning 916 "A zone that never acts" => {
+        warning 916 "A blending zone without effect" => {
             /// The robot stops at the target anyway, for the statement `culprit`.
             IdleZone { culprit: &'static str },
         }
@@ -26,7 +26,7 @@ problems! {
             /// All cases of a `switch` in a loop end with `break`.
             BreakOfCase,
         }
-        warning 919 "A local variable that hides another by case alone" => {
+        warning 919 "A local variable whose name hides another one by case alone" => {
             /// `n` inside, `N` outside. `hidden`: as it is declared outside; `what`: what that is.
             HiddenByCase { name: String, hidden: String, what: &'static str },
         }
@@ -34,15 +34,15 @@ problems! {
             /// `int a[5] = {1,2,3}`, or rows of an array. `of`: what there are too few of, elements or rows.
             TooFewValues { given: usize, size: usize, of: &'static str, rest: &'static str, help: String },
         }
-        warning 921 "A number that looks like another unit" => {
+        warning 921 "A number that looks as if it were in another unit" => {
             /// `vl:0.15`: `found` is what it looks like, `right` the same in ARL's unit.
             OtherScale { name: String, value: String, found: &'static str, wanted: &'static str, right: String },
         }
-        warning 922 "A loop that only looks at an input" => {
+        warning 922 "A loop that only reads an input" => {
             /// `while(!getdi(1))` and its like. `condition`: what it waits for.
             Polls { condition: String },
         }
-        warning 917 "A handler that may wait for ever" => {
+        warning 917 "A handler that may wait forever" => {
             /// A `waituntil` without a time limit in a function that handles an event.
             EndlessHandler { handler: String },
         }
@@ -53,14 +53,14 @@ impl Problem for Doubt {
     fn message(&self) -> String {
         match self {
             Doubt::AssignedCondition => "this condition assigns: `=` writes the variable".into(),
-            Doubt::ComparedStatement => "this compares, and nothing looks at the result".into(),
+            Doubt::ComparedStatement => "this compares, but the result is not used".into(),
             Doubt::OtherUnit { structure, found, wanted, .. } => {
                 format!("this `{structure}` looks like {found}: ARL takes {wanted}")
             }
             Doubt::IdleZone { culprit } => {
-                format!("this zone never acts: the robot stops at the target, since `{culprit}` waits for it")
+                format!("this zone has no effect: the robot stops at the target, since `{culprit}` waits for it")
             }
-            Doubt::BreakOfCase => "this leaves the loop around the `switch`, and not only the case".into(),
+            Doubt::BreakOfCase => "this leaves the loop around the `switch`, not only the case".into(),
             Doubt::HiddenByCase { name, hidden, what } => {
                 format!("`{name}` hides the {what} `{hidden}`: names that differ in case alone are the same name")
             }
@@ -72,11 +72,9 @@ impl Problem for Doubt {
             Doubt::OtherScale { name, value, found, wanted, .. } => {
                 format!("`{name}` is {value}, which looks like {found}: ARL takes {wanted}")
             }
-            Doubt::Polls { .. } => {
-                "this loop does nothing but ask, as fast as it can, until the condition comes".into()
-            }
+            Doubt::Polls { .. } => "this loop only polls, as fast as it can, until the condition holds".into(),
             Doubt::EndlessHandler { handler } => {
-                format!("`{handler}` handles an event, and this may hold up the program for ever")
+                format!("`{handler}` handles an event, and this may hold up the program forever")
             }
         }
     }
@@ -94,7 +92,7 @@ impl Problem for Doubt {
             Doubt::ComparedStatement => "`=` assigns".into(),
             Doubt::OtherUnit { example, .. } => example.clone(),
             Doubt::IdleZone { .. } => {
-                "leave it out, or act on the way with an event: `lin p1,sl:10;T(0.2),setdo(2,true)`".into()
+                "leave it out, or act during the motion with an event: `lin p1,sl:10;T(0.2),setdo(2,true)`".into()
             }
             Doubt::BreakOfCase => "a case ends by itself where the next one begins: remove the `break`".into(),
             Doubt::HiddenByCase { hidden, .. } => {

@@ -34,7 +34,7 @@ problems! {
             /// `continue` outside loops.
             ContinueOutside,
         }
-        error 508 "A case value that stands twice" => {
+        error 508 "A case value that appears twice" => {
             /// Two cases with one value.
             CaseTwice { value: String },
         }
@@ -50,7 +50,7 @@ problems! {
             /// A condition that waits or moves.
             ConditionWaits { culprit: String },
         }
-        error 513 "A first motion that is not fully set" => {
+        error 513 "A first motion whose target is not fully set" => {
             /// A first motion that leaves open where it begins.
             FirstMotion { instruction: String, missing: String },
         }
@@ -88,12 +88,12 @@ impl Problem for FlowProblem {
             FlowProblem::MainSignature { what } => format!("`main` cannot have {what}"),
             FlowProblem::FunctionTwice { name } => format!("the function `{name}` is defined twice"),
             FlowProblem::ReturnWithoutValue { result } => {
-                format!("this function returns a value of type {result}, but here is none")
+                format!("this function returns a value of type {result}, but none is given here")
             }
             FlowProblem::ReturnWithValue => "this function is void and returns no value".into(),
-            FlowProblem::BreakOutside { .. } => "`break` stands outside any loop".into(),
-            FlowProblem::ContinueOutside => "`continue` stands outside any loop".into(),
-            FlowProblem::CaseTwice { value } => format!("the case {value} stands twice in this switch"),
+            FlowProblem::BreakOutside { .. } => "`break` is outside any loop".into(),
+            FlowProblem::ContinueOutside => "`continue` is outside any loop".into(),
+            FlowProblem::CaseTwice { value } => format!("the case {value} appears twice in this switch"),
             FlowProblem::CaseNotConstant => "the value of a case must be constant".into(),
             FlowProblem::SwitchType { ty } => format!("a switch cannot compare values of type {ty}"),
             FlowProblem::ConditionWaits { culprit } => {
@@ -136,7 +136,7 @@ impl Problem for FlowProblem {
             }
             FlowProblem::ConditionWaits { .. } => Some("a condition may read inputs and compute".into()),
             FlowProblem::FirstMotion { .. } => Some(
-                "what is not set keeps its start, and before the first motion no start is known: set all axes".into(),
+                "a component that is not set keeps its start value, and before the first motion none is known: set all of them".into(),
             ),
             FlowProblem::MissingReturn { result, .. } => {
                 Some(format!("it then returns the start value of {result}; write a `return` to say so"))

@@ -7,7 +7,7 @@ use arl_lang::text::Mixed;
 problems! {
     /// What is wrong with a file.
     pub(crate) enum ModuleProblem {
-        error 601 "A file that is not there" => {
+        error 601 "A file that does not exist" => {
             /// No such file.
             Missing { path: String },
         }
@@ -29,7 +29,7 @@ problems! {
             /// A file name that cannot be used in front of `::`.
             ModuleName { path: String },
         }
-        error 605 "Two modules of one name" => {
+        error 605 "Two modules of the same name" => {
             /// Two imported files of one name.
             SameName { name: String, first: String },
         }
@@ -70,8 +70,8 @@ impl Problem for ModuleProblem {
     fn help(&self) -> Option<String> {
         match self {
             ModuleProblem::Mixture { .. } | ModuleProblem::UnreadableMixture { .. } => Some(
-                "a file has one encoding: write these lines again in an editor that is set to one, \
-                 best to UTF-8, and save"
+                "a file has one encoding: retype these lines in an editor that is set to one, \
+                 preferably to UTF-8, and save"
                     .into(),
             ),
             ModuleProblem::Missing { .. } => Some(

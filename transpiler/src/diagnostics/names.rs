@@ -84,7 +84,7 @@ problems! {
 impl Problem for NameProblem {
     fn message(&self) -> String {
         match self {
-            NameProblem::IsModule { name } => format!("`{name}` is a module, no variable"),
+            NameProblem::IsModule { name } => format!("`{name}` is a module, not a variable"),
             NameProblem::UnknownVariable { name, .. } | NameProblem::SignalName { name, .. } => {
                 format!("there is no variable `{name}` here")
             }
@@ -123,7 +123,7 @@ impl Problem for NameProblem {
                 Some(format!("`{name}` is a function: call it with parentheses, `{name}(...)`"))
             }
             NameProblem::UnknownVariable { quoted: Some(text), .. } => {
-                Some(format!("a text, such as the name of a file or of a point, stands in quotes: `\"{text}\"`"))
+                Some(format!("a text, such as the name of a file or of a point, is written in quotes: `\"{text}\"`"))
             }
             NameProblem::UnknownVariable { near, name, ty, .. } => {
                 let word = elsewhere::argument_word(name).map(has);
@@ -159,7 +159,7 @@ impl Problem for NameProblem {
             }
             NameProblem::Duplicate { .. } => Some("give one of them another name (case makes no difference)".into()),
             NameProblem::VariableBelow { .. } => {
-                Some("a global variable is known below its declaration: move the declaration up".into())
+                Some("a global variable is only known below its declaration: move the declaration up".into())
             }
             NameProblem::FunctionBelow { .. } => {
                 Some("a function must be defined above its first call: move the definition up".into())
@@ -175,11 +175,11 @@ impl Problem for NameProblem {
                 elsewhere::word(name).map(has).or_else(|| meant(near))
             }
             NameProblem::IsModule { name } => {
-                Some(format!("what a module has stands behind two colons, `{name}::...`"))
+                Some(format!("the members of a module are written after two colons, `{name}::...`"))
             }
-            NameProblem::SignalName { name, signal, channel } => {
-                Some(format!("the cell calls {signal} so; a program says its number: `const int {name} = {channel}`"))
-            }
+            NameProblem::SignalName { name, signal, channel } => Some(format!(
+                "that is the cell's name for {signal}; a program uses its number: `const int {name} = {channel}`"
+            )),
             NameProblem::Renamed { now, .. } => Some(format!("did you mean `{now}`?")),
         }
     }

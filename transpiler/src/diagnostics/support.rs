@@ -43,11 +43,11 @@ impl Problem for SupportProblem {
 
     fn help(&self) -> Option<String> {
         match self {
-            SupportProblem::Lost => Some(
-                "this is a mistake of arl2rs, not of the program: please report it together with the program".into(),
-            ),
+            SupportProblem::Lost => {
+                Some("this is a bug in arl2rs, not in the program: please report it together with the program".into())
+            }
             SupportProblem::Background { .. } => {
-                Some("let a foreground channel do it, and tell it by io, `$I` or `$B`".into())
+                Some("let a foreground channel do it, and signal it through io, `$I` or `$B`".into())
             }
             SupportProblem::OtherFamily { .. } => Some("name the robot that the program is for with `--robot`".into()),
             SupportProblem::ParameterOfOtherFamily { .. } => {

@@ -19,7 +19,7 @@ problems! {
 
 impl Problem for NotTaken {
     fn message(&self) -> String {
-        format!("`${}` does not take {}: an alarm when it is assigned", self.variable, self.value)
+        format!("`${}` does not take {}: assigning it raises an alarm", self.variable, self.value)
     }
 
     fn label(&self) -> String {

@@ -37,8 +37,8 @@ problems! {
             /// A pose that other configurations reach.
             Configuration { cfg: u8, others: Vec<u8> },
         }
-        warning 910 "A line that passes a singular point" => {
-            /// A line that passes a singular point `along` it, 0 to 1.
+        warning 910 "A line that passes a singularity" => {
+            /// A line that passes a singularity `along` it, 0 to 1.
             Singular { along: f64, at: Singularity },
         }
     }
@@ -105,10 +105,10 @@ impl Problem for TargetProblem {
                 let (value, by) = (short(*value), short(*by));
                 format!("this pose has {name} at {value} {unit} in cfg {cfg}, {by} {unit} beyond its range on {robot}")
             }
-            Kind::OutOfReach { by } => format!("this pose is {by:.3} mm out of the reach of {robot}"),
+            Kind::OutOfReach { by } => format!("this pose is {by:.3} mm beyond the reach of {robot}"),
             Kind::Tilted { by } => {
                 format!(
-                    "for this pose {robot} would have to tilt its flange by {} deg, which a SCARA cannot",
+                    "for this pose {robot} would have to tilt its flange by {} deg, which a SCARA cannot do",
                     short(*by)
                 )
             }
@@ -116,11 +116,11 @@ impl Problem for TargetProblem {
             Kind::Configuration { cfg, .. } => format!("{robot} cannot reach this pose in cfg {cfg}"),
             Kind::Singular { along, at } => {
                 let place = match at {
-                    Singularity::Wrist => "axes 4 and 6 turn about nearly one line",
+                    Singularity::Wrist => "axes 4 and 6 turn about nearly the same line",
                     Singularity::Elbow => "the arm is stretched, or folded upon itself",
                     Singularity::Shoulder => "the centre of the wrist is on axis 1",
                 };
-                format!("this line passes a singular point of {robot}: {:.1} % along it {place}", along * 100.0)
+                format!("this line passes a singularity of {robot}: {:.1} % along it, {place}", along * 100.0)
             }
         }
     }
@@ -142,18 +142,18 @@ impl Problem for TargetProblem {
             Kind::NoSuchCfg { .. } => format!("{CONFIGURATIONS}; {ALARM}"),
             Kind::Configuration { others, .. } => format!("{}{ALARM}", reaching(others)),
             Kind::Singular { at: Singularity::Wrist, .. } => format!(
-                "an axis would have to turn at once, and {ALARM}; tilt the tool by some degrees, go there with ptp or movej, or \
-                 let $WRIST lead the wrist through"
+                "an axis would have to turn infinitely fast, and {ALARM}; tilt the tool by a few degrees, go there with ptp or movej, or \
+                 let $WRIST guide the wrist through"
             ),
             Kind::Singular { .. } => format!(
-                "an axis would have to turn at once, and {ALARM}; let the line keep away from it, or go there with ptp or movej"
+                "an axis would have to turn infinitely fast, and {ALARM}; keep the line away from it, or go there with ptp or movej"
             ),
         };
         let (labels, above) = match (self.frame_above, self.tool_above) {
             (false, false) => return Some(words),
-            (true, false) => ("`w:`", "the workpiece frame from above still holds"),
-            (false, true) => ("`t:`", "the tool from above still holds"),
-            (true, true) => ("`w:` and `t:`", "workpiece frame and tool from above still hold"),
+            (true, false) => ("`w:`", "the workpiece frame set above still applies"),
+            (false, true) => ("`t:`", "the tool set above still applies"),
+            (true, true) => ("`w:` and `t:`", "the workpiece frame and tool set above still apply"),
         };
         Some(format!("{words}; this motion gives no {labels}: {above}. Give {labels} here"))
     }

@@ -52,12 +52,12 @@ problems! {
             /// A component that is given twice.
             ComponentTwice { name: String },
         }
-        error 312 "A const that is written" => {
+        error 312 "A const that is changed" => {
             /// Writing a const.
             AssignConst { name: String },
         }
-        error 313 "Something written that is not a variable" => {
-            /// Writing something that is no variable.
+        error 313 "Writing to something that is not a variable" => {
+            /// Writing something that is not a variable.
             NotAssignable { text: String },
         }
         error 314 "A read-only system variable that is written" => {
@@ -100,7 +100,7 @@ problems! {
             /// A type of the other robot family.
             OtherFamily { name: String, family: &'static str },
         }
-        error 324 "A whole number beyond int" => {
+        error 324 "A whole number that is too large for int" => {
             /// An int literal of 2^31 or more where no uint is wanted.
             WideLiteral { text: String },
         }
@@ -171,18 +171,18 @@ impl Problem for TypeProblem {
             TypeProblem::HandleCopy { ty } => format!("a {ty} is a handle and cannot be copied"),
             TypeProblem::NoValue { what } => format!("{what} has no value"),
             TypeProblem::ArraySize => "the size of an array must be a constant integer of 1 or more".into(),
-            TypeProblem::ArrayTooLarge { len } => format!("the array has {len} elements, 10000 is the most"),
+            TypeProblem::ArrayTooLarge { len } => format!("the array has {len} elements, but 10000 is the most"),
             TypeProblem::TooManyDimensions { most } => format!("an array has at most {most} dimensions"),
             TypeProblem::ConstWithoutValue { name } => format!("the const `{name}` has no value"),
             TypeProblem::VoidVariable => "a variable cannot be of type void".into(),
             TypeProblem::OtherFamily { name, family } => format!("`{name}` exists for {family} robots only"),
-            TypeProblem::WideLiteral { text } => format!("{text} is beyond int, and nothing here wants a uint"),
+            TypeProblem::WideLiteral { text } => format!("{text} is too large for int, and nothing here takes a uint"),
             TypeProblem::SpliceType => "nothing here says what ARL type this Rust value has".into(),
             TypeProblem::Dimensions { found, wanted } => format!("this must be {wanted}, but it is {found}"),
             TypeProblem::TooManyRows { rows } => format!("too many rows: the array has {rows}"),
             TypeProblem::NotARow { .. } => "the first values are rows in braces, but this one is not".into(),
             TypeProblem::FlatStructure { ty, component, inner, .. } => {
-                format!("the `{component}` of a `{ty}` is a {inner} and has braces of its own")
+                format!("the `{component}` of a `{ty}` is a {inner} and needs braces of its own")
             }
             TypeProblem::ResultType { ty } => format!("a function cannot return a value of type {ty}"),
         }
@@ -218,7 +218,7 @@ impl Problem for TypeProblem {
             TypeProblem::WideLiteral { .. } => {
                 Some("store it in a uint, write it as a double (`3e9`), or as a bit pattern in hexadecimal".into())
             }
-            TypeProblem::SpliceType => Some("say it with `#(value as double)`".into()),
+            TypeProblem::SpliceType => Some("give the type: `#(value as double)`".into()),
             TypeProblem::IndexType { found } if found == "double" => Some("`toint(...)` makes an int of it".into()),
             TypeProblem::NotAnArray { ty } if ty == "string" => {
                 Some("`substr` takes characters out of a string".into())

@@ -56,7 +56,7 @@ impl Facts {
 
 /// What an expression is looked at with.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scope<'a> {
+pub(crate) struct FactScope<'a> {
     pub(crate) program: &'a Program,
     /// The function that it stands in.
     pub(crate) func: Option<&'a Func>,
@@ -67,28 +67,28 @@ pub(crate) struct Scope<'a> {
 /// The facts about what a function does itself; what it calls is only listed.
 pub(crate) fn of_function(program: &Program, func: &Func) -> Facts {
     let ranges = Ranges::of_function(func);
-    let scope = Scope { program, func: Some(func), ranges: &ranges };
+    let scope = FactScope { program, func: Some(func), ranges: &ranges };
     let mut collector = Collector { scope, callees: false, facts: Facts::default() };
     collector.block(&func.body);
     collector.facts
 }
 
 /// The facts about an expression, once the effects of the functions are known.
-pub(crate) fn of_expr(scope: Scope<'_>, expr: &Expr) -> Facts {
+pub(crate) fn of_expr(scope: FactScope<'_>, expr: &Expr) -> Facts {
     let mut collector = Collector { scope, callees: true, facts: Facts::default() };
     collector.expr(expr);
     collector.facts
 }
 
 /// The facts about reading a place.
-pub(crate) fn of_place(scope: Scope<'_>, place: &Place) -> Facts {
+pub(crate) fn of_place(scope: FactScope<'_>, place: &Place) -> Facts {
     let mut collector = Collector { scope, callees: true, facts: Facts::default() };
     collector.read(place);
     collector.facts
 }
 
 /// The facts about the indices of a projection.
-pub(crate) fn of_indices(scope: Scope<'_>, indices: &[Expr], array: Type) -> Facts {
+pub(crate) fn of_indices(scope: FactScope<'_>, indices: &[Expr], array: Type) -> Facts {
     let mut collector = Collector { scope, callees: true, facts: Facts::default() };
     collector.indices(indices, array);
     collector.facts
@@ -144,7 +144,7 @@ fn plain_truth(expr: &Expr, wanted: bool) -> Option<&Expr> {
 }
 
 struct Collector<'a> {
-    scope: Scope<'a>,
+    scope: FactScope<'a>,
     /// Whether the effects of called functions count.
     callees: bool,
     facts: Facts,

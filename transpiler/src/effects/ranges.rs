@@ -29,7 +29,7 @@ impl Ranges {
                 && let Some((least, greatest)) = limits(range.from.ty)
             {
                 let from = self.interval(range.from).map_or(least, |(from, _)| from);
-                // The variable does not reach `to`; where it may equal it, `to` is no limit of its type.
+                // The variable does not reach `to`; where it may equal it, `to` is not a limit of its type.
                 let to = self.interval(range.to).map_or(greatest, |(_, to)| to) - i64::from(!range.beyond);
                 self.0.insert(range.local, (from, to.max(from)));
             } else if let StmtKind::For(each) = &stmt.kind

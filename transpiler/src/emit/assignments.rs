@@ -6,7 +6,7 @@ use super::consts::{constant, typed_constant};
 use super::fragment::Fragment;
 use super::operators::{may_fail, text_mode};
 use super::places::{Calm, Reached, Written};
-use super::sequence::{Mode, Operand};
+use super::sequence::{Mode, OrderedOperand};
 use super::types::is_copy;
 use crate::effects::{facts, growth};
 use crate::hir::{Expr, ExprKind, Place, Projection, Root, Value};
@@ -156,7 +156,7 @@ impl<'p> Body<'p, '_> {
     ) -> (TokenStream, Reached, Fragment) {
         let mut operands = Self::index_operands(place);
         let count = operands.len();
-        operands.extend(value.map(|(value, mode)| Operand::Expr(value, mode)));
+        operands.extend(value.map(|(value, mode)| OrderedOperand::Expr(value, mode)));
         let (before, mut fragments) = self.sequence(&operands, |at| settle && at < count);
         let value = match value {
             Some(_) => fragments.pop(),

@@ -12,7 +12,7 @@ use super::slots::Slots;
 use super::templates::Templates;
 use super::temporaries::Temporaries;
 use super::usage::Usage;
-use crate::effects::facts::{self, Facts, Scope};
+use crate::effects::facts::{self, FactScope, Facts};
 use crate::effects::ranges::Ranges;
 use crate::hir::{Expr, Func, FuncId, LocalId, ModuleId, Program, Value};
 use arl_lang::catalog::Family;
@@ -221,8 +221,8 @@ impl<'p, 'u> Body<'p, 'u> {
     }
 
     /// What facts are found with.
-    pub(super) fn scope(&self) -> Scope<'_> {
-        Scope { program: self.unit.program, func: self.func, ranges: &self.ranges }
+    pub(super) fn scope(&self) -> FactScope<'_> {
+        FactScope { program: self.unit.program, func: self.func, ranges: &self.ranges }
     }
 
     pub(super) fn facts(&self, expr: &Expr) -> Facts {

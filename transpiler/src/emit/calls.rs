@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
 use super::names::{field, ident};
-use super::sequence::{Mode, Operand};
+use super::sequence::{Mode, OrderedOperand};
 use super::types::{differs, is_copy, type_name};
 use super::written_back::Back;
 use crate::effects::facts;
@@ -13,7 +13,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 /// An argument on its way to the runtime.
-pub(super) struct Argument<'p> {
+pub(super) struct EmittedArgument<'p> {
     pub(super) param: usize,
     pub(super) value: Fragment,
     /// A place that has to be written after the call.
@@ -23,7 +23,7 @@ pub(super) struct Argument<'p> {
 impl<'p> Body<'p, '_> {
     /// A call of one of the program's functions.
     pub(super) fn call(&mut self, id: FuncId, args: &'p [Expr]) -> Fragment {
-        let operands: Vec<_> = args.iter().map(|arg| Operand::Expr(arg, Mode::Value)).collect();
+        let operands: Vec<_> = args.iter().map(|arg| OrderedOperand::Expr(arg, Mode::Value)).collect();
         let (before, args) = self.sequence(&operands, |_| false);
         let args = args.iter().map(|arg| &arg.tokens);
         let Some(func) = self.program().funcs.get(id.0 as usize) else {
@@ -116,7 +116,7 @@ impl<'p> Body<'p, '_> {
 
     /// The arguments, evaluated in the order of the program; with `ahead`, all that matters is evaluated in statements
     /// of its own.
-    pub(super) fn arguments(&mut self, builtin: &'p Builtin, ahead: bool) -> (TokenStream, Vec<Argument<'p>>) {
+    pub(super) fn arguments(&mut self, builtin: &'p Builtin, ahead: bool) -> (TokenStream, Vec<EmittedArgument<'p>>) {
         let entry = builtin.entry;
         let mut before = TokenStream::new();
         let mut out = Vec::new();
@@ -127,7 +127,7 @@ impl<'p> Body<'p, '_> {
             matches!(mode, Some(ParamMode::Condition | ParamMode::Action))
         };
         let args = || builtin.args.iter().filter(|arg| !later(arg));
-        let operands: Vec<Operand<'p>> = args().flat_map(|arg| self.argument_operands(entry, arg)).collect();
+        let operands: Vec<OrderedOperand<'p>> = args().flat_map(|arg| self.argument_operands(entry, arg)).collect();
         let moved = reordered(entry, &builtin.args);
         let loud: Vec<bool> = operands.iter().map(|operand| !self.operand_facts(operand).quiet()).collect();
         let several = loud.iter().filter(|loud| **loud).count() > 1;
@@ -153,7 +153,7 @@ impl<'p> Body<'p, '_> {
                     (value, back.map(|back| if in_turn { back } else { back.at_once(&mut before) }))
                 }
             };
-            out.push(Argument { param: arg.param, value, back });
+            out.push(EmittedArgument { param: arg.param, value, back });
         }
         (before, out)
     }
@@ -171,15 +171,15 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    fn argument_operands(&self, entry: &Entry, arg: &'p Bound) -> Vec<Operand<'p>> {
+    fn argument_operands(&self, entry: &Entry, arg: &'p Bound) -> Vec<OrderedOperand<'p>> {
         match &arg.value {
-            Passed::Value(expr) => vec![Operand::Expr(expr, passing(entry, arg.param, expr.ty))],
+            Passed::Value(expr) => vec![OrderedOperand::Expr(expr, passing(entry, arg.param, expr.ty))],
             Passed::Out(place) => Self::index_operands(place),
         }
     }
 
     /// `math::atan2(y, x)`: all parameters in the order of the catalog.
-    fn function_call(&self, entry: &Entry, arguments: &[Argument<'p>]) -> TokenStream {
+    fn function_call(&self, entry: &Entry, arguments: &[EmittedArgument<'p>]) -> TokenStream {
         let path = path(entry.path);
         let given = |param: usize| {
             arguments
@@ -209,10 +209,11 @@ impl<'p> Body<'p, '_> {
 }
 
 /// `motion::movej(target).vp(20.0).run(cx)`
-pub(super) fn instruction_call(entry: &Entry, arguments: &[Argument<'_>], how: TokenStream) -> TokenStream {
+pub(super) fn instruction_call(entry: &Entry, arguments: &[EmittedArgument<'_>], how: TokenStream) -> TokenStream {
     let path = path(entry.path);
     let is_required = |param: usize| entry.params.get(param).is_some_and(|param| param.presence == Presence::Required);
-    let mut required: Vec<&Argument<'_>> = arguments.iter().filter(|argument| is_required(argument.param)).collect();
+    let mut required: Vec<&EmittedArgument<'_>> =
+        arguments.iter().filter(|argument| is_required(argument.param)).collect();
     required.sort_by_key(|argument| argument.param);
     let required = required.iter().map(|argument| &argument.value.tokens);
     let rest = arguments.iter().filter(|argument| !is_required(argument.param)).map(|argument| {

@@ -2,7 +2,7 @@
 //! they run when the function that declares them may be over.
 
 use super::body::{Body, Tail};
-use super::calls::{Argument, instruction_call};
+use super::calls::{EmittedArgument, instruction_call};
 use super::fragment::Fragment;
 use super::statements::{is_unit, without_detour};
 use super::tokens::mentions;
@@ -26,7 +26,7 @@ impl<'p> Body<'p, '_> {
             let Passed::Value(expr) = &arg.value else { continue };
             let mode = entry.params.get(arg.param).map(|param| param.mode);
             let closure = if mode == Some(Mode::Action) { self.action(expr) } else { self.watched(expr) };
-            arguments.push(Argument { param: arg.param, value: Fragment::postfix(closure), back: None });
+            arguments.push(EmittedArgument { param: arg.param, value: Fragment::postfix(closure), back: None });
         }
         self.acts = true;
         let call = self.checked(instruction_call(entry, &arguments, quote!(run)));

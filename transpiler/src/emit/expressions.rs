@@ -5,7 +5,7 @@ use super::consts::{constant, typed_constant};
 use super::fragment::{Fragment, Precedence};
 use super::names::ident;
 use super::operators::infix;
-use super::sequence::{Mode, Operand, nested};
+use super::sequence::{Mode, OrderedOperand, nested};
 use super::types::{array_type, base_type, component, is_copy, start_value, type_name};
 use crate::hir::{Expr, ExprKind, Type, Value};
 use arl_lang::ast::{BinaryOp, UnaryOp};
@@ -127,7 +127,7 @@ impl<'p> Body<'p, '_> {
             return self.sure_index(indices, array);
         }
         let sizes: Vec<Literal> = array.dims().iter().map(|size| Literal::u16_unsuffixed(*size)).collect();
-        let operands: Vec<_> = indices.iter().map(|index| Operand::Expr(index, Mode::Value)).collect();
+        let operands: Vec<_> = indices.iter().map(|index| OrderedOperand::Expr(index, Mode::Value)).collect();
         let (before, indices) = self.sequence(&operands, |_| false);
         let indices: Vec<&TokenStream> = indices.iter().map(|index| &index.tokens).collect();
         let call = match (indices.as_slice(), sizes.as_slice()) {
@@ -139,7 +139,7 @@ impl<'p> Body<'p, '_> {
 
     /// `i as usize * 3 + k as usize`, where the indices cannot leave the array.
     fn sure_index(&mut self, indices: &'p [Expr], array: Type) -> Fragment {
-        let operands: Vec<_> = indices.iter().map(|index| Operand::Expr(index, Mode::Value)).collect();
+        let operands: Vec<_> = indices.iter().map(|index| OrderedOperand::Expr(index, Mode::Value)).collect();
         let (before, fragments) = self.sequence(&operands, |_| false);
         let mut known = 0;
         let mut terms: Vec<TokenStream> = Vec::new();
@@ -229,7 +229,7 @@ impl<'p> Body<'p, '_> {
             return Fragment::postfix(quote!(#name::default()));
         }
         given.sort_by_key(|(_, value)| value.span.start);
-        let operands: Vec<_> = given.iter().map(|(_, value)| Operand::Expr(value, Mode::Value)).collect();
+        let operands: Vec<_> = given.iter().map(|(_, value)| OrderedOperand::Expr(value, Mode::Value)).collect();
         let (before, fragments) = self.sequence(&operands, |_| false);
         let fields = given.iter().zip(&fragments).map(|((at, _), value)| {
             let (field, value) = (component(id, *at, family), &value.tokens);
@@ -246,7 +246,7 @@ impl<'p> Body<'p, '_> {
         if values.is_empty() {
             return Fragment::postfix(start_value(ty, family));
         }
-        let operands: Vec<_> = values.iter().map(|value| Operand::Expr(value, Mode::Value)).collect();
+        let operands: Vec<_> = values.iter().map(|value| OrderedOperand::Expr(value, Mode::Value)).collect();
         let (before, values) = self.sequence(&operands, |_| false);
         let values = values.iter().map(|value| &value.tokens);
         let (array, element) = (array_type(ty, family), base_type(ty.base, family));

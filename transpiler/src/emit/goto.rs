@@ -16,7 +16,7 @@ use super::body::{Body, Exit, Loop, Tail};
 use super::consts::constant;
 use super::hooks::{Lines, written};
 use super::loops::give_back;
-use super::machine::{Machine, State};
+use super::machine::{Machine, MachineState};
 use super::names::{camel_case, ident};
 use super::parts::Leave;
 use super::rows::Group;
@@ -78,7 +78,7 @@ impl<'p> Body<'p, '_> {
         let Some(machine) = self.machine.take() else { return TokenStream::new() };
         let reached = machine.reached();
         self.usage.drops = reached.contains(&false);
-        let states: Vec<&State> =
+        let states: Vec<&MachineState> =
             machine.states.iter().zip(&reached).filter(|(_, reached)| **reached).map(|(state, _)| state).collect();
         let mut hoisted: Vec<LocalId> = machine.hoisted.iter().copied().collect();
         hoisted.sort_unstable();
@@ -202,7 +202,7 @@ impl<'p> Body<'p, '_> {
     fn set_state(&self, state: usize) -> TokenStream {
         match &self.machine {
             Some(machine) => match machine.states.get(state) {
-                Some(State { name, .. }) => {
+                Some(MachineState { name, .. }) => {
                     let variable = &machine.variable;
                     quote!(#variable = State::#name;)
                 }
@@ -220,7 +220,7 @@ impl<'p> Body<'p, '_> {
             name = format!("{wanted}{number}");
             number += 1;
         }
-        machine.states.push(State { name: ident(&name), code: TokenStream::new() });
+        machine.states.push(MachineState { name: ident(&name), code: TokenStream::new() });
         machine.states.len() - 1
     }
 

@@ -217,7 +217,7 @@ impl<'p> Body<'p, '_> {
         quote!(#pointer #from_before for #name in #from #to { #rounds })
     }
 
-    /// A `for` that is no range: its variables live in the block around it, or in one of their own where an outer
+    /// A `for` that is not a range: its variables live in the block around it, or in one of their own where an outer
     /// variable has the same name.
     fn general_for(&mut self, each: &'p For) -> TokenStream {
         let outer: Vec<String> = self.visible.iter().map(|id| self.local(*id).to_string()).collect();
@@ -332,18 +332,7 @@ impl<'p> Body<'p, '_> {
         emit: impl FnOnce(&mut Self) -> Turns,
     ) -> TokenStream {
         if !info.counts_alone() {
-            let before = self.looked_up.len();
-            let behind = info.counting.is_behind() && self.counter.is_none();
-            let elements = if behind { self.look_up(parts.blocks, parts.exprs) } else { Vec::new() };
-            let Turns { label, condition, round } = emit(self);
-            self.forget_looked_up(before);
-            let turns = match condition {
-                Some(condition) => quote!(#label while #condition { #round }),
-                None => quote!(#label loop { #round }),
-            };
-            let used = elements.into_iter().filter(|(name, _)| uses_variable(&turns, &name.to_string()));
-            let elements: TokenStream = used.map(|(_, statement)| statement).collect();
-            return if elements.is_empty() { turns } else { quote!({ #elements #turns }) };
+            return self.turns_in_context(info, &parts, emit);
         }
         let counter = self.reserve("rounds");
         let outer = self.counter.replace(counter.clone());
@@ -405,6 +394,27 @@ impl<'p> Body<'p, '_> {
             #done
             #wait
         })
+    }
+
+    /// A loop whose rounds are counted in the context.
+    fn turns_in_context(
+        &mut self,
+        info: LoopInfo,
+        parts: &Parts<'_, 'p>,
+        emit: impl FnOnce(&mut Self) -> Turns,
+    ) -> TokenStream {
+        let before = self.looked_up.len();
+        let behind = info.counting.is_behind() && self.counter.is_none();
+        let elements = if behind { self.look_up(parts.blocks, parts.exprs) } else { Vec::new() };
+        let Turns { label, condition, round } = emit(self);
+        self.forget_looked_up(before);
+        let turns = match condition {
+            Some(condition) => quote!(#label while #condition { #round }),
+            None => quote!(#label loop { #round }),
+        };
+        let used = elements.into_iter().filter(|(name, _)| uses_variable(&turns, &name.to_string()));
+        let elements: TokenStream = used.map(|(_, statement)| statement).collect();
+        if elements.is_empty() { turns } else { quote!({ #elements #turns }) }
     }
 
     /// The variables in memory that a loop uses.

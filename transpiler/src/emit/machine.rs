@@ -10,7 +10,7 @@ use std::collections::{HashMap, HashSet};
 pub(super) struct Machine {
     pub(super) variable: Ident,
     pub(super) label: syn::Lifetime,
-    pub(super) states: Vec<State>,
+    pub(super) states: Vec<MachineState>,
     /// The names of the states.
     pub(super) named: HashSet<String>,
     pub(super) of_label: HashMap<LabelId, usize>,
@@ -31,7 +31,7 @@ pub(super) struct Machine {
 
 #[derive(Debug)]
 /// A state of the machine.
-pub(super) struct State {
+pub(super) struct MachineState {
     pub(super) name: Ident,
     pub(super) code: TokenStream,
 }

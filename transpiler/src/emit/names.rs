@@ -85,7 +85,7 @@ fn tidy(name: &str, taken: &dyn Fn(&str) -> bool) -> String {
     if name.len() > lead + inner.len() {
         tidy.push('_');
     }
-    // A lone underscore is no name, and one in front would silence warnings about what is not used.
+    // A lone underscore is not a name, and one in front would silence warnings about what is not used.
     while tidy == "_" || tidy.is_empty() || taken(&tidy) {
         tidy.push('_');
         if tidy == "__" {
@@ -204,7 +204,7 @@ impl Names {
         let mut used = HashSet::new();
         let mut out = Vec::with_capacity(func.locals.len());
         for (at, local) in func.locals.iter().enumerate() {
-            // Underscores alone are no name in Rust, and get one that has to show by itself that nothing reads it.
+            // Underscores alone are not a name in Rust, and get one that has to show by itself that nothing reads it.
             let name = if local.name.chars().all(|c| c == '_') { UNDERSCORE } else { &local.name };
             let lead = if unread(LocalId(at as u32)) && !name.starts_with('_') { "_" } else { "" };
             let wanted = format!("{lead}{name}");

@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::consts::constant;
 use super::fragment::{Fragment, Precedence};
-use super::sequence::{Mode, Operand};
+use super::sequence::{Mode, OrderedOperand};
 use crate::effects::facts::compared_with_bool;
 use crate::hir::{Expr, ExprKind, Root, Type, Value};
 use arl_lang::ast::{BinaryOp, UnaryOp};
@@ -94,7 +94,7 @@ impl<'p> Body<'p, '_> {
             op if needs_type(op) || self.constant(right) == Some(&Value::Int(-1)) => (Mode::Typed, Mode::Value),
             _ => (Mode::Value, Mode::Value),
         };
-        let operands = [Operand::Expr(left, left_mode), Operand::Expr(right, right_mode)];
+        let operands = [OrderedOperand::Expr(left, left_mode), OrderedOperand::Expr(right, right_mode)];
         let (before, mut sides) = self.sequence(&operands, |_| false);
         let right_side = sides.pop().unwrap_or_else(|| Fragment::settled(quote!(())));
         let left_side = sides.pop().unwrap_or_else(|| Fragment::settled(quote!(())));
@@ -152,7 +152,7 @@ impl<'p> Body<'p, '_> {
         }
         match (enumeration(left), enumeration(right)) {
             (Some((id, left)), Some((other, right))) if id == other => {
-                let operands = [Operand::Expr(left, Mode::Value), Operand::Expr(right, Mode::Value)];
+                let operands = [OrderedOperand::Expr(left, Mode::Value), OrderedOperand::Expr(right, Mode::Value)];
                 let (before, sides) = self.sequence(&operands, |_| false);
                 let [left, right] = sides.as_slice() else { return None };
                 Some(Fragment::new(infix(op, left, right), Precedence::Compare).after(before))
@@ -183,7 +183,7 @@ impl<'p> Body<'p, '_> {
             Mode::Reference => Mode::Reference,
             _ => Mode::Value,
         };
-        let operands = [Operand::Expr(left, left_mode), Operand::Expr(right, text_mode(right))];
+        let operands = [OrderedOperand::Expr(left, left_mode), OrderedOperand::Expr(right, text_mode(right))];
         let (before, sides) = self.sequence(&operands, |_| false);
         match sides.as_slice() {
             [left, right] => Fragment::new(infix(BinaryOp::Add, left, right), Precedence::Sum).after(before),
@@ -240,7 +240,7 @@ pub(super) fn may_fail(op: BinaryOp, ty: Type, known: Option<&Value>) -> bool {
     }
 }
 
-/// Whether a number is no zero, so that dividing by it needs no check.
+/// Whether a number is not zero, so that dividing by it needs no check.
 fn is_divisor(value: &Value) -> bool {
     !matches!(value, Value::Int(0) | Value::Uint(0) | Value::Byte(0)) && *value != Value::Double(0.0)
 }

@@ -5,7 +5,7 @@
 
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
-use super::sequence::Operand;
+use super::sequence::OrderedOperand;
 use super::types::{component, differs, is_cells, is_copy, is_handle, type_name};
 use crate::effects::facts::{self, Facts};
 use crate::hir::{Expr, GlobalId, LocalId, Place, Projection, Root, Type, Value};
@@ -120,12 +120,12 @@ fn steps(path: &[Reach]) -> TokenStream {
 
 impl<'p> Body<'p, '_> {
     /// The indices of a place as operands.
-    pub(super) fn index_operands(place: &'p Place) -> Vec<Operand<'p>> {
+    pub(super) fn index_operands(place: &'p Place) -> Vec<OrderedOperand<'p>> {
         place
             .path
             .iter()
             .filter_map(|step| match step {
-                Projection::Index(indices, ty) => Some(Operand::Index(indices, *ty)),
+                Projection::Index(indices, ty) => Some(OrderedOperand::Index(indices, *ty)),
                 Projection::Field(..) => None,
             })
             .collect()

@@ -161,37 +161,7 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
     let wait = effects.waits.then(|| quote!(.await));
     let call = quote!(#module::#name(#cx #g)#wait);
     let main = future(if effects.fails { call } else { quote!(#call; Ok(())) });
-    let data: Vec<_> = parts.iter().filter(|part| part.data).map(|part| unit.names.module(part.id)).collect();
-    let data = (!data.is_empty()).then(|| {
-        let blank = blank(unit);
-        quote! {
-            #blank
-            fn data(&self) -> Vec<arl_rt::emit::DataFile<'_>> {
-                vec![#(self.#data.data()),*]
-            }
-        }
-    });
-    let named: Vec<_> = parts.iter().filter(|part| unit.named && part.variables).map(|part| part.id).collect();
-    let named = (!named.is_empty()).then(|| {
-        let (blank, modules) = (self::blank(unit), named.iter().map(|id| unit.names.module(*id)));
-        quote! {
-            #blank
-            fn variables(&self) -> Vec<arl_rt::emit::DataFile<'_>> {
-                vec![#(self.#modules.all()),*]
-            }
-        }
-    });
-    let with_handles = parts.iter().filter(|part| unit.watched && variables::has_handles(unit, part.id));
-    let handles: Vec<_> = with_handles.map(|part| unit.names.module(part.id)).collect();
-    let handles = (!handles.is_empty()).then(|| {
-        let blank = self::blank(unit);
-        quote! {
-            #blank
-            fn handles(&self) -> Vec<arl_rt::emit::ShownHandle<'_>> {
-                [#(self.#handles.handles()),*].into_iter().flatten().collect()
-            }
-        }
-    });
+    let tables = tables(unit, parts);
     let beside = beside(unit);
     let (init_cx, init_body) = init;
     let (main_cx, main_body) = main;
@@ -214,12 +184,47 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
             fn main<'a>(&'a self, #main_cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
                 #main_body
             }
-            #data
-            #named
-            #handles
+            #tables
             #beside
         }
     }
+}
+
+/// The functions that list what the modules have: variables of data files, all of them, handles.
+fn tables(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
+    let modules = |ids: &[ModuleId]| ids.iter().map(|id| unit.names.module(*id)).collect::<Vec<_>>();
+    let ids = |has: &dyn Fn(&Parts) -> bool| parts.iter().filter(|part| has(part)).map(|part| part.id).collect();
+    let data: Vec<ModuleId> = ids(&|part| part.data);
+    let data = (!data.is_empty()).then(|| {
+        let (blank, modules) = (blank(unit), modules(&data));
+        quote! {
+            #blank
+            fn data(&self) -> Vec<arl_rt::emit::DataFile<'_>> {
+                vec![#(self.#modules.data()),*]
+            }
+        }
+    });
+    let named: Vec<ModuleId> = ids(&|part| unit.named && part.variables);
+    let named = (!named.is_empty()).then(|| {
+        let (blank, modules) = (blank(unit), modules(&named));
+        quote! {
+            #blank
+            fn variables(&self) -> Vec<arl_rt::emit::DataFile<'_>> {
+                vec![#(self.#modules.all()),*]
+            }
+        }
+    });
+    let handles: Vec<ModuleId> = ids(&|part| unit.watched && variables::has_handles(unit, part.id));
+    let handles = (!handles.is_empty()).then(|| {
+        let (blank, modules) = (blank(unit), modules(&handles));
+        quote! {
+            #blank
+            fn handles(&self) -> Vec<arl_rt::emit::ShownHandle<'_>> {
+                [#(self.#modules.handles()),*].into_iter().flatten().collect()
+            }
+        }
+    });
+    quote!(#data #named #handles)
 }
 
 /// `fn beside(&self) -> Beside`, where the program uses something that runs beside the cycle.

@@ -29,7 +29,7 @@ pub(super) enum Mode {
 
 /// Something that is evaluated in its turn.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Operand<'p> {
+pub(super) enum OrderedOperand<'p> {
     /// An expression.
     Expr(&'p Expr, Mode),
     /// Indices into an array of this type, together one `usize`.
@@ -41,7 +41,7 @@ impl<'p> Body<'p, '_> {
     /// an operand goes into a temporary unless it is constant.
     pub(super) fn sequence(
         &mut self,
-        operands: &[Operand<'p>],
+        operands: &[OrderedOperand<'p>],
         settle: impl Fn(usize) -> bool,
     ) -> (TokenStream, Vec<Fragment>) {
         let mut fragments: Vec<Fragment> = operands.iter().map(|operand| self.operand(*operand)).collect();
@@ -63,18 +63,18 @@ impl<'p> Body<'p, '_> {
         (before, fragments)
     }
 
-    fn operand(&mut self, operand: Operand<'p>) -> Fragment {
+    fn operand(&mut self, operand: OrderedOperand<'p>) -> Fragment {
         match operand {
-            Operand::Expr(expr, mode) => self.expression(expr, mode),
-            Operand::Index(indices, ty) => self.index(indices, ty),
+            OrderedOperand::Expr(expr, mode) => self.expression(expr, mode),
+            OrderedOperand::Index(indices, ty) => self.index(indices, ty),
         }
     }
 
-    fn settled_operand(&mut self, operand: Operand<'p>, fragment: Fragment) -> Fragment {
+    fn settled_operand(&mut self, operand: OrderedOperand<'p>, fragment: Fragment) -> Fragment {
         match operand {
-            Operand::Index(..) => self.settle(fragment, "at"),
-            Operand::Expr(_, Mode::Value | Mode::Typed | Mode::Placed) => self.settle(fragment, "value"),
-            Operand::Expr(expr, mode) => {
+            OrderedOperand::Index(..) => self.settle(fragment, "at"),
+            OrderedOperand::Expr(_, Mode::Value | Mode::Typed | Mode::Placed) => self.settle(fragment, "value"),
+            OrderedOperand::Expr(expr, mode) => {
                 let value = self.expression(expr, Mode::Value);
                 let value = self.settle(value, "value");
                 match mode {
@@ -92,10 +92,10 @@ impl<'p> Body<'p, '_> {
     }
 
     /// What evaluating an operand involves.
-    pub(super) fn operand_facts(&self, operand: &Operand<'p>) -> Facts {
+    pub(super) fn operand_facts(&self, operand: &OrderedOperand<'p>) -> Facts {
         match operand {
-            Operand::Expr(expr, _) => self.facts(expr),
-            Operand::Index(indices, array) => facts::of_indices(self.scope(), indices, *array),
+            OrderedOperand::Expr(expr, _) => self.facts(expr),
+            OrderedOperand::Index(indices, array) => facts::of_indices(self.scope(), indices, *array),
         }
     }
 }

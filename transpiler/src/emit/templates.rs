@@ -23,7 +23,7 @@ use crate::hir::{
 };
 use crate::visit;
 use arl_lang::ast::{BinaryOp, UnaryOp};
-use arl_lang::catalog::{Base, Effect, Form};
+use arl_lang::catalog::{Base, Effect, Family, Form};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::cell::OnceCell;
@@ -220,7 +220,7 @@ fn is_constant_step(step: &Projection) -> bool {
     }
 }
 
-/// Whether a variable is no local, or one whose value can be handed over.
+/// Whether a variable is not a local, or one whose value can be handed over.
 fn is_own(place: &Place, func: &Func) -> bool {
     let Root::Local(id) = place.root else { return true };
     let known = |local: &crate::hir::Local| local.constant && local.value.is_some();
@@ -258,21 +258,8 @@ impl<'p> Template<'p> {
             _ => None,
         });
         let family = unit.family();
-        let (declared, end, result) = match written {
-            Some(flag) => {
-                let flag = body.local(flag);
-                (quote!(let #flag;), quote!(Ok(#flag)), quote!(bool))
-            }
-            None if first.expr.ty.base == Base::Void => {
-                let end = without_detour(&value).unwrap_or_else(|| quote!(Ok(())));
-                (TokenStream::new(), end, quote!(()))
-            }
-            None => {
-                let tokens = &value.tokens;
-                let end = without_detour(&value).unwrap_or_else(|| quote!(Ok(#tokens)));
-                (TokenStream::new(), end, base_type(first.expr.ty.base, family))
-            }
-        };
+        let [declared, end, result] =
+            result_of(first.expr.ty.base, &value, written.map(|flag| body.local(flag)), family);
         let code = quote!(#declared #pointer #before #end);
         let constants = holes.iter().zip(&columns).map(|(hole, name)| {
             let ty = match hole.filling {
@@ -293,10 +280,44 @@ impl<'p> Template<'p> {
         let g_param = g.then(|| quote!(g: &#life Globals,));
         let line_param = led.then(|| quote!(#line: u32,));
         let params = quote!(#cx_param #g_param #line_param #(#constants,)* #(#locals,)*);
-        let many = self.varying.len() + first.locals.len() > MOST_PARAMETERS;
-        let many = many.then(|| quote!(#[allow(clippy::too_many_arguments)]));
+        let has_many_params = self.varying.len() + first.locals.len() > MOST_PARAMETERS;
+        let item = Head { comment, name, params, result, has_many_params, waits }.with(&code);
+        Code { item, cx, g, line: led, waits }
+    }
+}
+
+/// What a template declares first, what it ends with, and its type: the `flag` that it writes, or its value.
+fn result_of(ty: Base, value: &Fragment, flag: Option<Ident>, family: Family) -> [TokenStream; 3] {
+    match flag {
+        Some(flag) => [quote!(let #flag;), quote!(Ok(#flag)), quote!(bool)],
+        None if ty == Base::Void => {
+            let end = without_detour(value).unwrap_or_else(|| quote!(Ok(())));
+            [TokenStream::new(), end, quote!(())]
+        }
+        None => {
+            let tokens = &value.tokens;
+            let end = without_detour(value).unwrap_or_else(|| quote!(Ok(#tokens)));
+            [TokenStream::new(), end, base_type(ty, family)]
+        }
+    }
+}
+
+/// The head of a template's function.
+struct Head<'a> {
+    comment: TokenStream,
+    name: &'a Ident,
+    params: TokenStream,
+    result: TokenStream,
+    has_many_params: bool,
+    waits: bool,
+}
+
+impl Head<'_> {
+    fn with(self, code: &TokenStream) -> TokenStream {
+        let Self { comment, name, params, result, has_many_params, waits } = self;
+        let many = has_many_params.then(|| quote!(#[allow(clippy::too_many_arguments)]));
         // Behind a pointer, so that those who call it neither keep nor copy what it needs.
-        let item = match waits {
+        match waits {
             true => quote! {
                 #comment
                 #many
@@ -311,8 +332,7 @@ impl<'p> Template<'p> {
                     #code
                 }
             },
-        };
-        Code { item, cx, g, line: led, waits }
+        }
     }
 }
 

@@ -8,7 +8,9 @@ use super::mentions::{in_expression, indices};
 use crate::effects::facts;
 use crate::effects::parts::children;
 use crate::effects::{flow, loops};
-use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind};
+use crate::hir::{
+    Arm, Block, Expr, ExprKind, For, Func, FuncId, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind,
+};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::{Entry, Mode};
 use std::collections::HashMap;
@@ -43,7 +45,7 @@ enum Op {
     Write(LocalId, Site),
     /// A write that needs the old value for nothing but itself: of a part, or `x += 1`.
     Update(LocalId),
-    /// The declaration that is no write: the variable starts anew.
+    /// The declaration that is not a write: the variable starts anew.
     Fresh(LocalId),
     /// The loop with this number gives the cycle back.
     Pause(u32),
@@ -345,36 +347,8 @@ impl Builder<'_> {
                     self.current = None;
                 }
             }
-            StmtKind::If(arms, otherwise) => {
-                let mut ends = Vec::new();
-                for (condition, block) in arms {
-                    self.expr(condition, true);
-                    let from = self.current;
-                    self.step();
-                    self.block(block);
-                    ends.push(self.current);
-                    self.current = from;
-                    self.step();
-                }
-                otherwise.iter().for_each(|block| self.block(block));
-                ends.push(self.current);
-                self.join(ends);
-            }
-            StmtKind::Switch(subject, arms) => {
-                self.expr(subject, true);
-                let from = self.current;
-                let mut ends = Vec::new();
-                for arm in arms {
-                    self.current = from;
-                    self.step();
-                    self.block(&arm.body);
-                    ends.push(self.current);
-                }
-                if !flow::exhaustive(subject, arms.iter().map(|arm| arm.value.as_ref())) {
-                    ends.push(from);
-                }
-                self.join(ends);
-            }
+            StmtKind::If(arms, otherwise) => self.choice(arms, otherwise.as_ref()),
+            StmtKind::Switch(subject, arms) => self.switch(subject, arms),
             StmtKind::While(condition, body, info) => {
                 let head = self.head(*info);
                 self.expr(condition, true);
@@ -389,15 +363,7 @@ impl Builder<'_> {
             }
             StmtKind::Repeat(body, until, info) => self.repeat(body, until, *info),
             StmtKind::For(each) => match loops::emitted_range(each) {
-                Some(range) => {
-                    self.expr(range.from, true);
-                    self.expr(range.to, true);
-                    let head = self.step();
-                    let out = self.current;
-                    self.step();
-                    self.op(Op::Fresh(range.local));
-                    self.round(&each.body, each.info, head, out);
-                }
+                Some(range) => self.counted_for(each, &range),
                 None => self.general_for(each),
             },
             StmtKind::Return(value) => {
@@ -420,6 +386,48 @@ impl Builder<'_> {
             }
             StmtKind::Goto(_) | StmtKind::Label(_) => {}
         }
+    }
+
+    fn choice(&mut self, arms: &[(Expr, Block)], otherwise: Option<&Block>) {
+        let mut ends = Vec::new();
+        for (condition, block) in arms {
+            self.expr(condition, true);
+            let from = self.current;
+            self.step();
+            self.block(block);
+            ends.push(self.current);
+            self.current = from;
+            self.step();
+        }
+        otherwise.iter().for_each(|block| self.block(block));
+        ends.push(self.current);
+        self.join(ends);
+    }
+
+    fn switch(&mut self, subject: &Expr, arms: &[Arm]) {
+        self.expr(subject, true);
+        let from = self.current;
+        let mut ends = Vec::new();
+        for arm in arms {
+            self.current = from;
+            self.step();
+            self.block(&arm.body);
+            ends.push(self.current);
+        }
+        if !flow::exhaustive(subject, arms.iter().map(|arm| arm.value.as_ref())) {
+            ends.push(from);
+        }
+        self.join(ends);
+    }
+
+    fn counted_for(&mut self, each: &For, range: &loops::Range) {
+        self.expr(range.from, true);
+        self.expr(range.to, true);
+        let head = self.step();
+        let out = self.current;
+        self.step();
+        self.op(Op::Fresh(range.local));
+        self.round(&each.body, each.info, head, out);
     }
 
     /// The start of a round. Loops that count alone give the cycle back there.
@@ -486,7 +494,7 @@ impl Builder<'_> {
         self.join(std::iter::once(out).chain(breaks.into_iter().map(Some)));
     }
 
-    fn general_for(&mut self, each: &crate::hir::For) {
+    fn general_for(&mut self, each: &For) {
         self.block(&each.init);
         let head = self.head(each.info);
         each.condition.iter().for_each(|condition| self.expr(condition, true));

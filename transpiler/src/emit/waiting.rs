@@ -1,5 +1,5 @@
-//! Built-ins that are no plain call: `waituntil`, whose condition is evaluated again and again, and those that end the
-//! program.
+//! Built-ins that are not plain calls: `waituntil`, whose condition is evaluated again and again, and those that end
+//! the program.
 
 use super::body::Body;
 use super::calls::instruction_call;

@@ -1,7 +1,7 @@
 //! Variables that a call writes: local ones by `&mut`, others by way of a temporary that is written back.
 
 use super::body::Body;
-use super::calls::{Argument, path};
+use super::calls::{EmittedArgument, path};
 use super::fragment::{Fragment, Precedence};
 use super::names::field;
 use super::places::{Calm, Reached, Written};
@@ -141,13 +141,13 @@ impl<'p> Body<'p, '_> {
     pub(super) fn call_in_turn(
         &mut self,
         entry: &Entry,
-        arguments: &[Argument<'p>],
+        arguments: &[EmittedArgument<'p>],
         before: &mut TokenStream,
     ) -> TokenStream {
-        let is_required = |argument: &&Argument<'p>| {
+        let is_required = |argument: &&EmittedArgument<'p>| {
             entry.params.get(argument.param).is_some_and(|param| param.presence == Presence::Required)
         };
-        let mut required: Vec<&Argument<'p>> = arguments.iter().filter(is_required).collect();
+        let mut required: Vec<&EmittedArgument<'p>> = arguments.iter().filter(is_required).collect();
         required.sort_by_key(|argument| argument.param);
         let mut values = Vec::new();
         for argument in required {

@@ -1,11 +1,11 @@
 //! Blank lines between lines.
 
-use super::levels::Place;
-use super::lines::Line;
+use super::levels::LineLevel;
+use super::lines::LogicalLine;
 
 /// Whether a blank line stands in front of each of the lines, none of which is blank itself; `written` says where the
 /// writer put some.
-pub(super) fn blanks(lines: &[Line<'_>], places: &[Place], written: &[bool]) -> Vec<bool> {
+pub(super) fn blanks(lines: &[LogicalLine<'_>], places: &[LineLevel], written: &[bool]) -> Vec<bool> {
     let mut blanks = Vec::with_capacity(lines.len());
     let mut opened = true;
     for ((line, place), written) in lines.iter().zip(places).zip(written) {
@@ -17,8 +17,8 @@ pub(super) fn blanks(lines: &[Line<'_>], places: &[Place], written: &[bool]) -> 
 }
 
 /// One blank line between functions; comments directly above a function belong to it.
-fn set_functions_apart(lines: &[Line<'_>], places: &[Place], blanks: &mut [bool]) {
-    // The last line that is no comment, and whether a function was open in front of it or begins with it.
+fn set_functions_apart(lines: &[LogicalLine<'_>], places: &[LineLevel], blanks: &mut [bool]) {
+    // The last line that is not a comment, and whether a function was open in front of it or begins with it.
     let mut last: Option<usize> = None;
     for (at, (line, place)) in lines.iter().zip(places).enumerate() {
         if line.is_comment() {

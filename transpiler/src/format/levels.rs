@@ -1,12 +1,12 @@
 //! How deep each line stands, by the blocks around it.
 
-use super::lines::Line;
+use super::lines::LogicalLine;
 use arl_lang::outline::Turn;
 use arl_lang::syntax_error::{BLOCK_LEVELS, BlockKind};
 
 /// Where a line stands.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub(super) struct Place {
+pub(super) struct LineLevel {
     /// The blocks around it that count.
     pub(super) level: usize,
     /// The blocks that are open in front of it: where a comment above it stands if it closes one.
@@ -21,7 +21,7 @@ pub(super) struct Place {
     pub(super) ends_function: bool,
 }
 
-impl Place {
+impl LineLevel {
     /// The level of a comment above the line.
     pub(super) fn of_comment(self) -> usize {
         if self.closes { self.before } else { self.level }
@@ -36,12 +36,12 @@ struct Frame {
 }
 
 /// The places of the lines, and one more: that of the end of the text.
-pub(super) fn places(lines: &[Line<'_>]) -> Vec<Place> {
+pub(super) fn places(lines: &[LogicalLine<'_>]) -> Vec<LineLevel> {
     let opens = doubtful_openers(lines);
     let mut doubts = opens.into_iter();
     let mut stack: Vec<Frame> = Vec::new();
-    let mut places: Vec<Place> = lines.iter().map(|line| place(line, &mut stack, &mut doubts)).collect();
-    places.push(Place { level: capped(stack.len()), before: capped(stack.len()), ..Place::default() });
+    let mut places: Vec<LineLevel> = lines.iter().map(|line| place(line, &mut stack, &mut doubts)).collect();
+    places.push(LineLevel { level: capped(stack.len()), before: capped(stack.len()), ..LineLevel::default() });
     places
 }
 
@@ -51,8 +51,8 @@ fn capped(level: usize) -> usize {
 }
 
 /// Where a line stands; the blocks are as it leaves them.
-fn place(line: &Line<'_>, stack: &mut Vec<Frame>, doubts: &mut impl Iterator<Item = bool>) -> Place {
-    let mut place = Place { level: capped(stack.len()), before: capped(stack.len()), ..Place::default() };
+fn place(line: &LogicalLine<'_>, stack: &mut Vec<Frame>, doubts: &mut impl Iterator<Item = bool>) -> LineLevel {
+    let mut place = LineLevel { level: capped(stack.len()), before: capped(stack.len()), ..LineLevel::default() };
     for (at, turn) in line.turns.iter().enumerate() {
         let own = match turn.turn {
             Turn::MayOpen(kind) if doubts.next().unwrap_or(false) => Turn::Open(kind),
@@ -124,7 +124,7 @@ fn innermost(stack: &[Frame], kind: BlockKind) -> Option<usize> {
 
 /// Which of the lines that may open an `if` do: those with a `{`, and as many of a function's as it has more `endif`
 /// than `if`, the first ones.
-fn doubtful_openers(lines: &[Line<'_>]) -> Vec<bool> {
+fn doubtful_openers(lines: &[LogicalLine<'_>]) -> Vec<bool> {
     let mut openers: Vec<bool> = Vec::new();
     let mut first = 0;
     let mut surplus = 0_isize;

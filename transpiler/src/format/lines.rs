@@ -3,22 +3,22 @@
 use super::trivia::{self, Trivia};
 use arl_lang::lexer::{Lexeme, lexemes};
 use arl_lang::outline;
-use arl_lang::outline::{Outline, PlacedRole, PlacedTurn, Role};
+use arl_lang::outline::{LexemeRole, Outline, PlacedRole, PlacedTurn};
 
 /// A lexeme of a line.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece<'a> {
+pub(super) struct PlacedLexeme<'a> {
     /// As it is written.
     pub(super) text: &'a str,
     /// What the lexer takes it for.
     pub(super) lexeme: Lexeme,
     /// What the grammar takes it for.
-    pub(super) role: Role,
+    pub(super) role: LexemeRole,
     /// Whether a statement begins with it.
     pub(super) begins: bool,
 }
 
-impl Piece<'_> {
+impl PlacedLexeme<'_> {
     /// Whether it is this word, in any case.
     pub(super) fn is_word(&self, word: &str) -> bool {
         self.lexeme == Lexeme::Word && self.text.eq_ignore_ascii_case(word)
@@ -29,7 +29,7 @@ impl Piece<'_> {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Item<'a> {
     /// A lexeme.
-    Piece(Piece<'a>),
+    Piece(PlacedLexeme<'a>),
     /// `/* */`
     Comment(&'a str),
     /// `//`, without blanks at its end.
@@ -40,7 +40,7 @@ pub(super) enum Item<'a> {
 
 /// A logical line: up to a line end that counts.
 #[derive(Debug)]
-pub(super) struct Line<'a> {
+pub(super) struct LogicalLine<'a> {
     /// All of it, without its line end.
     pub(super) raw: &'a str,
     /// The offset of its end.
@@ -53,7 +53,7 @@ pub(super) struct Line<'a> {
     pub(super) frozen: bool,
 }
 
-impl<'a> Line<'a> {
+impl<'a> LogicalLine<'a> {
     /// Whether nothing stands on it.
     pub(super) fn is_blank(&self) -> bool {
         self.items.is_empty() && !self.frozen
@@ -66,11 +66,11 @@ impl<'a> Line<'a> {
 
     /// Whether it declares variables or constants, as far as its first words tell.
     pub(super) fn declares(&self) -> bool {
-        self.pieces().next().is_some_and(|first| first.is_word("const") || first.role == Role::Type)
+        self.pieces().next().is_some_and(|first| first.is_word("const") || first.role == LexemeRole::Type)
     }
 
     /// Its lexemes.
-    pub(super) fn pieces(&self) -> impl Iterator<Item = &Piece<'a>> {
+    pub(super) fn pieces(&self) -> impl Iterator<Item = &PlacedLexeme<'a>> {
         self.items.iter().filter_map(|item| match item {
             Item::Piece(piece) => Some(piece),
             _ => None,
@@ -79,7 +79,7 @@ impl<'a> Line<'a> {
 }
 
 /// The logical lines of a text whose line ends are all `\n`.
-pub(super) fn read(text: &str) -> Vec<Line<'_>> {
+pub(super) fn read(text: &str) -> Vec<LogicalLine<'_>> {
     let Outline { roles, turns, mut mistakes } = outline(text);
     mistakes.sort_unstable();
     let mut reader =
@@ -115,7 +115,7 @@ pub(super) fn read(text: &str) -> Vec<Line<'_>> {
 struct Reader<'a> {
     text: &'a str,
     roles: std::iter::Peekable<std::vec::IntoIter<PlacedRole>>,
-    lines: Vec<Line<'a>>,
+    lines: Vec<LogicalLine<'a>>,
     /// The items of the line so far, and where it begins.
     items: Vec<Item<'a>>,
     start: usize,
@@ -135,21 +135,21 @@ impl<'a> Reader<'a> {
     fn piece(&mut self, from: usize, to: usize, lexeme: Lexeme) {
         while self.roles.next_if(|role| (role.start as usize) < from).is_some() {}
         let known = self.roles.next_if(|role| role.start as usize == from);
-        let (role, begins) = known.map_or((Role::Other, false), |known| (known.role, known.begins));
+        let (role, begins) = known.map_or((LexemeRole::Other, false), |known| (known.role, known.begins));
         let text = self.text.get(from..to).unwrap_or_default();
-        self.items.push(Item::Piece(Piece { text, lexeme, role, begins }));
+        self.items.push(Item::Piece(PlacedLexeme { text, lexeme, role, begins }));
     }
 
     /// Ends the line at `end`; the next one begins at `next`.
     fn end_line(&mut self, end: usize, next: usize) {
         let raw = self.text.get(self.start..end).unwrap_or_default();
         let items = std::mem::take(&mut self.items);
-        self.lines.push(Line { raw, end, items, turns: Vec::new(), frozen: false });
+        self.lines.push(LogicalLine { raw, end, items, turns: Vec::new(), frozen: false });
         self.start = next;
     }
 }
 
-fn give_turns(lines: &mut [Line<'_>], turns: &[PlacedTurn]) {
+fn give_turns(lines: &mut [LogicalLine<'_>], turns: &[PlacedTurn]) {
     let mut left = turns.iter().peekable();
     for line in lines {
         while let Some(turn) = left.next_if(|turn| (turn.start as usize) <= line.end) {
@@ -159,7 +159,7 @@ fn give_turns(lines: &mut [Line<'_>], turns: &[PlacedTurn]) {
 }
 
 /// Marks the lines with mistakes at these offsets, which are in order.
-fn freeze(lines: &mut [Line<'_>], mistakes: Vec<usize>) {
+fn freeze(lines: &mut [LogicalLine<'_>], mistakes: Vec<usize>) {
     let mut left = mistakes.into_iter().peekable();
     for line in lines {
         while left.next_if(|at| *at <= line.end).is_some() {

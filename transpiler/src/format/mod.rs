@@ -18,11 +18,11 @@ mod tests;
 mod trivia;
 
 use comments::{Commented, End};
-use levels::Place;
-use lines::{Line, read};
+use levels::LineLevel;
+use lines::{LogicalLine, read};
 pub use spacing::LEVEL;
 use spacing::Text;
-use table::Row;
+use table::TableRow;
 
 /// The mark that may stand at the beginning of a text.
 const MARK: char = '\u{feff}';
@@ -67,7 +67,7 @@ fn line_end(text: &str) -> &'static str {
 }
 
 /// Lays out a text whose line ends are all `\n`; blank lines and the spelling of words go from `lines`.
-fn lay_out(lines: &mut Vec<Line<'_>>) -> String {
+fn lay_out(lines: &mut Vec<LogicalLine<'_>>) -> String {
     let written = take_blanks(lines);
     let functions = spelling::functions(lines);
     for line in lines.iter_mut().filter(|line| !line.frozen) {
@@ -83,7 +83,7 @@ fn lay_out(lines: &mut Vec<Line<'_>>) -> String {
 }
 
 /// Takes the blank lines out; says in front of which of the others they stood.
-fn take_blanks(lines: &mut Vec<Line<'_>>) -> Vec<bool> {
+fn take_blanks(lines: &mut Vec<LogicalLine<'_>>) -> Vec<bool> {
     let mut written = Vec::with_capacity(lines.len());
     let mut blank = false;
     lines.retain(|line| {
@@ -98,7 +98,7 @@ fn take_blanks(lines: &mut Vec<Line<'_>>) -> Vec<bool> {
 }
 
 /// Comments on lines of their own stand like the line that follows them.
-fn indent_comments(lines: &[Line<'_>], places: &mut [Place], end: Place) {
+fn indent_comments(lines: &[LogicalLine<'_>], places: &mut [LineLevel], end: LineLevel) {
     let mut below = end.level;
     for (line, place) in lines.iter().zip(places).rev() {
         if line.is_comment() {
@@ -110,13 +110,13 @@ fn indent_comments(lines: &[Line<'_>], places: &mut [Place], end: Place) {
 }
 
 /// The text of a line; `None` where it stays as it is.
-fn text_of(line: &Line<'_>, place: Place) -> Option<Text> {
+fn text_of(line: &LogicalLine<'_>, place: LineLevel) -> Option<Text> {
     (!line.frozen).then(|| spacing::write(&line.items, (place.level + 1) * LEVEL))
 }
 
 /// Sets rows of declarations in columns.
-fn set_tables(lines: &[Line<'_>], places: &[Place], blanks: &[bool], texts: &mut [Option<Text>]) {
-    let rows: Vec<Option<Row>> = lines.iter().map(table::row).collect();
+fn set_tables(lines: &[LogicalLine<'_>], places: &[LineLevel], blanks: &[bool], texts: &mut [Option<Text>]) {
+    let rows: Vec<Option<TableRow>> = lines.iter().map(table::row).collect();
     let level = |at: usize| places.get(at).map(|place| place.level);
     let mut start = 0;
     while let Some(first) = rows.get(start) {
@@ -141,7 +141,7 @@ fn set_tables(lines: &[Line<'_>], places: &[Place], blanks: &[bool], texts: &mut
 }
 
 /// All lines, with one line end at the end.
-fn joined(lines: &[Line<'_>], places: &[Place], blanks: &[bool], texts: &[Option<Text>]) -> String {
+fn joined(lines: &[LogicalLine<'_>], places: &[LineLevel], blanks: &[bool], texts: &[Option<Text>]) -> String {
     let mut ends: Vec<End> = Vec::with_capacity(lines.len());
     for (((line, text), place), blank) in lines.iter().zip(texts).zip(places).zip(blanks) {
         let commented = |text: &Text| Commented::new(&text.body, place.level, !blank);

@@ -1,8 +1,8 @@
 //! Blanks between the lexemes of a line.
 
-use super::lines::{Item, Piece};
+use super::lines::{Item, PlacedLexeme};
 use arl_lang::lexer::Lexeme;
-use arl_lang::outline::Role;
+use arl_lang::outline::LexemeRole;
 
 /// The blanks of one level of blocks.
 pub const LEVEL: usize = 4;
@@ -34,7 +34,7 @@ enum Class {
 /// The piece before, and what is known of it.
 #[derive(Clone, Copy)]
 struct Before<'a> {
-    piece: Piece<'a>,
+    piece: PlacedLexeme<'a>,
     class: Class,
 }
 
@@ -43,7 +43,7 @@ impl Before<'_> {
     fn ends_value(&self) -> bool {
         match self.class {
             Class::Close | Class::Postfix | Class::Unit => true,
-            Class::Word => matches!(self.piece.role, Role::Name | Role::Constant | Role::Other),
+            Class::Word => matches!(self.piece.role, LexemeRole::Name | LexemeRole::Constant | LexemeRole::Other),
             _ => false,
         }
     }
@@ -91,7 +91,7 @@ struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    fn piece(&mut self, piece: Piece<'a>) {
+    fn piece(&mut self, piece: PlacedLexeme<'a>) {
         let before = self.before.filter(|_| !piece.begins);
         let class = class(&piece, before.is_some_and(|before| before.ends_value()));
         let blank = match self.last {
@@ -127,9 +127,9 @@ impl<'a> Writer<'a> {
     }
 }
 
-fn class(piece: &Piece<'_>, behind_value: bool) -> Class {
+fn class(piece: &PlacedLexeme<'_>, behind_value: bool) -> Class {
     use Lexeme as L;
-    if piece.role == Role::Unit {
+    if piece.role == LexemeRole::Unit {
         return Class::Unit;
     }
     match piece.lexeme {
@@ -147,14 +147,14 @@ fn class(piece: &Piece<'_>, behind_value: bool) -> Class {
 }
 
 /// Whether a blank stands between two pieces of a statement.
-fn blank_between(before: Before<'_>, piece: &Piece<'_>, class: Class) -> bool {
+fn blank_between(before: Before<'_>, piece: &PlacedLexeme<'_>, class: Class) -> bool {
     match (before.class, class) {
         (Class::Open, _) | (_, Class::Close | Class::Separator | Class::Colon | Class::Postfix) => false,
         // The point would become a part of the number.
         (_, Class::Dot) => matches!(before.piece.lexeme, Lexeme::Number(_)),
         (Class::Dot, _) => false,
-        (Class::Colon, _) => before.piece.role != Role::LabelColon,
-        // `- -a` is no `--a`.
+        (Class::Colon, _) => before.piece.role != LexemeRole::LabelColon,
+        // `- -a` is not `--a`.
         (Class::Prefix, _) => before.piece.text.ends_with('-') && piece.text.starts_with('-'),
         (_, Class::Unit) => false,
         (Class::Word | Class::Close, Class::Open) => blank_before_bracket(before, piece),
@@ -163,11 +163,11 @@ fn blank_between(before: Before<'_>, piece: &Piece<'_>, class: Class) -> bool {
 }
 
 /// Whether a blank stands between a word or a closing bracket and an opening one.
-fn blank_before_bracket(before: Before<'_>, piece: &Piece<'_>) -> bool {
+fn blank_before_bracket(before: Before<'_>, piece: &PlacedLexeme<'_>) -> bool {
     let word = before.piece;
     match piece.lexeme {
-        Lexeme::ParenOpen if word.role == Role::Reserved => !GUARDS.iter().any(|guard| word.is_word(guard)),
-        Lexeme::ParenOpen => word.role != Role::Name,
+        Lexeme::ParenOpen if word.role == LexemeRole::Reserved => !GUARDS.iter().any(|guard| word.is_word(guard)),
+        Lexeme::ParenOpen => word.role != LexemeRole::Name,
         Lexeme::BracketOpen => !before.ends_value(),
         _ => true,
     }

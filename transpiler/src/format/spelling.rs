@@ -1,15 +1,15 @@
 //! Words of the language and built-in names in the spelling of the manual; names of the program's own stay.
 
-use super::lines::{Item, Line, Piece};
+use super::lines::{Item, LogicalLine, PlacedLexeme};
 use arl_lang::catalog::{self, Base, Entry};
 use arl_lang::control_word;
 use arl_lang::lexer::Lexeme;
-use arl_lang::outline::Role;
+use arl_lang::outline::LexemeRole;
 use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
 /// The functions of the file, folded: these names are never those of built-in ones.
-pub(super) fn functions(lines: &[Line<'_>]) -> HashSet<String> {
+pub(super) fn functions(lines: &[LogicalLine<'_>]) -> HashSet<String> {
     let mut names = HashSet::new();
     for line in lines {
         let mut pieces = line.pieces();
@@ -23,7 +23,7 @@ pub(super) fn functions(lines: &[Line<'_>]) -> HashSet<String> {
 
 /// Spells the words of a line.
 pub(super) fn spell(items: &mut [Item<'_>], functions: &HashSet<String>) {
-    let mut pieces: Vec<&mut Piece<'_>> = items
+    let mut pieces: Vec<&mut PlacedLexeme<'_>> = items
         .iter_mut()
         .filter_map(|item| match item {
             Item::Piece(piece) => Some(piece),
@@ -48,10 +48,10 @@ pub(super) fn spell(items: &mut [Item<'_>], functions: &HashSet<String>) {
 /// The pieces around one.
 #[derive(Clone, Copy)]
 struct Around<'a> {
-    before: Option<Piece<'a>>,
+    before: Option<PlacedLexeme<'a>>,
     /// The one before `before`.
-    scope: Option<Piece<'a>>,
-    next: Option<Piece<'a>>,
+    scope: Option<PlacedLexeme<'a>>,
+    next: Option<PlacedLexeme<'a>>,
 }
 
 impl<'a> Around<'a> {
@@ -64,7 +64,7 @@ impl<'a> Around<'a> {
     }
 
     /// What stands in front of the `::` in front of the piece.
-    fn scope(&self) -> Option<Piece<'a>> {
+    fn scope(&self) -> Option<PlacedLexeme<'a>> {
         self.scope.filter(|_| self.is_before(Lexeme::Scope))
     }
 }
@@ -80,15 +80,16 @@ struct Speller<'a> {
 
 impl Speller<'_> {
     /// The right spelling of a piece, where it is the language's.
-    fn spelled(&mut self, piece: &Piece<'_>, around: Around<'_>) -> Option<&'static str> {
+    fn spelled(&mut self, piece: &PlacedLexeme<'_>, around: Around<'_>) -> Option<&'static str> {
         if piece.begins {
             self.instruction = &[];
         }
         match piece.lexeme {
             Lexeme::ParenOpen => {
-                let called = around.before.filter(|before| before.role == Role::Name);
-                let own =
-                    |called: &Piece<'_>| around.scope.is_some_and(|before| is_member(&before)) || self.is_own(called);
+                let called = around.before.filter(|before| before.role == LexemeRole::Name);
+                let own = |called: &PlacedLexeme<'_>| {
+                    around.scope.is_some_and(|before| is_member(&before)) || self.is_own(called)
+                };
                 let entries = called.filter(|called| !own(called)).map(|called| catalog::functions(called.text));
                 self.open.push(entries.unwrap_or(&[]));
                 None
@@ -107,21 +108,21 @@ impl Speller<'_> {
         }
     }
 
-    fn word(&mut self, piece: &Piece<'_>, around: Around<'_>) -> Option<&'static str> {
+    fn word(&mut self, piece: &PlacedLexeme<'_>, around: Around<'_>) -> Option<&'static str> {
         match piece.role {
-            Role::Reserved | Role::Constant => control_word(piece.text),
-            Role::Type => type_name(piece.text),
-            Role::Instruction => {
+            LexemeRole::Reserved | LexemeRole::Constant => control_word(piece.text),
+            LexemeRole::Type => type_name(piece.text),
+            LexemeRole::Instruction => {
                 self.instruction = catalog::instructions(piece.text);
                 entry_name(self.instruction, piece.text)
             }
-            Role::Label => label(self.open.last().copied().unwrap_or(self.instruction), piece.text),
-            Role::Name => self.name(piece, around),
+            LexemeRole::Label => label(self.open.last().copied().unwrap_or(self.instruction), piece.text),
+            LexemeRole::Name => self.name(piece, around),
             _ => None,
         }
     }
 
-    fn name(&self, piece: &Piece<'_>, around: Around<'_>) -> Option<&'static str> {
+    fn name(&self, piece: &PlacedLexeme<'_>, around: Around<'_>) -> Option<&'static str> {
         if let Some(scope) = around.scope() {
             return constant(&scope, piece.text);
         }
@@ -129,7 +130,7 @@ impl Speller<'_> {
             return None;
         }
         // A type in a declaration, or in front of a constant.
-        if around.next.is_some_and(|next| next.role == Role::Name) || around.is_next(Lexeme::Scope) {
+        if around.next.is_some_and(|next| next.role == LexemeRole::Name) || around.is_next(Lexeme::Scope) {
             return type_name(piece.text);
         }
         if around.is_next(Lexeme::ParenOpen) && !self.is_own(piece) {
@@ -138,13 +139,13 @@ impl Speller<'_> {
         None
     }
 
-    fn is_own(&self, piece: &Piece<'_>) -> bool {
+    fn is_own(&self, piece: &PlacedLexeme<'_>) -> bool {
         self.functions.contains(&piece.text.to_ascii_lowercase())
     }
 }
 
 /// Whether what follows is a component, or something of a module or a type.
-fn is_member(before: &Piece<'_>) -> bool {
+fn is_member(before: &PlacedLexeme<'_>) -> bool {
     matches!(before.lexeme, Lexeme::Dot | Lexeme::Scope)
 }
 
@@ -186,7 +187,7 @@ fn label(entries: &'static [Entry], written: &str) -> Option<&'static str> {
 }
 
 /// A constant of the enumeration `scope`.
-fn constant(scope: &Piece<'_>, written: &str) -> Option<&'static str> {
+fn constant(scope: &PlacedLexeme<'_>, written: &str) -> Option<&'static str> {
     let Some(Base::Enum(id)) = catalog::base_type(scope.text.trim_start_matches('$')) else { return None };
     let constants = id.def().constants.iter();
     one_of(constants.flat_map(|found| names(found.name, found.aliases)), written)

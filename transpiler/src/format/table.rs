@@ -1,16 +1,16 @@
 //! Tables of points: declarations in a row with start values in braces, in columns.
 
-use super::lines::{Item, Line, Piece};
+use super::lines::{Item, LogicalLine, PlacedLexeme};
 use super::spacing::{LEVEL, write};
 use arl_lang::lexer::Lexeme;
-use arl_lang::outline::Role;
+use arl_lang::outline::LexemeRole;
 
 /// The columns that a line of a table may take.
 const WIDEST: usize = 120;
 
 /// A declaration that may be a row of a table.
 #[derive(Debug)]
-pub(super) struct Row {
+pub(super) struct TableRow {
     /// The type, folded, with `const` where it is there: rows of a table have the same.
     ty: String,
     /// What stands in front of the `=`.
@@ -20,19 +20,21 @@ pub(super) struct Row {
 }
 
 /// The row that a line is: one variable with a value in braces, on one line, without comments inside.
-pub(super) fn row(line: &Line<'_>) -> Option<Row> {
+pub(super) fn row(line: &LogicalLine<'_>) -> Option<TableRow> {
     let code = match line.items.as_slice() {
         [code @ .., Item::LineComment(_)] => code,
         code => code,
     };
-    let pieces: Vec<&Piece<'_>> = line.pieces().collect();
+    let pieces: Vec<&PlacedLexeme<'_>> = line.pieces().collect();
     if line.frozen || pieces.len() != code.len() {
         return None;
     }
     let is = |at: usize, lexeme: Lexeme| pieces.get(at).is_some_and(|piece| piece.lexeme == lexeme);
     let ty = usize::from(pieces.first()?.is_word("const"));
-    let is_type = |piece: &Piece<'_>| matches!(piece.role, Role::Type | Role::Name) || piece.lexeme == Lexeme::System;
-    let declares = is_type(pieces.get(ty)?) && pieces.get(ty + 1)?.role == Role::Name;
+    let is_type = |piece: &PlacedLexeme<'_>| {
+        matches!(piece.role, LexemeRole::Type | LexemeRole::Name) || piece.lexeme == Lexeme::System
+    };
+    let declares = is_type(pieces.get(ty)?) && pieces.get(ty + 1)?.role == LexemeRole::Name;
     let assign = pieces.iter().position(|piece| piece.lexeme == Lexeme::Assign)?;
     let mut between = pieces.get(ty + 2..assign)?.iter();
     let plain = !between.any(|piece| piece.lexeme == Lexeme::Comma);
@@ -40,7 +42,7 @@ pub(super) fn row(line: &Line<'_>) -> Option<Row> {
         return None;
     }
     let words = pieces.get(..=ty)?.iter().map(|piece| piece.text.to_ascii_lowercase());
-    Some(Row {
+    Some(TableRow {
         ty: words.collect::<Vec<_>>().join(" "),
         left: write(code.get(..assign)?, 0).body,
         cells: cells(code.get(assign + 2..code.len() - 1)?)?,
@@ -74,17 +76,17 @@ fn cells(items: &[Item<'_>]) -> Option<Vec<String>> {
 }
 
 /// Whether both may stand in one table.
-pub(super) fn fit(row: &Row, other: &Row) -> bool {
+pub(super) fn fit(row: &TableRow, other: &TableRow) -> bool {
     row.ty == other.ty
 }
 
 /// The rows as text; `None` where they make no table.
-pub(super) fn align(rows: &[&Row], level: usize) -> Option<Vec<String>> {
+pub(super) fn align(rows: &[&TableRow], level: usize) -> Option<Vec<String>> {
     let first = rows.first().filter(|_| rows.len() > 1)?;
     if rows.iter().any(|row| row.cells.len() != first.cells.len()) {
         return None;
     }
-    let widest = |text: &dyn Fn(&Row) -> usize| rows.iter().map(|row| text(row)).max().unwrap_or(0);
+    let widest = |text: &dyn Fn(&TableRow) -> usize| rows.iter().map(|row| text(row)).max().unwrap_or(0);
     let left = widest(&|row| width(&row.left));
     let columns: Vec<usize> =
         (0..first.cells.len()).map(|at| widest(&|row| row.cells.get(at).map_or(0, |cell| width(cell)))).collect();
@@ -93,7 +95,7 @@ pub(super) fn align(rows: &[&Row], level: usize) -> Option<Vec<String>> {
     lines.iter().all(fits).then_some(lines)
 }
 
-fn text(row: &Row, left: usize, columns: &[usize]) -> String {
+fn text(row: &TableRow, left: usize, columns: &[usize]) -> String {
     let mut line = padded(&row.left, left);
     line.push_str(" = {");
     let last = row.cells.len().saturating_sub(1);

@@ -3,7 +3,7 @@
 /// What blanks are.
 pub(super) const BLANKS: [char; 4] = [' ', '\t', '\u{b}', '\u{c}'];
 
-/// Something between lexemes that is no blank.
+/// Something between lexemes that is not a blank.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Trivia<'a> {
     /// `/* */`

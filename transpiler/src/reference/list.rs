@@ -9,7 +9,7 @@ const WIDTH: usize = 100;
 
 /// All names that have a page, by area: those of the language with what each is about.
 pub fn list() -> String {
-    let mut text = String::from("`arl2rs doc NAME` shows a page, `arl2rs doc --search WORDS` looks in all of them.\n");
+    let mut text = String::from("`arl2rs doc NAME` shows a page; `arl2rs doc --search WORDS` searches all of them.\n");
     for area in AREAS {
         heading(&mut text, area.title);
         for topic in area.topics {

@@ -41,7 +41,7 @@ pub fn search(words: &[String]) -> Option<String> {
         let _ = writeln!(text, "{:<width$}  {}", page.name, page.summary);
     }
     if rest > 0 {
-        let _ = writeln!(text, "and {rest} more: more words find fewer");
+        let _ = writeln!(text, "and {rest} more: add words to narrow the search");
     }
     Some(text)
 }

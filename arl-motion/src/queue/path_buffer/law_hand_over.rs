@@ -107,7 +107,7 @@ pub(crate) struct Draft {
 
 /// What became of an offer.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Answer {
+pub(crate) enum OfferOutcome {
     /// So many motions joined the path, and why targets are not rounded off that should be.
     Taken { unblended: Vec<UnblendedTarget>, count: usize },
     /// They have to come behind a stop.
@@ -155,7 +155,7 @@ impl PathBuffer {
     }
 
     /// What became of the motions that were offered, once it is known.
-    pub(crate) fn take_answer(&mut self) -> Option<Answer> {
+    pub(crate) fn take_answer(&mut self) -> Option<OfferOutcome> {
         self.answer.take()
     }
 
@@ -231,14 +231,14 @@ impl PathBuffer {
                 let sampler = draft.sampler(robot, here, renewal.at, renewal.law.as_deref());
                 self.search(sampler, (renewal.start, renewal.law), cycles, purpose);
             }
-            None => self.answer = Some(Answer::Refused),
+            None => self.answer = Some(OfferOutcome::Refused),
         }
     }
 
     /// Puts the segments of a draft in place of those at the end.
     fn take(&mut self, draft: Draft) {
         let Some(kept) = draft.same.checked_sub(self.gone) else {
-            self.answer = Some(Answer::Refused);
+            self.answer = Some(OfferOutcome::Refused);
             return;
         };
         self.drop_next_beyond(draft.same_to);
@@ -248,7 +248,7 @@ impl PathBuffer {
         }
         self.tail = draft.tail;
         self.settle(self.open());
-        self.answer = Some(Answer::Taken { unblended: draft.unblended, count: draft.count });
+        self.answer = Some(OfferOutcome::Taken { unblended: draft.unblended, count: draft.count });
     }
 
     /// Whether somebody counts on the path as it is.

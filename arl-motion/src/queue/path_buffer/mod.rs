@@ -24,7 +24,7 @@ use crate::time_optimal::law_follower::LawFollower;
 use crate::time_optimal::law_solver_thread::LawSolver;
 use arl_robot::kinematics::Kinematics;
 use arl_robot::robot::Robot;
-pub(crate) use law_hand_over::Answer;
+pub(crate) use law_hand_over::OfferOutcome;
 use law_hand_over::{LOOKED_AHEAD_S, Next, PendingLaw, faster};
 use leader::{Appending, Leader};
 
@@ -67,7 +67,7 @@ pub(crate) struct PathBuffer {
     pending: Option<PendingLaw>,
     next: Option<Next>,
     /// What became of motions that were offered, and s until they are offered again where nothing did.
-    answer: Option<Answer>,
+    answer: Option<OfferOutcome>,
     offer_pause: f64,
     appending: Appending,
     /// How many segments have been left behind.
@@ -151,7 +151,7 @@ impl PathBuffer {
         self.segments.front().map(|segment| &**segment)
     }
 
-    /// The segment that the robot is on, and how fast it goes there where that is no blend.
+    /// The segment that the robot is on, and how fast it goes there where that is not a blend.
     pub(crate) fn plain_speed(&self) -> Option<(&Segment, Option<PlainSpeed>)> {
         let first = self.segments.front()?;
         Some((first, first.plain_speed(self.at, self.state.vel)))

@@ -37,7 +37,7 @@ impl fmt::Display for SmallerZone {
             Self::Half => write!(f, "a zone takes half of a motion at most"),
             Self::Part(NoBlend::Slower) => write!(f, "a larger one would take longer"),
             Self::Part(why) => write!(f, "with a larger one: {why}"),
-            Self::Unfinished => write!(f, "the motion did not come to its end"),
+            Self::Unfinished => write!(f, "the motion was not completed"),
         }
     }
 }

@@ -25,7 +25,7 @@ fn slowly_to(joints: Joints, rig: Rig) -> Command {
 }
 
 /// A way to where motion goes on.
-pub(crate) struct Way {
+pub(crate) struct ReturnMotion {
     pub(crate) asked: Settings,
     pub(crate) command: Command,
     /// Where it has to end.
@@ -56,7 +56,7 @@ impl SuspendedMotion {
     }
 
     /// The way back to the place of the stop: none where the robot is there.
-    pub(crate) fn way_back(&self, robot: &Robot, here: &Joints) -> Option<Way> {
+    pub(crate) fn way_back(&self, robot: &Robot, here: &Joints) -> Option<ReturnMotion> {
         if *here == self.joints {
             return None;
         }
@@ -64,7 +64,7 @@ impl SuspendedMotion {
         let asked = self.left().next().or_else(|| self.layer.requests.asked.back());
         Some(match asked {
             Some(asked) => asked.way_back_to(robot, &self.joints),
-            None => Way {
+            None => ReturnMotion {
                 asked: Settings::default(),
                 command: slowly_to(self.joints, self.layer.execution.rig),
                 end: Some(self.joints),
@@ -75,20 +75,20 @@ impl SuspendedMotion {
 
 impl Asked {
     /// The way back to a place on it: straight for a motion of the TCP.
-    pub(crate) fn way_back_to(&self, robot: &Robot, place: &Joints) -> Way {
+    pub(crate) fn way_back_to(&self, robot: &Robot, place: &Joints) -> ReturnMotion {
         let target = if self.goes_straight() {
             let tcp = self.command.rig.carried.way_at(&robot.kinematics.forward(&place.axes));
             Target::Line { pose: [0.0; 6], wobj: tcp, external: place.external }
         } else {
             Target::Joints(*place)
         };
-        Way { asked: self.settings, command: Command { target, ..self.command.clone() }, end: Some(*place) }
+        ReturnMotion { asked: self.settings, command: Command { target, ..self.command.clone() }, end: Some(*place) }
     }
 
     /// The way to its target.
-    pub(crate) fn way_to(&self, robot: &Robot) -> Way {
+    pub(crate) fn way_to(&self, robot: &Robot) -> ReturnMotion {
         match self.command.target {
-            Target::Gate { .. } => Way { asked: self.settings, command: self.command.clone(), end: None },
+            Target::Gate { .. } => ReturnMotion { asked: self.settings, command: self.command.clone(), end: None },
             _ => self.way_back_to(robot, &self.end),
         }
     }

@@ -13,7 +13,7 @@ use crate::time_optimal::solver::banded::Banded;
 use crate::time_optimal::solver::guess::coarse;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::law::Law;
-use crate::time_optimal::solver::program::{Beginning, Known, Limits, Program, Site, dot};
+use crate::time_optimal::solver::program::{Beginning, Known, Program, Site, SiteLimits, dot};
 use crate::time_optimal::solver::{Edge, Pace, Refusal, Way};
 
 /// At most so many steps are taken; 10 to 30 are needed, up to 60 from a given state.
@@ -272,7 +272,7 @@ impl Here {
 
     /// The left hand side of a limit.
     #[inline(always)]
-    fn of(self, limits: &Limits) -> Lanes {
+    fn of(self, limits: &SiteLimits) -> Lanes {
         let Self { square, slope, bend } = self;
         limits.square * Lanes::all(square) + limits.slope * Lanes::all(slope) + limits.bend * Lanes::all(bend)
     }
@@ -534,7 +534,7 @@ impl<'a> Climb<'a> {
         ((NEAR * length(primal)).min(1.0), (NEAR * length(dual)).min(1.0))
     }
 
-    /// Takes the step; not if it is no number.
+    /// Takes the step; not if it is not a number.
     fn take(&mut self, primal: f64, dual: f64) -> bool {
         if !(primal > 1e-9 && dual > 0.0 && self.step.iter().all(|step| step.is_finite())) {
             return false;

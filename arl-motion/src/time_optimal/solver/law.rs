@@ -19,7 +19,7 @@ pub struct Moment {
 /// The stretch from one place to the next, in which the paced parameter's acceleration changes evenly with the paced
 /// parameter.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Stretch {
+pub(crate) struct LawInterval {
     /// The paced parameter where it begins.
     pub(crate) at: f64,
     /// Speed and acceleration of the paced parameter there.
@@ -37,13 +37,13 @@ pub struct Law {
     warp: PacedWarp,
     /// The end of the path in the path parameter.
     end: f64,
-    stretches: Vec<Stretch>,
+    stretches: Vec<LawInterval>,
     duration: f64,
 }
 
 impl Law {
     /// From the paced places, the squares of the paced parameter's speed there, and its acceleration at the start of
-    /// each stretch; `bends` as in [`Stretch`].
+    /// each stretch; `bends` as in [`LawInterval`].
     pub(crate) fn new(
         warp: PacedWarp,
         places: &[f64],
@@ -52,7 +52,7 @@ impl Law {
     ) -> Self {
         let mut time = 0.0;
         let stretches = places.windows(2).zip(squares).zip(stretches).map(|((pair, square), (acc, bend))| {
-            let stretch = Stretch { at: pair[0], vel: square.max(0.0).sqrt(), acc, bend, time };
+            let stretch = LawInterval { at: pair[0], vel: square.max(0.0).sqrt(), acc, bend, time };
             time += stretch.duration(pair[1] - pair[0]);
             stretch
         });
@@ -85,7 +85,7 @@ impl Law {
         note(self.stretches.len() as u64);
         let Self { warp, end, stretches, duration } = self;
         [*end, *duration, warp.length()].into_iter().for_each(|number| note(number.to_bits()));
-        for (index, Stretch { at, vel, acc, bend, time }) in stretches.iter().enumerate() {
+        for (index, LawInterval { at, vel, acc, bend, time }) in stretches.iter().enumerate() {
             let place = warp.place(index, *at);
             [*vel, *acc, *bend, *time, place.at, place.first, place.second, place.third]
                 .into_iter()
@@ -138,7 +138,7 @@ impl Law {
     }
 }
 
-impl Stretch {
+impl LawInterval {
     /// The paced parameter, its speed and its acceleration after `time`.
     fn after(&self, time: f64) -> (f64, f64, f64) {
         let Self { vel, acc, bend, .. } = *self;

@@ -75,7 +75,7 @@ pub fn places(from: f64, to: f64, count: usize, start: Edge, end: Edge) -> Vec<f
 /// remains valid.
 ///
 /// # Errors
-/// A way of fewer than two places or without order, rows that are no numbers or without positive limits, a way along
+/// A way of fewer than two places or without order, rows that are not numbers or without positive limits, a way along
 /// which nothing moves, and edges that no motion within the limits has.
 pub fn fastest(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
     fastest_behind(way, start, end, None)

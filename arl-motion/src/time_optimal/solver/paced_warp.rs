@@ -10,7 +10,7 @@
 
 use crate::time_optimal::solver::guess::smooth;
 use crate::time_optimal::solver::pace::Pace;
-use crate::time_optimal::solver::warp::{Place, Warp};
+use crate::time_optimal::solver::warp::{Warp, WarpedPoint};
 
 /// The warped parameter ([`Warp`]) over the paced one from one place to the next: a cubic.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -118,7 +118,7 @@ impl PacedWarp {
     }
 
     /// The path parameter and its derivatives at `at`, as they are from the place `index` to the next.
-    pub(crate) fn place(&self, index: usize, at: f64) -> Place {
+    pub(crate) fn place(&self, index: usize, at: f64) -> WarpedPoint {
         let Some(knot) = self.knots.get(index) else { return self.warp.place(at) };
         let Knot { value, first, second, third, .. } = *knot;
         let t = at - knot.at;
@@ -128,7 +128,7 @@ impl PacedWarp {
             value + t * (first + t * (second / 2.0 + t * third / 6.0)),
         );
         let place = self.warp.place(value.min(self.warp.length()));
-        Place {
+        WarpedPoint {
             at: place.at,
             first: place.first * first,
             second: place.second * first * first + place.first * rise,

@@ -13,7 +13,7 @@ use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::pace::Pace;
 use crate::time_optimal::solver::paced_warp::PacedWarp;
 use crate::time_optimal::solver::screen::{Screen, highest_square};
-use crate::time_optimal::solver::warp::{Place, Warp};
+use crate::time_optimal::solver::warp::{Warp, WarpedPoint};
 use crate::time_optimal::solver::warped_row::WarpedRow;
 use crate::time_optimal::solver::{Edge, Refusal, Row, Way, reach};
 
@@ -39,7 +39,7 @@ impl Site {
 
 /// A stretch between two places: its ends, and what of its three coefficients makes up the bend.
 #[derive(Clone, Copy, Default, Debug)]
-pub(crate) struct Stretch {
+pub(crate) struct Interval {
     pub(crate) sites: [Site; 3],
     pub(crate) bend: [f64; 3],
 }
@@ -47,7 +47,7 @@ pub(crate) struct Stretch {
 /// Limits of one site: `square` x + `slope` a + `bend` k may be 1 at most; for those on the jerk 1/sqrt(x). Those that
 /// are not needed are zeros, which are within any limit.
 #[derive(Clone, Copy, Default, Debug)]
-pub(crate) struct Limits {
+pub(crate) struct SiteLimits {
     pub(crate) square: Lanes,
     pub(crate) slope: Lanes,
     pub(crate) bend: Lanes,
@@ -59,8 +59,8 @@ pub(crate) struct Program {
     pub(crate) warp: PacedWarp,
     /// The paced places.
     pub(crate) places: Vec<f64>,
-    pub(crate) stretches: Vec<Stretch>,
-    pub(crate) limits: Vec<Limits>,
+    pub(crate) stretches: Vec<Interval>,
+    pub(crate) limits: Vec<SiteLimits>,
     /// How many prices there are.
     pub(crate) prices: usize,
     /// The square of the speed that is 1 in these units.
@@ -146,6 +146,50 @@ const NEAR_SPEED_LIMIT: f64 = 0.8;
 /// A share of the highest square of the paced parameter's speed that no motion comes down to, but for one that fails.
 const ALMOST_REST: f64 = 1e-9;
 
+/// Paces the parameter: as is known, or by a guess of the speeds along the way; and what the search begins with.
+fn pace_from(
+    known: Known,
+    way: &Way,
+    (warp, places): (Warp, &[f64]),
+    edges: [Edge; 2],
+) -> Result<(PacedWarp, Option<Beginning>), Refusal> {
+    let guess = || guess_speeds(way, &warp, places, edges);
+    let (along, beginning) = match known {
+        Known::Nothing => (None, None),
+        Known::Pace(pace) => (PacedWarp::along(warp, places, pace), Some(Beginning::Known)),
+        Known::Before(law) => {
+            let pace = Pace::behind(law, (way.places(), places), &warp, &guess());
+            let along = pace.and_then(|pace| PacedWarp::along(warp, places, &pace));
+            (Some(along.ok_or(Refusal::Fast)?), Some(Beginning::Expected))
+        }
+    };
+    let beginning = beginning.filter(|_| along.is_some());
+    Ok((along.unwrap_or_else(|| PacedWarp::guessed(warp, places, guess())), beginning))
+}
+
+/// The rows over the paced parameter, those before and behind each place and those of the middles, and where each of
+/// these groups ends.
+fn warped_rows(way: &Way, warp: &PacedWarp, places: &[f64], middles: &[Middle]) -> (Vec<WarpedRow>, Vec<usize>) {
+    let mut rows = Vec::new();
+    let mut ends = vec![0];
+    let mut push = |all: &mut dyn Iterator<Item = Row>, place: WarpedPoint| {
+        rows.extend(all.filter(Row::moves).map(|row| WarpedRow::new(&row, place)));
+        ends.push(rows.len());
+    };
+    for (index, at) in places.iter().enumerate() {
+        push(&mut way.rows_before(index).iter().copied(), warp.place(index.saturating_sub(1), *at));
+        push(&mut way.rows_behind(index).iter().copied(), warp.place(index, *at));
+    }
+    for Middle { stretch, place, limits } in middles {
+        let of_both = way.rows_behind(*stretch).iter().chain(way.rows_before(stretch + 1));
+        match limits {
+            Counting::All => push(&mut of_both.copied(), *place),
+            Counting::Speed => push(&mut of_both.map(Row::of_speed), *place),
+        }
+    }
+    (rows, ends)
+}
+
 impl Program {
     pub(crate) fn new(way: &Way, [start, end]: [Edge; 2], known: Known) -> Result<Self, Refusal> {
         let (from, to) = way.span()?;
@@ -160,38 +204,11 @@ impl Program {
         // Without jerk limits it is faster everywhere, but for the start, where a law may have used more than there is.
         let edges = [start, end];
         let most = reach::squares(way, edges, MOST_EXCESS_AT_START)?;
-        let guess = || guess_speeds(way, &warp, &places, edges);
-        let (along, beginning) = match known {
-            Known::Nothing => (None, None),
-            Known::Pace(pace) => (PacedWarp::along(warp, &places, pace), Some(Beginning::Known)),
-            Known::Before(law) => {
-                let pace = Pace::behind(law, (way.places(), &places), &warp, &guess());
-                let along = pace.and_then(|pace| PacedWarp::along(warp, &places, &pace));
-                (Some(along.ok_or(Refusal::Fast)?), Some(Beginning::Expected))
-            }
-        };
-        let beginning = beginning.filter(|_| along.is_some());
+        let (warp, beginning) = pace_from(known, way, (warp, &places), edges)?;
         let is_known = beginning == Some(Beginning::Known);
-        let warp = along.unwrap_or_else(|| PacedWarp::guessed(warp, &places, guess()));
         let places: Vec<f64> = warp.places().collect();
-        let mut rows = Vec::new();
-        let mut ends = vec![0];
-        let mut push = |all: &mut dyn Iterator<Item = Row>, place: Place| {
-            rows.extend(all.filter(Row::moves).map(|row| WarpedRow::new(&row, place)));
-            ends.push(rows.len());
-        };
-        for (index, at) in places.iter().enumerate() {
-            push(&mut way.rows_before(index).iter().copied(), warp.place(index.saturating_sub(1), *at));
-            push(&mut way.rows_behind(index).iter().copied(), warp.place(index, *at));
-        }
         let middles = middles(way, &warp, &places, (edges, &most));
-        for Middle { stretch, place, limits } in &middles {
-            let of_both = way.rows_behind(*stretch).iter().chain(way.rows_before(stretch + 1));
-            match limits {
-                Counting::All => push(&mut of_both.copied(), *place),
-                Counting::Speed => push(&mut of_both.map(Row::of_speed), *place),
-            }
-        }
+        let (mut rows, ends) = warped_rows(way, &warp, &places, &middles);
         let by_jerk = highest_square(rows.iter().map(|row| row.jerk[2]));
         let unit = rows.iter().fold(by_jerk, |unit, row| unit.min(1.0 / row.vel).min(1.0 / row.acc[1].abs()));
         if !(unit.is_finite() && unit > 0.0) {
@@ -254,7 +271,7 @@ impl Program {
                 prices: 0,
             };
             let middle = [0.25 * a, 0.25 * (b + c) + 0.5, 0.25 * d];
-            self.stretches.push(Stretch {
+            self.stretches.push(Interval {
                 sites: [
                     site([a, b, 0.0], [-slope, slope, 0.0], 1.0 / 6.0),
                     site([0.0, c, d], [0.0, -next, next], 1.0 / 6.0),
@@ -271,7 +288,7 @@ impl Program {
         limits.clear();
         *prices = 0;
         let last = stretches.len() - 1;
-        let place = |limits: &mut Vec<Limits>, place: usize| {
+        let place = |limits: &mut Vec<SiteLimits>, place: usize| {
             let first = limits.len();
             let speed = [screen.speed(place), 0.0, 0.0];
             let rows = screen.rows(place).flat_map(|(row, kept)| signs([row.acc[1], row.acc[0], 0.0], kept.acc));
@@ -416,7 +433,7 @@ impl Program {
 struct Middle {
     stretch: usize,
     /// The path parameter there.
-    place: Place,
+    place: WarpedPoint,
     limits: Counting,
 }
 
@@ -449,7 +466,7 @@ fn middles(way: &Way, warp: &PacedWarp, places: &[f64], ([start, end], most): ([
 }
 
 /// x and its slope at a given state at a place.
-fn given_state(edge: Edge, place: Place, unit: f64) -> (f64, f64) {
+fn given_state(edge: Edge, place: WarpedPoint, unit: f64) -> (f64, f64) {
     let square = edge.vel * edge.vel / (place.first * place.first);
     let slope = 2.0 * (edge.acc - place.second * square) / place.first;
     (square / unit, slope / unit)
@@ -513,11 +530,11 @@ fn signs(limit: [f64; 3], kept: [bool; 2]) -> impl Iterator<Item = [f64; 3]> {
 }
 
 /// Adds limits of one kind at one site.
-fn pack(all: &mut Vec<Limits>, limits: impl Iterator<Item = [f64; 3]>) {
+fn pack(all: &mut Vec<SiteLimits>, limits: impl Iterator<Item = [f64; 3]>) {
     let mut lane = LANES;
     for [square, slope, bend] in limits {
         if lane == LANES {
-            all.push(Limits::default());
+            all.push(SiteLimits::default());
             lane = 0;
         }
         if let Some(last) = all.last_mut() {

@@ -18,7 +18,7 @@ pub(crate) struct Warp {
 
 /// A path parameter and its derivatives by the warped parameter.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Place {
+pub(crate) struct WarpedPoint {
     pub(crate) at: f64,
     pub(crate) first: f64,
     pub(crate) second: f64,
@@ -37,16 +37,16 @@ impl Warp {
         self.to - self.from + (1.0 - PART) * (self.first + self.last)
     }
 
-    pub(crate) fn place(&self, at: f64) -> Place {
+    pub(crate) fn place(&self, at: f64) -> WarpedPoint {
         let left = self.length() - at;
         if at < self.first {
             let place = part(at / self.first, self.first);
-            Place { at: self.from + place.at, ..place }
+            WarpedPoint { at: self.from + place.at, ..place }
         } else if left < self.last {
             let place = part((left / self.last).max(0.0), self.last);
-            Place { at: self.to - place.at, second: -place.second, ..place }
+            WarpedPoint { at: self.to - place.at, second: -place.second, ..place }
         } else {
-            Place { at: self.from + at - (1.0 - PART) * self.first, first: 1.0, second: 0.0, third: 0.0 }
+            WarpedPoint { at: self.from + at - (1.0 - PART) * self.first, first: 1.0, second: 0.0, third: 0.0 }
         }
     }
 
@@ -64,8 +64,8 @@ impl Warp {
 }
 
 /// The warped part of length `length` at the share `u` from its rest.
-fn part(u: f64, length: f64) -> Place {
-    Place {
+fn part(u: f64, length: f64) -> WarpedPoint {
+    WarpedPoint {
         at: length * u * u * u * (2.0 - 2.0 * u + PART * u * u),
         first: u * u * (6.0 - 8.0 * u + 3.0 * u * u),
         second: 12.0 * u * (1.0 - u) * (1.0 - u) / length,
@@ -79,9 +79,9 @@ fn unpart(way: f64) -> f64 {
     // From above, where Newton's method comes down to the root of a convex function without passing it.
     let mut u = (way / PART).cbrt().min(1.0);
     for _ in 0..60 {
-        let Place { at, first, .. } = part(u, 1.0);
+        let WarpedPoint { at, first, .. } = part(u, 1.0);
         let step = (at - way) / first;
-        // Also where the step is no number, at 0.
+        // Also where the step is not a number, at 0.
         if step.is_nan() || step <= 1e-16 * u {
             break;
         }
@@ -103,7 +103,7 @@ mod tests {
             for index in 1..1000 {
                 let (at, step) = (length * f64::from(index) / 1000.0, 1e-5);
                 let [before, here, after] = [at - step, at, at + step].map(|at| warp.place(at));
-                let slope = |of: fn(&Place) -> f64| (of(&after) - of(&before)) / (2.0 * step);
+                let slope = |of: fn(&WarpedPoint) -> f64| (of(&after) - of(&before)) / (2.0 * step);
                 assert!((slope(|place| place.at) - here.first).abs() < 1e-8, "{at}");
                 assert!((slope(|place| place.first) - here.second).abs() < 1e-8, "{at}");
                 assert!((slope(|place| place.second) - here.third).abs() < 1e-3, "{at}");

@@ -1,6 +1,6 @@
 //! What limits say at a place, over the warped parameter.
 
-use crate::time_optimal::solver::warp::Place;
+use crate::time_optimal::solver::warp::WarpedPoint;
 use crate::time_optimal::solver::way::Row;
 
 /// The rows of a place over the warped parameter, divided by their limits.
@@ -15,7 +15,7 @@ pub(crate) struct WarpedRow {
 }
 
 impl WarpedRow {
-    pub(crate) fn new(row: &Row, place: Place) -> Self {
+    pub(crate) fn new(row: &Row, place: WarpedPoint) -> Self {
         let slope = place.first;
         let first = row.first * slope;
         let second = row.second * slope * slope + row.first * place.second;

@@ -51,7 +51,7 @@ pub fn getwobj_indi(
     let taught = Taught::new(cx, "getwobj_indi");
     let known = [p1, p2, p3].map(|p| [p.x, p.y, p.z]);
     if let Some(at) = known.iter().position(|point| point.iter().any(|component| is_open(*component))) {
-        return Err(taught.refusal(format!("components of p{} are not set, or no numbers", at + 1)));
+        return Err(taught.refusal(format!("components of p{} are not set or are not numbers", at + 1)));
     }
     let found = taught.touched([j1, j2, j3], &t)?;
     let (frame, off) = geometry::fitted(known.map(Point3::from), found).map_err(|(triangle, flaw)| {
@@ -187,7 +187,7 @@ impl<'a> Taught<'a> {
         let own = unit.robot().own_axes().len();
         let mut axes = joint.axes();
         if axes.iter().take(own).any(|axis| is_open(*axis)) {
-            return Err(self.refusal(format!("axes of {name} are not set, or no numbers")));
+            return Err(self.refusal(format!("axes of {name} are not set or are not numbers")));
         }
         axes.iter_mut().skip(own).for_each(|axis| *axis = 0.0);
         Ok(self.base * unit.robot().kinematics.forward(&axes))
@@ -196,7 +196,7 @@ impl<'a> Taught<'a> {
     /// Where the TCP is in the world at a place.
     fn tip_in_world(&self, number: u8, joint: &Joint, tool: &Tool) -> Result<Point3<f64>, Fault> {
         if tool.stationary {
-            let problem = "the tool is stationary, so that the robot cannot touch points with it";
+            let problem = "the tool is stationary, so the robot cannot touch points with it";
             return Err(self.refusal(problem.to_owned()));
         }
         Ok(self.flange(number, joint)? * self.tip(tool)?)
@@ -212,7 +212,7 @@ impl<'a> Taught<'a> {
         let [x, y, z, ..] = frame.components();
         match [x, y, z].into_iter().find(|component| is_open(*component)) {
             None => Ok(Point3::new(x, y, z)),
-            Some(value) => Err(self.refusal(format!("{what} has its origin at {value}, which is no length"))),
+            Some(value) => Err(self.refusal(format!("{what} has its origin at {value}, which is not a length"))),
         }
     }
 

@@ -16,7 +16,7 @@ const RETRY_PAUSE: Duration = Duration::from_millis(100);
 
 /// A handle: nothing, or a connection.
 #[derive(Default, Debug)]
-pub(super) struct Handle {
+pub(super) struct ConnectionHandle {
     held: RefCell<Option<Held>>,
     /// What the user was told last of failed attempts.
     told: RefCell<String>,
@@ -55,13 +55,13 @@ impl<T> Found<T> {
     }
 }
 
-impl Handle {
+impl ConnectionHandle {
     /// How the connection is, for a debugger.
     pub(super) fn described(&self) -> String {
         let held = self.held.borrow();
         let Some(held) = held.as_ref().filter(|held| !held.link.is_closing()) else { return "closed".into() };
         let state = match held.link.state() {
-            LinkState::Opening => "is being opened".into(),
+            LinkState::Opening => "being opened".into(),
             LinkState::Open => "open".into(),
             LinkState::Failed(why) => format!("could not be opened: {why}"),
             LinkState::Lost(why) => format!("lost: {why}"),
@@ -78,7 +78,12 @@ impl Handle {
                 LinkState::Open if now.opening == opening => return Ok(true),
                 LinkState::Lost(_) if opening.is_free_of_closing() => {}
                 LinkState::Lost(_) => return Err(fault(function, "the connection is lost: close it first")),
-                _ => return Err(fault(function, &format!("it is open already, {}: close it first", now.opening))),
+                _ => {
+                    return Err(fault(
+                        function,
+                        &format!("the connection is already open, {}: close it first", now.opening),
+                    ));
+                }
             },
             Some(now) if now.opening == opening => match now.link.state() {
                 LinkState::Opening => return Ok(false),
@@ -89,7 +94,7 @@ impl Handle {
                     return Ok(true);
                 }
                 LinkState::Failed(reason) => {
-                    self.tell(cx, format!("{function} {opening}: {reason}; it will be tried again"));
+                    self.tell(cx, format!("{function} {opening}: {reason}; trying again"));
                     if now.since.elapsed() < RETRY_PAUSE {
                         return Ok(false);
                     }
@@ -109,7 +114,7 @@ impl Handle {
     pub(super) async fn open(&self, cx: &Cx, function: &'static str, opening: Opening) -> Result<bool, Fault> {
         let state = |held: &Option<Held>| held.as_ref().filter(|it| !it.link.is_closing()).map(|it| it.link.state());
         if matches!(state(&self.held.borrow()), Some(LinkState::Opening | LinkState::Open)) {
-            return Err(fault(function, "it is open already: close it first"));
+            return Err(fault(function, "the connection is already open: close it first"));
         }
         self.close();
         // What was closed just now may still hold the device.
@@ -176,7 +181,7 @@ impl Handle {
                     Ok(Found::Lost(reason))
                 }
                 (None, _) if full => {
-                    let text = format!("{CAPACITY} bytes have come, and what is looked for is not among them");
+                    let text = format!("{CAPACITY} bytes have been received, but what is looked for is not among them");
                     Err(fault(function, &text))
                 }
                 (None, _) => Ok(Found::NotYet),
@@ -238,7 +243,7 @@ impl Handle {
 
     /// Works with the open connection.
     fn with<T>(&self, function: &'static str, work: impl FnOnce(&Held) -> Result<T, Fault>) -> Result<T, Fault> {
-        self.standing(work).unwrap_or_else(|| Err(fault(function, "it is not open")))
+        self.standing(work).unwrap_or_else(|| Err(fault(function, "the connection is not open")))
     }
 
     /// Works with the connection that the program knows to be open; nothing where there is none.
@@ -265,5 +270,8 @@ pub(super) fn fault(function: &'static str, problem: &str) -> Fault {
 /// A number of bytes, from 0 to what an array or the buffer holds.
 pub(super) fn length(function: &'static str, len: i32, most: usize, of: &str) -> Result<usize, Fault> {
     let length = usize::try_from(len).ok().filter(|length| *length <= most);
-    length.ok_or_else(|| Fault::Domain { function, problem: format!("len {len}: 0 to {most}, {of}").into() })
+    length.ok_or_else(|| Fault::Domain {
+        function,
+        problem: format!("len is {len}, but must be 0 to {most}, {of}").into(),
+    })
 }

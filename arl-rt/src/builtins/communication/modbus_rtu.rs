@@ -3,7 +3,7 @@
 
 use std::rc::Rc;
 
-use super::handle::{Found, Handle, fault};
+use super::handle::{ConnectionHandle, Found, fault};
 use super::serial;
 use crate::communication::opening::Opening;
 use crate::communication::slave::SlaveSettings;
@@ -19,7 +19,7 @@ const SHORTEST_CYCLE: i32 = 500_000;
 /// A Modbus slave. Its line is closed at first, and when the last that knows it is gone; its registers stay.
 #[derive(Clone, Default, Debug)]
 pub struct ModbusDev {
-    handle: Rc<Handle>,
+    handle: Rc<ConnectionHandle>,
     tables: SharedTables,
 }
 
@@ -33,7 +33,7 @@ impl Shown for ModbusDev {
     }
 }
 
-/// Opens a line, by a name of the cell file or by the path of the device; whether it worked.
+/// Opens a line, by a name of the cell file or by the path of the device; true if it worked.
 ///
 /// # Errors
 /// A station outside 1 to 247, a speed or size that is not one of the manual's; the slave is open already.
@@ -51,9 +51,11 @@ pub async fn open(
     cx.motion_end().await;
     let wrong = |problem: String| Fault::Domain { function: "open", problem: problem.into() };
     let unit = u8::try_from(slave_id).ok().filter(|unit| (1..=247).contains(unit));
-    let unit = unit.ok_or_else(|| wrong(format!("slave_id {slave_id}: 1 to 247")))?;
+    let unit = unit.ok_or_else(|| wrong(format!("slave_id is {slave_id}, but must be 1 to 247")))?;
     if baud_rate < 4800 {
-        return Err(wrong(format!("baud_rate {baud_rate}: one of 4800, 9600, 19200, 38400, 57600, 115200")));
+        return Err(wrong(format!(
+            "baud_rate is {baud_rate}, but must be one of 4800, 9600, 19200, 38400, 57600, 115200"
+        )));
     }
     let device = cx.shared().network.device(&devname.to_text());
     let line = serial::settings(device, baud_rate, databits, stop_bits, parity)?;
@@ -145,7 +147,7 @@ pub async fn clearbuff(cx: &Cx, dev: &ModbusDev) -> Result<bool, Fault> {
 pub async fn setcycle(cx: &Cx, dev: &ModbusDev, cycle: i32) -> Result<(), Fault> {
     cx.motion_end().await;
     if cycle < SHORTEST_CYCLE {
-        let problem = format!("{cycle} us: {SHORTEST_CYCLE} or more are possible").into();
+        let problem = format!("cycle is {cycle} us, but must be {SHORTEST_CYCLE} or more").into();
         return Err(Fault::Domain { function: "setcycle", problem });
     }
     dev.assert_open("setcycle")
@@ -174,10 +176,10 @@ impl ModbusDev {
         let range = usize::try_from(start).ok().zip(usize::try_from(len).ok());
         let range = range.filter(|(start, len)| start.saturating_add(*len) <= 2 * SIZE);
         let (start, len) = range.ok_or_else(|| {
-            wrong(format!("{len} bytes from {start} on: the registers have the bytes 0 to {}", 2 * SIZE - 1))
+            wrong(format!("{len} bytes from byte {start} are too many: the registers have bytes 0 to {}", 2 * SIZE - 1))
         })?;
         if len > room {
-            return Err(wrong(format!("len {len}: the array has {room} bytes")));
+            return Err(wrong(format!("len is {len}, but the array has {room} bytes")));
         }
         self.assert_open(function)?;
         loop {

@@ -8,7 +8,7 @@ use crate::communication::{NetworkDriver, PortSettings};
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::storage::disk::Disk;
-use crate::storage::state::{Saved, State};
+use crate::storage::state::{KeptState, Saved};
 use crate::values::Str;
 use arl_robot::robot::Family;
 
@@ -18,8 +18,8 @@ const KEPT: &str = "NETWORK";
 /// The network ports of a SCARA robot's cabinet. The others have the first one only.
 const PORTS: [&str; 3] = ["eth1", "eth2", "eth3"];
 
-/// Sets address, gateway and mask of a network port. False where one of them is no address, the mask is none, or there
-/// is no such port.
+/// Sets address, gateway and mask of a network port. False where one of them is not an address, the mask is none, or
+/// there is no such port.
 ///
 /// # Errors
 /// None.
@@ -70,7 +70,7 @@ fn settings(ip: &Str, gate: &Str, mask: &Str) -> Option<PortSettings> {
 }
 
 /// The settings that are kept, by port.
-fn kept(state: &mut State) -> io::Result<Vec<(String, PortSettings)>> {
+fn kept(state: &mut KeptState) -> io::Result<Vec<(String, PortSettings)>> {
     let text = state.load(KEPT).map_err(io::Error::other)?.unwrap_or_default();
     let read = |line: &str| {
         let mut words = line.split(' ');
@@ -87,7 +87,7 @@ async fn keep(cx: &Cx, port: &str, settings: PortSettings) -> io::Result<()> {
     storing::saved(saved, cx).await.map_err(io::Error::other)
 }
 
-fn begin_to_keep(state: &mut State, disk: &Disk, port: &str, settings: PortSettings) -> io::Result<Saved> {
+fn begin_to_keep(state: &mut KeptState, disk: &Disk, port: &str, settings: PortSettings) -> io::Result<Saved> {
     let mut list = kept(state)?;
     list.retain(|(known, _)| known != port);
     list.push((port.to_owned(), settings));
@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn each_port_keeps_its_own() {
-        let mut state = State::new(Box::new(Memory::default()));
+        let mut state = KeptState::new(Box::new(Memory::default()));
         let settings = |last| PortSettings {
             address: Ipv4Addr::new(10, 0, 0, last),
             gateway: Ipv4Addr::new(10, 0, 0, 1),

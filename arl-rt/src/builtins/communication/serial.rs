@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::handle::{Found, Handle, fault};
+use super::handle::{ConnectionHandle, Found, fault};
 use super::transfer;
 use crate::communication::line::LineSettings;
 use crate::communication::opening::Opening;
@@ -16,7 +16,7 @@ const BAUD_RATES: [i32; 10] = [300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 5
 
 /// A serial line. It is closed at first, and when the last that knows it is gone.
 #[derive(Clone, Default, Debug)]
-pub struct Iodev(Rc<Handle>);
+pub struct Iodev(Rc<ConnectionHandle>);
 
 impl Shown for Iodev {
     fn type_name(&self) -> String {
@@ -28,7 +28,7 @@ impl Shown for Iodev {
     }
 }
 
-/// Opens a serial line, by a name of the cell file or by the path of the device; whether it worked.
+/// Opens a serial line, by a name of the cell file or by the path of the device; true if it worked.
 ///
 /// # Errors
 /// A speed or size that is not one of the manual's; the handle is open already.
@@ -57,11 +57,11 @@ pub(super) fn settings(
     let wrong = |problem: String| Fault::Domain { function: "open", problem: problem.into() };
     if !BAUD_RATES.contains(&baud_rate) {
         let known: Vec<String> = BAUD_RATES.iter().map(i32::to_string).collect();
-        return Err(wrong(format!("baud_rate {baud_rate}: one of {}", known.join(", "))));
+        return Err(wrong(format!("baud_rate is {baud_rate}, but must be one of {}", known.join(", "))));
     }
     match size {
         5..=8 => Ok(LineSettings { device, baud: baud_rate.unsigned_abs(), bits: size as u8, stop, parity }),
-        _ => Err(wrong(format!("character_size {size}: 5 to 8"))),
+        _ => Err(wrong(format!("character_size is {size}, but must be 5 to 8"))),
     }
 }
 
@@ -107,7 +107,7 @@ pub async fn read_bytes(cx: &Cx, dev: &Iodev, data: &mut [u8], len: i32) -> Resu
     done(transfer::read_bytes(&dev.0, data, len)?)
 }
 
-/// Takes the text in front of a mark when the mark has come; both leave the buffer.
+/// Takes the text before a mark when the mark has arrived; both leave the buffer.
 ///
 /// # Errors
 /// The line is not open, or lost; an empty mark; 1 MiB without it.
@@ -116,7 +116,7 @@ pub async fn readuntil(cx: &Cx, dev: &Iodev, data: &mut Str, cut: &Str) -> Resul
     done(transfer::read_until(&dev.0, data, cut)?)
 }
 
-/// Throws away what has come and was not read; false where the line is not open.
+/// Discards what has arrived but has not been read; false where the line is not open.
 ///
 /// # Errors
 /// None.

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::handle::{Found, Handle, fault};
+use super::handle::{ConnectionHandle, Found, fault};
 use super::transfer;
 use crate::communication::opening::Opening;
 use crate::context::cx::Cx;
@@ -14,7 +14,7 @@ pub use super::network::{getip, setip};
 
 /// A TCP connection. It is closed at first, and when the last that knows it is gone.
 #[derive(Clone, Default, Debug)]
-pub struct Socket(Rc<Handle>);
+pub struct Socket(Rc<ConnectionHandle>);
 
 impl Shown for Socket {
     fn type_name(&self) -> String {
@@ -26,7 +26,7 @@ impl Shown for Socket {
     }
 }
 
-/// Connects to a server; true when the connection stands.
+/// Connects to a server; true when the connection is established.
 ///
 /// # Errors
 /// A port outside 1 to 65535; the socket is open to something else.
@@ -100,7 +100,7 @@ pub async fn read_bytes(cx: &Cx, s: &Socket, data: &mut [u8], len: i32) -> Resul
     done(cx, transfer::read_bytes(&s.0, data, len)?)
 }
 
-/// Takes the text in front of a mark when the mark has come; both leave the buffer.
+/// Takes the text before a mark when the mark has arrived; both leave the buffer.
 ///
 /// # Errors
 /// The socket is not connected, or the other side has closed it before the mark came; an empty mark; 1 MiB without it.
@@ -109,7 +109,7 @@ pub async fn readuntil(cx: &Cx, s: &Socket, data: &mut Str, cut: &Str) -> Result
     done(cx, transfer::read_until(&s.0, data, cut)?)
 }
 
-/// Throws away what has come and was not read; false where the socket is not connected.
+/// Discards what has arrived but has not been read; false where the socket is not connected.
 ///
 /// # Errors
 /// None.
@@ -130,5 +130,5 @@ fn done(cx: &Cx, (function, found): (&'static str, Found<()>)) -> Result<bool, F
 
 fn port_number(function: &'static str, port: i32) -> Result<u16, Fault> {
     let number = u16::try_from(port).ok().filter(|number| *number > 0);
-    number.ok_or_else(|| Fault::Domain { function, problem: format!("port {port}: 1 to 65535").into() })
+    number.ok_or_else(|| Fault::Domain { function, problem: format!("port is {port}, but must be 1 to 65535").into() })
 }

@@ -34,12 +34,12 @@ where
 }
 
 /// A condition and an action.
-pub(super) struct Watched<C, A> {
+pub(super) struct WatchedCode<C, A> {
     pub(super) when: C,
     pub(super) action: A,
 }
 
-impl<C, A> Code for Watched<C, A>
+impl<C, A> Code for WatchedCode<C, A>
 where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,

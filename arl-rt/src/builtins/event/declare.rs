@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::code::Watched;
+use super::code::WatchedCode;
 use super::scan::evaluate;
 use crate::context::cx::Cx;
 use crate::context::events::{Declaration, Source, Ticking, priority};
@@ -14,7 +14,7 @@ const SHORTEST_INTERVAL_S: f64 = 0.001;
 
 /// An event as it is declared: [`interrupt`], [`timer`] or [`trigger`].
 #[must_use = "an instruction does nothing until it is run"]
-pub struct Event<W, A> {
+pub struct EventDeclaration<W, A> {
     priority: i32,
     when: W,
     action: A,
@@ -37,20 +37,20 @@ pub struct Every {
 pub struct DuringMotion<C>(C);
 
 /// `interrupt`: when the condition becomes true, the action runs. Both get the context.
-pub fn interrupt<C, A>(when: C, action: A) -> Event<Holds<C>, A>
+pub fn interrupt<C, A>(when: C, action: A) -> EventDeclaration<Holds<C>, A>
 where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    Event { priority: 0, when: Holds { name: None, condition: when }, action }
+    EventDeclaration { priority: 0, when: Holds { name: None, condition: when }, action }
 }
 
 /// `timer`: when the interval is over, the action runs.
-pub fn timer<A>(interval: f64, action: A) -> Event<Every, A>
+pub fn timer<A>(interval: f64, action: A) -> EventDeclaration<Every, A>
 where
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    Event { priority: 0, when: Every { name: None, interval, repeats: false }, action }
+    EventDeclaration { priority: 0, when: Every { name: None, interval, repeats: false }, action }
 }
 
 /// `trigger`: when the condition becomes true during the next motion, the action runs. It has no name:
@@ -59,15 +59,15 @@ where
 /// use arl_rt::emit::*;
 /// event::trigger(async |_| Ok(true), async |_| Ok(())).name(&Str::new());
 /// ```
-pub fn trigger<C, A>(when: C, action: A) -> Event<DuringMotion<C>, A>
+pub fn trigger<C, A>(when: C, action: A) -> EventDeclaration<DuringMotion<C>, A>
 where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    Event { priority: 10, when: DuringMotion(when), action }
+    EventDeclaration { priority: 10, when: DuringMotion(when), action }
 }
 
-impl<W, A> Event<W, A> {
+impl<W, A> EventDeclaration<W, A> {
     /// 0 (first) to 255; without it 0, that of a trigger 10.
     pub fn priority(mut self, priority: i32) -> Self {
         self.priority = priority;
@@ -75,7 +75,7 @@ impl<W, A> Event<W, A> {
     }
 }
 
-impl<C, A> Event<Holds<C>, A>
+impl<C, A> EventDeclaration<Holds<C>, A>
 where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
@@ -95,7 +95,7 @@ where
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         const FUNCTION: &str = "interrupt";
         let priority = priority(self.priority, FUNCTION)?;
-        let code = Rc::new(Watched { when: self.when.condition, action: self.action });
+        let code = Rc::new(WatchedCode { when: self.when.condition, action: self.action });
         let held = evaluate(cx, &*code).map_err(|problem| problem.fault(&format!("this {FUNCTION}")))?;
         let source = Source::Condition { held };
         let new = Declaration { name: self.when.name, priority, source, place: cx.place(), code };
@@ -103,7 +103,7 @@ where
     }
 }
 
-impl<A> Event<Every, A>
+impl<A> EventDeclaration<Every, A>
 where
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
@@ -134,13 +134,13 @@ where
             return Err(Fault::Domain { function: FUNCTION, problem: problem.into() });
         }
         let source = Source::Time(Ticking::new(interval, repeats, cx.cycle()));
-        let code = Rc::new(Watched { when: async |_: &Cx| Ok(false), action: self.action });
+        let code = Rc::new(WatchedCode { when: async |_: &Cx| Ok(false), action: self.action });
         let new = Declaration { name, priority, source, place: cx.place(), code };
         cx.events().borrow_mut().declare(FUNCTION, new)
     }
 }
 
-impl<C, A> Event<DuringMotion<C>, A>
+impl<C, A> EventDeclaration<DuringMotion<C>, A>
 where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
@@ -152,7 +152,7 @@ where
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let priority = priority(self.priority, "trigger")?;
         let source = Source::Motion { number: 0, held: false, over: false };
-        let code = Rc::new(Watched { when: self.when.0, action: self.action });
+        let code = Rc::new(WatchedCode { when: self.when.0, action: self.action });
         let new = Declaration { name: None, priority, source, place: cx.place(), code };
         cx.events().borrow_mut().declare_trigger(cx.level().number, new)
     }

@@ -86,7 +86,7 @@ impl StartMove {
         if started {
             Ok(())
         } else {
-            Err(domain("no motion is stopped: a stopmove comes before it, and one startmove for each".into()))
+            Err(domain("no motion is stopped: each startmove needs a stopmove before it".into()))
         }
     }
 }

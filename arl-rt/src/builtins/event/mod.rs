@@ -10,7 +10,7 @@ mod progress;
 mod scan;
 mod switch;
 
-pub use declare::{DuringMotion, Event, Every, Holds, interrupt, timer, trigger};
+pub use declare::{DuringMotion, EventDeclaration, Every, Holds, interrupt, timer, trigger};
 pub use halt::{Skip, StartMove, StopMove, startmove, stopmove};
 pub use progress::{elapsed_distance, elapsed_percent, elapsed_time, left_distance};
 pub use switch::{DelInt, DisableInt, EnableInt, delint, disableint, enableint};

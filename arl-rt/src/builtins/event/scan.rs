@@ -4,7 +4,7 @@ use std::rc::Rc;
 use std::task::Poll;
 
 use crate::context::cx::{Cx, Level};
-use crate::context::events::{Code, Event, Source, Table};
+use crate::context::events::{Code, DeclaredEvent, EventTable, Source};
 use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::motion::Progress;
 
@@ -34,7 +34,7 @@ impl Unknown {
         }
     }
 
-    fn alarm(self, event: &Event) -> Alarm {
+    fn alarm(self, event: &DeclaredEvent) -> Alarm {
         let (file, line) = match &self {
             Unknown::Alarm(alarm) => (alarm.file, alarm.line),
             Unknown::Unfit(_) => event.place,
@@ -88,7 +88,7 @@ fn scan_interrupts(cx: &Cx) -> Result<(), Alarm> {
                 holds && !held
             }
         };
-        let Table { interrupts, due, .. } = &mut *table;
+        let EventTable { interrupts, due, .. } = &mut *table;
         if let Some(event) = interrupts.get_mut(at).filter(|event| happens && event.enabled) {
             event.happen(now, due);
         }
@@ -126,7 +126,7 @@ fn scan_triggers(cx: &Cx) -> Result<(), Alarm> {
             Stage::Over(Some(end)) => cx.look_back(end, || evaluate(cx, &*code)),
             Stage::Over(None) => Ok(held),
         };
-        let Table { triggers, due, .. } = &mut *cx.events().borrow_mut();
+        let EventTable { triggers, due, .. } = &mut *cx.events().borrow_mut();
         let Some(event) = triggers.get_mut(at).filter(|event| event.number == ordinal) else { continue };
         let holds = holds.map_err(|unknown| unknown.alarm(event))?;
         event.source = Source::Motion { number, held: holds, over: matches!(stage, Stage::Over(_)) };
@@ -150,8 +150,9 @@ fn stage(cx: &Cx, motion: u64) -> Stage {
 }
 
 /// Drops the triggers whose motion is over, unless their action is still to run.
-fn drop_done(table: &mut Table) {
-    let is_done = |event: &Event| event.arrived.is_none() && matches!(event.source, Source::Motion { over: true, .. });
+fn drop_done(table: &mut EventTable) {
+    let is_done =
+        |event: &DeclaredEvent| event.arrived.is_none() && matches!(event.source, Source::Motion { over: true, .. });
     while table.triggers.front().is_some_and(is_done) {
         table.triggers.pop_front();
     }

@@ -1,7 +1,7 @@
 //! `enableint`, `disableint` and `delint` enable, disable and delete interrupts and timers.
 
 use crate::context::cx::Cx;
-use crate::context::events::{Table, Which, priority};
+use crate::context::events::{EventTable, Which, priority};
 use crate::fault::Fault;
 use crate::values::Str;
 
@@ -44,7 +44,7 @@ macro_rules! switch {
             pub fn run(self, cx: &Cx) -> Result<(), Fault> {
                 const FUNCTION: &str = stringify!($name);
                 let which = which(FUNCTION, self.name, self.priority)?;
-                let ($table, $now): (&mut Table, u64) = (&mut cx.events().borrow_mut(), cx.cycle());
+                let ($table, $now): (&mut EventTable, u64) = (&mut cx.events().borrow_mut(), cx.cycle());
                 let $found = $table.find(FUNCTION, &which)?;
                 $effect;
                 Ok(())

@@ -3,7 +3,7 @@
 use super::sent;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
-use crate::io::Output;
+use crate::io::OutputSignal;
 
 /// The value of an analog input in V or mA.
 ///
@@ -30,7 +30,7 @@ pub async fn setao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
 /// There is no such channel; a value outside -10 to 10 V or 4 to 20 mA.
 pub async fn syncao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
     setao(cx, chan, value).await?;
-    sent(cx, std::iter::once(Output::Analog(chan.unsigned_abs() as usize))).await;
+    sent(cx, std::iter::once(OutputSignal::Analog(chan.unsigned_abs() as usize))).await;
     Ok(())
 }
 

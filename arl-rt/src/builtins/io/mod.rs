@@ -9,7 +9,7 @@ pub use analog::{getai, getao, setao, syncao};
 use crate::builtins::flow::wait_cycles;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
-use crate::io::{Digital, Output, Pwm};
+use crate::io::{Digital, OutputSignal, Pwm};
 
 /// Sets a digital output.
 ///
@@ -41,12 +41,12 @@ pub async fn syncdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
 }
 
 /// Digital outputs from the one to the other, which are there.
-fn digital_outputs(from: i32, to: i32) -> impl Iterator<Item = Output> + Clone {
-    (from..=to).map(|channel| Output::Digital(channel.unsigned_abs() as usize))
+fn digital_outputs(from: i32, to: i32) -> impl Iterator<Item = OutputSignal> + Clone {
+    (from..=to).map(|channel| OutputSignal::Digital(channel.unsigned_abs() as usize))
 }
 
 /// Waits until outputs of this cycle have got to where they go, one cycle at least.
-async fn sent(cx: &Cx, outputs: impl Iterator<Item = Output> + Clone) {
+async fn sent(cx: &Cx, outputs: impl Iterator<Item = OutputSignal> + Clone) {
     cx.shared().io.borrow_mut().await_outputs(outputs.clone(), cx.cycle());
     cx.next_cycle().await;
     while cx.shared().io.borrow().awaits(outputs.clone()) {
@@ -151,8 +151,8 @@ pub async fn setpwm(cx: &Cx, channel: i32, freq: i32, ratio: i32) -> Result<bool
     let frequency = u16::try_from(freq).ok().filter(|freq| (10..=10_000).contains(freq));
     let duty = u8::try_from(ratio).ok().filter(|ratio| *ratio <= 100);
     let pwm = Pwm {
-        frequency: frequency.ok_or_else(|| wrong(format!("{freq} Hz: 10 to 10000 are possible")))?,
-        duty: duty.ok_or_else(|| wrong(format!("{ratio} %: 0 to 100 are possible")))?,
+        frequency: frequency.ok_or_else(|| wrong(format!("freq is {freq} Hz, but must be 10 to 10000")))?,
+        duty: duty.ok_or_else(|| wrong(format!("ratio is {ratio} %, but must be 0 to 100")))?,
     };
     cx.shared().io.borrow_mut().set_pwm(channel, pwm)?;
     Ok(true)

@@ -146,12 +146,12 @@ impl Compen {
     /// Holds from the next motion on.
     ///
     /// # Errors
-    /// No compensation has been started, the frame is unknown, a value is no number, or more than 90 deg would be
+    /// No compensation has been started, the frame is unknown, a value is not a number, or more than 90 deg would be
     /// turned in all.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let reference = self.frame.reference()?;
         if let Some(value) = self.by.iter().find(|value| !value.is_finite() || is_unset(value.abs())) {
-            return Err(domain("compen", format!("{value} is no number to compensate by")));
+            return Err(domain("compen", format!("{value} is not a number to compensate by")));
         }
         let mut unit = cx.channel_state().unit_mut("compen")?;
         let Some(compensation) = &mut unit.settings.compensation else {

@@ -1,6 +1,6 @@
 //! `jump`: the robot rises, moves across and sinks; it can look at a condition before it sinks.
 
-use super::modal::{Kind, Modal, Pace, Resolved};
+use super::modal::{GivenSpeed, Kind, Modal, Resolved};
 use super::resolve;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
@@ -32,25 +32,25 @@ struct Form {
 }
 
 impl Jump {
-    /// The speed; its set components go to `$DFSPEED`, which stands in without it.
+    /// The speed; its set components go to `$DFSPEED`, which applies without it.
     pub fn v(mut self, speed: Speed) -> Self {
-        self.modal.pace = Some(Pace::Speed(speed));
+        self.modal.pace = Some(GivenSpeed::Speed(speed));
         self
     }
 
     /// The speed in % of the axes' own.
     pub fn vp(mut self, percent: f64) -> Self {
-        self.modal.pace = Some(Pace::Percent(percent));
+        self.modal.pace = Some(GivenSpeed::Percent(percent));
         self
     }
 
-    /// The tool; it goes to `$DFTOOL`, which stands in without it.
+    /// The tool; it goes to `$DFTOOL`, which applies without it.
     pub fn t(mut self, tool: Tool) -> Self {
         self.modal.tool = Some(tool);
         self
     }
 
-    /// The workpiece frame; it goes to `$DFWOBJ`, which stands in without it.
+    /// The workpiece frame; it goes to `$DFWOBJ`, which applies without it.
     pub fn w(mut self, wobj: &Wobj) -> Self {
         self.modal.wobj = Some(wobj.clone());
         self

@@ -25,7 +25,7 @@ impl ToolLoad {
     /// Holds from the next motion on, until another load is said or the program is reset.
     ///
     /// # Errors
-    /// The mass or a moment of inertia is below 0, or a component is no number.
+    /// The mass or a moment of inertia is below 0, or a component is not a number.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         carry(cx, "toolload", &self.toolinertia)
     }
@@ -54,7 +54,7 @@ impl ToolSwitch {
     /// Holds from the next motion on, until another load is said or the program is reset.
     ///
     /// # Errors
-    /// There is no such element or unit, the mass or a moment of inertia is below 0, or a component is no number.
+    /// There is no such element or unit, the mass or a moment of inertia is below 0, or a component is not a number.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         unit("toolswitch", self.mu.as_ref())?;
         let load = cx.system().tool_inertia.with(|loads| {

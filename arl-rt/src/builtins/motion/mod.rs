@@ -11,7 +11,7 @@ use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::motion::Target;
 use crate::values::{Joint, Pose, Slip, Speed, Tool, Wobj};
-use modal::{Blend, Kind, Modal, Pace};
+use modal::{Blend, GivenSpeed, Kind, Modal};
 
 pub use compensation::{Compen, CompenFrame, EndCompen, StartCompen, compen, endcompen, startcompen};
 pub use jump::{Above, Jump, jump};
@@ -55,28 +55,28 @@ macro_rules! instruction {
         }
     };
     (@label v) => {
-        /// The speed; its set components go to `$DFSPEED`, which stands in without it.
+        /// The speed; its set components go to `$DFSPEED`, which applies without it.
         pub fn v(mut self, speed: Speed) -> Self {
-            self.modal.pace = Some(Pace::Speed(speed));
+            self.modal.pace = Some(GivenSpeed::Speed(speed));
             self
         }
     };
     (@label vp) => {
         /// The speed in % of the robot's own.
         pub fn vp(mut self, percent: f64) -> Self {
-            self.modal.pace = Some(Pace::Percent(percent));
+            self.modal.pace = Some(GivenSpeed::Percent(percent));
             self
         }
     };
     (@label vl) => {
         /// The speed of the TCP in mm/s.
         pub fn vl(mut self, speed: f64) -> Self {
-            self.modal.pace = Some(Pace::Line(speed));
+            self.modal.pace = Some(GivenSpeed::Line(speed));
             self
         }
     };
     (@label s) => {
-        /// The blending; its set components go to `$DFSLIP`, which stands in without it.
+        /// The blending; its set components go to `$DFSLIP`, which applies without it.
         pub fn s(mut self, slip: impl Into<Slip>) -> Self {
             self.modal.blend = Some(Blend::Slip(slip.into()));
             self
@@ -97,14 +97,14 @@ macro_rules! instruction {
         }
     };
     (@label t) => {
-        /// The tool; it goes to `$DFTOOL`, which stands in without it.
+        /// The tool; it goes to `$DFTOOL`, which applies without it.
         pub fn t(mut self, tool: Tool) -> Self {
             self.modal.tool = Some(tool);
             self
         }
     };
     (@label w) => {
-        /// The workpiece frame; it goes to `$DFWOBJ`, which stands in without it.
+        /// The workpiece frame; it goes to `$DFWOBJ`, which applies without it.
         pub fn w(mut self, wobj: &Wobj) -> Self {
             self.modal.wobj = Some(wobj.clone());
             self

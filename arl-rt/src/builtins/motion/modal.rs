@@ -19,7 +19,7 @@ pub(super) enum Kind {
 
 /// The speed that an instruction gives.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Pace {
+pub(super) enum GivenSpeed {
     Speed(Speed),
     /// % of the robot's own.
     Percent(f64),
@@ -41,7 +41,7 @@ pub(super) enum Blend {
 #[derive(Clone, Debug)]
 pub(super) struct Modal {
     kind: Kind,
-    pub(super) pace: Option<Pace>,
+    pub(super) pace: Option<GivenSpeed>,
     pub(super) blend: Option<Blend>,
     pub(super) tool: Option<Tool>,
     pub(super) wobj: Option<Wobj>,
@@ -112,9 +112,9 @@ impl Modal {
     /// A label that is given one number must be given one that is set.
     fn check(&self) -> Result<(), Fault> {
         let speed = match self.pace {
-            Some(Pace::Percent(value)) => Some(("vp", value)),
-            Some(Pace::Line(value)) => Some(("vl", value)),
-            Some(Pace::Speed(_)) | None => None,
+            Some(GivenSpeed::Percent(value)) => Some(("vp", value)),
+            Some(GivenSpeed::Line(value)) => Some(("vl", value)),
+            Some(GivenSpeed::Speed(_)) | None => None,
         };
         let zone = match self.blend {
             Some(Blend::Percent(value)) => Some(("sp", value)),
@@ -135,9 +135,9 @@ impl Modal {
     }
 
     /// `$DFSPEED` with the components that the instruction stands for.
-    fn speed(&self, cx: &Cx, pace: Pace, mut speed: Speed) -> Speed {
+    fn speed(&self, cx: &Cx, pace: GivenSpeed, mut speed: Speed) -> Speed {
         match (pace, self.kind) {
-            (Pace::Speed(new), _) => {
+            (GivenSpeed::Speed(new), _) => {
                 let places = [
                     (&mut speed.per, new.per),
                     (&mut speed.tcp, new.tcp),
@@ -151,15 +151,15 @@ impl Modal {
                     }
                 }
             }
-            (Pace::Percent(percent), Kind::Axes) => speed.per = percent,
-            (Pace::Percent(percent), Kind::Line) => {
+            (GivenSpeed::Percent(percent), Kind::Axes) => speed.per = percent,
+            (GivenSpeed::Percent(percent), Kind::Line) => {
                 if let Some(unit) = cx.channel_state().robot() {
                     let tcp = &unit.robot().tcp;
                     speed.tcp = tcp.vel * percent / 100.0;
                     speed.ori = tcp.ori_vel * percent / 100.0;
                 }
             }
-            (Pace::Line(millimetres), _) => speed.tcp = millimetres,
+            (GivenSpeed::Line(millimetres), _) => speed.tcp = millimetres,
         }
         speed
     }
@@ -212,7 +212,9 @@ fn setting(system: &System) -> Result<Setting, Fault> {
     ];
     for (name, components) in frames {
         if let Some(value) = components.iter().find(|value| !value.is_finite() || motion::is_unset(value.abs())) {
-            return Err(Fault::Motion(format!("{name} holds the value {value}, which is no length or angle").into()));
+            return Err(Fault::Motion(
+                format!("{name} holds the value {value}, which is not a length or angle").into(),
+            ));
         }
     }
     Ok(Setting::new(&tool, &wobj, &base).with_offsets(&tool_offset, &wobj_offset))

@@ -96,7 +96,7 @@ fn sensible(components: &[f64]) -> Result<(), Fault> {
         None => Ok(()),
         Some(value) => {
             let problem = format!(
-                "the target holds {value}, which comes of calculating with a component that is not set (9e+09): set it first"
+                "the target holds {value}, which comes from calculating with a component that is not set (9e+09): set it first"
             );
             Err(Fault::Motion(problem.into()))
         }

@@ -85,13 +85,13 @@ fn figure(weave: &Weavedata) -> Result<Weave, Fault> {
         return refused(format!("swing_angle is {} deg, but must be 0 to 180", weave.swing_angle));
     }
     if !weave.rotation_angle.is_finite() || is_unset(weave.rotation_angle.abs()) {
-        return refused(format!("rotation_angle is {}, which is no angle", weave.rotation_angle));
+        return refused(format!("rotation_angle is {}, which is not an angle", weave.rotation_angle));
     }
     if weave.track {
-        return refused("track is true, but there is no weld tracking: it needs a sensor at the torch".to_owned());
+        return refused("track is true, but weld tracking is not supported: it needs a sensor at the torch".to_owned());
     }
     if weave.vibrat {
-        return refused("vibrat is true, but there is no vibration".to_owned());
+        return refused("vibrat is true, but vibration is not supported".to_owned());
     }
     let axis = match weave.weaverotaxis {
         Weaverotaxis::X => Vector3::x(),

@@ -13,7 +13,7 @@ use crate::storage::data::{DataFile, DataVar};
 use crate::values::{Joint, Pose, Str};
 
 /// Writes a pose to a point of the program that a foreground channel runs, in its data file and in the program itself,
-/// where it counts as soon as it is in the file; whether it worked. It does not wait for motion, and the robot goes on
+/// where it counts as soon as it is in the file; true if it worked. It does not wait for motion, and the robot goes on
 /// meanwhile.
 ///
 /// # Errors
@@ -23,7 +23,7 @@ pub async fn saveposenow(cx: &Cx, channel: u32, file_name: &Str, pose_name: &Str
 }
 
 /// Writes a joint to a point of the program that a foreground channel runs, in its data file and in the program itself,
-/// where it counts as soon as it is in the file; whether it worked. It does not wait for motion, and the robot goes on
+/// where it counts as soon as it is in the file; true if it worked. It does not wait for motion, and the robot goes on
 /// meanwhile.
 ///
 /// # Errors
@@ -64,7 +64,7 @@ async fn save(
     let places = data::places(data, &cx.shared().scripts.path().join(program.folder()));
     let (written, name) = (value.clone(), point.name.clone());
     let work = cx.shared().disk.begin(move || {
-        let missing = || Failure::Problem(format!("the data file {data} is not there"));
+        let missing = || Failure::Problem(format!("the data file {data} was not found"));
         replace(&data::place(places).ok_or_else(missing)?, ty, &name, &written)
     });
     if !is_done(cx, function, done(work, cx).await) {

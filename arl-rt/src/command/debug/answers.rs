@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::functions;
-use super::link::Request;
+use super::link::DebugRequest;
 use crate::command::json::{array, number, quoted};
 use crate::context::cx::{Cx, Level};
 use crate::context::frames::Record;
@@ -16,7 +16,7 @@ use crate::values::{Onto, Teach, teach_text};
 ///
 /// # Errors
 /// What cannot be, and why.
-pub(super) fn answer(request: &Request, contexts: &[Rc<Cx>]) -> Result<String, String> {
+pub(super) fn answer(request: &DebugRequest, contexts: &[Rc<Cx>]) -> Result<String, String> {
     let first = || contexts.first().ok_or("there is no channel");
     let cx = || {
         let at = request.whole(0) as usize;
@@ -43,7 +43,7 @@ pub(super) fn answer(request: &Request, contexts: &[Rc<Cx>]) -> Result<String, S
 }
 
 /// Whether a request changes something of the run.
-pub(super) fn changes(request: &Request) -> bool {
+pub(super) fn changes(request: &DebugRequest) -> bool {
     matches!(request.word.as_str(), "pointer" | "set" | "set-global" | "set-system" | "set-signal")
 }
 
@@ -220,7 +220,7 @@ fn teach(variable: &dyn Teach, sizes: &[usize], literal: &str) -> Result<String,
 /// Sets the program pointer to a line of a function that runs: it goes on there.
 fn set_pointer(cx: &Cx, frame: u64, line: u64) -> Result<String, String> {
     if cx.level().number == Level::LOOKING.number {
-        return Err("the condition of an event is looked at: step out of it first".into());
+        return Err("the condition of an event is being checked: step out of it first".into());
     }
     let line = u32::try_from(line).ok().filter(|line| *line > 0).ok_or("there is no such line")?;
     cx.frames().set_pointer(frame, line)?;
@@ -254,15 +254,14 @@ fn missing(name: &str) -> String {
 
 fn set_signal(cx: &Cx, kind: &str, channel: &str, value: &str) -> Result<String, String> {
     let channel: i32 =
-        channel.parse().map_err(|_| format!("`{channel}` is no number of a signal: they count from 1"))?;
+        channel.parse().map_err(|_| format!("`{channel}` is not a signal number: signals count from 1"))?;
     let level = || match value {
         "true" | "1" => Ok(true),
         "false" | "0" => Ok(false),
-        _ => Err(format!("`{value}` is no level: expected true or false")),
+        _ => Err(format!("`{value}` is not a level: expected true or false")),
     };
-    let amount = || {
-        value.parse::<f64>().map_err(|_| format!("`{value}` is no value of a signal: expected a number, in V or mA"))
-    };
+    let amount =
+        || value.parse::<f64>().map_err(|_| format!("`{value}` is not a signal value: expected a number, in V or mA"));
     let mut io = cx.shared().io.borrow_mut();
     let set: Result<(), Fault> = match kind {
         "di" => io.set_digital(Digital::Di, channel, level()?),

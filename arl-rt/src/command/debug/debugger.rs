@@ -5,8 +5,8 @@ use std::rc::{Rc, Weak};
 use std::time::{Duration, Instant};
 
 use super::answers;
-use super::link::{Link, Request};
-use super::plan::{Plan, Point, Statement, Way, Why};
+use super::link::{DebugLink, DebugRequest};
+use super::plan::{HaltPlan, Point, Statement, Way, Why};
 use crate::command::json::{number, quoted};
 use crate::context::cx::{Cx, Level};
 use crate::context::watcher::{Go, Watcher};
@@ -17,11 +17,11 @@ const POINTER_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Halts programs, and answers a debugger.
 pub(super) struct Debugger {
-    link: Link,
+    link: DebugLink,
     /// Whether time is the world's: then cycles go on while programs are halted.
     real: bool,
     contexts: RefCell<Vec<Weak<Cx>>>,
-    plan: RefCell<Plan>,
+    plan: RefCell<HaltPlan>,
     /// How far programs were to go when they were halted.
     before: Cell<Way>,
     /// How many statements were about to run so far.
@@ -65,7 +65,7 @@ enum Reply {
 }
 
 impl Debugger {
-    pub(super) fn new(link: Link, real: bool) -> Self {
+    pub(super) fn new(link: DebugLink, real: bool) -> Self {
         Self {
             link,
             real,
@@ -224,7 +224,7 @@ impl Debugger {
         }
     }
 
-    fn answer(&self, request: &Request) -> Reply {
+    fn answer(&self, request: &DebugRequest) -> Reply {
         let channel = request.whole(0) as usize;
         let way = match request.word.as_str() {
             "breakpoints" => {

@@ -23,8 +23,8 @@ pub(super) fn call(cx: &Cx, name: &str, arguments: &[String]) -> Result<(String,
     let named = || FUNCTIONS.iter().filter(|(known, _)| known.eq_ignore_ascii_case(name));
     if named().next().is_none() {
         return Err(match catalog::functions(name) {
-            [] => format!("only built-in functions are called while the program stands, and {name} is none"),
-            _ => format!("{name} is not called while the program stands"),
+            [] => format!("only built-in functions can be called while the program is halted, and {name} is not one"),
+            _ => format!("{name} cannot be called while the program is halted"),
         });
     }
     let called = named().find_map(|(_, function)| function(cx, arguments));

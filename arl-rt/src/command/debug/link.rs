@@ -13,14 +13,14 @@ use crate::command::connection;
 
 /// What a debugger wants: a number, a word, and what the word takes.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct Request {
+pub(super) struct DebugRequest {
     /// The answer has the same number.
     pub(super) number: u64,
     pub(super) word: String,
     pub(super) values: Vec<String>,
 }
 
-impl Request {
+impl DebugRequest {
     fn parse(line: &str) -> Option<Self> {
         let mut parts = line.split('\t').map(str::to_owned);
         Some(Self { number: parts.next()?.parse().ok()?, word: parts.next()?, values: parts.collect() })
@@ -38,8 +38,8 @@ impl Request {
 }
 
 /// The connection.
-pub(crate) struct Link {
-    requests: Receiver<Request>,
+pub(crate) struct DebugLink {
+    requests: Receiver<DebugRequest>,
     /// How many wait, so that asking costs nothing.
     waiting: Arc<AtomicUsize>,
     /// None at the end.
@@ -51,7 +51,7 @@ pub(crate) struct Link {
 /// What the number of waiting requests is beyond which nobody sends any more.
 const GONE: usize = usize::MAX / 2;
 
-impl Link {
+impl DebugLink {
     pub(super) fn connect(address: &str) -> Result<Self> {
         let stream = connection::connect(address)?;
         stream.set_nodelay(true)?;
@@ -62,7 +62,7 @@ impl Link {
         beside::spawn(Builder::new().name("debugger".into()), move || {
             for line in incoming.lines() {
                 let Ok(line) = line else { break };
-                if let Some(request) = Request::parse(&line) {
+                if let Some(request) = DebugRequest::parse(&line) {
                     counter.fetch_add(1, Ordering::Release);
                     if sender.send(request).is_err() {
                         return;
@@ -84,7 +84,7 @@ impl Link {
 
     /// A request that has come, if there is one.
     #[inline]
-    pub(super) fn take(&self) -> Option<Request> {
+    pub(super) fn take(&self) -> Option<DebugRequest> {
         if self.waiting.load(Ordering::Acquire) == 0 {
             return None;
         }
@@ -94,7 +94,7 @@ impl Link {
     }
 
     /// The next request, once it comes; nothing where nobody sends any more.
-    pub(super) fn wait(&self) -> Option<Request> {
+    pub(super) fn wait(&self) -> Option<DebugRequest> {
         let request = self.requests.recv().ok()?;
         self.waiting.fetch_sub(1, Ordering::Release);
         Some(request)
@@ -112,7 +112,7 @@ impl Link {
     }
 }
 
-impl Drop for Link {
+impl Drop for DebugLink {
     fn drop(&mut self) {
         self.lines = None;
         let _ = self.writer.take().map(JoinHandle::join);
@@ -126,10 +126,10 @@ mod tests {
 
     #[test]
     fn requests_are_read() {
-        let request = Request::parse("7\tset\t1\tx y").unwrap();
+        let request = DebugRequest::parse("7\tset\t1\tx y").unwrap();
         assert_eq!((request.number, request.word.as_str(), request.whole(0), request.value(1)), (7, "set", 1, "x y"));
         assert_eq!((request.value(2), request.whole(1)), ("", 0));
-        assert_eq!(Request::parse("set"), None);
-        assert_eq!(Request::parse("7"), None);
+        assert_eq!(DebugRequest::parse("set"), None);
+        assert_eq!(DebugRequest::parse("7"), None);
     }
 }

@@ -17,12 +17,12 @@ mod plan;
 use std::io::Result;
 use std::rc::Rc;
 
-use super::between::{Beat, Between};
+use super::between::{Between, CycleOrder};
 use crate::controller::Controller;
 use crate::fault;
 use crate::io::Pendant;
 use debugger::Debugger;
-use link::Link;
+use link::DebugLink;
 
 /// What looks after the debugger between the cycles of a run.
 struct Session {
@@ -36,7 +36,7 @@ struct Session {
 /// # Errors
 /// No debugger listens there.
 pub(crate) fn connect(controller: &Controller, address: &str) -> Result<Box<dyn Between>> {
-    let debugger = Rc::new(Debugger::new(Link::connect(address)?, controller.is_real()));
+    let debugger = Rc::new(Debugger::new(DebugLink::connect(address)?, controller.is_real()));
     let of_alarms = Rc::clone(&debugger);
     fault::listen(Rc::new(move |alarm| of_alarms.alarm_came_up(alarm)));
     controller.watch(Rc::<Debugger>::clone(&debugger));
@@ -51,7 +51,7 @@ pub(crate) fn inside(controller: &Controller, channel: usize) -> Option<String> 
 }
 
 impl Between for Session {
-    fn cycle_begins(&mut self, controller: &mut Controller) -> Beat {
+    fn cycle_begins(&mut self, controller: &mut Controller) -> CycleOrder {
         self.debugger.cycle_begins(controller.contexts());
         let halted = self.debugger.is_halted();
         if halted != self.pauses {
@@ -59,9 +59,9 @@ impl Between for Session {
             controller.press(if halted { Pendant::Pause } else { Pendant::Start });
         }
         match (self.debugger.is_gone(), halted) {
-            (true, _) => Beat::Ends,
-            (false, true) => Beat::Stands,
-            (false, false) => Beat::Runs,
+            (true, _) => CycleOrder::Ends,
+            (false, true) => CycleOrder::Stands,
+            (false, false) => CycleOrder::Runs,
         }
     }
 

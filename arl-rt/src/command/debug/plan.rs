@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use super::link::Request;
+use super::link::DebugRequest;
 
 /// How far it shall go.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -76,7 +76,7 @@ impl Lines {
 
 /// Where a program halts.
 #[derive(Default, Debug)]
-pub(super) struct Plan {
+pub(super) struct HaltPlan {
     lines: Vec<Lines>,
     events: bool,
     /// Whether it halts at alarms.
@@ -85,10 +85,10 @@ pub(super) struct Plan {
     way: Option<Way>,
 }
 
-impl Plan {
+impl HaltPlan {
     /// Halts at these lines of a file, and no others of it: the folder and the main file of its program, its name,
     /// lines.
-    pub(super) fn set_lines(&mut self, request: &Request) {
+    pub(super) fn set_lines(&mut self, request: &DebugRequest) {
         let lines = request.values.iter().skip(3).filter_map(|line| line.parse().ok()).collect();
         let [folder, program, file] = [0, 1, 2].map(|at| request.value(at).to_owned());
         self.lines.retain(|known| (&known.folder, &known.program, &known.file) != (&folder, &program, &file));
@@ -96,7 +96,7 @@ impl Plan {
     }
 
     /// What of `alarms` and `events` it halts at.
-    pub(super) fn set_kinds(&mut self, request: &Request) {
+    pub(super) fn set_kinds(&mut self, request: &DebugRequest) {
         let has = |word: &str| request.values.iter().any(|value| value == word);
         (self.alarms, self.events) = (has("alarms"), has("events"));
     }
@@ -161,8 +161,8 @@ mod tests {
         }
     }
 
-    fn going(way: Way) -> Plan {
-        let mut plan = Plan::default();
+    fn going(way: Way) -> HaltPlan {
+        let mut plan = HaltPlan::default();
         plan.go(way);
         plan
     }
@@ -171,13 +171,13 @@ mod tests {
         Point { statement, cycle: u64::MAX }
     }
 
-    fn request(values: &[&str]) -> Request {
-        Request { number: 1, word: String::new(), values: values.iter().map(ToString::to_string).collect() }
+    fn request(values: &[&str]) -> DebugRequest {
+        DebugRequest { number: 1, word: String::new(), values: values.iter().map(ToString::to_string).collect() }
     }
 
     #[test]
     fn lines_halt_in_their_file_until_they_are_set_anew() {
-        let mut plan = Plan::default();
+        let mut plan = HaltPlan::default();
         plan.set_lines(&request(&["one", "main.arl", "a.arl", "7", "9"]));
         assert_eq!(plan.halts_at(&here()), Some(("breakpoint", None)));
         assert_eq!(plan.halts_at(&Statement { file: "b.arl", ..here() }), None);
@@ -222,7 +222,7 @@ mod tests {
 
     #[test]
     fn actions_halt_where_they_begin() {
-        let mut plan = Plan::default();
+        let mut plan = HaltPlan::default();
         plan.set_kinds(&request(&["events"]));
         assert_eq!(plan.halts_at(&here()), None);
         assert_eq!(plan.halts_at(&Statement { begins_action: true, ..here() }), Some(("event", None)));

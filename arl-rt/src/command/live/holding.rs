@@ -9,7 +9,7 @@ use arl_robot::kinematics::frame;
 use nalgebra::Vector3;
 
 use crate::controller::Controller;
-use crate::unit::hold::{Held, Pressed, Seen};
+use crate::unit::hold::{HeldButton, PressOutcome, Seen};
 
 /// So long a button counts as held after an order, in s.
 const HELD_S: f64 = 0.25;
@@ -23,7 +23,7 @@ pub(super) struct Holding {
 struct Button {
     channel: u8,
     words: String,
-    held: Held,
+    held: HeldButton,
     stage: Stage,
     /// The cycle in which it counts as let go.
     until: u64,
@@ -90,18 +90,18 @@ impl Holding {
     }
 }
 
-fn stage(pressed: Pressed) -> Stage {
+fn stage(pressed: PressOutcome) -> Stage {
     match pressed {
-        Pressed::Begun => Stage::Moves,
-        Pressed::Waits => Stage::Waits,
+        PressOutcome::Begun => Stage::Moves,
+        PressOutcome::Waits => Stage::Waits,
     }
 }
 
 /// What words say is to be moved.
-fn parse(words: &str) -> Result<Held, String> {
+fn parse(words: &str) -> Result<HeldButton, String> {
     let wrong = || {
         format!(
-            "`{words}` is no direction: expected one like `j1+`, `x-`, `tool z+`, `rx+`, `frame 0 0 90 x+` or `to 0 -90 90 0 90 0`"
+            "`{words}` is not a direction: expected one like `j1+`, `x-`, `tool z+`, `rx+`, `frame 0 0 90 x+` or `to 0 -90 90 0 90 0`"
         )
     };
     let all: Vec<&str> = words.split_whitespace().collect();
@@ -110,7 +110,7 @@ fn parse(words: &str) -> Result<Held, String> {
         all.filter(|all| all.iter().all(|value| value.is_finite()))
     };
     let held = match &all[..] {
-        ["to", axes @ ..] if !axes.is_empty() => numbers(axes).map(Held::To),
+        ["to", axes @ ..] if !axes.is_empty() => numbers(axes).map(HeldButton::To),
         ["tool", direction] => tcp(direction, Seen::Tool),
         ["frame", a, b, c, direction] => numbers(&[a, b, c]).and_then(|angles| {
             let [a, b, c] = <[f64; 3]>::try_from(angles).ok()?;
@@ -123,13 +123,13 @@ fn parse(words: &str) -> Result<Held, String> {
 }
 
 /// `j1+`; external axes are counted on behind the robot's own: `j7-` is the first one of a robot with six.
-fn axis(direction: &str) -> Option<Held> {
+fn axis(direction: &str) -> Option<HeldButton> {
     let (name, up) = sign(direction)?;
     let axis = name.strip_prefix('j')?.parse().ok()?;
-    Some(Held::Axis { axis, up })
+    Some(HeldButton::Axis { axis, up })
 }
 
-fn tcp(direction: &str, of: Seen) -> Option<Held> {
+fn tcp(direction: &str, of: Seen) -> Option<HeldButton> {
     let (name, up) = sign(direction)?;
     let (name, turns) = name.strip_prefix('r').map_or((name, false), |name| (name, true));
     let axis = match name {
@@ -138,7 +138,7 @@ fn tcp(direction: &str, of: Seen) -> Option<Held> {
         "z" => Vector3::z(),
         _ => return None,
     };
-    Some(Held::Tcp { along: if up { axis } else { -axis }, turns, of })
+    Some(HeldButton::Tcp { along: if up { axis } else { -axis }, turns, of })
 }
 
 fn sign(direction: &str) -> Option<(&str, bool)> {
@@ -163,11 +163,11 @@ mod tests {
 
     #[test]
     fn words_say_what_is_moved() {
-        assert_eq!(parse("j3-"), Ok(Held::Axis { axis: 3, up: false }));
-        assert_eq!(parse("to 1 -2.5"), Ok(Held::To(vec![1.0, -2.5])));
-        let Ok(Held::Tcp { along, turns: false, of: Seen::Tool }) = parse("tool z-") else { panic!("the tool") };
+        assert_eq!(parse("j3-"), Ok(HeldButton::Axis { axis: 3, up: false }));
+        assert_eq!(parse("to 1 -2.5"), Ok(HeldButton::To(vec![1.0, -2.5])));
+        let Ok(HeldButton::Tcp { along, turns: false, of: Seen::Tool }) = parse("tool z-") else { panic!("the tool") };
         assert_eq!(along, -Vector3::z());
-        assert!(matches!(parse("frame 0 0 90 rx+"), Ok(Held::Tcp { turns: true, of: Seen::Frame(_), .. })));
+        assert!(matches!(parse("frame 0 0 90 rx+"), Ok(HeldButton::Tcp { turns: true, of: Seen::Frame(_), .. })));
         for wrong in
             ["", "j+", "jx+", "x", "q+", "tool j1+", "frame 0 0 x+", "to", "to a", "to inf", "frame 0 0 nan x+"]
         {

@@ -121,8 +121,9 @@ impl Look {
     }
 
     fn set(&mut self, controller: &Controller, value: &str) -> Result<(), String> {
-        self.inside.ok_or("this program was not made to be looked into: `arl2rs run --pendant` makes such")?;
-        let number: usize = value.parse().map_err(|_| format!("`{value}` is no channel: expected its number, or 0"))?;
+        self.inside.ok_or("this program was not made for inspection: `arl2rs run --pendant` makes such programs")?;
+        let number: usize =
+            value.parse().map_err(|_| format!("`{value}` is not a channel: expected its number, or 0"))?;
         if number > controller.status().channels.len() {
             return Err(format!("there is no channel {number}"));
         }

@@ -20,16 +20,16 @@ Options:
   --drive               move the robots that the cell has a [driver] for; without it all are
                         simulated
   --clock virtual|real  run as fast as possible (default), or in real time; from the
-                        first connection that a program opens it is real time
-  --realtime[=CORE]     --clock real, and what the system gives the cycle: priority, its
-                        memory locked, a core of its own (the last one)
+                        first connection that a program opens, it is real time
+  --realtime[=CORE]     --clock real, and what the system can give the cycle: priority,
+                        locked memory, a core of its own (the last one)
   --script-dir DIR      the folder of the program's files
   --state-dir DIR       the folder that keeps system variables, and where
-                        the programs stood, between runs
-  --io FILE             a scenario: what the outside does to the inputs
+                        the programs were, between runs
+  --io FILE             a scenario: what happens at the inputs
   --trace FILE.csv      write the motion, one row a cycle
-  --trace-columns file  columns of the trace behind those that it always has: file, the
-                        file that the line is of
+  --trace-columns file  more columns of the trace, after the usual ones: file, the
+                        file that the line belongs to
   --report[=FILE]       say at the end what each motion did, on the standard error,
                         or one JSON object a line into a file
   --live                be driven by lines on the standard input (di.5 = true), and
@@ -41,22 +41,22 @@ Options:
                         happens, as --live does
   --each-cycle          with --live or --listener: say in each cycle where the robots are
   --each-motion         with --live or --listener: say what each motion did
-  --state-interval S    with --live: how often to say how everything stands (0.05)
+  --state-interval S    with --live: how often to report the state (0.05)
   --coverage FILE       write how often each statement ran: for programs that were made
                         for a debugger
   --loop                the loop running mode: a program that ends is reset and begins
-                        again, until the time is over or it calls exit
+                        again, until the time is up or it calls exit
   --cycle-time FILE     write how many controller seconds the run took
-  --max-time S          end after so many controller seconds, with exit code 4
+  --max-time S          end after S controller seconds, with exit code 4
   --mode MODE           auto (default), manual or manufast
   --override PCT        the speed override in percent, 0 to 100
   --seed N              the seed of rand
   --start-time T        the date at the start: now, or a time like 2000-01-01T00:00:00
-  --set PLACE=VALUE     another value at one place: global.NAME, robot.KEYS, cell.KEYS,
-                        io.KEYS (io.event.2.at=1.5); as often as there are places
+  --set PLACE=VALUE     another value for one key: global.NAME, robot.KEYS, cell.KEYS,
+                        io.KEYS (io.event.2.at=1.5); can be given more than once
   --help                this text
 
-Exit codes: 0 ended, 2 usage, 3 alarm, 4 the time was over or nothing could change
+Exit codes: 0 ended, 2 usage, 3 alarm, 4 the time was up or nothing could change
 any more, 130 interrupted.
 ";
 
@@ -66,7 +66,7 @@ pub(super) struct Options {
     pub(super) robot: Option<String>,
     pub(super) cell: Option<PathBuf>,
     pub(super) drive: bool,
-    pub(super) clock: Option<Pace>,
+    pub(super) clock: Option<ClockKind>,
     pub(super) realtime: Option<Realtime>,
     pub(super) live: bool,
     pub(super) paused: bool,
@@ -110,7 +110,7 @@ impl Options {
 
 /// How fast cycles follow each other.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Pace {
+pub(super) enum ClockKind {
     Virtual,
     Real,
 }
@@ -142,50 +142,79 @@ impl Asked {
     }
 }
 
+impl Options {
+    /// What holds without any option.
+    fn new(script_dir: &str) -> Self {
+        Self {
+            robot: None,
+            cell: None,
+            drive: false,
+            clock: None,
+            realtime: None,
+            live: false,
+            paused: false,
+            asked: Asked::default(),
+            repeats: false,
+            script_dir: PathBuf::from(script_dir),
+            state_dir: None,
+            io: None,
+            trace: None,
+            trace_columns: More::default(),
+            listener: None,
+            wishes: Wishes::default(),
+            report: None,
+            cycle_time: None,
+            max_time: None,
+            mode: Controlmode::Auto,
+            speed_override: Override::FULL,
+            seed: None,
+            start_time: None,
+            changes: Changes::default(),
+        }
+    }
+
+    /// Whether the options fit each other; what one of them asks for of another.
+    fn agree(&mut self) -> Result<(), lexopt::Error> {
+        if self.realtime.is_some() {
+            if self.clock == Some(ClockKind::Virtual) {
+                return Err("--realtime is for --clock real: on the virtual clock cycles do not wait".into());
+            }
+            self.clock = Some(ClockKind::Real);
+        }
+        let Options { robot, cell, io, changes, .. } = self;
+        let files = [
+            (Part::Robot, robot.is_some(), "robot"),
+            (Part::Cell, cell.is_some(), "cell"),
+            (Part::Io, io.is_some(), "io"),
+        ];
+        for (part, is_named, option) in files {
+            if let (false, Some((path, _))) = (is_named, changes.of_part(part).next()) {
+                return Err(format!("--set {option}.{path}: name the file with --{option}").into());
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Reads the command line; nothing where help was asked for.
 pub(super) fn parse(
     arguments: impl IntoIterator<Item = OsString> + 'static,
     script_dir: &str,
 ) -> Result<Option<Options>, lexopt::Error> {
     use lexopt::prelude::*;
-    let mut options = Options {
-        robot: None,
-        cell: None,
-        drive: false,
-        clock: None,
-        realtime: None,
-        live: false,
-        paused: false,
-        asked: Asked::default(),
-        repeats: false,
-        script_dir: PathBuf::from(script_dir),
-        state_dir: None,
-        io: None,
-        trace: None,
-        trace_columns: More::default(),
-        listener: None,
-        wishes: Wishes::default(),
-        report: None,
-        cycle_time: None,
-        max_time: None,
-        mode: Controlmode::Auto,
-        speed_override: Override::FULL,
-        seed: None,
-        start_time: None,
-        changes: Changes::default(),
-    };
+    let mut options = Options::new(script_dir);
     let mut parser = lexopt::Parser::from_args(arguments);
     while let Some(argument) = parser.next()? {
         match argument {
             Long("robot") => options.robot = Some(parser.value()?.string()?),
             Long("cell") => options.cell = Some(parser.value()?.into()),
             Long("drive") => options.drive = true,
-            Long("live") => (options.live, options.clock) = (true, Some(Pace::Real)),
+            Long("live") => (options.live, options.clock) = (true, Some(ClockKind::Real)),
             Long("paused") => options.paused = true,
             Long("debug") => options.asked.debug = Some(parser.value()?.string()?),
             Long("coverage") => options.asked.coverage = Some(parser.value()?.into()),
             Long("clock") => {
-                let paces = [("virtual", Pace::Virtual), ("real", Pace::Real)];
+                let paces = [("virtual", ClockKind::Virtual), ("real", ClockKind::Real)];
                 options.clock = Some(word(&mut parser, "--clock", &paces)?);
             }
             Long("realtime") => {
@@ -232,20 +261,7 @@ pub(super) fn parse(
             other => return Err(other.unexpected()),
         }
     }
-    if options.realtime.is_some() {
-        if options.clock == Some(Pace::Virtual) {
-            return Err("--realtime is for --clock real: on the virtual clock cycles do not wait".into());
-        }
-        options.clock = Some(Pace::Real);
-    }
-    let Options { robot, cell, io, changes, .. } = &options;
-    let files =
-        [(Part::Robot, robot.is_some(), "robot"), (Part::Cell, cell.is_some(), "cell"), (Part::Io, io.is_some(), "io")];
-    for (part, is_named, option) in files {
-        if let (false, Some((path, _))) = (is_named, changes.of_part(part).next()) {
-            return Err(format!("--set {option}.{path}: --{option} has to name the file whose value this is").into());
-        }
-    }
+    options.agree()?;
     Ok(Some(options))
 }
 
@@ -287,11 +303,14 @@ mod tests {
         let options = parsed(&["--robot=six-10", "--clock", "real", "--max-time", "2.5", "--mode", "MANUAL"]);
         let options = options.unwrap().unwrap();
         assert_eq!(options.robot.as_deref(), Some("six-10"));
-        assert_eq!((options.clock, options.max_time, options.mode), (Some(Pace::Real), Some(2.5), Controlmode::Manual));
+        assert_eq!(
+            (options.clock, options.max_time, options.mode),
+            (Some(ClockKind::Real), Some(2.5), Controlmode::Manual)
+        );
         assert_eq!(options.script_dir, Path::new("scripts"));
         assert!(parsed(&["--trace-columns=file"]).unwrap().unwrap().trace_columns.file);
         let realtime = parsed(&["--realtime=1"]).unwrap().unwrap();
-        assert_eq!((realtime.clock, realtime.realtime), (Some(Pace::Real), Some(Realtime::new().core(1))));
+        assert_eq!((realtime.clock, realtime.realtime), (Some(ClockKind::Real), Some(Realtime::new().core(1))));
         assert_eq!(parsed(&["--help"]), Ok(None));
         let report = |arguments: &[&str]| parsed(arguments).unwrap().unwrap().report;
         assert_eq!(report(&["--report", "--seed", "1"]), Some(Report::Table));
@@ -308,7 +327,7 @@ mod tests {
             (&["--start-time", "then"], "2000-01-01T00:00:00"),
             (&["--realtime=first"], "invalid digit"),
             (&["--realtime", "--clock", "virtual"], "--realtime is for --clock real"),
-            (&["--trace-columns", "do.1"], "`do.1` is no column: expected file"),
+            (&["--trace-columns", "do.1"], "`do.1` is not a column: expected file"),
             (&["--speed"], "--speed"),
             (&["--seed"], "--seed"),
             (&["file"], "file"),

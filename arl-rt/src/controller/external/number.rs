@@ -15,12 +15,12 @@ pub(super) fn decode(coding: i32, bits: u32, length: u32) -> Result<i32, String>
 /// Four inputs a digit.
 fn bcd(bits: u32, length: u32) -> Result<i32, String> {
     if !length.is_multiple_of(4) {
-        return Err(format!("$PGNO_LENGTH is {length}, but in BCD it is 4, 8, 12 or 16"));
+        return Err(format!("$PGNO_LENGTH is {length}, but for BCD it must be 4, 8, 12 or 16"));
     }
     let mut number = 0;
     for digit in (0..length / 4).rev().map(|place| bits >> (4 * place) & 15) {
         if digit > 9 {
-            return Err(format!("{digit:04b} is no BCD digit, which goes from 0000 to 1001"));
+            return Err(format!("{digit:04b} is not a BCD digit, which goes from 0000 to 1001"));
         }
         number = 10 * number + digit.cast_signed();
     }
@@ -31,7 +31,7 @@ fn bcd(bits: u32, length: u32) -> Result<i32, String> {
 fn one_out_of(bits: u32, length: u32) -> Result<i32, String> {
     match bits.count_ones() {
         1 => Ok(bits.trailing_zeros().cast_signed()),
-        count => Err(format!("{count} of its {length} inputs are on, but 1 out of {length} must be")),
+        count => Err(format!("{count} of its {length} inputs are on, but exactly 1 of {length} must be")),
     }
 }
 
@@ -67,8 +67,8 @@ mod tests {
 
     #[test]
     fn what_is_no_number_says_why() {
-        assert!(decode(1, 0b1010, 4).unwrap_err().contains("1010 is no BCD digit"));
-        assert!(decode(1, 0b1100_0001, 8).unwrap_err().contains("1100 is no BCD digit"));
+        assert!(decode(1, 0b1010, 4).unwrap_err().contains("1010 is not a BCD digit"));
+        assert!(decode(1, 0b1100_0001, 8).unwrap_err().contains("1100 is not a BCD digit"));
         assert!(decode(1, 1, 5).unwrap_err().contains("$PGNO_LENGTH is 5"));
         assert!(decode(2, 0b11, 4).unwrap_err().contains("2 of its 4 inputs are on"));
     }

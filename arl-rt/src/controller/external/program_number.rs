@@ -65,9 +65,9 @@ fn read(io: &Image, system: &System) -> Result<(u32, i32), String> {
         if !number::parity_fits(bits, on, odd) {
             let (kind, channel) = (if odd { "odd" } else { "even" }, parity.saturating_abs());
             let level = if on { "on" } else { "off" };
-            return Err(format!("{what}, has not the {kind} parity that it should have: DI {channel} is {level}"));
+            return Err(format!("{what}, does not have {kind} parity: DI {channel} is {level}"));
         }
     }
-    let number = number::decode(coding, bits, length).map_err(|problem| format!("{what}, is none: {problem}"))?;
+    let number = number::decode(coding, bits, length).map_err(|problem| format!("{what}, is not valid: {problem}"))?;
     Ok((bits, number))
 }

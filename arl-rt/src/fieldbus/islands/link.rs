@@ -4,12 +4,12 @@ use std::io::{ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::time::{Duration, Instant};
 
-use crate::fieldbus::modbus::mbap::{self, Frame, HEAD, LONGEST_FRAME, Start};
+use crate::fieldbus::modbus::mbap::{self, HEAD, LONGEST_FRAME, ModbusFrame, Received};
 
-const NO_ANSWER: &str = "what it sends is no answer of Modbus TCP";
+const NO_ANSWER: &str = "what it sends is not a Modbus TCP response";
 
 /// A connection to a Modbus TCP server, for a thread that may wait.
-pub(super) struct Link {
+pub(super) struct IslandLink {
     stream: TcpStream,
     unit: u8,
     timeout: Duration,
@@ -18,7 +18,7 @@ pub(super) struct Link {
     buffer: [u8; LONGEST_FRAME],
 }
 
-impl Link {
+impl IslandLink {
     /// Connects.
     ///
     /// # Errors
@@ -30,7 +30,7 @@ impl Link {
             stream.set_write_timeout(Some(timeout))?;
             Ok(stream)
         };
-        let stream = open().map_err(|error: std::io::Error| format!("it cannot be connected to: {error}"))?;
+        let stream = open().map_err(|error: std::io::Error| format!("cannot connect to it: {error}"))?;
         let frame = Vec::with_capacity(LONGEST_FRAME);
         Ok(Self { stream, unit, timeout, transaction: 0, frame, buffer: [0; LONGEST_FRAME] })
     }
@@ -42,23 +42,23 @@ impl Link {
     pub(super) fn ask(&mut self, request: &[u8]) -> Result<&[u8], String> {
         self.transaction = self.transaction.wrapping_add(1);
         self.frame.clear();
-        mbap::append(&mut self.frame, &Frame { transaction: self.transaction, unit: self.unit, pdu: request });
+        mbap::append(&mut self.frame, &ModbusFrame { transaction: self.transaction, unit: self.unit, pdu: request });
         let start = Instant::now();
         self.stream.write_all(&self.frame).map_err(|error| self.problem(&error))?;
         let mut filled = 0;
         loop {
             match mbap::first(self.buffer.get(..filled).unwrap_or_default()) {
-                Start::Part => {}
-                // What comes before it is asked for, or answers another request, is no answer to this one.
-                Start::Frame(frame, len)
+                Received::Part => {}
+                // What comes before it is asked for, or answers another request, is not an answer to this one.
+                Received::Frame(frame, len)
                     if len == filled && frame.transaction == self.transaction && frame.unit == self.unit =>
                 {
                     break;
                 }
-                Start::Frame(frame, _) => {
+                Received::Frame(frame, _) => {
                     return Err(format!("{NO_ANSWER} to this request: {}", self.difference(frame)));
                 }
-                Start::Garbage => return Err(NO_ANSWER.into()),
+                Received::Garbage => return Err(NO_ANSWER.into()),
             }
             let left = self.timeout.saturating_sub(start.elapsed());
             if left.is_zero() {
@@ -76,13 +76,15 @@ impl Link {
     }
 
     /// Why a frame is not the answer to the last request.
-    fn difference(&self, frame: Frame<'_>) -> String {
+    fn difference(&self, frame: ModbusFrame<'_>) -> String {
         match frame {
-            Frame { unit, .. } if unit != self.unit => format!("unit {unit} answers in place of unit {}", self.unit),
-            Frame { transaction, .. } if transaction != self.transaction => {
-                format!("it answers the request number {transaction} in place of {}", self.transaction)
+            ModbusFrame { unit, .. } if unit != self.unit => {
+                format!("unit {unit} answers instead of unit {}", self.unit)
             }
-            _ => "more comes behind the answer".into(),
+            ModbusFrame { transaction, .. } if transaction != self.transaction => {
+                format!("it answers request number {transaction} instead of {}", self.transaction)
+            }
+            _ => "more data follows the response".into(),
         }
     }
 

@@ -15,8 +15,8 @@ use arl_robot::islands::{Island, Lost, Rest};
 
 use self::plan::Signals;
 use self::poller::Poller;
-use self::shared::Shared;
-use crate::io::{Inputs, IoDriver, Output, Outputs};
+use self::shared::SharedImages;
+use crate::io::{Inputs, IoDriver, OutputSignal, Outputs};
 
 /// The islands of a cell. Their outputs are written a last time when this is dropped, which takes as long as a request
 /// may.
@@ -28,7 +28,7 @@ pub(crate) struct Islands {
 /// The cycle's side of an island.
 struct Port {
     island: Island,
-    shared: Arc<Shared>,
+    shared: Arc<SharedImages>,
     thread: Option<JoinHandle<()>>,
     inputs: Signals,
     /// The last cycle whose outputs the island has taken.
@@ -56,7 +56,7 @@ impl Islands {
             if let Some(why) = port.shared.first_turn().filter(|_| port.island.lost == Lost::Alarm) {
                 let title = title(&port.island);
                 return Err(format!(
-                    "{title} is not there: {why}; start it, or correct the table [[island]] of the cell file \
+                    "{title} is not available: {why}; start it, or correct the table [[island]] of the cell file \
                      (`lost = \"warning\"` lets programs run without it)"
                 ));
             }
@@ -79,7 +79,7 @@ impl IoDriver for Islands {
         self.ports.iter().for_each(|port| port.write(outputs));
     }
 
-    fn has_reached(&self, output: Output, cycle: u64) -> bool {
+    fn has_reached(&self, output: OutputSignal, cycle: u64) -> bool {
         let done = |port: &Port| port.written.is_some_and(|written| written >= cycle);
         self.ports.iter().all(|port| !port.has(output) || done(port))
     }
@@ -114,10 +114,10 @@ impl Port {
         };
         let inputs = Signals::at_rest(points.di.len(), &values(&points.ai));
         let outputs = Signals::at_rest(points.dout.len(), &values(&points.ao));
-        let shared = Arc::new(Shared::new(inputs.clone(), outputs.clone()));
+        let shared = Arc::new(SharedImages::new(inputs.clone(), outputs.clone()));
         let poller = Poller::new(island.clone(), Arc::clone(&shared), [inputs.clone(), outputs]);
         let thread = beside::spawn(std::thread::Builder::new().name("island".into()), move || poller.run());
-        let thread = thread.map_err(|error| format!("{} has no thread: {error}", title(island)))?;
+        let thread = thread.map_err(|error| format!("the thread of {} cannot be started: {error}", title(island)))?;
         Ok(Self {
             island: island.clone(),
             shared,
@@ -131,11 +131,11 @@ impl Port {
     }
 
     /// Whether the island has this output.
-    fn has(&self, output: Output) -> bool {
+    fn has(&self, output: OutputSignal) -> bool {
         let points = &self.island.points;
         match output {
-            Output::Digital(channel) => points.dout.iter().any(|bit| bit.channel + 1 == channel),
-            Output::Analog(channel) => points.ao.iter().any(|analog| analog.channel + 1 == channel),
+            OutputSignal::Digital(channel) => points.dout.iter().any(|bit| bit.channel + 1 == channel),
+            OutputSignal::Analog(channel) => points.ao.iter().any(|analog| analog.channel + 1 == channel),
         }
     }
 

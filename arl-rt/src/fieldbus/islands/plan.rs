@@ -6,14 +6,14 @@ use crate::fieldbus::modbus::client::{most_read, most_written};
 
 /// The requests of one exchange.
 #[derive(PartialEq, Debug)]
-pub(super) struct Plan {
-    pub(super) reads: Vec<Run>,
-    pub(super) writes: Vec<Run>,
+pub(super) struct ExchangePlan {
+    pub(super) reads: Vec<SignalRange>,
+    pub(super) writes: Vec<SignalRange>,
 }
 
 /// Neighbouring coils or registers, as many as fit into one request.
 #[derive(PartialEq, Debug)]
-pub(super) struct Run {
+pub(super) struct SignalRange {
     pub(super) table: Table,
     pub(super) start: u16,
     pub(super) count: u16,
@@ -58,7 +58,7 @@ impl Signals {
     }
 }
 
-impl Plan {
+impl ExchangePlan {
     /// The requests for an island's points.
     pub(super) fn new(points: &Points) -> Self {
         Self { reads: runs(&points.di, &points.ai, most_read), writes: runs(&points.dout, &points.ao, most_written) }
@@ -66,7 +66,7 @@ impl Plan {
 }
 
 /// Puts neighbours together.
-fn runs(bits: &[Bit], analogs: &[Analog], most: fn(Table) -> usize) -> Vec<Run> {
+fn runs(bits: &[Bit], analogs: &[Analog], most: fn(Table) -> usize) -> Vec<SignalRange> {
     let bits = bits.iter().enumerate().map(|(place, bit)| {
         let signal = Signal::Bit { place, bit: bit.bit };
         (bit.table, bit.address, signal)
@@ -77,9 +77,9 @@ fn runs(bits: &[Bit], analogs: &[Analog], most: fn(Table) -> usize) -> Vec<Run> 
     });
     let mut all: Vec<_> = bits.chain(analogs).collect();
     all.sort_by_key(|(table, address, _)| (*table, *address));
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs: Vec<SignalRange> = Vec::new();
     for (table, address, signal) in all {
-        let fits = |run: &&mut Run| {
+        let fits = |run: &&mut SignalRange| {
             let offset = usize::from(address - run.start);
             run.table == table && offset <= run.count.into() && offset < most(table)
         };
@@ -93,14 +93,14 @@ fn runs(bits: &[Bit], analogs: &[Analog], most: fn(Table) -> usize) -> Vec<Run> 
             }
             None => {
                 let points = vec![Point { offset: 0, signal }];
-                runs.push(Run { table, start: address, count: 1, points });
+                runs.push(SignalRange { table, start: address, count: 1, points });
             }
         }
     }
     runs
 }
 
-impl Run {
+impl SignalRange {
     /// Takes the signals out of the bytes of an answer.
     pub(super) fn take(&self, data: &[u8], into: &mut Signals) {
         for point in &self.points {
@@ -160,12 +160,12 @@ mod tests {
     use super::*;
     use arl_robot::outline::Outline;
 
-    fn plan(points: &str) -> Plan {
+    fn plan(points: &str) -> ExchangePlan {
         let text = format!("[io]\ndi = 5000\ndo = 5000\nai = 200\n[[island]]\naddress = \"10.0.0.7\"\n{points}\n");
-        Plan::new(&Outline::of_cell("cell.toml", &text).unwrap().islands[0].points)
+        ExchangePlan::new(&Outline::of_cell("cell.toml", &text).unwrap().islands[0].points)
     }
 
-    fn shapes(runs: &[Run]) -> Vec<(Table, u16, u16)> {
+    fn shapes(runs: &[SignalRange]) -> Vec<(Table, u16, u16)> {
         runs.iter().map(|run| (run.table, run.start, run.count)).collect()
     }
 
@@ -199,7 +199,7 @@ mod tests {
              ai = [{ channel = 1, count = 200, input_register = 0 }]
              do = [{ channel = 1, count = 2000, coil = 0 }, { channel = 2001, count = 2000, holding_register = 0 }]",
         );
-        let counts = |runs: &[Run]| runs.iter().map(|run| run.count).collect::<Vec<_>>();
+        let counts = |runs: &[SignalRange]| runs.iter().map(|run| run.count).collect::<Vec<_>>();
         assert_eq!(counts(&plan.reads), [2000, 2000, 500, 125, 75]);
         assert_eq!(counts(&plan.writes), [1968, 32, 123, 2]);
     }

@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use arl_robot::islands::{Island, Rest};
 
-use super::link::Link;
-use super::plan::{Plan, Run, Signals};
-use super::shared::Shared;
+use super::link::IslandLink;
+use super::plan::{ExchangePlan, SignalRange, Signals};
+use super::shared::SharedImages;
 use crate::cycle::catch_panic::catch_panic;
 use crate::fieldbus::modbus::client::{self, Refusal};
 
@@ -18,8 +18,8 @@ const MAX_RECONNECT_PAUSE: Duration = Duration::from_secs(5);
 /// What the thread works with.
 pub(super) struct Poller {
     island: Island,
-    plan: Plan,
-    shared: Arc<Shared>,
+    plan: ExchangePlan,
+    shared: Arc<SharedImages>,
     inputs: Signals,
     outputs: Signals,
     /// Without signal.
@@ -29,8 +29,8 @@ pub(super) struct Poller {
 
 impl Poller {
     /// For an island, whose signals are at rest so far: inputs, outputs.
-    pub(super) fn new(island: Island, shared: Arc<Shared>, resting: [Signals; 2]) -> Self {
-        let (plan, [inputs, outputs]) = (Plan::new(&island.points), resting.clone());
+    pub(super) fn new(island: Island, shared: Arc<SharedImages>, resting: [Signals; 2]) -> Self {
+        let (plan, [inputs, outputs]) = (ExchangePlan::new(&island.points), resting.clone());
         Self { island, plan, shared, inputs, outputs, resting, request: Vec::with_capacity(256) }
     }
 
@@ -55,7 +55,7 @@ impl Poller {
 
     /// Connects, and exchanges until it is told to stop.
     fn visit(&mut self) -> Result<(), String> {
-        let mut link = Link::open(self.island.address, self.island.unit, self.island.timeout)?;
+        let mut link = IslandLink::open(self.island.address, self.island.unit, self.island.timeout)?;
         let mut next = Instant::now();
         while !self.shared.stops() {
             if let Some(cycle) = self.shared.take_outputs(&mut self.outputs) {
@@ -83,7 +83,7 @@ impl Poller {
         Ok(())
     }
 
-    fn write(&mut self, link: &mut Link) -> Result<(), String> {
+    fn write(&mut self, link: &mut IslandLink) -> Result<(), String> {
         for run in &self.plan.writes {
             let data = client::write_request(&mut self.request, run.table, run.start, run.count);
             run.put(&self.outputs, data);
@@ -103,15 +103,15 @@ impl Poller {
     }
 }
 
-fn about(run: &Run, why: &str) -> String {
+fn about(run: &SignalRange, why: &str) -> String {
     format!("{why} (it was asked for {})", run.describe())
 }
 
-fn refused(run: &Run, refusal: Refusal) -> String {
+fn refused(run: &SignalRange, refusal: Refusal) -> String {
     match refusal {
         Refusal::Exception(code) => {
             format!("it refuses {} with exception {code}: {}", run.describe(), client::exception(code))
         }
-        Refusal::Garbage => about(run, "what it sends is no answer of Modbus TCP"),
+        Refusal::Garbage => about(run, "what it sends is not a Modbus TCP response"),
     }
 }

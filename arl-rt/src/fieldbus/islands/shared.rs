@@ -7,14 +7,14 @@ use super::plan::Signals;
 
 /// The images of an island's signals between its thread and the cycle. The lock is held for copying them only; the
 /// cycle does not wait for it, it tries again in the next cycle.
-pub(super) struct Shared {
-    state: Mutex<State>,
+pub(super) struct SharedImages {
+    state: Mutex<IslandState>,
     changed: Condvar,
     stop: AtomicBool,
 }
 
 /// The images, and how the island fares.
-pub(super) struct State {
+pub(super) struct IslandState {
     /// What was read last.
     pub(super) inputs: Signals,
     /// What is to be written.
@@ -29,20 +29,20 @@ pub(super) struct State {
     pub(super) lost: Option<Arc<str>>,
 }
 
-impl Shared {
+impl SharedImages {
     /// Images with these signals, of an island that nobody has met.
     pub(super) fn new(inputs: Signals, outputs: Signals) -> Self {
-        let state = State { inputs, outputs, given: None, written: None, turns: 0, lost: None };
+        let state = IslandState { inputs, outputs, given: None, written: None, turns: 0, lost: None };
         Self { state: Mutex::new(state), changed: Condvar::new(), stop: AtomicBool::new(false) }
     }
 
     /// The images, for threads that may wait.
-    pub(super) fn wait(&self) -> MutexGuard<'_, State> {
+    pub(super) fn wait(&self) -> MutexGuard<'_, IslandState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The images, unless somebody copies them just now: for the cycle.
-    pub(super) fn try_lock(&self) -> Option<MutexGuard<'_, State>> {
+    pub(super) fn try_lock(&self) -> Option<MutexGuard<'_, IslandState>> {
         match self.state.try_lock() {
             Ok(state) => Some(state),
             Err(TryLockError::Poisoned(state)) => Some(state.into_inner()),

@@ -96,12 +96,15 @@ fn signals_go_both_ways() {
 fn it_is_known_when_the_island_has_an_output() {
     let (server, tables) = server("127.0.0.1:0");
     let mut run = Run::start(server.address(), "");
-    assert!(!run.islands.has_reached(Output::Digital(1), 0) && run.islands.has_reached(Output::Digital(4), 0));
+    assert!(
+        !run.islands.has_reached(OutputSignal::Digital(1), 0) && run.islands.has_reached(OutputSignal::Digital(4), 0)
+    );
     for level in [1, 0, 1, 0, 1] {
         run.image.set_digitals(Digital::Do, 1, 1, level).unwrap();
         let cycle = run.cycle;
         run.until("the output", |run| {
-            run.islands.has_reached(Output::Digital(1), cycle) && run.islands.has_reached(Output::Analog(2), cycle)
+            run.islands.has_reached(OutputSignal::Digital(1), cycle)
+                && run.islands.has_reached(OutputSignal::Analog(2), cycle)
         });
         assert_eq!(i32::from(outputs(&tables).0), level);
     }
@@ -160,10 +163,7 @@ fn at_the_end_outputs_go_to_0_or_stay() {
 fn an_island_that_is_not_there_is_told_at_the_start() {
     let address = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     let error = Islands::start(&settings(address, "")).err().unwrap();
-    assert!(
-        error.starts_with(&format!("the island valves ({address}) is not there: it cannot be connected")),
-        "{error}"
-    );
+    assert!(error.starts_with(&format!("the island valves ({address}) is not available: cannot connect")), "{error}");
     let mut run = Run::start(address, "lost = \"warning\"\n");
     run.until("the warning", |run| !run.warnings.is_empty());
     assert!(run.warnings[0].contains("its inputs go to 0"), "{:?}", run.warnings);
@@ -211,20 +211,20 @@ fn whoever_talks_nonsense_is_lost() {
     assert_eq!(right(&[0, 1, 0, 0, 0, 6, 9, 1, 0, 100, 0, 3]).len(), 10);
     let strangers: [(Answer, &str); 6] = [
         (|_| Vec::new(), "it has not answered for 300 ms (it was asked for coils 100 to 102)"),
-        (|_| b"HTTP/1.1 400 Bad Request\r\n\r\n".to_vec(), "is no answer of Modbus TCP"),
+        (|_| b"HTTP/1.1 400 Bad Request\r\n\r\n".to_vec(), "is not a Modbus TCP response"),
         // Another transaction, another unit, too many coils, another one's answer behind it.
         (
             |request| [&[9, 9], &request[2..5], &[4, request[6], 1, 1, 0]].concat(),
-            "is no answer of Modbus TCP to this request: it answers the request number 2313 in place of 1",
+            "is not a Modbus TCP response to this request: it answers request number 2313 instead of 1",
         ),
         (
             |request| [&request[..5], &[4, 77, 1, 1, 0]].concat(),
-            "is no answer of Modbus TCP to this request: unit 77 answers in place of unit ",
+            "is not a Modbus TCP response to this request: unit 77 answers instead of unit ",
         ),
-        (|request| [&request[..5], &[5, request[6], 1, 2, 0, 0]].concat(), "is no answer of Modbus TCP"),
+        (|request| [&request[..5], &[5, request[6], 1, 2, 0, 0]].concat(), "is not a Modbus TCP response"),
         (
             |request| [&request[..5], &[4, request[6], 1, 1, 0, 0, 0, 0, 0]].concat(),
-            "is no answer of Modbus TCP to this request: more comes behind the answer",
+            "is not a Modbus TCP response to this request: more data follows the response",
         ),
     ];
     for (answer, words) in strangers {

@@ -18,7 +18,7 @@ pub(crate) const fn most_written(table: Table) -> usize {
 pub(crate) enum Refusal {
     /// The other side says so, with this code.
     Exception(u8),
-    /// It is no answer to this request.
+    /// It is not an answer to this request.
     Garbage,
 }
 
@@ -96,7 +96,7 @@ pub(crate) const fn exception(code: u8) -> &'static str {
         4 => "it has failed",
         6 => "it is busy",
         10 | 11 => "the gateway does not reach the unit",
-        _ => "the code is none of the protocol's",
+        _ => "the protocol does not define this code",
     }
 }
 

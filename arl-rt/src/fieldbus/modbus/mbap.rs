@@ -10,7 +10,7 @@ pub(crate) const LONGEST_FRAME: usize = HEAD + LONGEST;
 
 /// What a frame carries, and in what it is sent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Frame<'a> {
+pub(crate) struct ModbusFrame<'a> {
     /// By which the answer is told from others.
     pub(crate) transaction: u16,
     /// The unit behind the address.
@@ -21,9 +21,9 @@ pub(crate) struct Frame<'a> {
 
 /// What stands at the start of what has come.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Start<'a> {
+pub(crate) enum Received<'a> {
     /// A frame, and how many bytes it takes.
-    Frame(Frame<'a>, usize),
+    Frame(ModbusFrame<'a>, usize),
     /// The beginning of a frame.
     Part,
     /// No Modbus: what follows cannot be told apart any more.
@@ -31,28 +31,28 @@ pub(crate) enum Start<'a> {
 }
 
 /// The frame at the start of what has come.
-pub(crate) fn first(bytes: &[u8]) -> Start<'_> {
+pub(crate) fn first(bytes: &[u8]) -> Received<'_> {
     // As soon as it can be told: protocol and length may be wrong before the whole frame is there.
     let protocol = bytes.get(2..4.min(bytes.len())).unwrap_or_default();
     if protocol.iter().any(|byte| *byte != 0) {
-        return Start::Garbage;
+        return Received::Garbage;
     }
-    let Some([t1, t2, _, _, l1, l2]) = bytes.first_chunk() else { return Start::Part };
+    let Some([t1, t2, _, _, l1, l2]) = bytes.first_chunk() else { return Received::Part };
     let length = usize::from(u16::from_be_bytes([*l1, *l2]));
     if !(2..=LONGEST + 1).contains(&length) {
-        return Start::Garbage;
+        return Received::Garbage;
     }
     match bytes.get(HEAD - 1..HEAD - 1 + length) {
         Some([unit, pdu @ ..]) => {
-            let frame = Frame { transaction: u16::from_be_bytes([*t1, *t2]), unit: *unit, pdu };
-            Start::Frame(frame, HEAD - 1 + length)
+            let frame = ModbusFrame { transaction: u16::from_be_bytes([*t1, *t2]), unit: *unit, pdu };
+            Received::Frame(frame, HEAD - 1 + length)
         }
-        _ => Start::Part,
+        _ => Received::Part,
     }
 }
 
 /// Appends a frame.
-pub(crate) fn append(out: &mut Vec<u8>, frame: &Frame<'_>) {
+pub(crate) fn append(out: &mut Vec<u8>, frame: &ModbusFrame<'_>) {
     let length = frame.pdu.len() as u16 + 1;
     let ([t1, t2], [l1, l2]) = (frame.transaction.to_be_bytes(), length.to_be_bytes());
     out.extend_from_slice(&[t1, t2, 0, 0, l1, l2, frame.unit]);
@@ -68,10 +68,10 @@ mod tests {
     fn a_frame_is_found_when_it_is_whole() {
         let bytes = [0, 5, 0, 0, 0, 6, 9, 3, 0, 100, 0, 2, 0, 6];
         for end in 0..12 {
-            assert_eq!(first(&bytes[..end]), Start::Part, "{end}");
+            assert_eq!(first(&bytes[..end]), Received::Part, "{end}");
         }
-        let frame = Frame { transaction: 5, unit: 9, pdu: &[3, 0, 100, 0, 2] };
-        assert_eq!(first(&bytes), Start::Frame(frame, 12));
+        let frame = ModbusFrame { transaction: 5, unit: 9, pdu: &[3, 0, 100, 0, 2] };
+        assert_eq!(first(&bytes), Received::Frame(frame, 12));
         let mut out = Vec::new();
         append(&mut out, &frame);
         assert_eq!(out, bytes[..12]);
@@ -80,7 +80,7 @@ mod tests {
     #[test]
     fn what_is_no_modbus_is_told_early() {
         for bytes in [&b"GET / HTTP"[..], b"GET", &[0, 0, 0, 0, 0, 1], &[0, 0, 0, 0, 0, 255], &[0, 0, 0, 1]] {
-            assert_eq!(first(bytes), Start::Garbage, "{bytes:?}");
+            assert_eq!(first(bytes), Received::Garbage, "{bytes:?}");
         }
     }
 
@@ -89,10 +89,10 @@ mod tests {
         let mut noise = Noise::new(2);
         for _ in 0..20_000 {
             let bytes = noise.bytes(2 * LONGEST_FRAME);
-            if let Start::Frame(frame, len) = first(&bytes) {
+            if let Received::Frame(frame, len) = first(&bytes) {
                 assert!(len <= LONGEST_FRAME && len == HEAD + frame.pdu.len() && !frame.pdu.is_empty());
             } else {
-                assert!(first(&bytes) == Start::Garbage || bytes.len() < LONGEST_FRAME);
+                assert!(first(&bytes) == Received::Garbage || bytes.len() < LONGEST_FRAME);
             }
         }
     }

@@ -90,10 +90,6 @@ pub(crate) fn serve(request: &[u8], tables: &mut Tables, answer: &mut Answer) {
 
 fn execute(request: &[u8], tables: &mut Tables, answer: &mut Answer) -> Result<(), Exception> {
     use Exception::{Address, Function, Value};
-    let count = |count: u16, most: usize| match usize::from(count) {
-        count if (1..=most).contains(&count) => Ok(count),
-        _ => Err(Value),
-    };
     match *request {
         [code @ function::READ_COILS, a, b, c, d] => {
             let count = count(word(c, d), MOST_READ_COILS)?;
@@ -107,12 +103,7 @@ fn execute(request: &[u8], tables: &mut Tables, answer: &mut Answer) -> Result<(
             Ok(())
         }
         [function::WRITE_COIL, a, b, c, d] => {
-            let on = match word(c, d) {
-                0xff00 => 1,
-                0 => 0,
-                _ => return Err(Value),
-            };
-            tables.write_coils(address(a, b), 1, &[on]).ok_or(Address)?;
+            tables.write_coils(address(a, b), 1, &[level(c, d)?]).ok_or(Address)?;
             answer.set(&[request]);
             Ok(())
         }
@@ -141,24 +132,17 @@ fn execute(request: &[u8], tables: &mut Tables, answer: &mut Answer) -> Result<(
         }
         [function::MASK_REGISTER, a, b, and_high, and_low, or_high, or_low] => {
             let register = tables.registers_mut(address(a, b), 1).ok_or(Address)?;
-            for (byte, (and, or)) in register.iter_mut().zip([(and_high, or_high), (and_low, or_low)]) {
-                *byte = *byte & and | or & !and;
-            }
+            mask(register, [and_high, and_low], [or_high, or_low]);
             answer.set(&[request]);
             Ok(())
         }
-        [code @ function::EXCHANGE_REGISTERS, a, b, c, d, e, f, g, h, bytes, ref data @ ..] => {
+        [function::EXCHANGE_REGISTERS, a, b, c, d, e, f, g, h, bytes, ref data @ ..] => {
             let read = count(word(c, d), MOST_READ_REGISTERS)?;
             let written = count(word(g, h), MOST_EXCHANGED_REGISTERS)?;
             if usize::from(bytes) != 2 * written || data.len() != 2 * written {
                 return Err(Value);
             }
-            tables.registers(address(a, b), read).ok_or(Address)?;
-            // Written first, then read.
-            tables.registers_mut(address(e, f), written).ok_or(Address)?.copy_from_slice(data);
-            let from = tables.registers(address(a, b), read).ok_or(Address)?;
-            answer.data(code, 2 * read).ok_or(Value)?.copy_from_slice(from);
-            Ok(())
+            exchange_registers((address(a, b), read), (address(e, f), data), tables, answer)
         }
         [
             function::READ_COILS
@@ -173,6 +157,45 @@ fn execute(request: &[u8], tables: &mut Tables, answer: &mut Answer) -> Result<(
         ] => Err(Value),
         _ => Err(Function),
     }
+}
+
+/// How many a request asks for: 1 to `most`.
+fn count(asked: u16, most: usize) -> Result<usize, Exception> {
+    match usize::from(asked) {
+        count if (1..=most).contains(&count) => Ok(count),
+        _ => Err(Exception::Value),
+    }
+}
+
+/// What a coil is set to.
+fn level(high: u8, low: u8) -> Result<u8, Exception> {
+    match word(high, low) {
+        0xff00 => Ok(1),
+        0 => Ok(0),
+        _ => Err(Exception::Value),
+    }
+}
+
+fn mask(register: &mut [u8], and: [u8; 2], or: [u8; 2]) {
+    for (byte, (and, or)) in register.iter_mut().zip(and.into_iter().zip(or)) {
+        *byte = *byte & and | or & !and;
+    }
+}
+
+/// Writes registers from an address on, then reads so many from another one on.
+fn exchange_registers(
+    (from, read): (usize, usize),
+    (to, data): (usize, &[u8]),
+    tables: &mut Tables,
+    answer: &mut Answer,
+) -> Result<(), Exception> {
+    use Exception::{Address, Value};
+    // Nothing is written where nothing can be read.
+    tables.registers(from, read).ok_or(Address)?;
+    tables.registers_mut(to, data.len() / 2).ok_or(Address)?.copy_from_slice(data);
+    let from = tables.registers(from, read).ok_or(Address)?;
+    answer.data(function::EXCHANGE_REGISTERS, 2 * read).ok_or(Value)?.copy_from_slice(from);
+    Ok(())
 }
 
 fn word(high: u8, low: u8) -> u16 {

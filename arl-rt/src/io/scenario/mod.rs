@@ -144,7 +144,7 @@ impl Action {
             Action::Effect(Effect::Pendant(_)) => return Ok(()),
             Action::Effect(Effect::Robot(channel, robot_effect)) => return moves(robots, channel, robot_effect),
         };
-        found.map_err(|fault| format!("sets an input to what it cannot have: {fault}"))
+        found.map_err(|fault| format!("cannot set an input: {fault}"))
     }
 
     /// Does what was checked; hands everything but inputs to `do_it`.

@@ -74,14 +74,14 @@ pub(super) fn order(text: &str, names: &Names) -> Result<Vec<Action>, SettingsEr
     let root = source.parse().map_err(|error| {
         // Who types an order need not know how files are written.
         let text =
-            format!("this is no order, such as `di.5 = true`, `ai.2 = 4.2` or `override = 50`: {}", error.message);
+            format!("this is not an order, such as `di.5 = true`, `ai.2 = 4.2` or `override = 50`: {}", error.message);
         SettingsError { message: text.replace(": this is not TOML", ""), ..error }
     })?;
     let words = Words::new(names);
     let known = words.event.get(3..).unwrap_or_default();
     let actions = actions(source, &Section::new(source, "an order", root.get_ref(), known)?, &words)?;
     if actions.is_empty() {
-        return Err(SettingsError::of_file("order", format!("an order changes nothing: expected {CHANGES}")));
+        return Err(SettingsError::of_file("order", format!("this order changes nothing: expected {CHANGES}")));
     }
     Ok(actions)
 }
@@ -204,12 +204,12 @@ fn follow(
     let (name, same) = of.strip_prefix('!').map_or((of, true), |name| (name, false));
     let (output, followed) = words.signal(name).and_then(digital_edge).ok_or_else(|| wrong("of", OF))?;
     if what == Digital::Di && !output && channel as usize == followed + 1 {
-        return Err(wrong("of", "another signal than the one that follows"));
+        return Err(wrong("of", "a signal other than the one that follows"));
     }
     if let Some((_, before)) = followers.iter().find(|(known, _)| *known == (what, channel)) {
         return Err(wrong(
             "signal",
-            &format!("an input that follows nothing yet: line {before} lets it follow a signal"),
+            &format!("an input that follows no signal yet (line {before} makes it follow one)"),
         ));
     }
     followers.push(((what, channel), line));
@@ -252,7 +252,7 @@ fn event(source: Source<'_>, value: &Value<'_>, line: u32, words: &Words<'_>) ->
         (None, Some(_)) => edge(&event, words)?,
         (at, _) => {
             let found = if at.is_some() { "both `at` and `when`" } else { "neither `at` nor `when`" };
-            let message = format!("[[event]] has {found}: one of them says when it happens");
+            let message = format!("[[event]] has {found}: one of them must say when it happens");
             return Err(source.error(value.span(), message));
         }
     };
@@ -345,7 +345,7 @@ fn named(source: Source<'_>, name: &str, signal: Signal, value: &Value<'_>) -> R
 
 /// What `when` waits for.
 fn edge(event: &Section<'_>, words: &Words<'_>) -> Result<Cause, SettingsError> {
-    const WHAT: &str = "\"do.3\" (goes on) or \"!do.3\" (goes off), or di, or \"pwm.1\" (is set to something else)";
+    const WHAT: &str = "\"do.3\" (goes on) or \"!do.3\" (goes off), or di, or \"pwm.1\" (changes)";
     let word = event.text("when", WHAT)?.unwrap_or_default();
     let (name, level) = word.strip_prefix('!').map_or((word, true), |name| (name, false));
     if let Some((output, channel)) = words.signal(name).and_then(digital_edge) {
@@ -450,12 +450,12 @@ fn axis_name(key: &str) -> AxisName {
 }
 
 fn pendant(event: &Section<'_>, source: Source<'_>, value: &Value<'_>) -> Result<Pendant, SettingsError> {
-    let word = event.text("pendant", "a word of the teach pendant")?.unwrap_or_default();
+    let word = event.text("pendant", "a button of the teach pendant")?.unwrap_or_default();
     match WORDS.iter().find(|(known, _)| known.eq_ignore_ascii_case(word)) {
         Some((_, pendant)) => Ok(*pendant),
         None => {
             let known = WORDS.map(|(known, _)| known);
-            Err(source.error(value.span(), format!("the pendant has no word \"{word}\"; {}", hint(word, &known))))
+            Err(source.error(value.span(), format!("the pendant has no button \"{word}\"; {}", hint(word, &known))))
         }
     }
 }
@@ -470,7 +470,7 @@ mod tests {
         let tables = TABLES.map(|table| table.trim_matches(['[', ']']));
         for word in EVENT.iter().copied().chain(FOLLOW.iter().copied()).chain(tables) {
             let error = Cell::parse("cell.toml", &format!("[names]\n\"di.1\" = \"{word}\"\n")).unwrap_err();
-            assert!(error.message.contains("is a word of scenarios"), "{error}");
+            assert!(error.message.contains("is a keyword of scenarios"), "{error}");
         }
     }
 }

@@ -62,10 +62,10 @@ fn mistakes_name_line_and_what_was_expected() {
         ("[[event]]\nat = 1\nafter = 1\ndi.5 = true", 3, "counts from `when`"),
         ("[[event]]\nat = 1", 1, "changes nothing"),
         ("[[event]]\nwhen = \"do3\"\ndi.5 = true", 2, "expected \"do.3\""),
-        ("[[event]]\nwhen = \"!pwm.1\"\ndi.5 = true", 2, "\"pwm.1\" (is set to something else)"),
+        ("[[event]]\nwhen = \"!pwm.1\"\ndi.5 = true", 2, "\"pwm.1\" (changes)"),
         ("[[event]]\nat = -1\ndi.5 = true", 2, "expected seconds"),
         ("[[event]]\nat = 1\npendant = \"strat\"", 3, "did you mean `start`?"),
-        ("[[event]]\nat = 1\npendant = \"servo\"", 3, "the pendant has no word"),
+        ("[[event]]\nat = 1\npendant = \"servo\"", 3, "the pendant has no button"),
         ("[[event]]\nat = 1\njog.j1 = true", 3, "`jog.j1`: expected deg"),
         ("[[event]]\nat = 1\noverride = 101", 3, "expected percent from 0 to 100"),
         ("[[event]]\nat = 1\nforce = [1, 2]", 3, "three components in N"),
@@ -208,7 +208,7 @@ fn a_follower_has_the_level_of_what_it_follows_some_time_later() {
         (
             "[[follow]]\nsignal = \"di.1\"\nof = \"do.1\"\n[[follow]]\nsignal = \"di.1\"\nof = \"do.2\"",
             5,
-            "line 1 lets it follow a signal",
+            "line 1 makes it follow one",
         ),
     ] {
         let error = Scenario::parse("io.toml", text).unwrap_err();
@@ -221,7 +221,7 @@ fn what_a_cell_does_not_have_is_told_with_its_line() {
     let robot = Robot::builtin("kr10-r1420").unwrap();
     let check = |text: &str| Scenario::parse("s.toml", text).unwrap().check(&Channels::default(), &[&robot]);
     let text = "# a comment\n\n[[event]]\nat = 1\ndi.1 = true\n[[event]]\nat = 1\ndi.99 = true\n";
-    assert!(check(text).unwrap_err().starts_with("s.toml:6: the scenario sets an input"), "{:?}", check(text));
+    assert!(check(text).unwrap_err().starts_with("s.toml:6: the scenario cannot set an input"), "{:?}", check(text));
     let text = "[[follow]]\nsignal = \"di.1\"\nof = \"do.99\"\n";
     assert_eq!(check(text).unwrap_err(), "s.toml:1: the scenario waits for do.99, but there are 64");
 }

@@ -105,7 +105,7 @@ fn structures() {
     fits::<InertiaTensor>("{lxx 1, Izz 2}", "{1,0,0,0,0,2}");
     fits::<Weavedata>("{V_shape,2,15,1,1,0,true}", "{V_shape,2,15,1,1,0,true,0,0,rot_x,0,false}");
     refused::<Slip>("{1,2,3,4,5,6}", "slip takes at most 5 values");
-    refused::<Pos>("{x 1, 2}", "values with and without names, or rows and elements, stand side by side in braces");
+    refused::<Pos>("{x 1, 2}", "the braces mix values with and without names, or rows and elements");
     refused::<Pos>("{x 1, X 2}", "component x is set twice");
     refused::<Pos>("{q 1}", "pos has no component q; it has x, y, z");
     refused::<Pos>("1", "expected a value of type pos, found an integer");

@@ -2,7 +2,7 @@
 
 use super::seen::{Seen, Told, told, variable};
 use super::{Answer, Session};
-use crate::dap::evaluate::{Input, Place, Root, Source, Value as Found, Variable, evaluate, part_type, place};
+use crate::dap::evaluate::{Input, NamedPlace, Root, Source, Value as Found, Variable, evaluate, part_type, place};
 use crate::dap::literal::{Literal, Part};
 use crate::dap::program::{Key, constants};
 use crate::dap::variables::{Container, Frame, Target};
@@ -76,7 +76,7 @@ impl Session {
 
     pub(super) fn variables(&mut self, arguments: &Value) -> Answer {
         let number = arguments.get("variablesReference").and_then(Value::as_u64).unwrap_or_default() as usize;
-        let container = self.shown.container_of(number).cloned().ok_or("what was asked for is gone")?;
+        let container = self.shown.container_of(number).cloned().ok_or("the value is no longer available")?;
         let shown = match &container {
             Container::Locals(frame) => {
                 let Seen { locals, handles, .. } = self.source(*frame)?;
@@ -215,7 +215,7 @@ impl Session {
         let (value, target) = match input {
             // What an editor asks for again and again, or where somebody only points at, changes nothing.
             Input::Assignment(..) if !is_console => {
-                return Err("this assigns; `==` compares. The console sets variables".into());
+                return Err("this is an assignment; `==` compares. Variables are set in the debug console".into());
             }
             Input::Assignment(place, value) => {
                 let value = self.assign(frame, &place, value.literal())?;
@@ -236,7 +236,7 @@ impl Session {
     pub(super) fn set_variable(&mut self, arguments: &Value) -> Answer {
         let text = |key: &str| arguments.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
         let number = arguments.get("variablesReference").and_then(Value::as_u64).unwrap_or_default() as usize;
-        let container = self.shown.container_of(number).cloned().ok_or("what was asked for is gone")?;
+        let container = self.shown.container_of(number).cloned().ok_or("the value is no longer available")?;
         let (name, value) = (text("name"), text("value"));
         let (frame, expression) = match &container {
             Container::Locals(frame) => (*frame, name),
@@ -251,7 +251,7 @@ impl Session {
             }
             Container::Value { frame, target, path, .. } => {
                 let part = match name.strip_prefix('[').and_then(|name| name.strip_suffix(']')) {
-                    Some(at) => Part::At(at.parse().map_err(|_| "this is no index")?),
+                    Some(at) => Part::At(at.parse().map_err(|_| "this is not an index")?),
                     None => Part::Named(name),
                 };
                 let path = [path.as_slice(), &[part]].concat();
@@ -275,7 +275,7 @@ impl Session {
     fn set_target(&mut self, frame: usize, target: &Target, path: &[Part], value: &str) -> Answer {
         let value = match evaluate(value, &mut self.source(frame)?)? {
             Input::Value(value) => value.literal(),
-            Input::Assignment(..) => return Err("this assigns".into()),
+            Input::Assignment(..) => return Err("expected a value, found an assignment".into()),
         };
         let value = self.put(frame, target, path, value)?;
         let shown = self.shown.value("", frame, target.clone(), &value, path.to_vec());
@@ -292,7 +292,7 @@ impl Session {
         Target::of(root, &locals, file_of).ok_or_else(|| "there is no such variable".to_owned())
     }
 
-    fn assign(&mut self, frame: usize, place: &Place, value: Literal) -> Result<Found, String> {
+    fn assign(&mut self, frame: usize, place: &NamedPlace, value: Literal) -> Result<Found, String> {
         let target = self.target(frame, &place.root)?;
         let value = self.put(frame, &target, &place.path, value)?;
         Ok(Found::of(&value.ty, &value.value))

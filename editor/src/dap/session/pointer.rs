@@ -61,7 +61,7 @@ impl Session {
 
     /// Where the programs stand.
     pub(super) fn standing(&self) -> Result<&Halt, String> {
-        let why = if self.process.is_some() { "the program runs: pause it first" } else { "no program runs" };
+        let why = if self.process.is_some() { "the program is running: pause it first" } else { "no program runs" };
         self.halt.as_ref().ok_or_else(|| why.into())
     }
 
@@ -69,7 +69,10 @@ impl Session {
     fn frame_with(&mut self, channel: usize, path: &Path, line: u32) -> Result<Frame, String> {
         for frame in self.frames(channel)? {
             if frame.is_action {
-                return Err(format!("{} runs: the program below it cannot be moved meanwhile", frame.name));
+                return Err(format!(
+                    "{} runs: the pointer of the program below it cannot be set meanwhile",
+                    frame.name
+                ));
             }
             let programs = &self.launched.as_ref().ok_or("nothing was launched")?.programs;
             let file = programs.path(&frame.program, &frame.file);
@@ -80,7 +83,7 @@ impl Session {
             }
         }
         Err(format!(
-            "line {line} is in no function that runs: the program pointer stays within those on the call stack"
+            "line {line} is not in a function that runs: the program pointer stays within those on the call stack"
         ))
     }
 }

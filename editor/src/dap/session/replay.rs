@@ -165,6 +165,10 @@ impl Session {
 
     fn check_repeats(&self) -> Result<(), String> {
         let real = self.launched.as_ref().is_some_and(|it| matches!(it.options.clock, Some(Clock::Real)));
-        if real { Err("in real time a run does not repeat itself: there is no way back".into()) } else { Ok(()) }
+        if real {
+            Err("a run in real time cannot be repeated, so stepping back is not possible".into())
+        } else {
+            Ok(())
+        }
     }
 }

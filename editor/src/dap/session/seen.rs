@@ -34,7 +34,7 @@ impl Told {
         json!({"name": name, "value": value, "type": ty, "variablesReference": 0, "evaluateName": name})
     }
 
-    /// As an expression sees it: words that are no literal.
+    /// As an expression sees it: words that are not literals.
     fn as_variable(&self) -> Variable {
         Variable { ty: self.ty.clone(), value: Literal::Plain(self.value.clone()) }
     }
@@ -124,7 +124,7 @@ impl Seen<'_> {
                 found.map(|(_, variable)| variable).ok_or_else(|| format!("there is no variable {name}"))
             }
             Target::System(name) => self.system(name),
-            Target::Nothing => Err("this is no variable".into()),
+            Target::Nothing => Err("this is not a variable".into()),
         }
     }
 }

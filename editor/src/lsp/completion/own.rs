@@ -77,7 +77,7 @@ fn variable(
         Meaning::Global(id) => program.index().global(id).is_some_and(|global| global.constant),
         _ => false,
     };
-    // A constant is no beginning of a statement.
+    // A constant is not a beginning of a statement.
     if constant && *fits == Fits::Statement {
         return;
     }

@@ -74,7 +74,7 @@ fn what_cannot_be_read_names_its_line() {
         ),
         ("solid a\nendsolid a\n".into(), "it has no triangles"),
         ("solid".into(), "it has no triangles"),
-        ("a wrong file".into(), "it is no STL file: text would begin with `solid`, and 12 bytes are too few"),
+        ("a wrong file".into(), "it is not an STL file: text would begin with `solid`, and 12 bytes are too few"),
         (String::new(), "0 bytes are too few"),
     ] {
         let problem = read(text.as_bytes()).expect_err(words);
@@ -95,12 +95,12 @@ fn bytes_are_read_whatever_their_header_says() {
         assert_eq!(all.corners[1], [10.0, 0.0, 0.0]);
         assert_eq!(for_viewers(odd.clone()).unwrap(), bytes);
     }
-    assert!(read(&bytes[..bytes.len() - 1]).unwrap_err().contains("it says that it has 2 triangles, and has 1"));
+    assert!(read(&bytes[..bytes.len() - 1]).unwrap_err().contains("it announces 2 triangles, but has 1"));
     let mut wrong = bytes.clone();
     wrong[HEADER + COUNT + TRIANGLE + CORNERS..][..4].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert!(read(&wrong).unwrap_err().contains("a corner of triangle 2 is no place: NaN 0 1, "));
+    assert!(read(&wrong).unwrap_err().contains("a corner of triangle 2 is not a finite position: NaN 0 1, "));
     let many = [&[0; HEADER][..], &u32::MAX.to_le_bytes(), &[0; 100]].concat();
-    assert!(read(&many).unwrap_err().contains("it says that it has 4294967295 triangles, and has 2"));
+    assert!(read(&many).unwrap_err().contains("it announces 4294967295 triangles, but has 2"));
     assert!(read(&[0; 90]).unwrap_err().contains("no triangles"));
 }
 

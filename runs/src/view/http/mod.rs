@@ -33,7 +33,7 @@ impl Limits {
     pub(super) const USUAL: Self = Self { exchange: Duration::from_secs(10), idle: Duration::from_secs(120) };
 }
 
-/// So long it is waited for the rest of what is no request.
+/// So long it is waited for the rest of what is not a request.
 const PARTING: Duration = Duration::from_millis(500);
 /// Stack of a connection's thread, in bytes.
 const STACK: usize = 1 << 20;

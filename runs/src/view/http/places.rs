@@ -38,14 +38,14 @@ struct Visitor {
 }
 
 /// A place, free again when it is dropped.
-pub(super) struct Place {
+pub(super) struct Slot {
     number: u64,
     of: Arc<Places>,
 }
 
 impl Places {
     /// Gives a connection a place; where there are too many, another one loses its own.
-    pub(super) fn take(self: &Arc<Self>, stream: TcpStream) -> (Place, Arc<TcpStream>) {
+    pub(super) fn take(self: &Arc<Self>, stream: TcpStream) -> (Slot, Arc<TcpStream>) {
         let stream = Arc::new(stream);
         let mut taken = self.taken();
         if taken.by_number.len() >= MOST {
@@ -53,7 +53,7 @@ impl Places {
         }
         let number = taken.count();
         taken.by_number.insert(number, Visitor { rank: Rank::Unknown, asked: number, stream: Arc::clone(&stream) });
-        (Place { number, of: Arc::clone(self) }, stream)
+        (Slot { number, of: Arc::clone(self) }, stream)
     }
 
     /// Ends the connection that is missed least.
@@ -82,7 +82,7 @@ impl Taken {
     }
 }
 
-impl Place {
+impl Slot {
     /// Notes what the visitor has asked for; it keeps the highest rank that it had.
     pub(super) fn rises_to(&self, rank: Rank) {
         let mut taken = self.of.taken();
@@ -94,7 +94,7 @@ impl Place {
     }
 }
 
-impl Drop for Place {
+impl Drop for Slot {
     fn drop(&mut self) {
         self.of.taken().by_number.remove(&self.number);
     }

@@ -37,10 +37,10 @@ pub(super) struct Problem {
     pub(super) why: &'static str,
 }
 
-const BAD: Problem = Problem { status: Status::BadRequest, why: "this is no request of HTTP/1.1" };
+const BAD: Problem = Problem { status: Status::BadRequest, why: "this is not a request of HTTP/1.1" };
 const LATE: Problem = Problem { status: Status::Timeout, why: "the request took too long" };
 const LONG: Problem = Problem { status: Status::TooLarge, why: "the request is too long" };
-const NO_LENGTH: Problem = Problem { status: Status::BadRequest, why: "a body has one Content-Length" };
+const NO_LENGTH: Problem = Problem { status: Status::BadRequest, why: "a body needs exactly one Content-Length" };
 
 /// The requests of a connection.
 pub(super) struct Requests<'a> {

@@ -15,7 +15,7 @@ use serde::de::DeserializeOwned;
 use serde_json::json;
 
 use super::serve::Answer;
-use place::{Asked, Map};
+use place::{AskedPose, Map};
 use points::{Change, Files};
 
 /// Who teaches.
@@ -42,7 +42,7 @@ impl Teacher {
         let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         let answer = match (path, order) {
             (["points"], None) => Ok(json!(points::told(&files))),
-            (["place"], Some(order)) => read::<Asked>(order)
+            (["place"], Some(order)) => read::<AskedPose>(order)
                 .and_then(|asked| place::place(self.robot(asked.channel)?, &asked))
                 .map(|place| json!(place)),
             (["map"], Some(order)) => {
@@ -59,5 +59,5 @@ impl Teacher {
 }
 
 fn read<T: DeserializeOwned>(order: &str) -> Result<T, String> {
-    serde_json::from_str(order).map_err(|error| format!("this is not understood: {error}"))
+    serde_json::from_str(order).map_err(|error| format!("the request cannot be read: {error}"))
 }

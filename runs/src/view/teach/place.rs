@@ -17,7 +17,7 @@ const MOST_PLACES: usize = 40_000;
 /// axes.
 #[derive(Clone, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Asked {
+pub(super) struct AskedPose {
     /// Whose robot, from 1.
     pub(super) channel: usize,
     #[serde(default)]
@@ -46,7 +46,7 @@ pub(super) struct Where {
 
 /// What is there.
 #[derive(Clone, PartialEq, Serialize, Debug)]
-pub(super) struct Place {
+pub(super) struct TaughtPose {
     /// The TCP in the workpiece frame: x, y, z, a, b, c.
     components: [f64; 6],
     /// And in the world.
@@ -109,7 +109,7 @@ impl Where {
 /// That a place is turned by a quaternion that says how.
 fn expect_turned([.., i, j, k, w]: &Placed) -> Result<(), String> {
     let length = [i, j, k, w].iter().map(|part| part.powi(2)).sum::<f64>();
-    if length > 0.0 { Ok(()) } else { Err("a place is turned by a quaternion that is not 0".to_owned()) }
+    if length > 0.0 { Ok(()) } else { Err("the quaternion of a pose must not be 0".to_owned()) }
 }
 
 /// The robot's own axes.
@@ -122,7 +122,7 @@ fn own(robot: &Robot, axes: &[f64]) -> Result<Axes, String> {
 }
 
 /// A place and its solutions.
-pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
+pub(super) fn place(robot: &Robot, asked: &AskedPose) -> Result<TaughtPose, String> {
     let optional = asked.components.into_iter().chain(asked.before).flatten().chain(asked.placed.into_iter().flatten());
     let axes = asked.near.iter().chain(asked.axes.iter().flatten()).copied();
     asked.setting.numbers().chain(optional).chain(axes).try_for_each(expect_sensible)?;
@@ -130,10 +130,10 @@ pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
     let setting = asked.setting.setting()?;
     let near = own(robot, &asked.near)?;
     let pose = match asked {
-        Asked { components: Some(components), .. } => frame(*components),
-        Asked { placed: Some(tcp), .. } => setting.workpiece().inverse() * placed(tcp),
-        Asked { axes: Some(axes), .. } => setting.pose_of(&robot.kinematics.forward(&own(robot, axes)?)),
-        _ => return Err("a place is asked for by `components`, `placed` or `axes`".to_owned()),
+        AskedPose { components: Some(components), .. } => frame(*components),
+        AskedPose { placed: Some(tcp), .. } => setting.workpiece().inverse() * placed(tcp),
+        AskedPose { axes: Some(axes), .. } => setting.pose_of(&robot.kinematics.forward(&own(robot, axes)?)),
+        _ => return Err("expected a pose as `components`, `placed` or `axes`".to_owned()),
     };
     let flange = setting.flange_of(&pose).map_err(|error| error.to_string())?;
     let solution = |cfg: &u8| solution(robot, &flange, *cfg, &near);
@@ -142,7 +142,7 @@ pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
     let reached = solutions.iter().enumerate().filter_map(|(at, one)| Some((at, far(one.axes.as_ref()?))));
     let nearest = reached.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(at, _)| at);
     let shown = asked.components.unwrap_or_else(|| components(&pose, asked.before.as_ref()));
-    Ok(Place { components: shown, placed: written(&(setting.workpiece() * pose)), solutions, nearest })
+    Ok(TaughtPose { components: shown, placed: written(&(setting.workpiece() * pose)), solutions, nearest })
 }
 
 /// The components of a pose: angles have another form, too, a and c turned half around and b beyond the quarter.
@@ -182,9 +182,9 @@ fn why(robot: &Robot, refusal: &Refusal) -> String {
         Refusal::NoSuchCfg { cfg } => format!("there is no configuration {cfg}"),
         Refusal::Unreachable { beyond } if *beyond > 0.0 => format!("{beyond:.0} mm out of reach"),
         Refusal::Unreachable { .. } => "not in this configuration".to_owned(),
-        Refusal::Tilted { by } => format!("tilted by {by:.1} deg, which this robot cannot"),
+        Refusal::Tilted { by } => format!("tilted by {by:.1} deg, which this robot cannot reach"),
         Refusal::AxisLimit { axis, value } => robot.own_axes().get(*axis).map_or_else(String::new, |axis| {
-            format!("{} would be at {value:.1}, its range is {} to {}", axis.name, axis.min, axis.max)
+            format!("{} would be at {value:.1}, but its range is {} to {}", axis.name, axis.min, axis.max)
         }),
     }
 }
@@ -195,7 +195,7 @@ pub(super) fn map(robot: &Robot, map: &Map) -> Result<Mapped, String> {
     map.setting.numbers().chain(numbers).try_for_each(expect_sensible)?;
     let side = (2.0 * map.half / map.step).floor() + 1.0;
     if !(side >= 1.0 && side * side <= MOST_PLACES as f64) {
-        return Err(format!("a map has at most {MOST_PLACES} places"));
+        return Err(format!("a map has at most {MOST_PLACES} positions"));
     }
     let (side, setting, near) = (side as usize, map.setting.setting()?, own(robot, &map.near)?);
     let [_, _, z, a, b, c] = map.components;

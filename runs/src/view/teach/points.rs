@@ -91,7 +91,7 @@ impl Files {
 
     /// Takes the last step back, where nobody else has written since.
     pub(super) fn undo(&mut self) -> Result<(), String> {
-        let step = self.steps.last().ok_or("nothing was written that could be taken back")?;
+        let step = self.steps.last().ok_or("there is nothing to undo")?;
         for one in step {
             one.expect_written(&read(&one.path)?)?;
         }
@@ -102,7 +102,7 @@ impl Files {
 
     fn path(&self, name: &str) -> Result<PathBuf, String> {
         let found = self.paths.iter().find(|path| self.name(path) == name);
-        found.cloned().ok_or_else(|| format!("{name} is no data file of this program"))
+        found.cloned().ok_or_else(|| format!("{name} is not a data file of this program"))
     }
 
     /// What a file is called: its name alone, where no other one has that.
@@ -123,7 +123,11 @@ impl Step {
     /// That a file still holds what was written.
     fn expect_written(&self, now: &[u8]) -> Result<(), String> {
         let name = self.path.display();
-        if now == self.after { Ok(()) } else { Err(format!("{name} was changed by somebody else since: it stays so")) }
+        if now == self.after {
+            Ok(())
+        } else {
+            Err(format!("{name} has been changed by somebody else since: it is left as it is"))
+        }
     }
 }
 
@@ -135,7 +139,9 @@ fn all_or_none(steps: impl Iterator<Item = Result<Step, String>>) -> Result<Vec<
             Ok(step) => written.push(step),
             Err(why) => {
                 let stays = written.iter().filter_map(|step| step.take_back().err());
-                return Err(stays.fold(why, |all, why| format!("{all}; what was written before: {why}")));
+                return Err(
+                    stays.fold(why, |all, why| format!("{all}; what was written before cannot be undone: {why}"))
+                );
             }
         }
     }
@@ -184,11 +190,11 @@ fn expect_known(bytes: &[u8], change: &Change, family: Family) -> Result<(), Str
         return Ok(());
     };
     if !point.plain {
-        return Err(format!("{name} is computed in {file}: only values that are plain numbers are replaced"));
+        return Err(format!("{name} is computed in {file}: only values that are plain numbers can be replaced"));
     }
     let before = change.before.iter().map(|(component, value)| (component.as_str(), *value));
     if !point.values.iter().map(|(component, value)| (*component, *value)).eq(before) {
-        return Err(format!("{name} was changed in {file} by somebody else since: look at it again first"));
+        return Err(format!("{name} has been changed in {file} by somebody else since: look at it again first"));
     }
     Ok(())
 }
@@ -207,7 +213,7 @@ fn literal(change: &Change, family: Family) -> Result<String, String> {
     let known = components(&change.r#type, family).ok_or("a point is a pose or a joint")?;
     for (name, value) in &change.values {
         if !known.contains(&name.as_str()) {
-            return Err(format!("`{name}` is no component of a {}", change.r#type));
+            return Err(format!("`{name}` is not a component of a {}", change.r#type));
         }
         expect_component(name, *value)?;
     }

@@ -86,7 +86,7 @@ fn a_point_is_written_where_it_stands_and_taken_back() {
     assert_eq!(folder.text(), moved);
     ask(&teacher, "undo", &json!({})).unwrap();
     assert_eq!(folder.text(), POINTS);
-    assert!(ask(&teacher, "undo", &json!({})).unwrap_err().contains("nothing was written"));
+    assert!(ask(&teacher, "undo", &json!({})).unwrap_err().contains("there is nothing to undo"));
     // Several at once, all or none.
     let both = json!([{"file": "p_data.arl", "type": "pose", "name": "feeder", "before": feeder, "values": {"x": 1}},
                       {"file": "p_data.arl", "type": "pose", "name": "none", "before": {}, "values": {"x": 1}}]);
@@ -120,7 +120,7 @@ fn nothing_else_is_written() {
         assert!(refused("p_data.arl", "pose", "feeder", json!({name: value})).contains("expected"), "{name} {value}");
     }
     assert!(refused("p_data.arl", "pose", "feeder", json!({})).contains("no components"));
-    assert!(ask(&teacher, "save", &json!({"x": 1})).unwrap_err().contains("not understood"));
+    assert!(ask(&teacher, "save", &json!({"x": 1})).unwrap_err().contains("cannot be read"));
     // Nor what is computed.
     std::fs::write(
         folder.0.join("p_data.arl"),
@@ -170,7 +170,7 @@ fn what_others_write_between_is_not_taken_back() {
                       {"file": "q_data.arl", "type": "pose", "name": "second", "before": {"x": 1}, "values": {"x": 2}}]);
     ask(&teacher, "save", &both).unwrap();
     std::fs::write(folder.0.join("q_data.arl"), "pose second = {x 3}\n").unwrap();
-    assert!(ask(&teacher, "undo", &json!({})).unwrap_err().contains("by somebody else since: it stays so"));
+    assert!(ask(&teacher, "undo", &json!({})).unwrap_err().contains("by somebody else since: it is left as it is"));
     assert!(folder.text().contains("later = {x 1}"), "all or none");
     assert_eq!(std::fs::read_to_string(folder.0.join("q_data.arl")).unwrap(), "pose second = {x 3}\n");
 }

@@ -10,7 +10,7 @@ use arl_robot::channels::Channels;
 /// The most channels that one call may name.
 const MOST_AT_ONCE: i64 = 32;
 
-/// What messages call the channels of a space, and how many of them a cell has; `None` for what is no channel of io.
+/// What messages call the channels of a space, and how many of them a cell has; `None` for what is not a channel of io.
 fn io(space: Space, cell: &Channels) -> Option<(&'static str, usize)> {
     match space {
         Space::DigitalInput => Some(("DI", cell.di as usize)),

@@ -1,7 +1,7 @@
 //! Ports, stations, lines, registers and bytes that connections and buses do not have.
 
 use super::{addressed, constant_int, given, related};
-use crate::diagnostics::connections::{ConnectionProblem, Unit};
+use crate::diagnostics::connections::{ConnectionProblem, NamedUnits};
 use crate::hir::{Builtin, ExprKind, Value};
 use arl_lang::catalog::{Relation, Space};
 use arl_lang::span::Span;
@@ -10,7 +10,7 @@ use arl_robot::outline::Outline;
 /// Registers, coils or bytes that calls name by the first one and how many.
 struct Stretch {
     /// What they are called.
-    unit: Unit,
+    unit: NamedUnits,
     /// How many there are.
     size: i64,
     /// What becomes of a call that names others.
@@ -39,7 +39,7 @@ fn stretch_of(space: Space, cell: &Outline) -> Option<Stretch> {
         | Space::ForegroundChannel
         | Space::SerialLine => return None,
     };
-    Some(Stretch { unit: Unit { one, many }, size, result })
+    Some(Stretch { unit: NamedUnits { one, many }, size, result })
 }
 
 /// What is wrong with a call, and where.

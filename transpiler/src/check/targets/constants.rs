@@ -1,8 +1,8 @@
 //! What an expression is before the program runs: targets, frames, tools and workpieces made of constants.
 
 use super::super::convert::number;
-use super::super::first_motion::{Globals, known_structure, known_value};
-use super::state::State;
+use super::super::first_motion::{GlobalPoints, known_structure, known_value};
+use super::state::MotionState;
 use crate::hir::{Builtin, Expr, ExprKind, Func, Passed, Program, Root, Value};
 use arl_lang::catalog::{PoseShift, Role, Struct, UNSET};
 use arl_robot::frames::Mount;
@@ -10,11 +10,11 @@ use arl_robot::kinematics::{Frame, frame};
 
 /// Where names are looked up.
 #[derive(Clone, Copy)]
-pub(super) struct Scope<'a> {
+pub(super) struct ConstantScope<'a> {
     pub(super) program: &'a Program,
     pub(super) func: &'a Func,
     /// Which global variables count as known.
-    pub(super) globals: Globals,
+    pub(super) globals: GlobalPoints,
 }
 
 /// A target pose all of whose six components are set.
@@ -25,7 +25,7 @@ pub(super) struct Pose {
     pub(super) cfg: Option<i32>,
 }
 
-impl<'a> Scope<'a> {
+impl<'a> ConstantScope<'a> {
     /// The axes of a joint target, in the order of its components: those that are set and constant, with their names.
     pub(super) fn joints(self, target: &'a Expr) -> Option<Vec<(&'static str, f64)>> {
         let (Struct::Joint, values) = self.braces(target)? else { return None };
@@ -66,7 +66,7 @@ impl<'a> Scope<'a> {
     }
 
     /// A tool or a workpiece; `$DFTOOL` and `$DFWOBJ` are what they are in `state`.
-    pub(super) fn mount(self, value: &'a Expr, state: &State) -> Option<Mount> {
+    pub(super) fn mount(self, value: &'a Expr, state: &MotionState) -> Option<Mount> {
         if let ExprKind::Place(place) = &value.kind
             && let Root::System(variable) = place.root
         {

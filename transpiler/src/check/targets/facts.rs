@@ -1,14 +1,14 @@
 //! What holds for a program as a whole: which system variables it writes, and what its functions may change.
 
-use super::super::first_motion::Globals;
-use super::constants::{Scope, argument};
-use super::state::{Change, Changes, State};
+use super::super::first_motion::GlobalPoints;
+use super::constants::{ConstantScope, argument};
+use super::state::{Change, Changes, MotionState};
 use crate::hir::{Builtin, Expr, ExprKind, FuncId, Passed, Place, Program, Root, Stmt};
 use crate::visit;
 use arl_lang::catalog::{Effect, Role};
 
 /// Facts about a program.
-pub(super) struct Facts {
+pub(super) struct ProgramFacts {
     /// Whether tool and workpiece alone stand between poses and the flange.
     pub(super) plain_frames: bool,
     /// Whether `ptp` goes to the configuration that its target says.
@@ -31,9 +31,9 @@ pub(super) struct Facts {
     pub(super) anytime: Changes,
 }
 
-impl Facts {
+impl ProgramFacts {
     pub(super) fn of(program: &Program) -> Self {
-        let mut facts = Facts {
+        let mut facts = ProgramFacts {
             plain_frames: true,
             as_taught: true,
             lines_keep_cfg: true,
@@ -48,7 +48,7 @@ impl Facts {
         let mut callers: Vec<Vec<usize>> = vec![Vec::new(); program.funcs.len()];
         let mut in_arguments: Vec<FuncId> = Vec::new();
         for (at, func) in program.funcs.iter().enumerate() {
-            let scope = Scope { program, func, globals: Globals::Constant };
+            let scope = ConstantScope { program, func, globals: GlobalPoints::Constant };
             let mut changes = Changes::default();
             each_expr(&func.body, &mut |expr| {
                 facts.see(expr);
@@ -85,21 +85,21 @@ impl Facts {
     }
 
     /// What an expression may change, calls included.
-    pub(super) fn of_expr(&self, scope: Scope<'_>, expr: &Expr) -> Changes {
+    pub(super) fn of_expr(&self, scope: ConstantScope<'_>, expr: &Expr) -> Changes {
         let mut changes = Changes::default();
         visit::exprs(expr, &mut |expr| changes.and(&self.of_one(scope, expr)));
         changes
     }
 
     /// What statements may change, calls included.
-    pub(super) fn of_block(&self, scope: Scope<'_>, block: &[Stmt]) -> Changes {
+    pub(super) fn of_block(&self, scope: ConstantScope<'_>, block: &[Stmt]) -> Changes {
         let mut changes = Changes::default();
         each_expr(block, &mut |expr| changes.and(&self.of_one(scope, expr)));
         changes
     }
 
     /// What an expression itself may change, without its parts.
-    pub(super) fn of_one(&self, scope: Scope<'_>, expr: &Expr) -> Changes {
+    pub(super) fn of_one(&self, scope: ConstantScope<'_>, expr: &Expr) -> Changes {
         match expr.kind {
             ExprKind::Call(id, _) => self.of_function(id),
             _ => direct(scope, expr),
@@ -157,12 +157,12 @@ impl Facts {
 }
 
 /// What one expression itself may change, without its parts and without what it calls.
-fn direct(scope: Scope<'_>, expr: &Expr) -> Changes {
+fn direct(scope: ConstantScope<'_>, expr: &Expr) -> Changes {
     let mut changes = Changes::default();
     // A part of the variable is written, or the whole, with what `value` is.
     let mut write = |place: &Place, value: Option<&Expr>| {
         let Root::System(variable) = place.root else { return };
-        let change = || Change::from(value.and_then(|value| scope.mount(value, &State::UNKNOWN)));
+        let change = || Change::from(value.and_then(|value| scope.mount(value, &MotionState::UNKNOWN)));
         match variable.role {
             Some(Role::DefaultTool) => changes.tool.and(change()),
             Some(Role::DefaultWorkpiece) => changes.wobj.and(change()),
@@ -176,7 +176,7 @@ fn direct(scope: Scope<'_>, expr: &Expr) -> Changes {
         ExprKind::Builtin(builtin) => {
             outs(builtin).for_each(|place| write(place, None));
             if builtin.entry.effect == Effect::Plans {
-                let given = |label| argument(builtin, label).map(|value| scope.mount(value, &State::UNKNOWN));
+                let given = |label| argument(builtin, label).map(|value| scope.mount(value, &MotionState::UNKNOWN));
                 changes.moves = true;
                 changes.tool.and(given("t").map_or(Change::Never, Change::from));
                 changes.wobj.and(given("w").map_or(Change::Never, Change::from));

@@ -19,7 +19,7 @@ pub(super) enum Verdict {
 }
 
 /// A straight line of the TCP.
-pub(super) struct Line<'a> {
+pub(super) struct TcpLine<'a> {
     pub(super) start: &'a Axes,
     pub(super) carried: Carried,
     /// The TCP at its end, on its way.
@@ -98,7 +98,7 @@ fn beyond_range(robot: &Robot, axes: &Axes) -> Option<(usize, f64, f64)> {
 }
 
 /// The singular point that a line passes.
-pub(super) fn line(robot: &Robot, line: &Line<'_>) -> Option<TargetProblem> {
+pub(super) fn line(robot: &Robot, line: &TcpLine<'_>) -> Option<TargetProblem> {
     let start = line.carried.way_at(&robot.kinematics.forward(line.start));
     let way = StraightWay::new(line.carried, start, &line.end);
     let (at, axes) = way.singular_point(robot, line.cfg, line.start)?;

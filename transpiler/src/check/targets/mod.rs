@@ -35,7 +35,7 @@ pub(crate) fn check(
     around: Around,
     locate: &dyn Fn(ModuleId, Span) -> Location,
 ) -> Vec<Diagnostic> {
-    let mut facts = facts::Facts::of(program);
+    let mut facts = facts::ProgramFacts::of(program);
     facts.teaches |= !around.alone;
     facts.plain_frames &= around.in_origin;
     let mut found = Vec::new();

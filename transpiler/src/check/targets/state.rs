@@ -16,7 +16,7 @@ pub(super) fn world() -> Mount {
 
 /// What is known when a motion is planned; `None` is not known.
 #[derive(Clone, Debug)]
-pub(super) struct State {
+pub(super) struct MotionState {
     /// `$DFTOOL`
     pub(super) tool: Option<Mount>,
     /// `$DFWOBJ`
@@ -33,19 +33,19 @@ pub(super) struct State {
     pub(super) dead: bool,
 }
 
-impl State {
-    pub(super) const UNKNOWN: State =
-        State { tool: None, wobj: None, tool_from: None, wobj_from: None, cfg: None, axes: None, dead: false };
+impl MotionState {
+    pub(super) const UNKNOWN: MotionState =
+        MotionState { tool: None, wobj: None, tool_from: None, wobj_from: None, cfg: None, axes: None, dead: false };
 
     /// What holds where control comes from here or from there.
-    pub(super) fn or(self, other: State) -> State {
+    pub(super) fn or(self, other: MotionState) -> MotionState {
         if self.dead {
             return other;
         }
         if other.dead {
             return self;
         }
-        State {
+        MotionState {
             tool: self.tool.filter(|tool| other.tool == Some(*tool)),
             wobj: self.wobj.filter(|wobj| other.wobj == Some(*wobj)),
             tool_from: self.tool_from.filter(|from| other.tool_from == Some(*from)),

@@ -1,10 +1,10 @@
 //! Goes along the statements of each function and looks at its motions, knowing what holds there.
 
-use super::super::first_motion::Globals;
-use super::constants::{Scope, argument};
-use super::facts::Facts;
-use super::judge::{self, Line, Verdict};
-use super::state::{State, flange, world};
+use super::super::first_motion::GlobalPoints;
+use super::constants::{ConstantScope, argument};
+use super::facts::ProgramFacts;
+use super::judge::{self, TcpLine, Verdict};
+use super::state::{MotionState, flange, world};
 use crate::diagnostics::targets::TargetProblem;
 use crate::hir::{Block, Builtin, Expr, ExprKind, For, ModuleId, Place, Program, Root, Stmt, StmtKind};
 use crate::visit;
@@ -30,31 +30,31 @@ type Tell<'a> = dyn FnMut(ModuleId, Span, TargetProblem, Vec<Also>) + 'a;
 pub(super) type Also = (ModuleId, Span, &'static str);
 
 /// Looks at the motions of all functions.
-pub(super) fn each_function(program: &Program, robot: &Robot, facts: &Facts, tell: &mut Tell<'_>) {
+pub(super) fn each_function(program: &Program, robot: &Robot, facts: &ProgramFacts, tell: &mut Tell<'_>) {
     for (at, func) in program.funcs.iter().enumerate() {
         let is_main = program.main.is_some_and(|main| main.0 as usize == at) && !facts.main_is_called;
         let state = match program.main {
-            _ if is_main => State { tool: Some(flange()), wobj: Some(world()), ..State::UNKNOWN },
+            _ if is_main => MotionState { tool: Some(flange()), wobj: Some(world()), ..MotionState::UNKNOWN },
             // From wherever it is called.
-            Some(_) => State {
+            Some(_) => MotionState {
                 tool: facts.everywhere.tool.only(flange()),
                 wobj: facts.everywhere.wobj.only(world()),
-                ..State::UNKNOWN
+                ..MotionState::UNKNOWN
             },
             // Other programs may call it.
-            None => State::UNKNOWN,
+            None => MotionState::UNKNOWN,
         };
-        let globals = if facts.teaches { Globals::Unwritten } else { Globals::AsTaught };
-        let mut walk = Walk { scope: Scope { program, func, globals }, robot, facts, state, tell: &mut *tell };
+        let globals = if facts.teaches { GlobalPoints::Unwritten } else { GlobalPoints::AsTaught };
+        let mut walk = Walk { scope: ConstantScope { program, func, globals }, robot, facts, state, tell: &mut *tell };
         walk.block(&func.body);
     }
 }
 
 struct Walk<'a, 't> {
-    scope: Scope<'a>,
+    scope: ConstantScope<'a>,
     robot: &'a Robot,
-    facts: &'a Facts,
-    state: State,
+    facts: &'a ProgramFacts,
+    state: MotionState,
     tell: &'t mut Tell<'t>,
 }
 
@@ -78,8 +78,8 @@ impl<'a> Walk<'a, '_> {
         };
         let frame = held("w", self.state.wobj_from, self.state.wobj, world());
         let tool = held("t", self.state.tool_from, self.state.tool, flange());
-        also.extend(frame.map(|from| (module, from, "the workpiece frame in force is from here")));
-        also.extend(tool.map(|from| (module, from, "the tool in force is from here")));
+        also.extend(frame.map(|from| (module, from, "the workpiece frame in force was set here")));
+        also.extend(tool.map(|from| (module, from, "the tool in force was set here")));
         let problem = problem.with_inherited(frame.is_some(), tool.is_some());
         (self.tell)(module, target.span, problem, also);
     }
@@ -97,7 +97,7 @@ impl<'a> Walk<'a, '_> {
                 self.expr(subject);
                 let before = self.state.clone();
                 let complete = arms.iter().any(|arm| arm.value.is_none());
-                let mut after = State { dead: complete, ..before.clone() };
+                let mut after = MotionState { dead: complete, ..before.clone() };
                 for arm in arms {
                     self.state = before.clone();
                     self.block(&arm.body);
@@ -117,14 +117,14 @@ impl<'a> Walk<'a, '_> {
             StmtKind::Break | StmtKind::Continue | StmtKind::Goto(_) => self.state.dead = true,
             StmtKind::Label(label) => {
                 if self.scope.func.labels.get(label.0 as usize).is_none_or(|label| label.used) {
-                    self.state = State::UNKNOWN;
+                    self.state = MotionState::UNKNOWN;
                 }
             }
         }
     }
 
     fn branches(&mut self, arms: &'a [(Expr, Block)], otherwise: Option<&'a Block>) {
-        let mut after: Option<State> = None;
+        let mut after: Option<MotionState> = None;
         for (condition, block) in arms {
             self.expr(condition);
             let before = self.state.clone();
@@ -187,9 +187,9 @@ impl<'a> Walk<'a, '_> {
             if let ExprKind::Builtin(builtin) = &part.kind
                 && builtin.entry.effect == Effect::Plans
             {
-                self.state = State::UNKNOWN;
+                self.state = MotionState::UNKNOWN;
                 self.motion(builtin);
-                self.state = State::UNKNOWN;
+                self.state = MotionState::UNKNOWN;
             }
             self.state.may(&self.facts.of_one(self.scope, part));
         });
@@ -197,7 +197,7 @@ impl<'a> Walk<'a, '_> {
 
     fn assign(&mut self, place: &Place, value: &'a Expr) {
         let Root::System(variable) = place.root else { return };
-        let mount = |state: &State| self.scope.mount(value, state);
+        let mount = |state: &MotionState| self.scope.mount(value, state);
         match variable.role {
             Some(Role::DefaultTool) => {
                 self.state.tool = mount(&self.state);
@@ -279,7 +279,7 @@ impl<'a> Walk<'a, '_> {
             Verdict::Reached(axes) => {
                 let Some(cfg) = cfg else { return };
                 if let (Some(start), Some(Motion::Line), true) = (start, motion.entry.motion, self.is_plain_line()) {
-                    let line = Line {
+                    let line = TcpLine {
                         start: &start,
                         carried: setting.rig().carried,
                         end: setting.workpiece() * pose.frame,

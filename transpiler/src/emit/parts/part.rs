@@ -1,7 +1,7 @@
 //! The code of a block with parts.
 
 use super::leave::Frame;
-use super::plan::Piece;
+use super::plan::BlockPiece;
 use crate::emit::body::{Body, Tail};
 use crate::emit::mentions;
 use crate::emit::rows::Group;
@@ -16,7 +16,7 @@ impl<'p> Body<'p, '_> {
         let weights: Vec<usize> = groups.iter().map(|group| self.group_weight(group)).collect();
         let pieces = self.planned(&groups, &weights);
         let mut out = TokenStream::new();
-        if pieces.iter().any(|piece| matches!(piece, Piece::Part(_))) {
+        if pieces.iter().any(|piece| matches!(piece, BlockPiece::Part(_))) {
             // It would stand in front of the first statement that leads back to the function, in a part.
             out.extend(self.guard.take());
             // What lives in front of all states does so for the parts of one, too.
@@ -31,14 +31,14 @@ impl<'p> Body<'p, '_> {
         out
     }
 
-    fn pieces(&mut self, pieces: &[Piece], groups: &[Group<'p>], tail: Tail) -> TokenStream {
+    fn pieces(&mut self, pieces: &[BlockPiece], groups: &[Group<'p>], tail: Tail) -> TokenStream {
         let mut out = TokenStream::new();
         let last = pieces.len().saturating_sub(1);
         for (at, piece) in pieces.iter().enumerate() {
             let tail = if at == last { tail } else { Tail::Inner };
             out.extend(match piece {
-                Piece::Group(number) => groups.get(*number).map(|group| self.group(group, tail)),
-                Piece::Part(pieces) => Some(self.part(pieces, groups)),
+                BlockPiece::Group(number) => groups.get(*number).map(|group| self.group(group, tail)),
+                BlockPiece::Part(pieces) => Some(self.part(pieces, groups)),
             });
         }
         out
@@ -61,7 +61,7 @@ impl<'p> Body<'p, '_> {
     }
 
     /// `let lines = async { .. }; part(pin!(lines)).await?;`
-    fn part(&mut self, pieces: &[Piece], groups: &[Group<'p>]) -> TokenStream {
+    fn part(&mut self, pieces: &[BlockPiece], groups: &[Group<'p>]) -> TokenStream {
         self.frames.push(Frame { loops: self.loops.len(), leaves: Vec::new() });
         let code = self.pieces(pieces, groups, Tail::Inner);
         let leaves = self.frames.pop().map(|frame| frame.leaves).unwrap_or_default();
@@ -91,7 +91,7 @@ impl<'p> Body<'p, '_> {
 
 /// The locals that are declared in a part and mentioned outside it, in the order of their declarations; for a debugger,
 /// which may go from any part to any other one, all that are declared in parts.
-fn outside_parts(groups: &[Group<'_>], pieces: &[Piece], watched: bool) -> Vec<LocalId> {
+fn outside_parts(groups: &[Group<'_>], pieces: &[BlockPiece], watched: bool) -> Vec<LocalId> {
     let mut part_of = vec![0; groups.len()];
     number_parts(pieces, 0, &mut 0, &mut part_of);
     let mut declared: Vec<LocalId> = Vec::new();
@@ -124,15 +124,15 @@ fn outside_parts(groups: &[Group<'_>], pieces: &[Piece], watched: bool) -> Vec<L
 }
 
 /// Numbers the parts that groups stand in directly; 0 is outside.
-fn number_parts(pieces: &[Piece], own: usize, last: &mut usize, part_of: &mut [usize]) {
+fn number_parts(pieces: &[BlockPiece], own: usize, last: &mut usize, part_of: &mut [usize]) {
     for piece in pieces {
         match piece {
-            Piece::Group(number) => {
+            BlockPiece::Group(number) => {
                 if let Some(part) = part_of.get_mut(*number) {
                     *part = own;
                 }
             }
-            Piece::Part(pieces) => {
+            BlockPiece::Part(pieces) => {
                 *last += 1;
                 number_parts(pieces, *last, last, part_of);
             }

@@ -4,27 +4,27 @@ use crate::emit::Sizes;
 
 /// A piece of a block.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) enum Piece {
+pub(super) enum BlockPiece {
     /// The group with this number, as it stands.
     Group(usize),
     /// A part.
-    Part(Vec<Piece>),
+    Part(Vec<BlockPiece>),
 }
 
 /// So many pieces of a block that is still too heavy become a part of parts.
 const PIECES: usize = 32;
 
 /// The pieces of a block whose groups have these weights; `stays` tells that the last one is in no part.
-pub(super) fn plan(weights: &[usize], stays: bool, sizes: Sizes) -> Vec<Piece> {
-    let all = || (0..weights.len()).map(Piece::Group);
+pub(super) fn plan(weights: &[usize], stays: bool, sizes: Sizes) -> Vec<BlockPiece> {
+    let all = || (0..weights.len()).map(BlockPiece::Group);
     if weights.iter().sum::<usize>() <= sizes.awaits {
         return all().collect();
     }
     let movable = weights.len() - usize::from(stays);
     // What goes before the first wait is where it is looked for: declarations.
     let first = weights.iter().position(|weight| *weight > 0).unwrap_or(0).min(movable);
-    let mut pieces: Vec<Piece> = all().take(first).collect();
-    let middle: Vec<Piece> = all().take(movable).skip(first).collect();
+    let mut pieces: Vec<BlockPiece> = all().take(first).collect();
+    let middle: Vec<BlockPiece> = all().take(movable).skip(first).collect();
     pieces.extend(pack(middle, weights, sizes.awaits_of_a_part, sizes.least_awaits));
     while weight_of(&pieces, weights) > sizes.awaits {
         let before = pieces.len();
@@ -38,13 +38,13 @@ pub(super) fn plan(weights: &[usize], stays: bool, sizes: Sizes) -> Vec<Piece> {
 }
 
 /// Puts pieces into parts of at most so much weight; what is lighter than `least` stays as it is.
-fn pack(pieces: Vec<Piece>, weights: &[usize], most: usize, least: usize) -> Vec<Piece> {
+fn pack(pieces: Vec<BlockPiece>, weights: &[usize], most: usize, least: usize) -> Vec<BlockPiece> {
     let mut out = Vec::new();
-    let mut open: Vec<Piece> = Vec::new();
+    let mut open: Vec<BlockPiece> = Vec::new();
     let mut weight = 0;
-    let mut close = |open: &mut Vec<Piece>, weight: &mut usize| {
+    let mut close = |open: &mut Vec<BlockPiece>, weight: &mut usize| {
         let part = std::mem::take(open);
-        if std::mem::take(weight) >= least { out.push(Piece::Part(part)) } else { out.extend(part) }
+        if std::mem::take(weight) >= least { out.push(BlockPiece::Part(part)) } else { out.extend(part) }
     };
     for piece in pieces {
         let own = weight_of(std::slice::from_ref(&piece), weights);
@@ -61,16 +61,16 @@ fn pack(pieces: Vec<Piece>, weights: &[usize], most: usize, least: usize) -> Vec
 }
 
 /// Several pieces as a part, where more than one of them waits.
-fn bundle(pieces: Vec<Piece>, weights: &[usize]) -> Vec<Piece> {
-    let parts = pieces.iter().filter(|piece| matches!(piece, Piece::Part(_))).count();
-    if parts > 1 && weight_of(&pieces, weights) > 1 { vec![Piece::Part(pieces)] } else { pieces }
+fn bundle(pieces: Vec<BlockPiece>, weights: &[usize]) -> Vec<BlockPiece> {
+    let parts = pieces.iter().filter(|piece| matches!(piece, BlockPiece::Part(_))).count();
+    if parts > 1 && weight_of(&pieces, weights) > 1 { vec![BlockPiece::Part(pieces)] } else { pieces }
 }
 
 /// How many `.await`s are left in the code around the parts.
-pub(super) fn weight_of(pieces: &[Piece], weights: &[usize]) -> usize {
-    let weight = |piece: &Piece| match piece {
-        Piece::Group(number) => weights.get(*number).copied().unwrap_or(0),
-        Piece::Part(_) => 1,
+pub(super) fn weight_of(pieces: &[BlockPiece], weights: &[usize]) -> usize {
+    let weight = |piece: &BlockPiece| match piece {
+        BlockPiece::Group(number) => weights.get(*number).copied().unwrap_or(0),
+        BlockPiece::Part(_) => 1,
     };
     pieces.iter().map(weight).sum()
 }
@@ -91,10 +91,10 @@ mod tests {
     };
 
     /// `0 (1 2) 3`
-    fn shown(pieces: &[Piece]) -> String {
-        let one = |piece: &Piece| match piece {
-            Piece::Group(number) => number.to_string(),
-            Piece::Part(pieces) => format!("({})", shown(pieces)),
+    fn shown(pieces: &[BlockPiece]) -> String {
+        let one = |piece: &BlockPiece| match piece {
+            BlockPiece::Group(number) => number.to_string(),
+            BlockPiece::Part(pieces) => format!("({})", shown(pieces)),
         };
         pieces.iter().map(one).collect::<Vec<_>>().join(" ")
     }

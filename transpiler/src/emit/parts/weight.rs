@@ -1,6 +1,6 @@
 //! How many `.await`s the code of statements has.
 
-use super::plan::{Piece, plan, weight_of};
+use super::plan::{BlockPiece, plan, weight_of};
 use crate::effects::captures;
 use crate::effects::flow;
 use crate::effects::parts::children;
@@ -33,12 +33,12 @@ impl<'p> Body<'p, '_> {
         let groups = self.groups(flow::reachable(block));
         let of_groups: Vec<usize> = groups.iter().map(|group| self.weigh_group(group, weights)).collect();
         let pieces = self.planned(&groups, &of_groups);
-        weights.cut |= pieces.iter().any(|piece| matches!(piece, Piece::Part(_)));
+        weights.cut |= pieces.iter().any(|piece| matches!(piece, BlockPiece::Part(_)));
         weight_of(&pieces, &of_groups)
     }
 
     /// The pieces of a block.
-    pub(super) fn planned(&self, groups: &[Group<'p>], weights: &[usize]) -> Vec<Piece> {
+    pub(super) fn planned(&self, groups: &[Group<'p>], weights: &[usize]) -> Vec<BlockPiece> {
         let stays = groups.last().is_some_and(|group| matches!(group, Group::Alone(stmt) if flow::diverges(stmt)));
         plan(weights, stays, self.unit.sizes)
     }
@@ -79,7 +79,7 @@ impl<'p> Body<'p, '_> {
         };
         let own: usize = flow::expressions(stmt).map(|expr| self.expression_weight(expr)).sum();
         let inside: usize = match &stmt.kind {
-            // Its declarations are no block.
+            // Its declarations are not a block.
             StmtKind::For(each) => self.for_weight(each, weights),
             _ => flow::blocks(stmt).map(|block| self.block_weight(block, weights)).sum(),
         };

@@ -1,6 +1,6 @@
 //! Which statements become tables.
 
-use super::shape::{Row, Shape};
+use super::shape::{Shape, StatementRow};
 use crate::effects::flow;
 use crate::emit::Sizes;
 use crate::emit::body::Body;
@@ -13,7 +13,7 @@ pub(in crate::emit) enum Group<'p> {
     /// One as it stands.
     Alone(&'p Stmt),
     /// Those of a table.
-    Table(Vec<Row<'p>>),
+    Table(Vec<StatementRow<'p>>),
 }
 
 /// A kind that is found once in a run stands between two tables where these have so many rows each, on the average, and
@@ -43,15 +43,15 @@ impl<'p> Body<'p, '_> {
     }
 
     /// A statement as a row, where it may be one: it writes and declares no local, and goes on to the next.
-    fn row(&self, stmt: &'p Stmt) -> Option<Row<'p>> {
-        let row = Row::of(stmt, self.family(), &self.unit.slots)?;
+    fn row(&self, stmt: &'p Stmt) -> Option<StatementRow<'p>> {
+        let row = StatementRow::of(stmt, self.family(), &self.unit.slots)?;
         let is_call = matches!(row.expr.kind, ExprKind::Call(..) | ExprKind::Builtin(_) | ExprKind::Assign(_));
         (is_call && !flow::ends(row.expr) && self.facts(row.expr).writes.is_empty()).then_some(row)
     }
 }
 
 /// Puts a run into tables and single statements.
-fn arrange<'p>(sizes: Sizes, run: Vec<Row<'p>>, cuts: usize, groups: &mut Vec<Group<'p>>) {
+fn arrange<'p>(sizes: Sizes, run: Vec<StatementRow<'p>>, cuts: usize, groups: &mut Vec<Group<'p>>) {
     let mut counts: HashMap<&Shape, usize> = HashMap::new();
     run.iter().for_each(|row| *counts.entry(&row.shape).or_default() += 1);
     let single: Vec<bool> = run.iter().map(|row| counts.get(&row.shape) == Some(&1)).collect();
@@ -81,7 +81,7 @@ fn arrange<'p>(sizes: Sizes, run: Vec<Row<'p>>, cuts: usize, groups: &mut Vec<Gr
 }
 
 /// Puts the stretches of one kind into tables where they are long enough.
-fn stretches<'p>(sizes: Sizes, run: Vec<Row<'p>>, groups: &mut Vec<Group<'p>>) {
+fn stretches<'p>(sizes: Sizes, run: Vec<StatementRow<'p>>, groups: &mut Vec<Group<'p>>) {
     let mut rows = run.into_iter().peekable();
     while let Some(first) = rows.next() {
         let mut stretch = vec![first];

@@ -2,8 +2,10 @@
 
 use crate::effects::captures;
 use crate::emit::slots::Slots;
-use crate::hir::{Expr, ExprKind, Func, GlobalId, LocalId, Passed, Place, Projection, Root, Stmt, StmtKind, Value};
-use arl_lang::catalog::{Family, Presence};
+use crate::hir::{
+    Builtin, Expr, ExprKind, Func, GlobalId, LocalId, Passed, Place, Projection, Root, Stmt, StmtKind, Value,
+};
+use arl_lang::catalog::{Family, Presence, Struct};
 
 /// A statement without the constants that may differ between the rows of a table.
 #[derive(Clone, PartialEq, Eq, Hash, Default, Debug)]
@@ -28,7 +30,7 @@ pub(in crate::emit) enum Filling<'p> {
 
 /// A statement as a row of a table.
 #[derive(Debug)]
-pub(in crate::emit) struct Row<'p> {
+pub(in crate::emit) struct StatementRow<'p> {
     pub(in crate::emit) stmt: &'p Stmt,
     /// The expression that it is.
     pub(in crate::emit) expr: &'p Expr,
@@ -36,7 +38,7 @@ pub(in crate::emit) struct Row<'p> {
     pub(super) holes: Vec<Hole<'p>>,
 }
 
-impl<'p> Row<'p> {
+impl<'p> StatementRow<'p> {
     /// The statement, where it is an expression; whether it may stand in a table is not asked here.
     pub(super) fn of(stmt: &'p Stmt, family: Family, slots: &Slots) -> Option<Self> {
         let StmtKind::Eval(expr) = &stmt.kind else { return None };
@@ -136,39 +138,43 @@ impl<'p> Walk<'p, '_> {
                 self.word((id, args.len()));
                 args.iter().for_each(|arg| self.expr(arg, Some("value")));
             }
-            ExprKind::Builtin(builtin) => {
-                let entry = builtin.entry;
-                self.word((std::ptr::from_ref(entry), builtin.args.len()));
-                for arg in &builtin.args {
-                    self.word(arg.param);
-                    let name = entry.params.get(arg.param).map(|param| match param.presence {
-                        Presence::Repeat { .. } => "value",
-                        _ => param.rust,
-                    });
-                    match &arg.value {
-                        Passed::Value(value) if captures::is_later(entry, arg) => self.expr(value, None),
-                        Passed::Value(value) => self.expr(value, name),
-                        Passed::Out(place) => self.place(place, None),
-                    }
-                }
-            }
-            ExprKind::Struct(id, values) => {
-                let components = id.def(self.family).components;
-                let mut given: Vec<usize> =
-                    (0..values.len()).filter(|at| matches!(values.get(*at), Some(Some(_)))).collect();
-                // They are evaluated as they stand in the program.
-                given.sort_by_key(|at| values.get(*at).and_then(Option::as_ref).map(|value| value.span.start));
-                self.word((id, &given));
-                for at in given {
-                    let name = open.and_then(|_| components.get(at)).map(|component| component.name);
-                    values.get(at).into_iter().flatten().for_each(|value| self.expr(value, name));
-                }
-            }
+            ExprKind::Builtin(builtin) => self.builtin(builtin),
+            ExprKind::Struct(id, values) => self.structure(*id, values, open.is_some()),
             ExprKind::Array(values) => {
                 self.word((expr.ty, values.len()));
                 values.iter().for_each(|value| self.expr(value, None));
             }
             ExprKind::Splice(number) => self.word(number),
+        }
+    }
+
+    fn builtin(&mut self, builtin: &'p Builtin) {
+        let entry = builtin.entry;
+        self.word((std::ptr::from_ref(entry), builtin.args.len()));
+        for arg in &builtin.args {
+            self.word(arg.param);
+            let name = entry.params.get(arg.param).map(|param| match param.presence {
+                Presence::Repeat { .. } => "value",
+                _ => param.rust,
+            });
+            match &arg.value {
+                Passed::Value(value) if captures::is_later(entry, arg) => self.expr(value, None),
+                Passed::Value(value) => self.expr(value, name),
+                Passed::Out(place) => self.place(place, None),
+            }
+        }
+    }
+
+    /// The components that have values; constants may differ where it is `open`.
+    fn structure(&mut self, id: Struct, values: &'p [Option<Expr>], open: bool) {
+        let components = id.def(self.family).components;
+        let mut given: Vec<usize> = (0..values.len()).filter(|at| matches!(values.get(*at), Some(Some(_)))).collect();
+        // They are evaluated as they stand in the program.
+        given.sort_by_key(|at| values.get(*at).and_then(Option::as_ref).map(|value| value.span.start));
+        self.word((id, &given));
+        for at in given {
+            let name = components.get(at).filter(|_| open).map(|component| component.name);
+            values.get(at).into_iter().flatten().for_each(|value| self.expr(value, name));
         }
     }
 

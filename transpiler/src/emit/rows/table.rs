@@ -1,6 +1,6 @@
 //! The code of a table: its rows, and the loop over them.
 
-use super::shape::{Filling, Hole, Row, Shape};
+use super::shape::{Filling, Hole, Shape, StatementRow};
 use crate::emit::body::{Body, Tail};
 use crate::emit::consts;
 use crate::emit::fragment::{Fragment, Precedence};
@@ -109,8 +109,8 @@ struct Kind<'r, 'p> {
 
 impl<'p> Body<'p, '_> {
     /// The code of a table of statements.
-    pub(in crate::emit) fn table(&mut self, rows: &[Row<'p>]) -> TokenStream {
-        let line_of = |row: &Row<'p>| self.unit.line(self.module, row.stmt.span) as usize;
+    pub(in crate::emit) fn table(&mut self, rows: &[StatementRow<'p>]) -> TokenStream {
+        let line_of = |row: &StatementRow<'p>| self.unit.line(self.module, row.stmt.span) as usize;
         let entries: Vec<Entry<'_, 'p>> =
             rows.iter().map(|row| Entry { lead: line_of(row), shape: &row.shape, holes: &row.holes }).collect();
         let name = self.reserve("line");

@@ -20,7 +20,7 @@ const TIMER: u16 = 16;
 
 /// What stands at the start of what has come.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) enum Start {
+pub(super) enum ReceivedFrame {
     /// An answer: its end code (0: done) and data, and how many bytes it takes.
     Answer { code: u16, data: Vec<u8>, size: usize },
     /// The beginning of an answer.
@@ -61,22 +61,22 @@ fn request(pc: u8, command: u16, start: u32, count: u16, data: &[u8]) -> Vec<u8>
 }
 
 /// The answer at the start of what has come.
-pub(super) fn first(bytes: &[u8]) -> Start {
+pub(super) fn first(bytes: &[u8]) -> ReceivedFrame {
     const MARK: [u8; 2] = [0xd0, 0];
     if !MARK.starts_with(bytes.get(..bytes.len().min(2)).unwrap_or_default()) {
-        return Start::Garbage;
+        return ReceivedFrame::Garbage;
     }
-    let Some([low, high]) = bytes.get(ROUTE..HEAD) else { return Start::Part };
+    let Some([low, high]) = bytes.get(ROUTE..HEAD) else { return ReceivedFrame::Part };
     let length = usize::from(u16::from_le_bytes([*low, *high]));
     // An end code, and behind it registers, or what the PLC says of an error.
     if !(2..=2 + 2 * MOST_REGISTERS).contains(&length) {
-        return Start::Garbage;
+        return ReceivedFrame::Garbage;
     }
     match bytes.get(HEAD..HEAD + length) {
         Some([low, high, data @ ..]) => {
-            Start::Answer { code: u16::from_le_bytes([*low, *high]), data: data.to_vec(), size: HEAD + length }
+            ReceivedFrame::Answer { code: u16::from_le_bytes([*low, *high]), data: data.to_vec(), size: HEAD + length }
         }
-        _ => Start::Part,
+        _ => ReceivedFrame::Part,
     }
 }
 
@@ -101,15 +101,15 @@ mod tests {
     fn an_answer_is_found_when_it_is_whole() {
         let bytes = [0xd0, 0, 0, 0xff, 0xff, 3, 0, 6, 0, 0, 0, 1, 2, 3, 4, 0xd0];
         for end in 0..15 {
-            assert_eq!(first(&bytes[..end]), Start::Part, "{end}");
+            assert_eq!(first(&bytes[..end]), ReceivedFrame::Part, "{end}");
         }
-        assert_eq!(first(&bytes), Start::Answer { code: 0, data: vec![1, 2, 3, 4], size: 15 });
+        assert_eq!(first(&bytes), ReceivedFrame::Answer { code: 0, data: vec![1, 2, 3, 4], size: 15 });
         let refused = [0xd0, 0, 0, 0xff, 0xff, 3, 0, 2, 0, 0x51, 0xc0];
-        assert_eq!(first(&refused), Start::Answer { code: 0xc051, data: vec![], size: 11 });
+        assert_eq!(first(&refused), ReceivedFrame::Answer { code: 0xc051, data: vec![], size: 11 });
         for garbage in
             [&b"\x50\0"[..], b"G", &[0xd0, 1], &[0xd0, 0, 0, 0, 0, 0, 0, 1, 0], &[0xd0, 0, 0, 0, 0, 0, 0, 0, 9]]
         {
-            assert_eq!(first(garbage), Start::Garbage, "{garbage:?}");
+            assert_eq!(first(garbage), ReceivedFrame::Garbage, "{garbage:?}");
         }
     }
 
@@ -121,7 +121,7 @@ mod tests {
             for (place, byte) in bytes.iter_mut().zip([0xd0, 0]) {
                 *place = byte;
             }
-            if let Start::Answer { data, size, .. } = first(&bytes) {
+            if let ReceivedFrame::Answer { data, size, .. } = first(&bytes) {
                 assert!(size <= bytes.len() && size == HEAD + 2 + data.len());
             }
         }

@@ -8,13 +8,13 @@ use std::collections::HashSet;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use super::handle::{Found, Handle, fault};
+use super::handle::{ConnectionHandle, Found, fault};
 use crate::communication::opening::Opening;
 use crate::context::cx::Cx;
 use crate::context::shown::Shown;
 use crate::fault::Fault;
 use crate::values::Str;
-use frame::{LAST_REGISTER, MOST_REGISTERS, Start};
+use frame::{LAST_REGISTER, MOST_REGISTERS, ReceivedFrame};
 
 /// How long a PLC may be silent: a second more than it may take by what it is told.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(5);
@@ -22,7 +22,7 @@ const ANSWER_TIMEOUT: Duration = Duration::from_secs(5);
 /// A connection to a PLC. It is closed at first, and when the last that knows it is gone.
 #[derive(Clone, Default, Debug)]
 pub struct MelsecDev {
-    handle: Rc<Handle>,
+    handle: Rc<ConnectionHandle>,
     talk: Rc<RefCell<Talk>>,
 }
 
@@ -53,7 +53,7 @@ struct Asked {
     since: Instant,
 }
 
-/// Connects to a PLC; true when the connection stands.
+/// Connects to a PLC; true when the connection is established.
 ///
 /// # Errors
 /// A port outside 1 to 65535, a station that is neither 0 to 247 nor 255; the connection is open to something else.
@@ -61,9 +61,10 @@ pub async fn open(cx: &Cx, dev: &MelsecDev, ip: &Str, port: i32, slave_id: i32) 
     cx.motion_end().await;
     let wrong = |problem: String| Fault::Domain { function: "open", problem: problem.into() };
     let number = u16::try_from(port).ok().filter(|number| *number > 0);
-    let port = number.ok_or_else(|| wrong(format!("port {port}: 1 to 65535")))?;
+    let port = number.ok_or_else(|| wrong(format!("port is {port}, but must be 1 to 65535")))?;
     let pc = u8::try_from(slave_id).ok().filter(|pc| *pc <= 247 || *pc == 255);
-    let pc = pc.ok_or_else(|| wrong(format!("slave_id {slave_id}: 0 to 247, or 255 for the PLC itself")))?;
+    let pc =
+        pc.ok_or_else(|| wrong(format!("slave_id is {slave_id}, but must be 0 to 247, or 255 for the PLC itself")))?;
     let open = dev.handle.attempt(cx, "open", Opening::Connect { host: ip.to_text().into_owned(), port })?;
     let mut talk = dev.talk.borrow_mut();
     talk.pc = pc;
@@ -129,7 +130,7 @@ impl MelsecDev {
         if bytes.len() != len.next_multiple_of(2) {
             self.handle.close();
             let asked = len.next_multiple_of(2);
-            return Err(fault("read", &format!("the PLC sent {} bytes in place of {asked}", bytes.len())));
+            return Err(fault("read", &format!("the PLC sent {} bytes instead of {asked}", bytes.len())));
         }
         bytes.truncate(len);
         Ok(Some(bytes))
@@ -153,7 +154,7 @@ impl MelsecDev {
                 return Ok(Some(data));
             }
             if code != 0 {
-                let text = format!("{function}: the PLC refuses with code {code:04x}h");
+                let text = format!("{function}: the PLC refused the request with code {code:04x}h");
                 if talk.told.len() < super::MAX_TOLD_PROBLEMS && talk.told.insert(text.clone()) {
                     let (file, line) = cx.place();
                     cx.shared().warn(format!("{text} ({}:{line})", file.name()));
@@ -191,9 +192,9 @@ impl MelsecDev {
     /// The answer, as code and data, if it has come.
     fn answer(&self, function: &'static str, since: Instant) -> Result<Option<(u16, Vec<u8>)>, Fault> {
         let found = self.handle.take(function, |inbox| match frame::first(inbox.waiting()) {
-            Start::Answer { code, data, size } => inbox.take(size).map(|_| Ok((code, data))),
-            Start::Part => None,
-            Start::Garbage => Some(Err("the other side does not speak the MC protocol (3E, binary)")),
+            ReceivedFrame::Answer { code, data, size } => inbox.take(size).map(|_| Ok((code, data))),
+            ReceivedFrame::Part => None,
+            ReceivedFrame::Garbage => Some(Err("the other side does not speak the MC protocol (3E, binary)")),
         })?;
         let problem = match found {
             Found::This(Ok(answer)) => return Ok(Some(answer)),
@@ -217,11 +218,11 @@ fn range(function: &'static str, start: i32, len: i32, room: usize) -> Result<(u
     let wrong = |problem: String| Fault::Domain { function, problem: problem.into() };
     let most = (2 * MOST_REGISTERS).min(room);
     let length = usize::try_from(len).ok().filter(|length| *length <= most);
-    let length = length.ok_or_else(|| wrong(format!("len {len}: 0 to {most} bytes are possible here")))?;
+    let length = length.ok_or_else(|| wrong(format!("len is {len}, but must be 0 to {most} bytes here")))?;
     let last = i64::from(start) + length.div_ceil(2).max(1) as i64 - 1;
     match u32::try_from(start) {
         Ok(first) if last <= i64::from(LAST_REGISTER) => Ok((first, length)),
-        _ => Err(wrong(format!("D{start} to D{last}: D0 to D{LAST_REGISTER} can be named"))),
+        _ => Err(wrong(format!("D{start} to D{last} do not exist, only D0 to D{LAST_REGISTER}"))),
     }
 }
 
@@ -229,7 +230,7 @@ fn range(function: &'static str, start: i32, len: i32, room: usize) -> Result<(u
 #[cfg(feature = "fuzzing")]
 pub(crate) fn answer_size(bytes: &[u8]) -> Option<usize> {
     match frame::first(bytes) {
-        frame::Start::Answer { size, data, .. } => {
+        frame::ReceivedFrame::Answer { size, data, .. } => {
             assert!(data.len() < size);
             Some(size)
         }

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::fieldbus::modbus::SharedTables;
-use crate::fieldbus::modbus::mbap::{self, LONGEST_FRAME, Start};
+use crate::fieldbus::modbus::mbap::{self, LONGEST_FRAME, Received};
 use crate::fieldbus::modbus::pdu::{self, Answer};
 
 /// What is kept of a connection's bytes before the rest has to wait in the system's buffers. Whole frames are answered
@@ -51,7 +51,7 @@ impl Connection {
         let _ = self.stream.shutdown(Shutdown::Both);
     }
 
-    /// Answers requests until the client goes, sends what is no Modbus, or the connection is ended. A client that does
+    /// Answers requests until the client goes, sends what is not Modbus, or the connection is ended. A client that does
     /// not take its answers is not read on.
     pub(super) fn serve(&self, tables: &SharedTables) {
         let (mut input, mut filled) = ([0; BUFFER_BYTES], 0);
@@ -90,13 +90,13 @@ fn answer(bytes: &[u8], tables: &SharedTables, answers: &mut Vec<u8>) -> (usize,
     let mut answer = Answer::new();
     loop {
         match mbap::first(bytes.get(done..).unwrap_or_default()) {
-            Start::Frame(frame, len) => {
+            Received::Frame(frame, len) => {
                 pdu::serve(frame.pdu, &mut tables.wait(), &mut answer);
-                mbap::append(answers, &mbap::Frame { pdu: answer.bytes(), ..frame });
+                mbap::append(answers, &mbap::ModbusFrame { pdu: answer.bytes(), ..frame });
                 done += len;
             }
-            Start::Part => return (done, true),
-            Start::Garbage => return (done, false),
+            Received::Part => return (done, true),
+            Received::Garbage => return (done, false),
         }
     }
 }

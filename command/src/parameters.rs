@@ -7,7 +7,7 @@ use std::fmt;
 /// What a parameter may be beside a place of `--set`: an option of a run.
 const OPTIONS: [&str; 7] = ["robot", "io", "max-time", "mode", "override", "seed", "start-time"];
 /// Where the place of a global variable begins.
-pub(super) const GLOBAL: &str = "global.";
+pub(crate) const GLOBAL: &str = "global.";
 /// Where places of `--set` begin.
 const PLACES: [&str; 4] = [GLOBAL, "robot.", "cell.", "io."];
 
@@ -17,7 +17,7 @@ pub struct Parameters(pub Vec<(String, Value)>);
 
 impl Parameters {
     /// Puts a value in; one of this name that is there already gets it.
-    pub(super) fn set(&mut self, name: &str, value: Value) {
+    pub(crate) fn set(&mut self, name: &str, value: Value) {
         match self.0.iter_mut().find(|(known, _)| known == name) {
             Some((_, old)) => *old = value,
             None => self.0.push((name.to_owned(), value)),
@@ -25,7 +25,7 @@ impl Parameters {
     }
 
     /// The value of an option.
-    pub(super) fn option(&self, name: &str) -> Option<&Value> {
+    pub(crate) fn option(&self, name: &str) -> Option<&Value> {
         self.0.iter().find(|(known, _)| known == name).map(|(_, value)| value)
     }
 
@@ -45,7 +45,7 @@ impl Parameters {
                 ("robot" | "io", Value::String(_)) => {}
                 ("robot" | "io", _) => {
                     return Err(format!(
-                        "parameter `{name}`: expected the name of a file, found {value}; a place in it stands in quotes: \
+                        "parameter `{name}`: expected the name of a file, found {value}; a place in it must be in quotes: \
                          \"io.event.1.at\" = 2.5"
                     ));
                 }
@@ -59,7 +59,7 @@ impl Parameters {
 fn word(name: &str, value: &Value) -> Result<[String; 2], String> {
     if PLACES.iter().any(|place| name.starts_with(place)) {
         let value = if name.starts_with(GLOBAL) { as_arl(value) } else { as_toml(value) };
-        let value = value.ok_or_else(|| format!("parameter `{name}`: expected a value; null, nan and inf are none"))?;
+        let value = value.ok_or_else(|| format!("parameter `{name}`: expected a value, not null, nan or inf"))?;
         return Ok(["--set".into(), format!("{name}={value}")]);
     }
     if !OPTIONS.contains(&name) {
@@ -72,7 +72,7 @@ fn word(name: &str, value: &Value) -> Result<[String; 2], String> {
     match value {
         Value::String(text) => Ok([format!("--{name}"), text.clone()]),
         Value::Number(number) => Ok([format!("--{name}"), number.to_string()]),
-        _ => Err(format!("parameter `{name}`: expected a number or a text, found {value}")),
+        _ => Err(format!("parameter `{name}`: expected a number or a string, found {value}")),
     }
 }
 
@@ -182,10 +182,10 @@ mod tests {
             assert_eq!(words(name, value).unwrap(), expected);
         }
         assert_eq!(words("io", json!("a.toml")).unwrap(), Vec::<String>::new());
-        assert!(words("robot", json!({"axis": 1})).unwrap_err().contains("stands in quotes"));
+        assert!(words("robot", json!({"axis": 1})).unwrap_err().contains("must be in quotes"));
         assert!(words("pitch", json!(1)).unwrap_err().contains("there is no parameter `pitch`"));
         assert!(words("global.pitch", Value::Null).unwrap_err().contains("null"));
-        assert!(words("override", json!([1])).unwrap_err().contains("expected a number or a text"));
+        assert!(words("override", json!([1])).unwrap_err().contains("expected a number or a string"));
     }
 
     #[test]

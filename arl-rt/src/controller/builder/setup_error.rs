@@ -1,0 +1,120 @@
+//! Why a controller cannot be set up.
+
+use std::fmt;
+
+use crate::context::named::GlobalError;
+use crate::io::DriverError;
+use crate::storage::state::StateError;
+use arl_robot::cell::SettingsError;
+use arl_robot::robot::{Family, RobotError};
+
+/// Why a controller cannot be set up.
+#[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum SetupError {
+    /// The robot is wrong.
+    Robot(RobotError),
+    /// The program was checked for another build of robot.
+    Family {
+        /// The build that the program was checked for.
+        program: Family,
+        /// The robot's name.
+        robot: String,
+        /// The robot's build.
+        family: Family,
+    },
+    /// There are too many channels, or programs for them are not there.
+    Channels(String),
+    /// The cell or the scenario does not fit.
+    Cell(String),
+    /// What the cell has of the outside cannot be had.
+    Outside(String),
+    /// What was kept is damaged.
+    State(StateError),
+    /// The trace cannot be written.
+    Trace(String),
+    /// The robot of a channel cannot be had.
+    Driver {
+        /// The number of the channel, from 1.
+        channel: u8,
+        /// What its driver says.
+        problem: DriverError,
+    },
+    /// The inputs and outputs of an io driver cannot be had; what it says.
+    Io(DriverError),
+    /// A global variable is not there, or does not take its value.
+    Global(GlobalError),
+    /// Whoever sets it up says why not.
+    Other(String),
+}
+
+impl fmt::Display for SetupError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SetupError::Robot(error) => write!(f, "{error}"),
+            SetupError::Family { program, robot, family } => write!(
+                f,
+                "the program was checked for a {} robot, but robot {robot} is a {} one",
+                word(*program),
+                word(*family)
+            ),
+            SetupError::Channels(text)
+            | SetupError::Cell(text)
+            | SetupError::Outside(text)
+            | SetupError::Other(text) => {
+                write!(f, "{text}")
+            }
+            SetupError::Global(error) => write!(f, "{error}"),
+            SetupError::State(error) => write!(f, "{error}"),
+            SetupError::Trace(text) => write!(f, "the trace cannot be written: {text}"),
+            SetupError::Driver { channel, problem } => {
+                write!(f, "the robot of channel {channel} cannot be started: {problem}")
+            }
+            SetupError::Io(problem) => write!(f, "the io driver cannot be started: {problem}"),
+        }
+    }
+}
+
+impl std::error::Error for SetupError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            SetupError::Robot(error) => Some(error),
+            SetupError::State(error) => Some(error),
+            SetupError::Driver { problem, .. } | SetupError::Io(problem) => Some(problem),
+            SetupError::Global(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl From<RobotError> for SetupError {
+    fn from(error: RobotError) -> Self {
+        SetupError::Robot(error)
+    }
+}
+
+impl From<SettingsError> for SetupError {
+    fn from(error: SettingsError) -> Self {
+        SetupError::Cell(error.to_string())
+    }
+}
+
+impl From<String> for SetupError {
+    fn from(why: String) -> Self {
+        SetupError::Other(why)
+    }
+}
+
+impl From<StateError> for SetupError {
+    fn from(error: StateError) -> Self {
+        SetupError::State(error)
+    }
+}
+
+/// The family as robot files spell it.
+pub(super) fn word(family: Family) -> &'static str {
+    match family {
+        Family::SixAxis => "six-axis",
+        Family::Scara => "scara",
+    }
+}
