@@ -70,7 +70,7 @@ const EDITOR: &[&str] = &["framing", "lsp", "dap"];
 
 /// The files and folders of arl-runs, from the ground up.
 const RUNS: &[&str] = &[
-    "texts", "link", "listen", "urdf", "scenery", "plot", "collide", "record", "recorded", "signals", "report",
+    "texts", "link", "listen", "urdf", "scenery", "plot", "collide", "record", "playback", "signals", "report",
     "pendant", "view", "fuzzing",
 ];
 
@@ -82,12 +82,12 @@ const PROJECT: &[&str] = &[
     "robots",
     "options",
     "arl_toml",
-    "trouble",
+    "build_failure",
     "cache",
     "runtime",
     "package",
     "cargo",
-    "several",
+    "cell_programs",
     "stamp",
     "program",
 ];

@@ -105,8 +105,8 @@ pub mod network {
 
 /// Where the messages of programs go.
 pub mod output {
-    pub use crate::context::hearers::Event;
     pub use crate::context::output::{Captured, Message, Output, Stream};
+    pub use crate::context::subscribers::Event;
 }
 
 /// Programs: what the compiler emits, and what Rust programmers write themselves.

@@ -2,11 +2,11 @@
 
 use crate::collisions;
 use arl_lang::files::is_data;
+use arl_project::cell_programs;
 use arl_project::listing::{self, Limit};
 use arl_project::options::Checking;
 use arl_project::program::{bug, check_options};
 use arl_project::robots;
-use arl_project::several;
 use arl_robot::cell::{Cell, fit};
 use arl_terminal::answer;
 use arl_terminal::answer::Format;
@@ -100,7 +100,7 @@ fn check_group<'a>(
 ) -> Result<Checked<'a>, Failure> {
     let options = options(checking)?;
     cell_fits(checking)?;
-    let others = several::named(checking.cell.as_deref(), checking.robot.as_deref())?;
+    let others = cell_programs::named(checking.cell.as_deref(), checking.robot.as_deref())?;
     let mut used = HashSet::new();
     let (programs, modules): (Vec<&PathBuf>, Vec<&PathBuf>) = files.iter().partition(|file| !is_data(file));
     let same =

@@ -266,7 +266,7 @@ fn scenario(path: &Path) -> Result<(), Failure> {
 }
 
 fn folder_of(program: &Path) -> Result<PathBuf, Failure> {
-    let full = arl_project::several::absolute(program)?;
+    let full = arl_project::cell_programs::absolute(program)?;
     Ok(full.parent().map(Path::to_path_buf).unwrap_or_default())
 }
 
@@ -276,5 +276,5 @@ fn robot(name: &str) -> Result<String, Failure> {
 }
 
 fn full(path: &Path) -> Result<String, Failure> {
-    Ok(arl_project::several::absolute(path)?.display().to_string())
+    Ok(arl_project::cell_programs::absolute(path)?.display().to_string())
 }

@@ -2,9 +2,9 @@
 
 use crate::parameters::Parameters;
 use arl_lang::catalog::Base;
+use arl_project::cell_programs;
 use arl_project::options::Checking;
 use arl_project::program::{bug, check_options};
-use arl_project::several;
 use arl_robot::settings::hint_of_many;
 use arl_terminal::failure::Failure;
 use arl2rs::check::type_name;
@@ -89,7 +89,7 @@ fn push_numbers(base: Base, options: &CheckOptions, place: String, all: &mut Vec
 fn settable(main: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Vec<(String, String)>, Failure> {
     let named = |variable: Variable| (stem(&variable.file), variable.name);
     let mut all: Vec<_> = of_program(main, checking)?.into_iter().map(named).collect();
-    for other in several::named(cell, checking.robot.as_deref())? {
+    for other in cell_programs::named(cell, checking.robot.as_deref())? {
         all.extend(of_program(&other.path, &other.checking(checking))?.into_iter().map(named));
     }
     Ok(all)

@@ -1,8 +1,8 @@
 //! Compiling with cargo.
 
+use crate::build_failure;
 use crate::cache::{Lock, Made, remove_made};
 use crate::package;
-use crate::trouble;
 use arl_terminal::failure::Failure;
 use arl_terminal::progress::Progress;
 use arl_terminal::show;
@@ -171,7 +171,7 @@ fn refused(built: &Built, complaints: &str) -> Result<(), Failure> {
     let around: BTreeSet<&str> =
         built.errors.iter().filter(|error| error.file.is_none()).map(|error| error.rendered.as_str()).collect();
     let around = if around.is_empty() { complaints.to_owned() } else { around.into_iter().collect() };
-    if let Some(trouble) = trouble::of(&anstream::adapter::strip_str(&around).to_string()) {
+    if let Some(trouble) = build_failure::of(&anstream::adapter::strip_str(&around).to_string()) {
         return Err(Failure::Other(trouble));
     }
     if built.errors.is_empty() {

@@ -2,8 +2,10 @@
 //! program, with as little work as the changes need.
 
 pub mod arl_toml;
+mod build_failure;
 pub mod cache;
 pub mod cargo;
+pub mod cell_programs;
 pub mod expectations;
 pub mod listing;
 pub mod options;
@@ -12,6 +14,4 @@ pub mod program;
 pub mod program_path;
 pub mod robots;
 pub mod runtime;
-pub mod several;
 pub mod stamp;
-mod trouble;

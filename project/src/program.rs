@@ -2,13 +2,13 @@
 
 use crate::cache::{Cache, Content, Kind, Lock, Place, RECORD, write_if_changed};
 use crate::cargo;
+use crate::cell_programs::{self, Other, absolute};
 use crate::listing;
 use crate::options::Checking;
 use crate::package;
 use crate::package::{Emitted, EmittedOther};
 use crate::robots;
 use crate::runtime::{Runtime, hash_state};
-use crate::several::{self, Other, absolute};
 use crate::stamp::{Freshness, Kept, Recording, Stamp};
 use arl_robot::cell::Cell;
 use arl_robot::outline::Outline;
@@ -91,7 +91,7 @@ impl<'a> Job<'a> {
     /// # Errors
     /// A robot or a cell file cannot be read, or the channels of the cell are none.
     pub fn new(file: &'a Path, cell: Option<&'a Path>, checking: &Checking) -> Result<Self, Failure> {
-        let others = several::named(cell, checking.robot.as_deref())?;
+        let others = cell_programs::named(cell, checking.robot.as_deref())?;
         let with_options = |other: Other| check_options(&other.checking(checking)).map(|options| (other, options));
         Ok(Self {
             file,

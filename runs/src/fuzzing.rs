@@ -6,7 +6,7 @@ use std::path::Path;
 use arl_robot::Robot;
 use serde_json::Value;
 
-use crate::recorded::{self, Store};
+use crate::playback::{self, Store};
 use crate::report::Summary;
 use crate::scenery::{self, stl};
 use crate::urdf;
@@ -17,7 +17,7 @@ const TOPICS: [&str; 8] =
 
 /// A recording: what is read of it can be summed up.
 pub fn recording(bytes: &[u8]) {
-    match recorded::of(&mut &*bytes, bytes.len() as u64) {
+    match playback::of(&mut &*bytes, bytes.len() as u64) {
         Ok(store) => sum_up(&store),
         Err(why) => assert!(!why.is_empty()),
     }

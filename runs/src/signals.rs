@@ -7,9 +7,9 @@ use std::rc::Rc;
 use mcap::McapResult;
 
 use crate::listen::Hears;
+use crate::playback::{Signal, Store};
 use crate::plot::Lane;
 use crate::record::{Recorder, Schema, Sink};
-use crate::recorded::{Signal, Store};
 use crate::scenery::Scenery;
 use arl_wire::Line;
 

@@ -12,7 +12,7 @@ use std::thread;
 
 use crate::beside;
 use crate::junction::junction_memory::JunctionMemory;
-use crate::junction::{Before, Junction, Meeting};
+use crate::junction::{Before, Junction, MotionPair};
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
@@ -130,8 +130,8 @@ impl Prepared {
     }
 
     /// What has been found, or is found now from what is known to be.
-    pub(crate) fn take(&self, robot: &Robot, meeting: impl FnOnce() -> Meeting) -> &Junction {
-        self.0.junction.get_or_init(|| Junction::find(robot, meeting()))
+    pub(crate) fn take(&self, robot: &Robot, pair: impl FnOnce() -> MotionPair) -> &Junction {
+        self.0.junction.get_or_init(|| Junction::find(robot, pair()))
     }
 }
 
@@ -152,15 +152,15 @@ fn begin() -> Option<Channels> {
 
 impl Task {
     fn run(&mut self, memory: &mut JunctionMemory) {
-        let meeting = || {
+        let pair = || {
             let before = match &self.joining {
                 Joining::Known(before) => before.clone(),
                 Joining::Behind(first) => first.junction().and_then(Junction::leaves),
             };
-            Meeting { before, from: Arc::clone(&self.from), to: Arc::clone(&self.to) }
+            MotionPair { before, from: Arc::clone(&self.from), to: Arc::clone(&self.to) }
         };
         // What goes wrong here goes wrong in the cycle again, where somebody hears of it.
-        let find = || self.result.0.junction.get_or_init(|| memory.recall(&self.robot, meeting()));
+        let find = || self.result.0.junction.get_or_init(|| memory.recall(&self.robot, pair()));
         match catch_unwind(AssertUnwindSafe(find)) {
             Ok(_) => self.forgotten = memory.remember(&self.robot, &self.result),
             Err(_) => self.result.leave(),

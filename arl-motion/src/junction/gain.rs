@@ -15,7 +15,7 @@ use crate::plan::motion::Motion;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
 use crate::time_optimal::law_memory::key;
 use crate::time_optimal::law_solver_thread::fastest_duration;
-use crate::time_optimal::solver::Edge;
+use crate::time_optimal::solver::BoundaryState;
 use arl_robot::robot::Robot;
 
 /// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart,
@@ -136,8 +136,9 @@ fn fastest_along(robot: &Robot, segments: impl IntoIterator<Item = Segment>, sta
     let part = Part { from: 0, count: way.len(), segments: way };
     let sampler = ConstraintSampler::new(&Arc::new(robot.clone()), part, 0.0, (end, true), (0.0, start));
     // Where there is too much to be seen, it would end before.
-    let prospect = sampler.look(end, 1.0, Edge::REST, Edge::REST).filter(|prospect| prospect.end >= end)?;
-    let key = key(&prospect.way, Edge::REST, None);
+    let prospect =
+        sampler.look(end, 1.0, BoundaryState::REST, BoundaryState::REST).filter(|prospect| prospect.end >= end)?;
+    let key = key(&prospect.way, BoundaryState::REST, None);
     if let Some(known) = KNOWN.with_borrow(|known| known.get(&key).copied()) {
         return known;
     }

@@ -7,7 +7,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use crate::junction::blend_thread::Prepared;
-use crate::junction::{Junction, Meeting};
+use crate::junction::{Junction, MotionPair};
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
@@ -30,23 +30,23 @@ struct Remembered {
 
 impl JunctionMemory {
     /// The junction of a meeting, which is found if none is known.
-    pub(crate) fn recall(&self, robot: &Arc<Robot>, meeting: Meeting) -> Junction {
-        let fingerprint = fingerprint(&meeting);
+    pub(crate) fn recall(&self, robot: &Arc<Robot>, pair: MotionPair) -> Junction {
+        let fingerprint = fingerprint(&pair);
         let mut alike = self.known.iter().filter(|known| known.fingerprint == fingerprint && known.robot == *robot);
-        let known = alike.find_map(|known| known.prepared.junction().filter(|junction| junction.meeting == meeting));
+        let known = alike.find_map(|known| known.prepared.junction().filter(|junction| junction.pair == pair));
         match known {
-            Some(known) => known.of(meeting),
-            None => Junction::find(robot, meeting),
+            Some(known) => known.of(pair),
+            None => Junction::find(robot, pair),
         }
     }
 
     /// Remembers what was found; returns what is forgotten for that.
     pub(crate) fn remember(&mut self, robot: &Arc<Robot>, prepared: &Prepared) -> Option<Prepared> {
         let junction = prepared.junction()?;
-        let fingerprint = fingerprint(&junction.meeting);
+        let fingerprint = fingerprint(&junction.pair);
         let is_same = |known: &Remembered| {
             known.fingerprint == fingerprint
-                && known.prepared.junction().is_some_and(|known| known.meeting == junction.meeting)
+                && known.prepared.junction().is_some_and(|known| known.pair == junction.pair)
         };
         let forgotten = match self.known.iter().position(is_same) {
             Some(same) => self.known.remove(same),
@@ -59,8 +59,8 @@ impl JunctionMemory {
 }
 
 /// Of where the motions of a meeting start and end.
-fn fingerprint(meeting: &Meeting) -> u64 {
-    let Meeting { from, to, .. } = meeting;
+fn fingerprint(pair: &MotionPair) -> u64 {
+    let MotionPair { from, to, .. } = pair;
     let mut hasher = DefaultHasher::new();
     let mut note = |motion: &Motion| {
         for joints in [&motion.start, &motion.end] {
@@ -84,7 +84,7 @@ mod tests {
     use crate::tests::{axes, command};
 
     /// Two motions of the axes with a zone between them, planned anew, the second one at a share of the speed.
-    fn meeting(robot: &Robot, percent: f64) -> Meeting {
+    fn pair(robot: &Robot, percent: f64) -> MotionPair {
         let [start, corner, end] = [
             [0.0, -90.0, 90.0, 0.0, 45.0, 0.0],
             [20.0, -80.0, 80.0, 10.0, 60.0, 0.0],
@@ -97,17 +97,17 @@ mod tests {
             let speed = Speed { percent, ..plain.speed };
             Arc::new(plan(robot, from, &Command { zone, speed, ..plain }, &Settings::default()).unwrap())
         };
-        Meeting { before: None, from: motion(&start, corner, 50.0), to: motion(&corner, end, percent) }
+        MotionPair { before: None, from: motion(&start, corner, 50.0), to: motion(&corner, end, percent) }
     }
 
     #[test]
     fn the_same_is_found_once_and_everything_counts() {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
         let mut memory = JunctionMemory::default();
-        let mut blends = |meeting: Meeting, robot: &Arc<Robot>| {
+        let mut blends = |pair: MotionPair, robot: &Arc<Robot>| {
             let before = FOUND_HERE.get();
-            let [from, to] = [&meeting.from, &meeting.to].map(Arc::clone);
-            let prepared = Prepared::from(memory.recall(robot, meeting));
+            let [from, to] = [&pair.from, &pair.to].map(Arc::clone);
+            let prepared = Prepared::from(memory.recall(robot, pair));
             memory.remember(robot, &prepared);
             let junction = prepared.junction().unwrap();
             assert!(junction.is_of(&from, &to));
@@ -115,12 +115,12 @@ mod tests {
             assert!(Arc::ptr_eq(&blended.from, &from) && Arc::ptr_eq(&blended.to, &to));
             (FOUND_HERE.get() - before, blended.blend.clone())
         };
-        let (found, first) = blends(meeting(&robot, 50.0), &robot);
+        let (found, first) = blends(pair(&robot, 50.0), &robot);
         assert!(found > 0);
-        assert_eq!(blends(meeting(&robot, 50.0), &robot), (0, first));
-        assert!(blends(meeting(&robot, 40.0), &robot).0 > 0);
-        let bent = Meeting { before: Some((meeting(&robot, 50.0).from, MidCurvature::NONE)), ..meeting(&robot, 50.0) };
-        assert!(memory.known.iter().all(|known| known.prepared.junction().unwrap().meeting != bent));
+        assert_eq!(blends(pair(&robot, 50.0), &robot), (0, first));
+        assert!(blends(pair(&robot, 40.0), &robot).0 > 0);
+        let bent = MotionPair { before: Some((pair(&robot, 50.0).from, MidCurvature::NONE)), ..pair(&robot, 50.0) };
+        assert!(memory.known.iter().all(|known| known.prepared.junction().unwrap().pair != bent));
         let mut slower = Robot::clone(&robot).into_description();
         slower.axes[0].vel *= 0.9;
         let slower = Arc::new(Robot::new(slower).unwrap());
@@ -134,11 +134,11 @@ mod tests {
         for index in 0..MOST_JUNCTIONS + 2 {
             // The same one again takes no place.
             let percent = if index == 1 { 10.0 } else { 10.0 + index as f64 / 4.0 };
-            let meeting = meeting(&robot, percent);
-            memory.remember(&robot, &Prepared::from(memory.recall(&robot, meeting)));
+            let pair = pair(&robot, percent);
+            memory.remember(&robot, &Prepared::from(memory.recall(&robot, pair)));
         }
         assert_eq!(memory.known.len(), MOST_JUNCTIONS);
         let first = memory.known.front().unwrap().prepared.junction().unwrap();
-        assert!(first.meeting == meeting(&robot, 10.0 + 2.0 / 4.0));
+        assert!(first.pair == pair(&robot, 10.0 + 2.0 / 4.0));
     }
 }

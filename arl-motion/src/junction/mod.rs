@@ -22,7 +22,7 @@ pub(crate) type Before = Option<(Arc<Motion>, MidCurvature)>;
 
 /// What a junction depends on.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Meeting {
+pub(crate) struct MotionPair {
     pub(crate) before: Before,
     pub(crate) from: Arc<Motion>,
     pub(crate) to: Arc<Motion>,
@@ -31,7 +31,7 @@ pub(crate) struct Meeting {
 /// What there is to know of a place where two motions meet.
 #[derive(Debug)]
 pub(crate) struct Junction {
-    meeting: Meeting,
+    pair: MotionPair,
     curved: Option<CurvedBlends>,
     /// Only looked for where nothing is bent.
     blended: Option<Result<Blended, NoBlend>>,
@@ -71,46 +71,46 @@ const BY_LAWS: IsSlower = &|stopping: &Stopping, blend: &Blend| stopping.is_fast
 
 impl Junction {
     /// Finds it.
-    pub(crate) fn find(robot: &Robot, meeting: Meeting) -> Self {
-        Self::find_by(robot, meeting, BY_LAWS)
+    pub(crate) fn find(robot: &Robot, pair: MotionPair) -> Self {
+        Self::find_by(robot, pair, BY_LAWS)
     }
 
     /// Finds it where that takes no time laws, which take long to find.
-    pub(crate) fn find_quickly(robot: &Robot, meeting: Meeting) -> Option<Self> {
+    pub(crate) fn find_quickly(robot: &Robot, pair: MotionPair) -> Option<Self> {
         let is_doubtful = Cell::new(false);
         let doubts = |stopping: &Stopping, blend: &Blend| {
             is_doubtful.set(is_doubtful.get() || stopping.doubts(blend));
             false
         };
-        let found = Self::find_by(robot, meeting, &doubts);
+        let found = Self::find_by(robot, pair, &doubts);
         (!is_doubtful.get()).then_some(found)
     }
 
-    fn find_by(robot: &Robot, meeting: Meeting, is_slower: IsSlower) -> Self {
-        let Meeting { before, from, to } = &meeting;
+    fn find_by(robot: &Robot, pair: MotionPair, is_slower: IsSlower) -> Self {
+        let MotionPair { before, from, to } = &pair;
         let curved =
             before.as_ref().and_then(|(before, start)| find_curved(robot, before, *start, [from, to], is_slower));
         let blended = curved.is_none().then(|| find_blended(robot, [from, to], is_slower));
-        Self { meeting, curved, blended }
+        Self { pair, curved, blended }
     }
 
     /// The same of a meeting that is the same.
-    fn of(&self, meeting: Meeting) -> Self {
+    fn of(&self, pair: MotionPair) -> Self {
         let own = |motion: &Arc<Motion>| {
-            let pairs = [(&self.meeting.from, &meeting.from), (&self.meeting.to, &meeting.to)];
+            let pairs = [(&self.pair.from, &pair.from), (&self.pair.to, &pair.to)];
             let same = pairs.into_iter().find(|(known, _)| Arc::ptr_eq(known, motion));
             Arc::clone(same.map_or(motion, |(_, own)| own))
         };
         let with_own =
             |blended: &Blended| Blended { from: own(&blended.from), to: own(&blended.to), ..blended.clone() };
         let blended = self.blended.as_ref().map(|blended| blended.as_ref().map(with_own).map_err(NoBlend::clone));
-        Self { curved: self.curved.clone(), blended, meeting }
+        Self { curved: self.curved.clone(), blended, pair }
     }
 
     /// What it leaves to the next one, if it is laid as it was found.
     pub(crate) fn leaves(&self) -> Before {
         match (&self.curved, &self.blended) {
-            (Some(curved), _) => Some((Arc::clone(&self.meeting.from), curved.curvature)),
+            (Some(curved), _) => Some((Arc::clone(&self.pair.from), curved.curvature)),
             (None, Some(Ok(blended))) => blended.leaves(),
             (None, _) => None,
         }
@@ -118,7 +118,7 @@ impl Junction {
 
     /// Whether it is of these motions.
     fn is_of(&self, from: &Arc<Motion>, to: &Arc<Motion>) -> bool {
-        Arc::ptr_eq(&self.meeting.from, from) && Arc::ptr_eq(&self.meeting.to, to)
+        Arc::ptr_eq(&self.pair.from, from) && Arc::ptr_eq(&self.pair.to, to)
     }
 }
 
@@ -132,7 +132,7 @@ pub(crate) fn curved(
     let known = known.filter(|known| {
         let same =
             |(motion, curvature): &(Arc<Motion>, MidCurvature)| Arc::ptr_eq(motion, before) && *curvature == start;
-        known.is_of(from, to) && known.meeting.before.as_ref().is_some_and(same)
+        known.is_of(from, to) && known.pair.before.as_ref().is_some_and(same)
     });
     match known {
         Some(known) => known.curved.clone(),

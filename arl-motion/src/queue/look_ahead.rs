@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::blend::zone::asks;
 use crate::junction::blend_thread::{Joining, Prepared};
-use crate::junction::{Junction, Meeting};
+use crate::junction::{Junction, MotionPair};
 use crate::plan::motion::Motion;
 use crate::queue::path_buffer::limit_rise;
 use crate::queue::{LOOK_AHEAD_S, Queue};
@@ -213,8 +213,8 @@ impl Queue {
         let is_blocked = self.layer.waiting.first().is_some_and(is_late);
         let waits = is_blocked || self.layer.path.is_asking() || self.layer.path.is_laid_down();
         if is_led && hurries && is_blended && !waits {
-            let meeting = Meeting { before: self.layer.path.before(), from: Arc::clone(last), to: Arc::clone(motion) };
-            match Junction::find_quickly(&self.robot, meeting) {
+            let pair = MotionPair { before: self.layer.path.before(), from: Arc::clone(last), to: Arc::clone(motion) };
+            match Junction::find_quickly(&self.robot, pair) {
                 Some(junction) => return (0, Some(junction.into())),
                 None => hurries = false,
             }
@@ -249,7 +249,7 @@ impl Queue {
     /// Whether a robot at rest waits one more cycle because motions come, or blends are being found, that laws can then
     /// lead along from the start: a law in hand would have to be found anew for each of them, and the last ones might
     /// come too late.
-    pub(crate) fn gathers(&mut self, cycle: f64) -> bool {
+    pub(crate) fn waits_for_motion(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
         let is_open = || self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
         let comes_more = || !self.layer.concluded && is_open();
@@ -257,10 +257,10 @@ impl Queue {
         let comes = || self.taken.count > 0 && comes_more();
         // No law leads along motions before their blends are found.
         let waits = || !(self.layer.waiting.is_empty() || path.is_asking());
-        let may = self.gathered < longest && path.rests() && path.wants_laws() && path.time_left() < enough;
-        let gathers = may && (comes() || waits());
-        self.gathered = if gathers { self.gathered + cycle } else { 0.0 };
-        gathers
+        let may = self.waited_for_motion < longest && path.rests() && path.wants_laws() && path.time_left() < enough;
+        let waits_for_motion = may && (comes() || waits());
+        self.waited_for_motion = if waits_for_motion { self.waited_for_motion + cycle } else { 0.0 };
+        waits_for_motion
     }
 
     /// A cycle begins.

@@ -102,7 +102,7 @@ pub struct Queue {
     /// How long the robot has stood still, in s, for a motion that is held back.
     waited: f64,
     /// How long it has stood still, in s, while motions came.
-    gathered: f64,
+    waited_for_motion: f64,
     broken: Option<PlanError>,
     /// What was laid on the way, where somebody watches.
     laid: Option<Vec<LaidMotion>>,
@@ -158,7 +158,7 @@ impl Queue {
             taken: Done::default(),
             spare: None,
             waited: 0.0,
-            gathered: 0.0,
+            waited_for_motion: 0.0,
             broken: None,
             laid: None,
             slowed: (1.0, 0),
@@ -468,13 +468,13 @@ impl Queue {
     pub fn step(&mut self, cycle: Cycle, speed_override: Override) -> Step {
         let dt = cycle.period();
         self.cycle = dt;
-        let gathers = self.gathers(dt);
+        let waits_for_motion = self.waits_for_motion(dt);
         self.count_cycle();
         self.left.clear();
         let before = self.joints;
         let speed = speed_override.percent() / 100.0;
         let pacing = self.choose_pacing(speed);
-        let (motion, line) = if gathers { self.stand() } else { self.advance(dt, speed, pacing) };
+        let (motion, line) = if waits_for_motion { self.stand() } else { self.advance(dt, speed, pacing) };
         self.take_answer();
         self.lay_waiting();
         self.end_empty();
@@ -524,7 +524,7 @@ impl Queue {
             None if speed > 0.0 => Pacing::Go(speed),
             None => Pacing::Stop(1.0),
         };
-        let is_hard = matches!(pacing, Pacing::Stop(harder) if harder > 1.0);
+        let is_hard = matches!(pacing, Pacing::Stop(stop_scale) if stop_scale > 1.0);
         self.braking_hard = !self.layer.path.rests() && (self.braking_hard || is_hard);
         if self.braking_hard { Pacing::Stop(FAST_STOP_FACTOR) } else { pacing }
     }

@@ -391,16 +391,21 @@ impl Recorder {
         self.smooth = if record.jerks { self.smooth + 1 } else { 0 };
         self.plain = if queue.hardness() > 1.0 { 0 } else { self.plain + 1 };
         let derivatives = if self.smooth >= DERIVATIVES { DERIVATIVES } else { DERIVATIVES - 1 };
-        let harder = if self.plain >= DERIVATIVES { 1.0 } else { FAST_STOP_FACTOR };
+        let stop_scale = if self.plain >= DERIVATIVES { 1.0 } else { FAST_STOP_FACTOR };
         for (at, axis) in self.robot.axes.iter().enumerate() {
             let column = column_of(&self.robot, at);
             let rates = axes.map(|rates| rates.get(column).copied().unwrap_or_default());
-            record.axes.raise(Limited::Axis(at), rates, [axis.vel, axis.acc * harder, axis.jerk * harder], derivatives);
+            record.axes.raise(
+                Limited::Axis(at),
+                rates,
+                [axis.vel, axis.acc * stop_scale, axis.jerk * stop_scale],
+                derivatives,
+            );
         }
         if record.along_tool {
             let (tcp, known) = (&self.robot.tcp, tool.known.min(derivatives));
-            record.tool.raise(Limited::Tcp, tool.moving, [tcp.vel, tcp.acc * harder, tcp.jerk * harder], known);
-            let limits = [tcp.ori_vel, tcp.ori_acc * harder, tcp.ori_jerk * harder];
+            record.tool.raise(Limited::Tcp, tool.moving, [tcp.vel, tcp.acc * stop_scale, tcp.jerk * stop_scale], known);
+            let limits = [tcp.ori_vel, tcp.ori_acc * stop_scale, tcp.ori_jerk * stop_scale];
             record.tool.raise(Limited::Turning, tool.turning, limits, known);
         }
         let within = Speeds { tcp: tool.moving[0].abs(), turning: tool.turning[0].abs(), axes: axes[0] };

@@ -7,7 +7,7 @@ use crate::junction::{Blended, blended};
 use crate::plan::planner::plan;
 use crate::tests::*;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
-use crate::time_optimal::solver::Edge;
+use crate::time_optimal::solver::BoundaryState;
 
 /// Corner points around a reachable place, and their lines with a zone.
 fn corner_run(robot: &Arc<Robot>, points: &[[f64; 3]], zone: Zone, tcp: f64) -> (Vec<Step>, Frame) {
@@ -283,7 +283,7 @@ fn a_law_looks_at_both_sides_of_a_place_only_where_derivatives_jump() {
     let near = from.curve.joints(&robot.kinematics, blend.leave, &from.end);
     let part = Part { segments, from: 0, count: 2 };
     let sampler = ConstraintSampler::new(&robot, part, 0.0, (end, true), (0.0, &near));
-    let way = sampler.look(end, 1.0, Edge { vel: 0.5, acc: 0.0 }, Edge::REST).unwrap().way;
+    let way = sampler.look(end, 1.0, BoundaryState { vel: 0.5, acc: 0.0 }, BoundaryState::REST).unwrap().way;
     let jumps = (0..way.places().len()).filter(|index| way.jumps(*index)).count();
     // Between the parts, and at the end.
     assert_eq!((jumps, way.places().len() > 3 * (jumps - 1)), (Parametrization::PARTS, true), "{}", way.places().len());

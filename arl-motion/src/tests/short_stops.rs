@@ -116,8 +116,8 @@ fn go_on(queue: &mut Queue, cycles: f64) -> Vec<Step> {
     rows
 }
 
-/// Goes on to the end, which is where it should be, within all limits, those of acceleration and jerk times `harder`.
-fn ends_well(robot: &Robot, queue: &mut Queue, mut rows: Vec<Step>, profile: VelocityProfile, harder: f64) {
+/// Goes on to the end, which is where it should be, within all limits, those of acceleration and jerk times `stop_scale`.
+fn ends_well(robot: &Robot, queue: &mut Queue, mut rows: Vec<Step>, profile: VelocityProfile, stop_scale: f64) {
     queue.resume();
     let count = rows.len();
     while !queue.idle() {
@@ -125,7 +125,7 @@ fn ends_well(robot: &Robot, queue: &mut Queue, mut rows: Vec<Step>, profile: Vel
         assert!(rows.len() < count + 200_000, "it does not end");
     }
     let used = usage(robot, &rows);
-    let [vel, acc, jerk] = [used[0], used[1] / harder, used[2] / harder];
+    let [vel, acc, jerk] = [used[0], used[1] / stop_scale, used[2] / stop_scale];
     let smooth = jerk <= 1.01 || profile == VelocityProfile::T;
     assert!(vel <= 1.01 && acc <= 1.01 && smooth, "{profile:?}: speed, acceleration, jerk used {used:?}");
     assert_eq!(values(robot, &rows.last().unwrap().joints), values(robot, queue.end()));

@@ -7,7 +7,7 @@ use crate::follow::segment::{LedTool, Segment};
 use crate::follow::shared_deque::SharedDeque;
 use crate::limits::constant::Constraint;
 use crate::plan::constraints::{Constraints, PathLimits};
-use crate::time_optimal::solver::{Edge, Row, Way, guess_steps, places, thinned};
+use crate::time_optimal::solver::{BoundaryState, Row, Way, guess_steps, places, thinned};
 use arl_robot::robot::Robot;
 
 /// The longest time, in s, between two places, nominal or as far as that can be guessed, and how many places there are
@@ -89,7 +89,7 @@ pub(crate) struct ConstraintSampler {
 }
 
 /// A part of the path that is ready to be timed.
-pub(crate) struct Prospect {
+pub(crate) struct SampledPath {
     pub(crate) way: Way,
     /// The same without places that are closer together in time than set-points show, if there are any.
     pub(crate) thinned: Option<Way>,
@@ -144,19 +144,25 @@ impl ConstraintSampler {
     }
 
     /// The way to `to`, with `density` times as many places as it takes mostly.
-    pub(crate) fn look(&self, to: f64, density: f64, start: Edge, end: Edge) -> Option<Prospect> {
+    pub(crate) fn look(&self, to: f64, density: f64, start: BoundaryState, end: BoundaryState) -> Option<SampledPath> {
         self.look_at(to, (density, MOST_PLACES), [start, end], None)
     }
 
     /// The same where the parameter goes at about this speed, in the mean.
-    pub(crate) fn look_at_speed(&self, to: f64, density: f64, edges: [Edge; 2], speed: f64) -> Option<Prospect> {
+    pub(crate) fn look_at_speed(
+        &self,
+        to: f64,
+        density: f64,
+        edges: [BoundaryState; 2],
+        speed: f64,
+    ) -> Option<SampledPath> {
         self.look_at(to, (density, MOST_PLACES), edges, Some((to - self.at) / speed))
     }
 
     /// A short part of the path from rest on, up to `to` at most, at a few places.
-    pub(crate) fn sample_short_part(&self, to: f64) -> Option<Prospect> {
-        let end = if to < self.end { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST };
-        self.look_at(to.min(self.end), (COARSE_DENSITY, MOST_COARSE_PLACES), [Edge::REST, end], None)
+    pub(crate) fn sample_short_part(&self, to: f64) -> Option<SampledPath> {
+        let end = if to < self.end { BoundaryState { vel: 1.0, acc: 0.0 } } else { BoundaryState::REST };
+        self.look_at(to.min(self.end), (COARSE_DENSITY, MOST_COARSE_PLACES), [BoundaryState::REST, end], None)
     }
 
     /// Goes along the path by itself.
@@ -169,9 +175,9 @@ impl ConstraintSampler {
         &self,
         mut to: f64,
         fineness: (f64, usize),
-        edges: [Edge; 2],
+        edges: [BoundaryState; 2],
         mut duration: Option<f64>,
-    ) -> Option<Prospect> {
+    ) -> Option<SampledPath> {
         let is_fine = fineness.0 >= 1.0;
         for _ in 0..MOST_SHORTENINGS {
             match self.walk(to, duration.unwrap_or_default(), fineness, edges) {
@@ -191,7 +197,7 @@ impl ConstraintSampler {
                     }
                     let closest = if way.limits_jerk() { CLOSEST_S } else { CLOSEST_WITHOUT_JERK_LIMITS_S };
                     let thinned = if is_fine && !many { thinned(&way, &steps, closest / fineness.0) } else { None };
-                    return Some(Prospect { way, thinned, end: to });
+                    return Some(SampledPath { way, thinned, end: to });
                 }
                 Err(reached) => {
                     let shorter = self.at + 0.8 * (reached - self.at);
@@ -210,7 +216,7 @@ impl ConstraintSampler {
         to: f64,
         duration: f64,
         (density, most): (f64, usize),
-        [start, end]: [Edge; 2],
+        [start, end]: [BoundaryState; 2],
     ) -> Result<(Way, bool), f64> {
         let count = (density * even_places(duration.max(to - self.at))) as usize;
         let spacing = (to - self.at) / count as f64;
@@ -263,7 +269,7 @@ impl ConstraintSampler {
     }
 
     /// How far apart places may be where it begins, and where segments meet if there are not too many.
-    fn grades(&self, spacing: f64, start: Edge, many: bool) -> Vec<Grade> {
+    fn grades(&self, spacing: f64, start: BoundaryState, many: bool) -> Vec<Grade> {
         // What begins slowly goes no farther from place to place at first than it takes time.
         let slow = if start.vel > 0.0 { spacing * start.vel.clamp(SLOWEST_START, 1.0) } else { spacing };
         let mut grades = vec![Grade { at: self.at, spacing: slow }];

@@ -15,11 +15,11 @@
 use std::sync::Arc;
 
 use crate::limits::profile::State;
-use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
+use crate::time_optimal::constraint_sampler::{ConstraintSampler, SampledPath};
 use crate::time_optimal::law_solver_thread::Found;
 use crate::time_optimal::limit_check::{LimitCheck, Timed};
 use crate::time_optimal::ramp::Ramp;
-use crate::time_optimal::solver::{Edge, Law, Moment};
+use crate::time_optimal::solver::{BoundaryState, Law, Moment};
 use crate::time_optimal::speed_scaling::{SpeedScaling, followed};
 
 /// A law of which a smaller part is left is made longer when there is more path.
@@ -74,10 +74,10 @@ impl Drive {
     }
 
     /// A change of the share of its speed, from one with two derivatives, that keeps the limits, within `longest` s.
-    fn easing(&self, shares: [f64; 3], to: f64, harder: f64, longest: f64) -> Option<Easing> {
+    fn easing(&self, shares: [f64; 3], to: f64, stop_scale: f64, longest: f64) -> Option<Easing> {
         SCALING_DURATIONS_S.iter().take_while(|duration| **duration <= longest).find_map(|duration| {
             let easing = Easing { scaling: SpeedScaling::new(shares, to, *duration), time: 0.0, from: self.time };
-            self.found.check.keeps(&Eased { law: &self.found.law, easing }, harder).then_some(easing)
+            self.found.check.keeps(&Eased { law: &self.found.law, easing }, stop_scale).then_some(easing)
         })
     }
 }
@@ -155,7 +155,7 @@ pub(crate) struct LawFollower {
     /// The same for a shorter stop than the one in hand.
     stop_pause: f64,
     /// How hard it brakes, where it does.
-    harder: f64,
+    stop_scale: f64,
     /// Whether there is no shorter way to rest than the one in hand.
     shortest: bool,
     /// Whether it last set off in vain.
@@ -166,7 +166,7 @@ pub(crate) struct LawFollower {
 pub(crate) struct RenewalRequest {
     /// Where, in s of nominal time.
     pub(crate) at: f64,
-    pub(crate) start: Edge,
+    pub(crate) start: BoundaryState,
     /// The law that leads there.
     pub(crate) law: Option<Arc<Law>>,
     /// The share of its speed at which the law will be followed.
@@ -179,7 +179,7 @@ pub(crate) struct RenewalRequest {
 pub(crate) struct StopRequest {
     /// Where, in s of nominal time.
     pub(crate) at: f64,
-    pub(crate) start: Edge,
+    pub(crate) start: BoundaryState,
     /// How far it is to rest, if the limits there hold on, and where it has to rest at the farthest.
     pub(crate) about: f64,
     pub(crate) end: f64,
@@ -249,10 +249,10 @@ impl Ahead {
 }
 
 impl LawFollower {
-    /// One that leads to rest, where the limits are those of the way times `harder`.
-    pub(crate) fn resting(found: Found, harder: f64) -> Self {
+    /// One that leads to rest, where the limits are those of the way times `stop_scale`.
+    pub(crate) fn resting(found: Found, stop_scale: f64) -> Self {
         let ahead = Ahead { ramp: Some(Ramp::along(found)), share: 1.0, ..Ahead::default() };
-        Self { ahead, harder, shortest: true, ..Self::default() }
+        Self { ahead, stop_scale, shortest: true, ..Self::default() }
     }
 
     /// Whether it stands still.
@@ -314,13 +314,13 @@ impl LawFollower {
         }
         let start = State { at: sampler.at, ..State::default() };
         let glimpsed = sampler.sample_short_part(sampler.at + SETTING_OFF_LOOK_FACTOR * time);
-        let ramp = glimpsed.and_then(|Prospect { way, end, .. }| {
+        let ramp = glimpsed.and_then(|SampledPath { way, end, .. }| {
             let mut ramp = Ramp::setting_off(start, &Arc::new(LimitCheck::new(way)), end, share, time)?;
             ramp.arrives = sampler.stops && sampler.end - ramp.end <= NO_TIME_S;
             // It must not rest on its path before the law is there.
             (ramp.arrives || ramp.duration() > time).then_some(ramp)
         });
-        (self.harder, self.pause) = (0.0, 0.0);
+        (self.stop_scale, self.pause) = (0.0, 0.0);
         self.ahead = Ahead { ramp, share, ..Ahead::default() };
     }
 
@@ -333,7 +333,7 @@ impl LawFollower {
             let share = now.vel / there.vel;
             let shares = [share, (now.acc - share * share * there.acc) / there.vel, 0.0];
             let main = Drive { found, time };
-            let join = |harder: f64| main.easing(shares, self.ahead.share, harder, f64::INFINITY);
+            let join = |stop_scale: f64| main.easing(shares, self.ahead.share, stop_scale, f64::INFINITY);
             let easing = join(JOINING_SHARE_OF_LIMITS).or_else(|| join(1.0))?;
             Some(Ahead { main: Some(main), share: self.ahead.share, easing: Some(easing), ramp: None })
         });
@@ -370,7 +370,7 @@ impl LawFollower {
         let there = main.found.law.at(main.time);
         (there.vel > 0.0).then_some(RenewalRequest {
             at: there.at,
-            start: Edge { vel: there.vel, acc: there.acc },
+            start: BoundaryState { vel: there.vel, acc: there.acc },
             law: Some(Arc::clone(&main.found.law)),
             share: then.share,
             cycles,
@@ -387,7 +387,11 @@ impl LawFollower {
             return None;
         }
         let State { at, vel, acc } = then.unwrap_or(State { at: end, vel: 0.0, acc: 0.0 });
-        let start = if then.is_some() { Edge { vel: vel / share, acc: acc / (share * share) } } else { Edge::REST };
+        let start = if then.is_some() {
+            BoundaryState { vel: vel / share, acc: acc / (share * share) }
+        } else {
+            BoundaryState::REST
+        };
         Some(RenewalRequest { at, start, law: None, share, cycles })
     }
 
@@ -445,7 +449,7 @@ impl LawFollower {
         if let Some(easing) = main.easing(self.ahead.shares(), share, 1.0, QUICK_SCALING_S) {
             self.ahead.easing = Some(easing);
         } else if let Some(ramp) = self.ahead.state().filter(|_| is_new || too_fast).and_then(slower) {
-            (self.ahead.ramp, self.harder, self.pause) = (Some(ramp), 0.0, 0.0);
+            (self.ahead.ramp, self.stop_scale, self.pause) = (Some(ramp), 0.0, 0.0);
         } else {
             self.share_pause = RETRY_AFTER_S;
             if is_new {
@@ -455,10 +459,10 @@ impl LawFollower {
         }
     }
 
-    /// Brakes to rest, where the limits are those of the way times `harder`, as can be done at once; returns whether
+    /// Brakes to rest, where the limits are those of the way times `stop_scale`, as can be done at once; returns whether
     /// that is something new. There may be a shorter stop then: [`LawFollower::request_stop`].
-    pub(crate) fn brake(&mut self, harder: f64) -> bool {
-        if (self.brakes() && harder <= self.harder) || (self.stop_pause > 0.0 && harder <= 1.0) {
+    pub(crate) fn brake(&mut self, stop_scale: f64) -> bool {
+        if (self.brakes() && stop_scale <= self.stop_scale) || (self.stop_pause > 0.0 && stop_scale <= 1.0) {
             return false;
         }
         let Some((now, check, end)) =
@@ -466,14 +470,14 @@ impl LawFollower {
         else {
             return false;
         };
-        let ramp = Ramp::hardest(now, check, end, harder);
+        let ramp = Ramp::hardest(now, check, end, stop_scale);
         let longest = ramp.as_ref().map_or(f64::INFINITY, Ramp::left);
         // Where the law ends as soon, rounding must not end the ramp just before it.
         if self.arrives_in() <= longest + SAME_STOP_S {
             return false;
         }
         let easing = match &self.ahead {
-            Ahead { ramp: None, main: Some(main), .. } => main.easing(self.ahead.shares(), 0.0, harder, longest),
+            Ahead { ramp: None, main: Some(main), .. } => main.easing(self.ahead.shares(), 0.0, stop_scale, longest),
             _ => None,
         };
         let found = easing.is_some() || ramp.is_some();
@@ -483,31 +487,36 @@ impl LawFollower {
         }
         self.shortest = false;
         if found {
-            self.harder = harder;
+            self.stop_scale = stop_scale;
         }
         self.stop_pause = 0.0;
         found
     }
 
     /// The state after so many cycles for a shorter stop, if there may be one.
-    pub(crate) fn request_stop(&self, cycles: u32, cycle: f64, harder: f64) -> Option<StopRequest> {
-        let known = self.shortest && harder <= self.harder;
+    pub(crate) fn request_stop(&self, cycles: u32, cycle: f64, stop_scale: f64) -> Option<StopRequest> {
+        let known = self.shortest && stop_scale <= self.stop_scale;
         if known || self.stop_pause > 0.0 || self.stop_left() < LONG_STOP_S {
             return None;
         }
         let State { at, vel, acc } = self.after(cycles, cycle).state()?;
         let (check, end) = self.ahead.limits()?;
         let start = State { at, vel, acc };
-        let about = Ramp::way(start, check, harder);
-        (vel > 0.0 && about > 0.0 && at < end).then_some(StopRequest { at, start: Edge { vel, acc }, about, end })
+        let about = Ramp::way(start, check, stop_scale);
+        (vel > 0.0 && about > 0.0 && at < end).then_some(StopRequest {
+            at,
+            start: BoundaryState { vel, acc },
+            about,
+            end,
+        })
     }
 
     /// Takes over the stop for which there was a [`LawFollower::request_stop`] so many cycles ago, if it is shorter.
-    pub(crate) fn stop_along(&mut self, found: Option<Found>, harder: f64) {
+    pub(crate) fn stop_along(&mut self, found: Option<Found>, stop_scale: f64) {
         match found.filter(|found| found.law.duration() < self.stop_left() - LEAST_GAIN_S) {
             Some(found) => {
                 self.ahead.ramp = Some(Ramp::along(found));
-                (self.harder, self.shortest) = (harder, true);
+                (self.stop_scale, self.shortest) = (stop_scale, true);
             }
             None => {
                 // Where nothing leads to rest soon, another attempt is made.

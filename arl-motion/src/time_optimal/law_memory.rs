@@ -11,7 +11,7 @@ use std::hash::Hasher;
 use std::sync::Arc;
 
 use crate::time_optimal::constraint_sampler::ConstraintSampler;
-use crate::time_optimal::solver::{Edge, Law, Way};
+use crate::time_optimal::solver::{BoundaryState, Law, Way};
 
 /// So many stretches are remembered of all laws together, of 80 bytes each.
 const MOST_STRETCHES: usize = 60_000;
@@ -85,7 +85,7 @@ pub(crate) struct RequestMemory<F> {
 
 struct Request<F> {
     sampler: ConstraintSampler,
-    start: Edge,
+    start: BoundaryState,
     before: Option<Arc<Law>>,
     found: F,
     room: usize,
@@ -93,7 +93,12 @@ struct Request<F> {
 
 impl<F: Clone> RequestMemory<F> {
     /// What was found for the same request.
-    pub(crate) fn recall(&self, sampler: &ConstraintSampler, start: Edge, before: Option<&Arc<Law>>) -> Option<F> {
+    pub(crate) fn recall(
+        &self,
+        sampler: &ConstraintSampler,
+        start: BoundaryState,
+        before: Option<&Arc<Law>>,
+    ) -> Option<F> {
         let same = |law: Option<&Arc<Law>>| law.map(Arc::as_ptr) == before.map(Arc::as_ptr);
         let is_same =
             |known: &&Request<F>| known.start == start && same(known.before.as_ref()) && known.sampler.is_like(sampler);
@@ -105,7 +110,7 @@ impl<F: Clone> RequestMemory<F> {
     pub(crate) fn remember(
         &mut self,
         sampler: ConstraintSampler,
-        (start, before): (Edge, Option<Arc<Law>>),
+        (start, before): (BoundaryState, Option<Arc<Law>>),
         (found, rows): (F, usize),
     ) {
         if sampler.segments() > MOST_SEGMENTS {
@@ -127,7 +132,7 @@ fn room(answer: &Answer) -> usize {
 }
 
 /// The fingerprint of what a law is found from.
-pub(crate) fn key(way: &Way, start: Edge, before: Option<&Law>) -> u128 {
+pub(crate) fn key(way: &Way, start: BoundaryState, before: Option<&Law>) -> u128 {
     // The second one begins elsewhere, so that the two have nothing to do with each other.
     let mut halves = [DefaultHasher::new(), DefaultHasher::new()];
     halves[1].write_u64(1);
@@ -156,23 +161,23 @@ mod tests {
     }
 
     fn find(way: &Way) -> (Answer, bool) {
-        (fastest(way, Edge::REST, Edge::REST).ok().map(|law| (Arc::new(law), 1.0)), true)
+        (fastest(way, BoundaryState::REST, BoundaryState::REST).ok().map(|law| (Arc::new(law), 1.0)), true)
     }
 
     #[test]
     fn the_same_is_found_once_and_everything_counts() {
-        let all = places(0.0, 2.0, 60, Edge::REST, Edge::REST);
+        let all = places(0.0, 2.0, 60, BoundaryState::REST, BoundaryState::REST);
         let mut memory = LawMemory::default();
         let (plain, bent) = (way(&all, 0.0), way(&all, 1e-12));
-        let first = memory.recall(key(&plain, Edge::REST, None), || find(&plain)).unwrap();
-        let again = memory.recall(key(&plain, Edge::REST, None), || panic!("it is known")).unwrap();
+        let first = memory.recall(key(&plain, BoundaryState::REST, None), || find(&plain)).unwrap();
+        let again = memory.recall(key(&plain, BoundaryState::REST, None), || panic!("it is known")).unwrap();
         assert!(Arc::ptr_eq(&first.0, &again.0));
-        let state = Edge { vel: 0.5, acc: 0.0 };
+        let state = BoundaryState { vel: 0.5, acc: 0.0 };
         let keys = [
-            key(&plain, Edge::REST, None),
-            key(&bent, Edge::REST, None),
+            key(&plain, BoundaryState::REST, None),
+            key(&bent, BoundaryState::REST, None),
             key(&plain, state, None),
-            key(&plain, Edge { acc: 1e-300, ..state }, None),
+            key(&plain, BoundaryState { acc: 1e-300, ..state }, None),
             key(&plain, state, Some(&first.0)),
         ];
         for (index, key) in keys.iter().enumerate() {
@@ -182,7 +187,7 @@ mod tests {
 
     #[test]
     fn what_was_not_asked_for_for_longest_goes() {
-        let all = places(0.0, 2.0, 60, Edge::REST, Edge::REST);
+        let all = places(0.0, 2.0, 60, BoundaryState::REST, BoundaryState::REST);
         let plain = way(&all, 0.0);
         let (law, _) = find(&plain);
         let mut memory = LawMemory::default();

@@ -11,11 +11,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::thread;
 
 use crate::beside;
-use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
+use crate::time_optimal::constraint_sampler::{ConstraintSampler, SampledPath};
 use crate::time_optimal::law_memory::{LawMemory, RequestMemory, key};
 use crate::time_optimal::limit_check::{LimitCheck, MOST_USED_SHARE, law_keeps, used_by_law};
 use crate::time_optimal::set_points::used_by_set_points;
-use crate::time_optimal::solver::{CREEPING, Edge, Law, Pace, Way, fastest, fastest_behind, fastest_near};
+use crate::time_optimal::solver::{BoundaryState, CREEPING, Law, Pace, Way, fastest, fastest_behind, fastest_near};
 use crate::time_optimal::stop_prediction::StopPrediction;
 
 /// How long finding a law may take, in s of controller time; and along very many motions.
@@ -86,7 +86,7 @@ pub(crate) struct Search {
 #[derive(Debug, Default)]
 struct Outcome {
     found: OnceLock<Option<Found>>,
-    forsaken: AtomicBool,
+    abandoned: AtomicBool,
 }
 
 /// What has become of a search.
@@ -108,9 +108,9 @@ struct Task {
 pub(crate) enum LawRequest {
     /// The fastest law from a state to rest at the end of what the sampler sees or as far as is looked ahead, with the
     /// law that leads to that state.
-    Fastest(Edge, Option<Arc<Law>>),
-    /// The shortest one from a state to rest, about so far ahead, with acceleration and jerk `harder` times as high.
-    Shortest { start: Edge, about: f64, harder: f64 },
+    Fastest(BoundaryState, Option<Arc<Law>>),
+    /// The shortest one from a state to rest, about so far ahead, with acceleration and jerk `stop_scale` times as high.
+    Shortest { start: BoundaryState, about: f64, stop_scale: f64 },
     /// The shortest one to rest, from the state that the robot has so many cycles from now, if that is much sooner than
     /// the governor would rest.
     ShorterStop(Box<StopPrediction>, u32),
@@ -214,7 +214,7 @@ impl LawSolver {
 impl Search {
     /// Says that the law is not needed any more.
     pub(crate) fn cancel(&self) {
-        self.result.forsaken.store(true, Ordering::Relaxed);
+        self.result.abandoned.store(true, Ordering::Relaxed);
     }
 }
 
@@ -222,9 +222,9 @@ impl Search {
 fn begin() -> Option<Sender<Task>> {
     let (tasks, asked) = channel::<Task>();
     let work = move || {
-        let mut memory = Memory::begun(&LEFT);
+        let mut memory = Memory::begun(&KEPT);
         asked.iter().for_each(|task| task.run(&mut memory));
-        memory.leave(&LEFT);
+        memory.leave(&KEPT);
     };
     beside::spawn(thread::Builder::new().name("laws".into()), work).ok().map(|_| tasks)
 }
@@ -238,22 +238,22 @@ struct Memory {
 
 /// What threads remembered that have ended: the next run of this process may ask for the same. A request is known again
 /// by all that may be seen of the path, so that what is found depends on nothing that was before.
-static LEFT: Left = Mutex::new(Vec::new());
-type Left = Mutex<Vec<RequestMemory<Option<Found>>>>;
+static KEPT: KeptMemory = Mutex::new(Vec::new());
+type KeptMemory = Mutex<Vec<RequestMemory<Option<Found>>>>;
 /// So many of them are kept.
-const MOST_LEFT: usize = 4;
+const MOST_KEPT: usize = 4;
 
 impl Memory {
     /// With what the thread before remembered that ended last.
-    fn begun(left: &Left) -> Self {
+    fn begun(left: &KeptMemory) -> Self {
         let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
         Self { laws: LawMemory::default(), requests: left.pop().unwrap_or_default() }
     }
 
     /// Leaves it to the next thread.
-    fn leave(self, left: &Left) {
+    fn leave(self, left: &KeptMemory) {
         let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
-        if left.len() < MOST_LEFT {
+        if left.len() < MOST_KEPT {
             left.push(self.requests);
         }
     }
@@ -262,10 +262,12 @@ impl Memory {
 impl Task {
     fn run(self, memory: &mut Memory) {
         let Self { sampler, request, result } = self;
-        let wanted = || !result.forsaken.load(Ordering::Relaxed);
+        let wanted = || !result.abandoned.load(Ordering::Relaxed);
         let find = || match request {
             LawRequest::Fastest(start, law) => recall_or_find(sampler, (start, law), memory, wanted),
-            LawRequest::Shortest { start, about, harder } => find_stop(&sampler, start, (about, harder), wanted),
+            LawRequest::Shortest { start, about, stop_scale } => {
+                find_stop(&sampler, start, (about, stop_scale), wanted)
+            }
             LawRequest::ShorterStop(prediction, cycles) => find_shorter_stop(sampler, *prediction, cycles, wanted),
         };
         // Whoever waits has to get an answer in any case.
@@ -304,7 +306,7 @@ thread_local! {
 /// The fastest law from a state on, which may be known.
 fn recall_or_find(
     sampler: ConstraintSampler,
-    (start, before): (Edge, Option<Arc<Law>>),
+    (start, before): (BoundaryState, Option<Arc<Law>>),
     memory: &mut Memory,
     wanted: impl Fn() -> bool,
 ) -> Option<Found> {
@@ -322,7 +324,7 @@ fn recall_or_find(
 /// The fastest law from a state on.
 fn find(
     sampler: &ConstraintSampler,
-    (start, before): (Edge, Option<&Law>),
+    (start, before): (BoundaryState, Option<&Law>),
     memory: &mut LawMemory,
     wanted: impl Fn() -> bool,
 ) -> Option<Found> {
@@ -337,14 +339,14 @@ fn find(
     while wanted() {
         let to = if sampler.at + 1.2 * window < stop { sampler.at + window } else { stop };
         let mut attempt = |(share, density): &(f64, f64)| {
-            let (to, edges) = (sampler.at + share * (to - sampler.at), [start, Edge::REST]);
-            let Prospect { way, thinned, end } = match speed {
+            let (to, edges) = (sampler.at + share * (to - sampler.at), [start, BoundaryState::REST]);
+            let SampledPath { way, thinned, end } = match speed {
                 Some(speed) => sampler.look_at_speed(to, *density, edges, speed),
-                None => sampler.look(to, *density, start, Edge::REST),
+                None => sampler.look(to, *density, start, BoundaryState::REST),
             }?;
             let sparse = thinned.as_ref().unwrap_or(&way);
             let found = || {
-                let found = temperate(sampler, sparse, (start, before), &wanted);
+                let found = law_within_limits(sampler, sparse, (start, before), &wanted);
                 (found.map(|(law, used)| (Arc::new(law), used)), wanted())
             };
             let (law, used) = memory.recall(key(sparse, start, before), found)?;
@@ -375,24 +377,24 @@ fn find(
 
 /// How long the fastest motion along all that the sampler sees takes, from rest to rest, in s, looked for at the places
 /// of `first`, which go to the end, then at closer ones; `None` where no law keeps the limits.
-pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: Prospect) -> Option<f64> {
+pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: SampledPath) -> Option<f64> {
     let closer = DENSITIES.iter().filter_map(|density| {
-        let prospect = sampler.look(sampler.end, *density, Edge::REST, Edge::REST)?;
+        let prospect = sampler.look(sampler.end, *density, BoundaryState::REST, BoundaryState::REST)?;
         (prospect.end >= sampler.end).then_some(prospect)
     });
     [first].into_iter().chain(closer).find_map(|prospect| {
         let sparse = prospect.thinned.as_ref().unwrap_or(&prospect.way);
-        let (law, used) = temperate(sampler, sparse, (Edge::REST, None), &|| true)?;
+        let (law, used) = law_within_limits(sampler, sparse, (BoundaryState::REST, None), &|| true)?;
         (used <= MOST_USED_SHARE).then(|| law.duration())
     })
 }
 
 /// The fastest law along a path that keeps the limits by its places, with the share of them that its set-points use.
 /// Where that is a little too much, the limits are lowered.
-fn temperate(
+fn law_within_limits(
     sampler: &ConstraintSampler,
     way: &Way,
-    (start, before): (Edge, Option<&Law>),
+    (start, before): (BoundaryState, Option<&Law>),
     wanted: &impl Fn() -> bool,
 ) -> Option<(Law, f64)> {
     let mut limits = way.clone();
@@ -401,8 +403,8 @@ fn temperate(
     let mut longest: Option<f64> = None;
     for round in 0..=MOST_TEMPERINGS {
         let solved = match &pace {
-            Some(pace) => fastest_near(&limits, start, Edge::REST, pace),
-            None => fastest_behind(&limits, start, Edge::REST, before),
+            Some(pace) => fastest_near(&limits, start, BoundaryState::REST, pace),
+            None => fastest_behind(&limits, start, BoundaryState::REST, before),
         };
         let Some(law) = solved.ok().filter(|_| wanted()) else { break };
         // Lower limits cost little, but where the search has lost its way.
@@ -430,13 +432,13 @@ fn temperate(
     best
 }
 
-/// The shortest law from a state on to rest, which is about so far ahead, with acceleration and jerk times `harder`.
+/// The shortest law from a state on to rest, which is about so far ahead, with acceleration and jerk times `stop_scale`.
 ///
 /// Whether there is a law to rest at a place is what the solver tells; nearer than the shortest stop there is none.
 fn find_stop(
     sampler: &ConstraintSampler,
-    start: Edge,
-    (about, harder): (f64, f64),
+    start: BoundaryState,
+    (about, stop_scale): (f64, f64),
     wanted: impl Fn() -> bool,
 ) -> Option<Found> {
     let farthest = sampler.end - sampler.at;
@@ -448,13 +450,14 @@ fn find_stop(
             if looked_at > MOST_STOP_SAMPLES {
                 return None;
             }
-            let Prospect { way, thinned, end } = sampler.look(to, density, start, Edge::REST)?;
+            let SampledPath { way, thinned, end } = sampler.look(to, density, start, BoundaryState::REST)?;
             let sparse = thinned.as_ref().unwrap_or(&way);
             looked_at += sparse.places().len();
-            let law =
-                fastest(&sparse.hardened(STOP_LIMIT_FACTOR * harder), start, Edge::REST).ok().filter(|_| end >= to)?;
-            let is_smooth = || used_by_set_points(sampler, &law, harder, MOST_USED_SHARE).beyond.is_empty();
-            if law_keeps(sparse, &law, harder) && is_smooth() {
+            let law = fastest(&sparse.hardened(STOP_LIMIT_FACTOR * stop_scale), start, BoundaryState::REST)
+                .ok()
+                .filter(|_| end >= to)?;
+            let is_smooth = || used_by_set_points(sampler, &law, stop_scale, MOST_USED_SHARE).beyond.is_empty();
+            if law_keeps(sparse, &law, stop_scale) && is_smooth() {
                 let stops = sampler.stops && end >= sampler.end;
                 return Some(Found { law: Arc::new(law), check: Arc::new(LimitCheck::new(way)), end, stops });
             }
@@ -493,7 +496,7 @@ fn find_shorter_stop(
     cycles: u32,
     wanted: impl Fn() -> bool,
 ) -> Option<Found> {
-    let harder = prediction.harder();
+    let stop_scale = prediction.stop_scale();
     let at = sampler.at + prediction.brake(cycles)?;
     let start = prediction.edge();
     let [way, time] = prediction.rest(&wanted)?;
@@ -501,7 +504,7 @@ fn find_shorter_stop(
         return None;
     }
     let sampler = sampler.behind(at).up_to(at + way);
-    let found = find_stop(&sampler, start, (SHORTER_STOP_SHARE_OF_WAY * way, harder), wanted)?;
+    let found = find_stop(&sampler, start, (SHORTER_STOP_SHARE_OF_WAY * way, stop_scale), wanted)?;
     (found.law.duration() < SHORTER_STOP_SHARE_OF_TIME * time).then_some(found)
 }
 
@@ -562,34 +565,34 @@ mod tests {
     fn a_request_that_is_the_same_does_not_look_at_the_way() {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
         let mut memory = Memory::default();
-        let mut law = |number: u64, percent: f64, start: Edge, before: Option<Arc<Law>>| {
+        let mut law = |number: u64, percent: f64, start: BoundaryState, before: Option<Arc<Law>>| {
             let asked = FOUND_HERE.get();
             let found = recall_or_find(sampler(&robot, number, percent), (start, before), &mut memory, || true);
             (FOUND_HERE.get() - asked, found.map(|found| found.law))
         };
-        let (_, first) = law(1, 50.0, Edge::REST, None);
+        let (_, first) = law(1, 50.0, BoundaryState::REST, None);
         let first = first.unwrap();
-        let (asked, again) = law(7, 50.0, Edge::REST, None);
+        let (asked, again) = law(7, 50.0, BoundaryState::REST, None);
         assert!(asked == 0 && Arc::ptr_eq(&again.unwrap(), &first));
-        assert_eq!(law(7, 40.0, Edge::REST, None).0, 1);
+        assert_eq!(law(7, 40.0, BoundaryState::REST, None).0, 1);
         let state = first.at(0.2);
-        let state = Edge { vel: state.vel, acc: state.acc };
+        let state = BoundaryState { vel: state.vel, acc: state.acc };
         assert_eq!(law(7, 50.0, state, None).0, 1);
-        assert_eq!(law(7, 50.0, Edge::REST, Some(first)).0, 1);
+        assert_eq!(law(7, 50.0, BoundaryState::REST, Some(first)).0, 1);
         // What nobody wanted any more is not remembered.
         let mut memory = Memory::default();
-        recall_or_find(sampler(&robot, 1, 50.0), (Edge::REST, None), &mut memory, || false);
-        assert!(memory.requests.recall(&sampler(&robot, 1, 50.0), Edge::REST, None).is_none());
+        recall_or_find(sampler(&robot, 1, 50.0), (BoundaryState::REST, None), &mut memory, || false);
+        assert!(memory.requests.recall(&sampler(&robot, 1, 50.0), BoundaryState::REST, None).is_none());
     }
 
     #[test]
     fn the_next_run_knows_what_the_last_one_found() {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
-        let left = Left::default();
+        let left = KeptMemory::default();
         let law = |speed| {
             let mut memory = Memory::begun(&left);
             let asked = FOUND_HERE.get();
-            let found = recall_or_find(sampler(&robot, 1, speed), (Edge::REST, None), &mut memory, || true);
+            let found = recall_or_find(sampler(&robot, 1, speed), (BoundaryState::REST, None), &mut memory, || true);
             memory.leave(&left);
             (FOUND_HERE.get() - asked, found.unwrap().law)
         };
@@ -600,18 +603,20 @@ mod tests {
         assert!(asked == 0 && Arc::ptr_eq(&first, &again));
         // Robots beside each other have memories of their own.
         let [one, other] = [Memory::begun(&left), Memory::begun(&left)];
-        let known = |memory: &Memory| memory.requests.recall(&sampler(&robot, 1, 50.0), Edge::REST, None).is_some();
+        let known =
+            |memory: &Memory| memory.requests.recall(&sampler(&robot, 1, 50.0), BoundaryState::REST, None).is_some();
         assert_eq!((known(&one), known(&other)), (true, false));
         one.leave(&left);
-        (0..2 * MOST_LEFT).for_each(|_| Memory::default().leave(&left));
-        assert_eq!(left.lock().unwrap().len(), MOST_LEFT);
+        (0..2 * MOST_KEPT).for_each(|_| Memory::default().leave(&left));
+        assert_eq!(left.lock().unwrap().len(), MOST_KEPT);
     }
 
     #[test]
     fn a_way_that_was_gone_before_is_not_timed_again() {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
         let mut memory = LawMemory::default();
-        let mut law = || find(&sampler(&robot, 1, 50.0), (Edge::REST, None), &mut memory, || true).unwrap().law;
+        let mut law =
+            || find(&sampler(&robot, 1, 50.0), (BoundaryState::REST, None), &mut memory, || true).unwrap().law;
         assert!(Arc::ptr_eq(&law(), &law()));
     }
 }

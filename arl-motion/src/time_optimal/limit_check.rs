@@ -97,14 +97,14 @@ impl LimitCheck {
     }
 
     /// Whether a law that is followed at another share of its speed keeps its limits, those of acceleration and jerk
-    /// times `harder`.
-    pub(crate) fn keeps(&self, motion: &impl Timed, harder: f64) -> bool {
-        keeps(&Look { way: &self.way, harder, between: Between::Even }, motion)
+    /// times `stop_scale`.
+    pub(crate) fn keeps(&self, motion: &impl Timed, stop_scale: f64) -> bool {
+        keeps(&Look { way: &self.way, stop_scale, between: Between::Even }, motion)
     }
 
     /// The same for a motion that does not follow a law.
-    pub(crate) fn surely_keeps(&self, motion: &impl Timed, harder: f64) -> bool {
-        keeps(&Look { way: &self.way, harder, between: Between::Most }, motion)
+    pub(crate) fn surely_keeps(&self, motion: &impl Timed, stop_scale: f64) -> bool {
+        keeps(&Look { way: &self.way, stop_scale, between: Between::Most }, motion)
     }
 
     /// The limits that the parameter has all the way between two places where it hardly moves.
@@ -134,13 +134,13 @@ enum Between {
     Most,
 }
 
-/// The share of the limits, those of acceleration and jerk times `harder`, that a motion uses.
-fn used(rows: &[Row], now: &Moment, harder: f64) -> f64 {
+/// The share of the limits, those of acceleration and jerk times `stop_scale`, that a motion uses.
+fn used(rows: &[Row], now: &Moment, stop_scale: f64) -> f64 {
     rows.iter().fold(0.0_f64, |used, row| {
         let acc = row.first * now.acc + row.second * now.vel * now.vel;
         let jerk =
             row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
-        let (acc, jerk) = ((acc / row.acc).abs() / harder, (jerk / row.jerk).abs() / harder);
+        let (acc, jerk) = ((acc / row.acc).abs() / stop_scale, (jerk / row.jerk).abs() / stop_scale);
         used.max((row.first * now.vel / row.vel).abs()).max(acc).max(jerk)
     })
 }
@@ -148,7 +148,7 @@ fn used(rows: &[Row], now: &Moment, harder: f64) -> f64 {
 /// How much of the limits a law uses, of `allowed`, along the path that it was found for; `None` where it goes
 /// backwards.
 pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
-    let looked = Look { way, harder: 1.0, between: Between::Least };
+    let looked = Look { way, stop_scale: 1.0, between: Between::Least };
     let mut used = Used::of(allowed);
     for now in moments(law.duration()).map(|time| law.at(time)) {
         if now.vel.is_nan() || now.vel < -BACKWARDS_ROUNDING {
@@ -165,9 +165,9 @@ pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
     Some(used)
 }
 
-/// Whether a law along `way` goes forwards and keeps the limits, those of acceleration and jerk times `harder`.
-pub(crate) fn law_keeps(way: &Way, law: &Law, harder: f64) -> bool {
-    keeps(&Look { way, harder, between: Between::Least }, law)
+/// Whether a law along `way` goes forwards and keeps the limits, those of acceleration and jerk times `stop_scale`.
+pub(crate) fn law_keeps(way: &Way, law: &Law, stop_scale: f64) -> bool {
+    keeps(&Look { way, stop_scale, between: Between::Least }, law)
 }
 
 /// Whether a motion goes forwards and keeps the limits.
@@ -200,7 +200,7 @@ fn moments_beside_ends(duration: f64) -> impl Iterator<Item = f64> {
 struct Look<'a> {
     way: &'a Way,
     /// How many times as high limits of acceleration and jerk are.
-    harder: f64,
+    stop_scale: f64,
     between: Between,
 }
 
@@ -208,7 +208,7 @@ impl Look<'_> {
     /// The share of the limits that is used.
     fn used_at(&self, now: &Moment) -> f64 {
         let (way, places) = (self.way, self.way.places());
-        let used = |rows: &[Row]| used(rows, now, self.harder);
+        let used = |rows: &[Row]| used(rows, now, self.stop_scale);
         let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
         let [before, behind] = [way.rows_behind(next - 1), way.rows_before(next)].map(used);
         match self.between {

@@ -143,20 +143,20 @@ impl Ramp {
         TRIED_SHARES_OF_LIMITS.iter().take(TRIED_SHARES).find_map(sets_off)
     }
 
-    /// The hardest one that keeps the limits times `harder` and rests before `end`.
-    pub(crate) fn hardest(start: State, check: &Arc<LimitCheck>, end: f64, harder: f64) -> Option<Self> {
-        let limits = braking(start, check, end, harder);
+    /// The hardest one that keeps the limits times `stop_scale` and rests before `end`.
+    pub(crate) fn hardest(start: State, check: &Arc<LimitCheck>, end: f64, stop_scale: f64) -> Option<Self> {
+        let limits = braking(start, check, end, stop_scale);
         // What brakes harder already would have to turn back.
         let turns = |limits: &Limits| start.acc < 0.0 && start.acc * start.acc > 2.0 * limits.jerk * start.vel;
         let scales =
             TRIED_SHARES_OF_LIMITS.iter().map(|hardness| scaled(limits, *hardness)).filter(|limits| !turns(limits));
         let mut ramps = scales.map(|limits| Self::new(None, start, &limits, check));
-        ramps.find(|ramp| ramp.will_do(check, end, harder))
+        ramps.find(|ramp| ramp.will_do(check, end, stop_scale))
     }
 
-    /// How far it is to rest if the limits at the start, acceleration and jerk times `harder`, hold on.
-    pub(crate) fn way(start: State, check: &LimitCheck, harder: f64) -> f64 {
-        Leg::new(start, 0.0, &scaled(check.straight(start.at, start.at), harder)).end() - start.at
+    /// How far it is to rest if the limits at the start, acceleration and jerk times `stop_scale`, hold on.
+    pub(crate) fn way(start: State, check: &LimitCheck, stop_scale: f64) -> f64 {
+        Leg::new(start, 0.0, &scaled(check.straight(start.at, start.at), stop_scale)).end() - start.at
     }
 
     /// The hardest one that first leads to a speed at which another law can begin, `search` s from now at the earliest,
@@ -193,10 +193,10 @@ impl Ramp {
         self.duration() - self.time
     }
 
-    /// Whether it rests before `end` and keeps the limits times `harder`.
-    fn will_do(&self, check: &LimitCheck, end: f64, harder: f64) -> bool {
+    /// Whether it rests before `end` and keeps the limits times `stop_scale`.
+    fn will_do(&self, check: &LimitCheck, end: f64, stop_scale: f64) -> bool {
         let stop = self.at(self.duration());
-        stop.vel.abs() <= 1e-9 * self.stopping.at(0.0).vel && self.end <= end && check.surely_keeps(self, harder)
+        stop.vel.abs() <= 1e-9 * self.stopping.at(0.0).vel && self.end <= end && check.surely_keeps(self, stop_scale)
     }
 }
 
@@ -214,10 +214,10 @@ impl Timed for Ramp {
     }
 }
 
-/// Acceleration and jerk for braking to rest, times `harder`: those of the whole way to rest, and not of what lies
+/// Acceleration and jerk for braking to rest, times `stop_scale`: those of the whole way to rest, and not of what lies
 /// behind it.
-fn braking(start: State, check: &LimitCheck, end: f64, harder: f64) -> Limits {
-    let over = |to: f64| scaled(check.straight(start.at, to), harder);
+fn braking(start: State, check: &LimitCheck, end: f64, stop_scale: f64) -> Limits {
+    let over = |to: f64| scaled(check.straight(start.at, to), stop_scale);
     let mut limits = over(start.at);
     for _ in 0..MOST_MEASUREMENTS {
         let farthest = Leg::new(start, 0.0, &limits).end();

@@ -20,10 +20,10 @@ const SET_POINTS_AT_REST: i32 = 3;
 /// Limits of speed, acceleration and jerk.
 type Limits = [f64; 3];
 
-/// The share of what motions may have of speed, acceleration and jerk, the latter two `harder` times as high, that
+/// The share of what motions may have of speed, acceleration and jerk, the latter two `stop_scale` times as high, that
 /// set-points along a law use, by their differences: of each axis, and of the TCP along its path and its turning where
 /// that is led.
-pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, harder: f64, allowed: f64) -> Used {
+pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, stop_scale: f64, allowed: f64) -> Used {
     let mut sample_coarsely = sampler.sample_coarsely();
     let mut last: VecDeque<Point> = VecDeque::with_capacity(3 * PHASES_OF_CYCLE + 1);
     let mut used = Used::of(allowed);
@@ -40,7 +40,7 @@ pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, harder:
         let points = [0, 1, 2, 3].map(|cycle| last.get(cycle * PHASES_OF_CYCLE));
         if let [Some(a), Some(b), Some(c), Some(d)] = points {
             let points = [a, b, c, d];
-            let share = used_by_axes(sampler, points, harder).max(used_by_tool(sampler, points, harder));
+            let share = used_by_axes(sampler, points, stop_scale).max(used_by_tool(sampler, points, stop_scale));
             used.note([a.at, d.at], share);
         }
     }
@@ -49,7 +49,7 @@ pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, harder:
 
 /// The largest share of an axis's limits by four set-points. Where one motion leads into another, the higher limits
 /// count.
-fn used_by_axes(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -> f64 {
+fn used_by_axes(sampler: &ConstraintSampler, points: [&Point; 4], stop_scale: f64) -> f64 {
     let own = sampler.robot.own_axes().iter().enumerate();
     let own = own.map(|(index, axis)| {
         (points.map(|point| point.joints.axes.get(index).copied()), points.map(|point| point.pace.of_own(axis)))
@@ -63,12 +63,12 @@ fn used_by_axes(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -
     });
     own.chain(external).fold(0.0_f64, |most, (values, limits)| {
         let [Some(a), Some(b), Some(c), Some(d)] = values else { return most };
-        most.max(used([b - a, c - b, d - c], highest(limits), harder))
+        most.max(used([b - a, c - b, d - c], highest(limits), stop_scale))
     })
 }
 
 /// The same of the TCP's limits; nothing where it is not led all along, or another one is.
-fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -> f64 {
+fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], stop_scale: f64) -> f64 {
     let [Some(a), Some(b), Some(c), Some(d)] = points.map(|point| point.tool) else { return 0.0 };
     if [b, c, d].iter().any(|other| other.carried != a.carried) {
         return 0.0;
@@ -76,13 +76,13 @@ fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -
     let pairs = [(a, b), (b, c), (c, d)];
     let tcp = &sampler.robot.tcp;
     let limits = points.map(|Point { pace, .. }| [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk]);
-    let by_way = used_along(pairs.map(|(from, to)| to.at - from.at), highest(limits), harder);
+    let by_way = used_along(pairs.map(|(from, to)| to.at - from.at), highest(limits), stop_scale);
     let turn = |(from, to): (LedTool, LedTool)| Some((to.rotation? * from.rotation?.inverse()).scaled_axis());
     let [Some(first), Some(second), Some(third)] = pairs.map(turn) else { return by_way };
     let turns = [first, second, third].map(|turn| turn.map(f64::to_degrees));
     let limits =
         points.map(|Point { pace, .. }| [tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk]);
-    by_way.max(used_along(turns, highest(limits), harder))
+    by_way.max(used_along(turns, highest(limits), stop_scale))
 }
 
 /// The share of limits along a path that three steps in a row use. Where a path all but turns back, its speed falls and
@@ -90,16 +90,16 @@ fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -
 /// [`Constraints`].
 ///
 /// [`Constraints`]: crate::plan::constraints::Constraints
-fn used_along(ways: [Vector3<f64>; 3], limits: Limits, harder: f64) -> f64 {
+fn used_along(ways: [Vector3<f64>; 3], limits: Limits, stop_scale: f64) -> f64 {
     let along = third_difference_along(ways.each_ref());
     let steps = ways.map(|way| way.norm());
     let of_speed = jerk_of(steps);
-    used_with(steps, if along.abs() < of_speed.abs() { along } else { of_speed }, limits, harder)
+    used_with(steps, if along.abs() < of_speed.abs() { along } else { of_speed }, limits, stop_scale)
 }
 
 /// The share of limits that three steps in a row use.
-fn used(steps: [f64; 3], limits: Limits, harder: f64) -> f64 {
-    used_with(steps, jerk_of(steps), limits, harder)
+fn used(steps: [f64; 3], limits: Limits, stop_scale: f64) -> f64 {
+    used_with(steps, jerk_of(steps), limits, stop_scale)
 }
 
 /// How much more the last of three steps in a row rises than the one before.
@@ -108,11 +108,11 @@ fn jerk_of([first, second, third]: [f64; 3]) -> f64 {
 }
 
 /// The share of limits that three steps in a row with this jerk use.
-fn used_with([_, second, third]: [f64; 3], jerk: f64, [most_vel, most_acc, most_jerk]: Limits, harder: f64) -> f64 {
+fn used_with([_, second, third]: [f64; 3], jerk: f64, [most_vel, most_acc, most_jerk]: Limits, stop_scale: f64) -> f64 {
     const S: f64 = SET_POINT_CYCLE_S;
     let by_vel = third / S / most_vel;
-    let by_acc = (third - second) / (S * S) / (harder * most_acc);
-    let by_jerk = jerk / (S * S * S) / (harder * most_jerk);
+    let by_acc = (third - second) / (S * S) / (stop_scale * most_acc);
+    let by_jerk = jerk / (S * S * S) / (stop_scale * most_jerk);
     by_vel.abs().max(by_acc.abs()).max(by_jerk.abs())
 }
 

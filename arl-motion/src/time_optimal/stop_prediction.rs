@@ -3,7 +3,7 @@
 use crate::follow::governor::{Governor, Pacing};
 use crate::follow::timing::Timing;
 use crate::limits::profile::{Change, State};
-use crate::time_optimal::solver::Edge;
+use crate::time_optimal::solver::BoundaryState;
 
 /// A stop that takes more cycles is not looked at.
 const MOST_PREDICTED_CYCLES: u32 = 20_000;
@@ -15,23 +15,23 @@ pub(crate) struct StopPrediction {
     state: State,
     backup: Change,
     cycle: f64,
-    harder: f64,
+    stop_scale: f64,
 }
 
 impl StopPrediction {
     /// Of a stop with so many times the acceleration and jerk, which begins with this state.
-    pub(crate) fn new(timing: Timing, state: State, backup: Change, cycle: f64, harder: f64) -> Self {
-        Self { timing, state, backup, cycle, harder }
+    pub(crate) fn new(timing: Timing, state: State, backup: Change, cycle: f64, stop_scale: f64) -> Self {
+        Self { timing, state, backup, cycle, stop_scale }
     }
 
     /// How many times the acceleration and jerk.
-    pub(crate) fn harder(&self) -> f64 {
-        self.harder
+    pub(crate) fn stop_scale(&self) -> f64 {
+        self.stop_scale
     }
 
     /// How the robot moves, in s of nominal time.
-    pub(crate) fn edge(&self) -> Edge {
-        Edge { vel: self.state.vel, acc: self.state.acc }
+    pub(crate) fn edge(&self) -> BoundaryState {
+        BoundaryState { vel: self.state.vel, acc: self.state.acc }
     }
 
     /// Brakes for so many cycles; how far that leads, in s of nominal time. `None` where it rests by then.
@@ -65,7 +65,7 @@ impl StopPrediction {
     /// Goes on for a cycle; returns how far.
     fn step(&mut self) -> f64 {
         let governor = Governor { stretches: &self.timing.stretches, cycle: self.cycle };
-        let next = governor.next(&self.state, &mut self.backup, Pacing::Stop(self.harder));
+        let next = governor.next(&self.state, &mut self.backup, Pacing::Stop(self.stop_scale));
         let way = next.at - self.state.at;
         self.state = next;
         self.timing.pass(&mut self.state);

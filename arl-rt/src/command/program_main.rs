@@ -220,12 +220,12 @@ fn try_run(
     // Where a robot is driven, its time counts, too.
     let tells_lateness = options.clock == Some(ClockKind::Real) || options.drive;
     let report = options.report.clone().map(report_to).transpose().map_err(SetupFailure::usage)?;
-    let voice = options.live.then(LineWriter::standard);
-    let address = options.listener.as_deref().filter(|_| voice.is_none());
+    let writer = options.live.then(LineWriter::standard);
+    let address = options.listener.as_deref().filter(|_| writer.is_none());
     let recording = address.map(|address| connect_to(address, wishes)).transpose().map_err(SetupFailure::usage)?;
     let builder = set_up(options, others)?;
-    let builder = match (&voice, &recording) {
-        (Some(voice), _) => builder.output(voice.messages()),
+    let builder = match (&writer, &recording) {
+        (Some(writer), _) => builder.output(writer.messages()),
         (None, Some(recording)) => builder.output(recording.beside(Stream::standard())),
         (None, None) => builder,
     };
@@ -234,13 +234,13 @@ fn try_run(
     controller.set_loop(repeats);
     let between = watching.map_or(Ok(None), |watching| watching.begin(&controller, &asked));
     let between = between.map_err(SetupFailure::usage)?;
-    let code = match voice {
-        Some(voice) => {
+    let code = match writer {
+        Some(writer) => {
             if paused {
                 controller.wait_for_start();
             }
             let inside = watching.map(|watching| watching.inside);
-            code(live::drive(&mut controller, &voice, (inside, wishes), max_time, interrupted))
+            code(live::drive(&mut controller, &writer, (inside, wishes), max_time, interrupted))
         }
         None => watch(&mut controller, max_time, interrupted, (between, recording), sources),
     };

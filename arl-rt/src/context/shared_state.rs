@@ -6,9 +6,9 @@ use std::rc::Rc;
 use std::sync::mpsc::Sender;
 
 use crate::communication::{NetworkDriver, NetworkSettings, Opener};
-use crate::context::hearers::{Event, Hearers};
 use crate::context::output::{Message, Output};
 use crate::context::random::Random;
+use crate::context::subscribers::{Event, Hearers};
 use crate::context::watcher::Watcher;
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::channel_id::ChannelId;
@@ -44,7 +44,7 @@ pub(crate) struct SharedState {
     /// Which of those who hear something have panicked.
     panicked: RefCell<Vec<&'static str>>,
     /// Threads that hear of everything.
-    pub(crate) hearers: Hearers,
+    pub(crate) subscribers: Hearers,
     pub(crate) state: RefCell<KeptState>,
     /// What writes files, beside the cycle.
     pub(crate) disk: Disk,
@@ -82,7 +82,7 @@ pub(crate) struct Parts {
     pub(crate) start_date: i64,
     pub(crate) output: Box<dyn Output>,
     pub(crate) listeners: Listeners,
-    pub(crate) hearers: Vec<Sender<Event>>,
+    pub(crate) subscribers: Vec<Sender<Event>>,
     pub(crate) state: KeptState,
     pub(crate) network: NetworkSettings,
     pub(crate) wiring: Wiring,
@@ -112,7 +112,7 @@ impl SharedState {
             listeners: RefCell::new(parts.listeners),
             panicked: RefCell::default(),
             warnings: RefCell::default(),
-            hearers: Hearers::new(parts.hearers),
+            subscribers: Hearers::new(parts.subscribers),
             state: RefCell::new(parts.state),
             disk: Disk::default(),
         }
@@ -124,7 +124,7 @@ impl SharedState {
         let message = Message { time, channel, hmi, console, text };
         self.let_hear("the output", || self.output.borrow_mut().message(&message));
         self.spoken.set(true);
-        self.hearers.tell(|| Event::Message { time, channel, text: String::from_utf8_lossy(text).into_owned() });
+        self.subscribers.tell(|| Event::Message { time, channel, text: String::from_utf8_lossy(text).into_owned() });
     }
 
     /// Lets somebody outside hear of something. Where that panics, it is what they did not hear that is lost, and the
@@ -162,7 +162,7 @@ impl SharedState {
                 listener(&alarm);
             }
         });
-        self.hearers.tell(|| Event::Alarm(alarm.clone()));
+        self.subscribers.tell(|| Event::Alarm(alarm.clone()));
         let mut alarms = self.alarms.borrow_mut();
         let place = if ends { 0 } else { alarms.len() };
         alarms.insert(place, alarm);
@@ -190,7 +190,7 @@ impl SharedState {
                 listener(&text);
             }
         });
-        self.hearers.tell(|| Event::Warning(text.clone()));
+        self.subscribers.tell(|| Event::Warning(text.clone()));
         self.warnings.borrow_mut().push(text);
     }
 

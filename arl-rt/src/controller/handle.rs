@@ -8,7 +8,7 @@ use std::thread::{self, ThreadId};
 use std::time::Duration;
 
 use super::{Controller, OrderError, Status};
-use crate::context::hearers::Event;
+use crate::context::subscribers::Event;
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::try_lock::try_lock;
 use crate::fault::Fault;
@@ -193,7 +193,7 @@ impl Handle {
     /// As [`ask`](Handle::ask).
     pub fn events(&self) -> Result<Receiver<Event>, HandleError> {
         let (tell, told) = mpsc::channel();
-        self.ask(move |controller| controller.shared.hearers.add(tell))?;
+        self.ask(move |controller| controller.shared.subscribers.add(tell))?;
         Ok(told)
     }
 }

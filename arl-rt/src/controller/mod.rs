@@ -39,10 +39,10 @@ pub(crate) use recorded::Recorded;
 pub use running::Running;
 pub use status::{ChannelStatus, RobotStatus, Status};
 
-use crate::context::hearers::Event;
 use crate::context::named::{self, GlobalError, Named};
 use crate::context::program::Program;
 use crate::context::shared_state::SharedState;
+use crate::context::subscribers::Event;
 use crate::context::system::{self, System};
 use crate::cycle::channel_id::ChannelId;
 use crate::cycle::clock_source::{Clock, Lateness};
@@ -174,7 +174,7 @@ impl Controller {
         }
         self.read_external_control();
         // What has begun may have ended when the cycle is over.
-        if !self.shared.hearers.is_empty() {
+        if !self.shared.subscribers.is_empty() {
             self.tell_state();
         }
         self.report_io_problems();
@@ -210,7 +210,7 @@ impl Controller {
     fn tell_state(&mut self) -> State {
         let state = self.state();
         if std::mem::replace(&mut self.told, state) != state {
-            self.shared.hearers.tell(|| Event::State(state));
+            self.shared.subscribers.tell(|| Event::State(state));
         }
         state
     }

@@ -59,7 +59,7 @@ impl Controller {
             || self.calls.is_open()
             || !self.islands.is_empty()
             || self.shared.buses.modbus_tcp_address().is_some()
-            || !self.shared.hearers.is_empty()
+            || !self.shared.subscribers.is_empty()
             || self.shared.watcher().is_some()
     }
 

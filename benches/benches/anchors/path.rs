@@ -4,7 +4,7 @@ use std::error::Error;
 use std::hint::black_box;
 
 use arl_benches::statistics::{Times, processor_time};
-use arl_rt::motion::time_optimal::solver::{Edge, Row, Way, fastest};
+use arl_rt::motion::time_optimal::solver::{BoundaryState, Row, Way, fastest};
 use copp::robot::Robot;
 use copp::solver::topp2_ra::{ReachSet2OptionsBuilder, Topp2ProblemBuilder, s_to_t_topp2, topp2_ra};
 use copp::solver::topp3_socp::{ClarabelOptionsBuilder, Topp3ProblemBuilder, s_to_t_topp3, topp3_socp};
@@ -55,7 +55,7 @@ impl Path {
         let mut duration = 0.0;
         for _ in 0..RUNS {
             let start = processor_time();
-            let law = black_box(fastest(black_box(&way), Edge::REST, Edge::REST)?);
+            let law = black_box(fastest(black_box(&way), BoundaryState::REST, BoundaryState::REST)?);
             times.push(processor_time() - start);
             duration = law.duration();
         }

@@ -2,17 +2,17 @@
 //! machine.
 
 use super::cell_files::CellFiles;
+use super::collision_watch::{self, Looking};
 use super::folder::{Folder, Spread};
-use super::looking::{self, Looking};
 use super::result::RunResult;
 use super::table::Settings;
 use crate::parameters::Parameters;
 use crate::variables;
 use arl_lang::files::is_data;
 use arl_project::cache::Kind;
+use arl_project::cell_programs;
 use arl_project::options::RunOptions;
 use arl_project::program::prepare;
-use arl_project::several;
 use arl_robot::{Robot, regular_file};
 use arl_terminal::failure::Failure;
 use arl_terminal::port::Secret;
@@ -82,7 +82,7 @@ impl Bundle {
         let folder = options.script_dir.as_deref().map_or_else(|| Ok(own()), full)?;
         // What is read again while a program runs has to be there.
         let data = sources.iter().filter(|path| is_data(path)).map(|path| clean(path));
-        let others = several::named(options.cell.as_deref(), options.robot.as_deref())?;
+        let others = cell_programs::named(options.cell.as_deref(), options.robot.as_deref())?;
         let others = others.iter().map(|other| full(&other.path)).collect::<Result<Vec<_>, _>>()?;
         if let Some(outside) = data.chain(others).find(|path| !path.starts_with(&folder)) {
             let (outside, folder) = (outside.display(), folder.display());
@@ -123,7 +123,7 @@ impl Bundle {
         }
         if let Some(files) = cell {
             let words = rows.filter_map(|row| bundle.words(row).ok());
-            let words: BTreeSet<Vec<String>> = words.map(|words| looking::naming(&words)).collect();
+            let words: BTreeSet<Vec<String>> = words.map(|words| collision_watch::naming(&words)).collect();
             bundle.add_cell_files(files, &words)?;
         }
         Ok(bundle)
@@ -316,7 +316,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 
 /// A path from the root, without `..`.
 pub(super) fn full(path: &Path) -> Result<PathBuf, Failure> {
-    Ok(clean(&several::absolute(path)?))
+    Ok(clean(&cell_programs::absolute(path)?))
 }
 
 pub(super) fn with_slashes(path: &Path) -> String {

@@ -6,9 +6,9 @@
 
 mod bundle;
 mod cell_files;
+mod collision_watch;
 mod folder;
 mod kept;
-mod looking;
 mod parquet;
 mod pool;
 mod result;

@@ -1,6 +1,6 @@
 //! What came of a run: a row of the results.
 
-use super::looking::Contacts;
+use super::collision_watch::Contacts;
 use crate::parameters::Parameters;
 use arl_wire::Contact;
 use serde::{Deserialize, Serialize};

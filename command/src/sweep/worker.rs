@@ -1,7 +1,7 @@
 //! A process of the program that makes run after run, in a folder of its own.
 
+use super::collision_watch::{Contacts, Looking};
 use super::folder::{Folder, Spread};
-use super::looking::{Contacts, Looking};
 use super::result::RunResult;
 use arl_terminal::port::Secret;
 use std::io::{BufRead, BufReader, Write};

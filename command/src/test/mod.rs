@@ -12,11 +12,11 @@ mod report;
 
 use crate::args::{Shard, TestOptions};
 use arl_project::cache::{Cache, Kind};
+use arl_project::cell_programs;
 use arl_project::options::Checking;
 use arl_project::package::{Emitted, EmittedOther};
 use arl_project::program::check_options;
 use arl_project::runtime::Runtime;
-use arl_project::several;
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
 use arl_terminal::private_folder::PrivateFolder;
@@ -142,7 +142,7 @@ fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
     let cell = case.cell.as_deref();
     let first = rust(&case.source, &checking, emitting)?;
     let mut others = Vec::new();
-    for other in several::named(cell, checking.robot.as_deref()).map_err(said)? {
+    for other in cell_programs::named(cell, checking.robot.as_deref()).map_err(said)? {
         let rust = rust(&other.path, &other.checking(&checking), emitting)
             .map_err(|problem| format!("{}: {problem}", other.file))?;
         let folder = other.folder(&case.source).map_err(said)?;

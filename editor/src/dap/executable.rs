@@ -1,7 +1,7 @@
 //! The session's own copy of the compiled program: others may compile it anew in the meantime, and the way back runs it
 //! again.
 
-use super::remains::PREFIX;
+use super::leftovers::PREFIX;
 use arl_project::program::Ready;
 use arl_terminal::private_folder::PrivateFolder;
 use std::path::{Path, PathBuf};

@@ -3,9 +3,9 @@
 
 use arl_lang::span::LineIndex;
 use arl_lang::written;
+use arl_project::cell_programs;
 use arl_project::options::RunOptions;
 use arl_project::program::check_options;
-use arl_project::several;
 use arl_terminal::failure::Failure;
 use arl2rs::compile::{Compiled, check_program};
 use arl2rs::effects::flow;
@@ -93,7 +93,7 @@ impl Programs {
         };
         let checking = options.checking();
         let mut all = vec![(main.to_path_buf(), checking.clone(), String::new())];
-        for other in several::named(options.cell.as_deref(), checking.robot.as_deref()).map_err(said)? {
+        for other in cell_programs::named(options.cell.as_deref(), checking.robot.as_deref()).map_err(said)? {
             all.push((other.path.clone(), other.checking(&checking), other.folder(main).map_err(said)?));
         }
         let mut programs = Vec::new();

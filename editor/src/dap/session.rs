@@ -10,10 +10,10 @@ use super::breakpoints::Breakpoints;
 use super::evaluate::{Input, evaluate};
 use super::executable::Executable;
 use super::launch::Launch;
+use super::leftovers;
 use super::process::{News, Process};
 use super::program::{FileKey, Key, Programs};
 use super::protocol::{Outgoing, Request, capabilities};
-use super::remains;
 use super::state::State;
 use super::variables::Shown;
 use arl_project::cache::Kind;
@@ -195,7 +195,7 @@ impl Session {
         for breakpoint in self.breakpoints.find_places(&programs) {
             self.out.event("breakpoint", json!({"reason": "changed", "breakpoint": breakpoint}));
         }
-        remains::sweep();
+        leftovers::sweep();
         let executable = Executable::of(&ready)?;
         let folder = main.parent().unwrap_or_else(|| "".as_ref());
         let state = State::new(options.state_dir.as_deref(), options.script_dir.as_deref().unwrap_or(folder));

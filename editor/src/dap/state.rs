@@ -1,7 +1,7 @@
 //! The state that the controller keeps between runs: each run of a session begins with a copy of what is there, so that
 //! runs repeat each other. What they keep goes with the session.
 
-use super::remains::PREFIX;
+use super::leftovers::PREFIX;
 use arl_terminal::private_folder::PrivateFolder;
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Folders of the cache that one process changes at a time.
 
-use crate::trouble;
+use crate::build_failure;
 use arl_terminal::failure::Failure;
 use arl_terminal::progress::Progress;
 use std::fs::{File, TryLockError};
@@ -49,7 +49,7 @@ impl Lock {
 /// Why a file or folder of the cache cannot be used, and what to do.
 fn unusable(doing: &str, path: &Path, error: &std::io::Error) -> Failure {
     match Failure::io(doing, path, error) {
-        Failure::Other(said) => Failure::Other(trouble::of(&said).unwrap_or(said)),
+        Failure::Other(said) => Failure::Other(build_failure::of(&said).unwrap_or(said)),
         other => other,
     }
 }

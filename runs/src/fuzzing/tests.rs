@@ -157,7 +157,7 @@ fn changed_recordings() {
     }
     writer.finish().unwrap();
     drop(writer);
-    let store = recorded::of(&mut &*bytes, bytes.len() as u64).unwrap();
+    let store = playback::of(&mut &*bytes, bytes.len() as u64).unwrap();
     assert_eq!((store.tracks.len(), store.motions.len(), store.trouble), (1, 1, None));
     rounds(&[bytes], recording);
 }

@@ -25,7 +25,7 @@ use trace::{Movement, Rows};
 use views::Views;
 
 const WIDTH: f64 = 1200.0;
-const LEFT: f64 = 62.0;
+const LEFT_MARGIN: f64 = 62.0;
 const VIEWS_HEIGHT: f64 = 330.0;
 /// px for the legends to the right of the charts.
 const LEGENDS: f64 = 158.0;
@@ -75,9 +75,9 @@ pub fn plot(trace: &Path, plot: &Path, robot: arl_robot::Robot, ran: &Ran) -> Re
 }
 
 fn draw(outline: &Outline, robot: &Robot, ran: &Ran, rows: Rows) -> Result<String, Failure> {
-    let whole = WIDTH - LEFT - 24.0;
-    let views = Area { x: LEFT, y: 92.0, width: whole, height: VIEWS_HEIGHT };
-    let charts = |y: f64, height: f64| Area { x: LEFT, y, width: whole - LEGENDS, height };
+    let whole = WIDTH - LEFT_MARGIN - 24.0;
+    let views = Area { x: LEFT_MARGIN, y: 92.0, width: whole, height: VIEWS_HEIGHT };
+    let charts = |y: f64, height: f64| Area { x: LEFT_MARGIN, y, width: whole - LEGENDS, height };
     let band = charts(views.bottom() + 46.0, 16.0);
     let speed = charts(band.bottom() + 28.0, 150.0);
     let axes = charts(speed.bottom() + 34.0, 240.0);
@@ -101,22 +101,22 @@ fn draw(outline: &Outline, robot: &Robot, ran: &Ran, rows: Rows) -> Result<Strin
 }
 
 fn head(outline: &Outline, robot: &Robot, ran: &Ran, picture: &mut Picture) {
-    picture.text([LEFT, 36.0], Anchor::Start, "title", &ran.title);
+    picture.text([LEFT_MARGIN, 36.0], Anchor::Start, "title", &ran.title);
     let count = outline.motions();
     let motions = if count == 1 { "1 motion".to_owned() } else { format!("{count} motions") };
     let about = format!("{} \u{b7} {motions} \u{b7} {:.3} s", robot.name, outline.time[1] - outline.time[0]);
-    picture.text([LEFT, 56.0], Anchor::Start, "", &about);
+    picture.text([LEFT_MARGIN, 56.0], Anchor::Start, "", &about);
 }
 
 /// The lines with motions and their colours; returns where the picture ends.
 fn lines(outline: &Outline, ran: &Ran, top: f64, picture: &mut Picture) -> f64 {
     const APART: f64 = 19.0;
-    picture.text([LEFT, top], Anchor::Start, "head", "Lines of the program");
-    let width = (WIDTH - LEFT - 24.0) / COLUMNS as f64;
+    picture.text([LEFT_MARGIN, top], Anchor::Start, "head", "Lines of the program");
+    let width = (WIDTH - LEFT_MARGIN - 24.0) / COLUMNS as f64;
     let listed = outline.lines.len().min(LISTED);
     let rows = listed.div_ceil(COLUMNS);
     for (at, line) in outline.lines.iter().take(listed).enumerate() {
-        let x = LEFT + (at / rows) as f64 * width;
+        let x = LEFT_MARGIN + (at / rows) as f64 * width;
         let y = top + 22.0 + (at % rows) as f64 * APART;
         picture.rect(&Area { x, y: y - 9.0, width: 12.0, height: 10.0 }, "", Some(outline.colour(*line)));
         let times = outline.runs(*line);
@@ -129,7 +129,7 @@ fn lines(outline: &Outline, ran: &Ran, top: f64, picture: &mut Picture) -> f64 {
     let mut bottom = top + 22.0 + rows as f64 * APART;
     if outline.lines.len() > listed {
         let more = format!("and {} more lines", outline.lines.len() - listed);
-        picture.text([LEFT, bottom + 4.0], Anchor::Start, "tick", &more);
+        picture.text([LEFT_MARGIN, bottom + 4.0], Anchor::Start, "tick", &more);
         bottom += APART;
     }
     bottom + 10.0

@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 use arl_robot::regular_file;
 
 use crate::listen::Hears;
+use crate::playback::{self, Store};
 use crate::record::Recorder;
-use crate::recorded::{self, Store};
 use crate::scenery::Scenery;
 use arl_terminal::answer;
 use arl_terminal::answer::{Format, ReportFormat};
@@ -106,7 +106,7 @@ fn summary(file: &Path) -> Result<Summary, Failure> {
     let opened = regular_file::expect(file).and_then(|()| File::open(file)).map_err(fail)?;
     let length = (&opened).read(&mut first).map_err(fail)?;
     if !first.get(..length).unwrap_or_default().trim_ascii_start().starts_with(b"{") {
-        return Ok(Summary::of(&recorded::read(file)?));
+        return Ok(Summary::of(&playback::read(file)?));
     }
     let bytes = regular_file::read(file).map_err(fail)?;
     serde_json::from_slice(&bytes).map_err(|error| {

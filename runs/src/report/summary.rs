@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::playback::{Signal, Store, Track};
 use crate::record::messages::{Closest, Level, Motion};
-use crate::recorded::{Signal, Store, Track};
 use crate::texts::file_name;
 
 /// A run: times in s, ways in mm.

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value, json};
 
+use crate::playback::{Signal, Store, TOLD_AGAIN, Took, Track};
 use crate::record::messages::{
     Blend, Closest, Color, Level, Link, Log, Motion, Pose, Quaternion, SceneUpdate, Solid, Vector3,
 };
-use crate::recorded::{Signal, Store, TOLD_AGAIN, Took, Track};
 
 /// How much of a run the page knows already, by the numbers of what it has.
 #[derive(Clone, Copy, Default, Debug)]

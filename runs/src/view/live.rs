@@ -9,8 +9,8 @@ use mcap::McapResult;
 
 use crate::link::ProgramLink;
 use crate::listen::{self, Hears};
+use crate::playback::Store;
 use crate::record::{Recorder, Schema, Sink};
-use crate::recorded::Store;
 use crate::scenery::Scenery;
 use arl_terminal::interrupt;
 use arl_terminal::show;

@@ -23,7 +23,7 @@ use arl_robot::Robot;
 use serde_json::{Value, json};
 
 use crate::listen::Hears;
-use crate::recorded::{self, Store};
+use crate::playback::{self, Store};
 use crate::report::{Differences, Summary};
 use crate::scenery::Scenery;
 use crate::texts;
@@ -122,7 +122,7 @@ fn serve(shown: &Arc<Shown>, page: Page) -> Result<JoinHandle<()>, Failure> {
 }
 
 fn recording(file: &Path) -> Result<Store, Failure> {
-    let store = recorded::read(file)?;
+    let store = playback::read(file)?;
     if let Some(trouble) = &store.trouble {
         show::warning(&format!("{}: {trouble}", file.display()));
     }

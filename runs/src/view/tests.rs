@@ -3,8 +3,8 @@
 use prost::Message as _;
 
 use super::answer::{self, Known};
+use crate::playback::{Signal, Store, Took};
 use crate::record::messages::{Cell, Channel, Io, Link, Motion, Runs};
-use crate::recorded::{Signal, Store, Took};
 
 fn channel(time: f64, line: u32, motion: u64, x: f64) -> Channel {
     Channel {

@@ -103,7 +103,9 @@ impl Governor<'_> {
 
     fn paced(&self, state: &State, backup: &Change, pacing: Pacing) -> Step {
         match pacing {
-            Pacing::Stop(harder) => self.slower(state, backup, Scale { vel: 1.0, acc: harder, jerk: harder }),
+            Pacing::Stop(stop_scale) => {
+                self.slower(state, backup, Scale { vel: 1.0, acc: stop_scale, jerk: stop_scale })
+            }
             Pacing::Go(share) => {
                 let slowed = slowed(share);
                 let ends = self.arrives(state, slowed).or_else(|| self.arrives(state, FULL_LIMITS));

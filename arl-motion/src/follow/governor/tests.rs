@@ -26,7 +26,7 @@ fn run(cells: &[(f64, Limits)], pacing: impl Fn(u32) -> Pacing) -> u32 {
         let told = format!("{cycle}: {done} {before:?} {state:?} {cells:?}");
         assert!(cycle < 100_000, "{told}");
         done += state.at - before.at;
-        let harder = if let Pacing::Stop(harder) = pace { harder } else { 1.0 };
+        let stop_scale = if let Pacing::Stop(stop_scale) = pace { stop_scale } else { 1.0 };
         let mut end = 0.0;
         let here = cells.iter().position(|(length, _)| {
             end += length;
@@ -39,9 +39,9 @@ fn run(cells: &[(f64, Limits)], pacing: impl Fn(u32) -> Pacing) -> u32 {
         let before_end = done < end;
         if before_end {
             assert!(state.vel >= 0.0 && state.vel <= vel * 1.000_2, "{told}");
-            assert!(state.acc.abs() <= acc * harder * 1.001, "{told}");
+            assert!(state.acc.abs() <= acc * stop_scale * 1.001, "{told}");
             let change = (state.acc - before.acc).abs() / 0.001;
-            assert!(change <= jerk * harder * 1.02, "{change} {told}");
+            assert!(change <= jerk * stop_scale * 1.02, "{change} {told}");
         }
         let mut rest = state;
         if timing.pass(&mut rest) {
@@ -99,9 +99,12 @@ fn stops_and_overrides_keep_to_the_limits_and_the_end() {
         let acc = random.between(1.0, 20.0);
         let limits = Limits { vel: 1.0, acc, jerk: acc * random.between(2.0, 60.0) };
         let cells = [(random.between(0.05, 2.0), limits)];
-        let (stop, harder) = (random.between(1.0, 1500.0) as u32, if round % 2 == 0 { 1.0 } else { 5.0 });
+        let (stop, stop_scale) = (random.between(1.0, 1500.0) as u32, if round % 2 == 0 { 1.0 } else { 5.0 });
         let share = random.between(0.01, 1.0);
-        run(&cells, |cycle| if cycle >= stop && cycle < stop + 1500 { Pacing::Stop(harder) } else { Pacing::Go(1.0) });
+        run(
+            &cells,
+            |cycle| if cycle >= stop && cycle < stop + 1500 { Pacing::Stop(stop_scale) } else { Pacing::Go(1.0) },
+        );
         run(&cells, |cycle| if cycle >= stop { Pacing::Settle(share) } else { Pacing::Go(1.0) });
         // A slider that moves all the time.
         let shares: Vec<f64> = (0..100).map(|_| random.between(0.01, 1.0)).collect();

@@ -17,7 +17,7 @@ use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, NEAR_STOP_S, PathBuffe
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
 use crate::time_optimal::law_follower::{LawFollower, RenewalRequest, StopRequest};
 use crate::time_optimal::law_solver_thread::{FIRST_LOOK_AHEAD_S, Found, LawRequest, Search, Status};
-use crate::time_optimal::solver::{Edge, Law};
+use crate::time_optimal::solver::{BoundaryState, Law};
 use arl_robot::robot::Robot;
 
 /// A law looks no farther than so many s of nominal time.
@@ -332,7 +332,7 @@ impl PathBuffer {
     fn search(
         &mut self,
         sampler: ConstraintSampler,
-        (start, law): (Edge, Option<Arc<Law>>),
+        (start, law): (BoundaryState, Option<Arc<Law>>),
         cycles: u32,
         purpose: Purpose,
     ) {
@@ -409,10 +409,10 @@ impl PathBuffer {
             return false;
         }
         match pacing {
-            Pacing::Stop(harder) if is_shorter_stop => drop(follower.brake(harder)),
+            Pacing::Stop(stop_scale) if is_shorter_stop => drop(follower.brake(stop_scale)),
             // It comes to rest, and goes on from there.
             _ if is_shorter_stop => {}
-            Pacing::Stop(harder) => self.request_stop(&mut follower, (robot, here), cycle, harder),
+            Pacing::Stop(stop_scale) => self.request_stop(&mut follower, (robot, here), cycle, stop_scale),
             // Laws that are being looked for count on the share that is known.
             Pacing::Go(share) | Pacing::Settle(share) => {
                 self.drop_stop_search();
@@ -449,28 +449,30 @@ impl PathBuffer {
         follower: &mut LawFollower,
         (robot, here): (&Arc<Robot>, &Joints),
         cycle: f64,
-        harder: f64,
+        stop_scale: f64,
     ) {
         match self.pending.as_ref().map(|pending| &pending.purpose) {
-            Some(Purpose::StopRequest(pending)) if *pending >= harder => return,
+            Some(Purpose::StopRequest(pending)) if *pending >= stop_scale => return,
             Some(Purpose::StopRequest(_) | Purpose::GoOn(_)) => self.cancel(),
             _ => {}
         }
-        if follower.brake(harder) {
+        if follower.brake(stop_scale) {
             self.settle_offer(follower);
         }
         let cycles = self.search_cycles(cycle);
-        let Some(StopRequest { at, start, about, end }) = follower.request_stop(cycles, cycle, harder) else { return };
+        let Some(StopRequest { at, start, about, end }) = follower.request_stop(cycles, cycle, stop_scale) else {
+            return;
+        };
         // What is looked for would lead on, or can wait.
         self.settle_offer(follower);
         self.cancel();
         let sampler = self.sampler_up_to(robot, (at, here), end, (usize::MAX, f64::INFINITY));
-        let request = LawRequest::Shortest { start, about, harder };
+        let request = LawRequest::Shortest { start, about, stop_scale };
         self.search_for(
             request,
             sampler.up_to(end).for_stop(ACCELERATION_RISE_CYCLES * cycle),
             cycles,
-            Purpose::StopRequest(harder),
+            Purpose::StopRequest(stop_scale),
         );
     }
 
@@ -510,7 +512,7 @@ impl PathBuffer {
                 follower.renew(found);
             }
             Purpose::GoOn(share) => follower.go_on(found, share),
-            Purpose::StopRequest(harder) => follower.stop_along(found, harder),
+            Purpose::StopRequest(stop_scale) => follower.stop_along(found, stop_scale),
             Purpose::Next => self.next = Some(Next { found, reach }),
             Purpose::Offer(draft) if follower.renew(found) => self.take(*draft),
             // It is made again, as long as there is time.
@@ -561,7 +563,7 @@ impl PathBuffer {
             }
             let sampler = self.sampler(robot, here, self.passed + self.at, None);
             follower.set_off(&sampler, share, self.searching(cycle));
-            self.search(sampler, (Edge::REST, None), self.search_cycles(cycle), Purpose::Start);
+            self.search(sampler, (BoundaryState::REST, None), self.search_cycles(cycle), Purpose::Start);
             return;
         }
         let cycles = self.search_cycles(cycle);
@@ -609,7 +611,7 @@ impl PathBuffer {
         }
         let part = Part { segments: self.segments.clone(), from, count };
         let sampler = ConstraintSampler::new(robot, part, 0.0, (end, stops), (0.0, last.target()));
-        self.search(sampler, (Edge::REST, None), self.search_cycles(cycle), Purpose::Next);
+        self.search(sampler, (BoundaryState::REST, None), self.search_cycles(cycle), Purpose::Next);
     }
 }
 

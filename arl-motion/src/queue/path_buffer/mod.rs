@@ -17,7 +17,7 @@ use crate::follow::segment::{PlainSpeed, Segment};
 use crate::follow::shared_deque::SharedDeque;
 use crate::follow::timing::Timing;
 use crate::junction::blend_thread::Prepared;
-use crate::junction::{self, Before, Blended, CurvedBlends, Meeting};
+use crate::junction::{self, Before, Blended, CurvedBlends, MotionPair};
 use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 use crate::plan::motion::Motion;
 use crate::time_optimal::law_follower::LawFollower;
@@ -139,9 +139,9 @@ fn began(taken: &[(Arc<Segment>, bool)]) -> bool {
 }
 
 impl Tail {
-    fn meeting(&self, next: &Arc<Motion>) -> Meeting {
+    fn pair(&self, next: &Arc<Motion>) -> MotionPair {
         let before = self.joined.as_ref().and_then(|joined| joined.before.clone());
-        Meeting { before, from: Arc::clone(&self.motion), to: Arc::clone(next) }
+        MotionPair { before, from: Arc::clone(&self.motion), to: Arc::clone(next) }
     }
 }
 
@@ -264,7 +264,7 @@ impl PathBuffer {
             return None;
         }
         let tail = tail.filter(|_| !self.segments.is_empty());
-        let known = prepared.zip(tail.as_ref()).map(|(prepared, tail)| prepared.take(robot, || tail.meeting(motion)));
+        let known = prepared.zip(tail.as_ref()).map(|(prepared, tail)| prepared.take(robot, || tail.pair(motion)));
         let curved = tail.as_ref().and_then(|tail| self.curved(robot, known, tail, motion));
         let mut joined = tail.as_ref().zip(curved).and_then(|(tail, curved)| {
             let segments = self.join_curved(tail, &curved, (motion, limits), number, cycle)?;

@@ -28,21 +28,21 @@ impl PathBuffer {
         if self.leader.follower().is_some() {
             return;
         }
-        let harder = if let Pacing::Stop(harder) = pacing { harder } else { 0.0 };
-        if harder == 0.0 || self.state.rests() {
+        let stop_scale = if let Pacing::Stop(stop_scale) = pacing { stop_scale } else { 0.0 };
+        if stop_scale == 0.0 || self.state.rests() {
             self.drop_stop_request();
             return;
         }
-        if self.stop_asked.is_none_or(|asked| asked < harder) {
+        if self.stop_asked.is_none_or(|asked| asked < stop_scale) {
             self.drop_stop_request();
-            self.stop_asked = Some(harder);
-            if !self.stops_on_even_way(harder) {
-                self.request_stop_law(robot, here, cycle, harder);
+            self.stop_asked = Some(stop_scale);
+            if !self.stops_on_even_way(stop_scale) {
+                self.request_stop_law(robot, here, cycle, stop_scale);
             }
         } else if let Some(found) = self.take_stop_law()
             && matches!(self.leader, Leader::Governor)
         {
-            self.leader = Leader::ShorterStop(Box::new(LawFollower::resting(found, harder)));
+            self.leader = Leader::ShorterStop(Box::new(LawFollower::resting(found, stop_scale)));
         }
     }
 
@@ -55,21 +55,21 @@ impl PathBuffer {
     }
 
     /// Whether the governor's stop stays on a segment that has the same limits everywhere: none is shorter.
-    fn stops_on_even_way(&self, harder: f64) -> bool {
+    fn stops_on_even_way(&self, stop_scale: f64) -> bool {
         let State { vel, acc, .. } = self.state;
         self.segments.front().filter(|segment| segment.is_even()).is_some_and(|segment| {
             let Limits { acc: most, jerk, .. } = segment.limits;
-            let limits = Limits { vel, acc: most * harder, jerk: jerk * harder };
+            let limits = Limits { vel, acc: most * stop_scale, jerk: jerk * stop_scale };
             self.at + Change::new(vel, acc, 0.0, &limits).distance(vel, acc) < segment.time
         })
     }
 
-    fn request_stop_law(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, harder: f64) {
+    fn request_stop_law(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, stop_scale: f64) {
         self.cancel();
         let at = self.passed + self.at;
         let sampler = self.sampler_up_to(robot, (at, here), f64::INFINITY, (usize::MAX, f64::INFINITY));
         self.find_entries();
-        let prediction = StopPrediction::new(self.timing.clone(), self.state, self.backup, cycle, harder);
+        let prediction = StopPrediction::new(self.timing.clone(), self.state, self.backup, cycle, stop_scale);
         let cycles = 2 * self.search_cycles(cycle);
         let request = LawRequest::ShorterStop(Box::new(prediction), cycles);
         self.search_for(request, sampler.for_stop(ACCELERATION_RISE_CYCLES * cycle), cycles, Purpose::ShorterStop);

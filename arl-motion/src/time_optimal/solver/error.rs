@@ -20,7 +20,7 @@ pub enum Refusal {
     /// Nothing moves along the path.
     Still,
     /// A speed or acceleration at the start or the end that is not a number, or a speed below zero.
-    Edge,
+    Boundary,
     /// The start or the end is too fast: no motion within the limits has them both.
     Fast,
 }
@@ -37,7 +37,7 @@ impl fmt::Display for Refusal {
                 )
             }
             Self::Still => f.write_str("nothing moves along a path; some first derivative must differ from zero"),
-            Self::Edge => f.write_str("the speed at the start or end of a path is not a number, or is below zero"),
+            Self::Boundary => f.write_str("the speed at the start or end of a path is not a number, or is below zero"),
             Self::Fast => f.write_str("no motion within the limits joins the speeds at the start and end of a path"),
         }
     }

@@ -3,7 +3,7 @@
 use crate::time_optimal::solver::screen::highest_square;
 use crate::time_optimal::solver::warp::Warp;
 use crate::time_optimal::solver::warped_row::WarpedRow;
-use crate::time_optimal::solver::{Edge, Way};
+use crate::time_optimal::solver::{BoundaryState, Way};
 
 /// Of the fastest rise from rest with limited jerk the power 3/4 of the speed's square grows evenly with the way, by so
 /// much with the root of the jerk; a part of it leaves room for accelerations to begin and end.
@@ -12,7 +12,7 @@ const GUESSED_SHARE_OF_RISE: f64 = 0.5;
 
 /// About how fast the warped parameter can go at the places, `places` in its own terms: as the limits leave it at an
 /// even speed, and as it can be reached from their neighbours.
-pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Edge; 2]) -> Vec<f64> {
+pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [BoundaryState; 2]) -> Vec<f64> {
     let last = places.len().saturating_sub(1);
     let mut squares = Vec::with_capacity(places.len());
     // How much the square may grow, and its power 3/4.
@@ -69,7 +69,7 @@ const CHANGE_OF_SPEED: f64 = 1.1;
 const COARSE: Thinning = Thinning { closest: 0.006, change: 1.5, begun: 0.1, keeps_jumps: false };
 
 /// About how long the fastest motion takes from each place to the next, in s: rather less.
-pub(crate) fn guess_steps(way: &Way, edges: [Edge; 2]) -> Option<Vec<f64>> {
+pub(crate) fn guess_steps(way: &Way, edges: [BoundaryState; 2]) -> Option<Vec<f64>> {
     let (from, to) = way.span().ok()?;
     let warp = Warp::new(from, to, edges[0].rests(), edges[1].rests());
     let places: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
@@ -99,7 +99,7 @@ pub(crate) fn thinned(way: &Way, steps: &[f64], closest: f64) -> Option<Way> {
 
 /// The way with a third of its places or so, from which the pace of a law can be told, but not the law; `None` where it
 /// has few of them.
-pub(crate) fn coarse(way: &Way, edges: [Edge; 2]) -> Option<Way> {
+pub(crate) fn coarse(way: &Way, edges: [BoundaryState; 2]) -> Option<Way> {
     let steps = guess_steps(way, edges)?;
     keep(way, &steps, &COARSE)
 }

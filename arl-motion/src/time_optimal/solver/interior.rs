@@ -14,7 +14,7 @@ use crate::time_optimal::solver::guess::coarse;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::program::{Beginning, Known, Program, Site, SiteLimits, dot};
-use crate::time_optimal::solver::{Edge, Pace, Refusal, Way};
+use crate::time_optimal::solver::{BoundaryState, Pace, Refusal, Way};
 
 /// At most so many steps are taken; 10 to 30 are needed, up to 60 from a given state.
 const STEPS: usize = 80;
@@ -107,7 +107,7 @@ struct Prices {
 ///
 /// Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is
 /// enough; a guess is not that near. So a law is found over the pace of another one, until that is as good as its own.
-pub(crate) fn solve(way: &Way, edges: [Edge; 2], before: Option<&Law>) -> Result<Law, Refusal> {
+pub(crate) fn solve(way: &Way, edges: [BoundaryState; 2], before: Option<&Law>) -> Result<Law, Refusal> {
     let Some(before) = before else { return solve_alone(way, edges) };
     // Few places tell the pace sooner, but not always where the start leaves hardly a way on. And where it has to slow
     // down for what the law before has not seen, the pace of that may lead nowhere.
@@ -142,7 +142,7 @@ fn faster(one: Result<Law, Refusal>, other: Result<Law, Refusal>) -> Result<Law,
 }
 
 /// From a guess.
-fn solve_alone(way: &Way, edges: [Edge; 2]) -> Result<Law, Refusal> {
+fn solve_alone(way: &Way, edges: [BoundaryState; 2]) -> Result<Law, Refusal> {
     let mut program = program(way, edges, Known::Nothing)?;
     let gap = if program.warp.is_even() { GAP } else { ROUGH_GAP };
     Ok(approach(way, edges, find(&mut program, gap)?))
@@ -150,7 +150,7 @@ fn solve_alone(way: &Way, edges: [Edge; 2]) -> Result<Law, Refusal> {
 
 /// As the law before goes, as far as that is known; with the rough law, over a way with fewer places, that its pace is
 /// of.
-fn solve_behind(way: &Way, edges: [Edge; 2], (before, sparse): (&Law, &Way)) -> Result<(Law, Law), Refusal> {
+fn solve_behind(way: &Way, edges: [BoundaryState; 2], (before, sparse): (&Law, &Way)) -> Result<(Law, Law), Refusal> {
     let rough = solve_roughly(sparse, edges, before)?;
     let pace = rough.pace_at(way.places()).ok_or(Refusal::Fast)?;
     let law = solve_near(way, edges, &pace)?;
@@ -159,7 +159,7 @@ fn solve_behind(way: &Way, edges: [Edge; 2], (before, sparse): (&Law, &Way)) -> 
 }
 
 /// The same for its pace alone.
-fn solve_roughly(way: &Way, edges: [Edge; 2], before: &Law) -> Result<Law, Refusal> {
+fn solve_roughly(way: &Way, edges: [BoundaryState; 2], before: &Law) -> Result<Law, Refusal> {
     let mut rough = find_roughly(program(way, edges, Known::Before(before))?)?;
     for _ in 0..MOST_ROUGH_APPROACHES {
         let pace = rough.pace().ok_or(Refusal::Fast)?;
@@ -174,7 +174,7 @@ fn solve_roughly(way: &Way, edges: [Edge; 2], before: &Law) -> Result<Law, Refus
 }
 
 /// Over a law's own pace, again and again.
-fn approach(way: &Way, edges: [Edge; 2], mut law: Law) -> Law {
+fn approach(way: &Way, edges: [BoundaryState; 2], mut law: Law) -> Law {
     for _ in 0..MOST_APPROACHES {
         let nearer = law.pace().and_then(|pace| solve_near(way, edges, &pace).ok());
         let Some(nearer) = nearer.filter(|nearer| nearer.duration() < law.duration()) else { break };
@@ -193,11 +193,11 @@ fn gain(law: &Law, nearer: &Law) -> f64 {
 }
 
 /// The same where the pace is about known.
-pub(crate) fn solve_near(way: &Way, edges: [Edge; 2], pace: &Pace) -> Result<Law, Refusal> {
+pub(crate) fn solve_near(way: &Way, edges: [BoundaryState; 2], pace: &Pace) -> Result<Law, Refusal> {
     find(&mut program(way, edges, Known::Pace(pace))?, GAP)
 }
 
-fn program(way: &Way, edges: [Edge; 2], known: Known) -> Result<Program, Refusal> {
+fn program(way: &Way, edges: [BoundaryState; 2], known: Known) -> Result<Program, Refusal> {
     if way.places().len() < 3 { Err(Refusal::Short) } else { Program::new(way, edges, known) }
 }
 

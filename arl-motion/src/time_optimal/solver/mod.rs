@@ -38,14 +38,14 @@ use warp::Warp;
 
 /// How the path parameter moves at an end of the path.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Edge {
+pub struct BoundaryState {
     /// Its speed, per s; not negative.
     pub vel: f64,
     /// Its acceleration, per s2; without meaning at rest, where the speed is 0.
     pub acc: f64,
 }
 
-impl Edge {
+impl BoundaryState {
     /// At rest.
     pub const REST: Self = Self { vel: 0.0, acc: 0.0 };
 
@@ -56,7 +56,7 @@ impl Edge {
 
 /// Path parameters from `from` to `to`, `count` of them, that are close together where the motion is slow because it
 /// starts or ends at rest: places for a [`Way`].
-pub fn places(from: f64, to: f64, count: usize, start: Edge, end: Edge) -> Vec<f64> {
+pub fn places(from: f64, to: f64, count: usize, start: BoundaryState, end: BoundaryState) -> Vec<f64> {
     let warp = Warp::new(from, to, start.rests(), end.rests());
     let last = count.max(2) - 1;
     let inner = |index: usize| warp.place(warp.length() * index as f64 / last as f64).at;
@@ -77,12 +77,17 @@ pub fn places(from: f64, to: f64, count: usize, start: Edge, end: Edge) -> Vec<f
 /// # Errors
 /// A way of fewer than two places or without order, rows that are not numbers or without positive limits, a way along
 /// which nothing moves, and edges that no motion within the limits has.
-pub fn fastest(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
+pub fn fastest(way: &Way, start: BoundaryState, end: BoundaryState) -> Result<Law, Refusal> {
     fastest_behind(way, start, end, None)
 }
 
 /// The same where a law leads to the start, and on along the same path, as far as that goes.
-pub(crate) fn fastest_behind(way: &Way, start: Edge, end: Edge, before: Option<&Law>) -> Result<Law, Refusal> {
+pub(crate) fn fastest_behind(
+    way: &Way,
+    start: BoundaryState,
+    end: BoundaryState,
+    before: Option<&Law>,
+) -> Result<Law, Refusal> {
     check(way, [start, end])?;
     if !way.limits_jerk() {
         return reach::solve(way, start, end);
@@ -91,13 +96,13 @@ pub(crate) fn fastest_behind(way: &Way, start: Edge, end: Edge, before: Option<&
 }
 
 /// The same where about the pace is known ([`Law::pace`]): that with other limits at the same places.
-pub(crate) fn fastest_near(way: &Way, start: Edge, end: Edge, pace: &Pace) -> Result<Law, Refusal> {
+pub(crate) fn fastest_near(way: &Way, start: BoundaryState, end: BoundaryState, pace: &Pace) -> Result<Law, Refusal> {
     check(way, [start, end])?;
     interior::solve_near(&way.rising_beside_rest([start, end]), [start, end], pace)
 }
 
-fn check(way: &Way, edges: [Edge; 2]) -> Result<(), Refusal> {
+fn check(way: &Way, edges: [BoundaryState; 2]) -> Result<(), Refusal> {
     way.check()?;
-    let is_sound = |edge: &Edge| edge.vel >= 0.0 && edge.vel.is_finite() && edge.acc.is_finite();
-    if edges.iter().all(is_sound) { Ok(()) } else { Err(Refusal::Edge) }
+    let is_sound = |edge: &BoundaryState| edge.vel >= 0.0 && edge.vel.is_finite() && edge.acc.is_finite();
+    if edges.iter().all(is_sound) { Ok(()) } else { Err(Refusal::Boundary) }
 }

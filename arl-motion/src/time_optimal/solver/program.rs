@@ -15,7 +15,7 @@ use crate::time_optimal::solver::paced_warp::PacedWarp;
 use crate::time_optimal::solver::screen::{Screen, highest_square};
 use crate::time_optimal::solver::warp::{Warp, WarpedPoint};
 use crate::time_optimal::solver::warped_row::WarpedRow;
-use crate::time_optimal::solver::{Edge, Refusal, Row, Way, reach};
+use crate::time_optimal::solver::{BoundaryState, Refusal, Row, Way, reach};
 
 /// One end of a stretch: what of the stretch's three coefficients makes up x and the acceleration here.
 #[derive(Clone, Copy, Default, Debug)]
@@ -73,7 +73,7 @@ pub(crate) struct Program {
     known: Option<Beginning>,
     /// The coefficients that states at the ends give, two for each.
     pub(crate) given: Vec<(usize, f64)>,
-    edges: [Edge; 2],
+    edges: [BoundaryState; 2],
     screen: Screen,
     /// The stretches with limits in the middle, from first to last.
     middles: Vec<usize>,
@@ -151,7 +151,7 @@ fn pace_from(
     known: Known,
     way: &Way,
     (warp, places): (Warp, &[f64]),
-    edges: [Edge; 2],
+    edges: [BoundaryState; 2],
 ) -> Result<(PacedWarp, Option<Beginning>), Refusal> {
     let guess = || guess_speeds(way, &warp, places, edges);
     let (along, beginning) = match known {
@@ -191,7 +191,7 @@ fn warped_rows(way: &Way, warp: &PacedWarp, places: &[f64], middles: &[Middle]) 
 }
 
 impl Program {
-    pub(crate) fn new(way: &Way, [start, end]: [Edge; 2], known: Known) -> Result<Self, Refusal> {
+    pub(crate) fn new(way: &Way, [start, end]: [BoundaryState; 2], known: Known) -> Result<Self, Refusal> {
         let (from, to) = way.span()?;
         let warp = Warp::new(from, to, start.rests(), end.rests());
         let last = way.places().len() - 1;
@@ -396,7 +396,7 @@ impl Program {
         let length = self.warp.length();
         let last = self.places.len() - 1;
         // x and its slope at both ends; and the way over which the slope fades out.
-        let state = |edge: Edge, at: usize| {
+        let state = |edge: BoundaryState, at: usize| {
             let (square, slope) = if edge.rests() {
                 (1.0, 0.0)
             } else {
@@ -420,7 +420,7 @@ impl Program {
     /// The paced parameter goes as the time does.
     fn at_pace(&self) -> Vec<f64> {
         let length = self.warp.length();
-        let by_edge = |edge: &Edge, away: f64| {
+        let by_edge = |edge: &BoundaryState, away: f64| {
             if edge.rests() { 1.0 } else { 1.0 - (-(away / GIVEN_STATE_S) * (away / GIVEN_STATE_S)).exp() }
         };
         let [start, end] = &self.edges;
@@ -445,7 +445,12 @@ enum Counting {
 
 /// The stretches with limits in their middles: those close to rest, where rows change so much, and those of the highest
 /// speed; `most` is the highest square of the speed at each place.
-fn middles(way: &Way, warp: &PacedWarp, places: &[f64], ([start, end], most): ([Edge; 2], &[f64])) -> Vec<Middle> {
+fn middles(
+    way: &Way,
+    warp: &PacedWarp,
+    places: &[f64],
+    ([start, end], most): ([BoundaryState; 2], &[f64]),
+) -> Vec<Middle> {
     let last = places.len() - 1;
     let count = MIDDLES.min(last / 2);
     let is_near_rest = |stretch: usize| (start.rests() && stretch < count) || (end.rests() && stretch + count >= last);
@@ -466,16 +471,16 @@ fn middles(way: &Way, warp: &PacedWarp, places: &[f64], ([start, end], most): ([
 }
 
 /// x and its slope at a given state at a place.
-fn given_state(edge: Edge, place: WarpedPoint, unit: f64) -> (f64, f64) {
+fn given_state(edge: BoundaryState, place: WarpedPoint, unit: f64) -> (f64, f64) {
     let square = edge.vel * edge.vel / (place.first * place.first);
     let slope = 2.0 * (edge.acc - place.second * square) / place.first;
     (square / unit, slope / unit)
 }
 
 /// The coefficients that states at the ends give.
-fn given(warp: &PacedWarp, places: &[f64], [start, end]: [Edge; 2], unit: f64) -> Vec<(usize, f64)> {
+fn given(warp: &PacedWarp, places: &[f64], [start, end]: [BoundaryState; 2], unit: f64) -> Vec<(usize, f64)> {
     let last = places.len() - 1;
-    let two = |edge: Edge, at: usize, beside: usize, [first, next]: [usize; 2]| {
+    let two = |edge: BoundaryState, at: usize, beside: usize, [first, next]: [usize; 2]| {
         let (square, slope) = given_state(edge, warp.place(at, places[at]), unit);
         let there = square + 0.5 * slope * (places[beside] - places[at]);
         if edge.rests() { None } else { Some([(first, square), (next, there)]) }

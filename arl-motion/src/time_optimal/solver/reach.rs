@@ -4,7 +4,7 @@
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::paced_warp::PacedWarp;
 use crate::time_optimal::solver::warp::Warp;
-use crate::time_optimal::solver::{Edge, Refusal, Way};
+use crate::time_optimal::solver::{BoundaryState, Refusal, Way};
 
 /// The half plane `here` x + `next` y <= 1 of the squares of the speed at one place and the next.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ struct Half {
 }
 
 /// The fastest motion within the velocity and acceleration limits of `way`.
-pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
+pub(crate) fn solve(way: &Way, start: BoundaryState, end: BoundaryState) -> Result<Law, Refusal> {
     let (from, to) = way.span()?;
     if way.places().len() == 2 && start.rests() && end.rests() {
         // Nothing moves at either place.
@@ -29,7 +29,7 @@ pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
 }
 
 /// The squares of its speed at the places; that at the start may be so many times as high as it could be.
-pub(crate) fn squares(way: &Way, [start, end]: [Edge; 2], most_excess: f64) -> Result<Vec<f64>, Refusal> {
+pub(crate) fn squares(way: &Way, [start, end]: [BoundaryState; 2], most_excess: f64) -> Result<Vec<f64>, Refusal> {
     let caps = caps(way);
     let mut circle_steps = Vec::new();
     // The lowest and highest square of the speed at each place from which the end can be reached.

@@ -7,7 +7,7 @@ use arl_robot::robot::Robot;
 
 fn line(count: usize, limits: Limits) -> Way {
     let mut way = Way::new();
-    for at in places(0.0, 1.0, count, Edge::REST, Edge::REST) {
+    for at in places(0.0, 1.0, count, BoundaryState::REST, BoundaryState::REST) {
         let Limits { vel, acc, jerk } = limits;
         way.push(at, [Row { first: 1.0, second: 0.0, third: 0.0, vel, acc, jerk }]);
     }
@@ -73,9 +73,9 @@ impl Spline {
     }
 
     /// Places between `from` and the end, with the points among them.
-    fn way(&self, from: f64, start: Edge, jerk: bool) -> Way {
+    fn way(&self, from: f64, start: BoundaryState, jerk: bool) -> Way {
         let count = 150 * (self.points.len() - 1);
-        let mut all = places(from, self.length(), count, start, Edge::REST);
+        let mut all = places(from, self.length(), count, start, BoundaryState::REST);
         all.extend((1..self.points.len() - 1).map(|point| point as f64).filter(|point| *point > from));
         all.sort_by(f64::total_cmp);
         // Close ones are as good as one; the points stay.
@@ -135,10 +135,12 @@ fn a_straight_line_takes_as_long_as_the_closed_form() {
         [(1.0, 4.0, 40.0), (10.0, 10.0, 4.0), (10.0, 3.0, 40.0), (0.3, 4.0, 100.0), (0.1, 10.0, 1e3)]
     {
         let limits = Limits { vel, acc, jerk };
-        let law = fastest(&line(400, limits), Edge::REST, Edge::REST).unwrap();
+        let law = fastest(&line(400, limits), BoundaryState::REST, BoundaryState::REST).unwrap();
         let share = law.duration() / limits.duration(1.0);
         assert!((share - 1.0).abs() < 5e-3, "{limits:?}: {share}");
-        let law = fastest(&line(400, Limits { jerk: f64::INFINITY, ..limits }), Edge::REST, Edge::REST).unwrap();
+        let law =
+            fastest(&line(400, Limits { jerk: f64::INFINITY, ..limits }), BoundaryState::REST, BoundaryState::REST)
+                .unwrap();
         let trapezoid = if vel * vel < acc { 1.0 / vel + vel / acc } else { 2.0 / acc.sqrt() };
         let share = law.duration() / trapezoid;
         assert!((share - 1.0).abs() < 5e-3, "{limits:?}: {share} without jerk");
@@ -153,8 +155,10 @@ fn limits_hold_between_the_places_too_and_the_duration_is_close_to_the_lower_bou
         // The more points, the less the acceleration's ramps at both ends count.
         for (count, factor) in [(2, 1.35), (3, 1.2), (4, 1.2), (6, 1.1), (10, 1.05)] {
             let spline = Spline::random(&robot, &mut random, count, 0.5);
-            let law = fastest(&spline.way(0.0, Edge::REST, true), Edge::REST, Edge::REST).unwrap();
-            let bound = fastest(&spline.way(0.0, Edge::REST, false), Edge::REST, Edge::REST).unwrap();
+            let law =
+                fastest(&spline.way(0.0, BoundaryState::REST, true), BoundaryState::REST, BoundaryState::REST).unwrap();
+            let bound = fastest(&spline.way(0.0, BoundaryState::REST, false), BoundaryState::REST, BoundaryState::REST)
+                .unwrap();
             let used = spline.usage(&law, true);
             assert!(used.iter().all(|used| *used < 1.005), "{name}, {count} points: {used:?}");
             // Some limit is always used: the jerk at the start, if no other.
@@ -171,7 +175,8 @@ fn without_jerk_limits_velocity_and_acceleration_limits_hold() {
     let robot = Robot::builtin("kr10-r1420").unwrap();
     for count in [2, 3, 5, 8] {
         let spline = Spline::random(&robot, &mut random, count, 0.5);
-        let law = fastest(&spline.way(0.0, Edge::REST, false), Edge::REST, Edge::REST).unwrap();
+        let law =
+            fastest(&spline.way(0.0, BoundaryState::REST, false), BoundaryState::REST, BoundaryState::REST).unwrap();
         let [vel, acc, _] = spline.usage(&law, true);
         assert!(vel < 1.005 && acc < 1.005 && acc > 0.99, "{count} points: {vel} {acc}");
     }
@@ -183,11 +188,12 @@ fn a_motion_goes_on_from_states_on_its_way() {
     let robot = Robot::builtin("kr10-r1420").unwrap();
     for _ in 0..6 {
         let spline = Spline::random(&robot, &mut random, 5, 0.4);
-        let law = fastest(&spline.way(0.0, Edge::REST, true), Edge::REST, Edge::REST).unwrap();
+        let law =
+            fastest(&spline.way(0.0, BoundaryState::REST, true), BoundaryState::REST, BoundaryState::REST).unwrap();
         for part in [0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97] {
             let moment = law.at(part * law.duration());
-            let edge = Edge { vel: moment.vel, acc: moment.acc };
-            let rest = match fastest(&spline.way(moment.at, edge, true), edge, Edge::REST) {
+            let edge = BoundaryState { vel: moment.vel, acc: moment.acc };
+            let rest = match fastest(&spline.way(moment.at, edge, true), edge, BoundaryState::REST) {
                 Ok(rest) => rest,
                 Err(refusal) => {
                     // Where only braking as hard as possible is left, there is no room for another motion.
@@ -215,14 +221,14 @@ fn a_motion_goes_on_behind_a_law_that_ends_sooner() {
     let robot = Robot::builtin("kr10-r1420").unwrap();
     for _ in 0..4 {
         let spline = Spline::random(&robot, &mut random, 6, 0.4);
-        let way = spline.way(0.0, Edge::REST, true);
-        let whole = fastest(&way, Edge::REST, Edge::REST).unwrap();
+        let way = spline.way(0.0, BoundaryState::REST, true);
+        let whole = fastest(&way, BoundaryState::REST, BoundaryState::REST).unwrap();
         // A law that stops on half of the way, of which about a third is gone: there the two are the same.
         let half: Vec<bool> = way.places().iter().map(|at| *at <= 0.5 * spline.length()).collect();
-        let short = fastest(&way.only(&half), Edge::REST, Edge::REST).unwrap();
+        let short = fastest(&way.only(&half), BoundaryState::REST, BoundaryState::REST).unwrap();
         let moment = short.at(0.3 * short.duration());
-        let edge = Edge { vel: moment.vel, acc: moment.acc };
-        let rest = fastest_behind(&spline.way(moment.at, edge, true), edge, Edge::REST, Some(&short)).unwrap();
+        let edge = BoundaryState { vel: moment.vel, acc: moment.acc };
+        let rest = fastest_behind(&spline.way(moment.at, edge, true), edge, BoundaryState::REST, Some(&short)).unwrap();
         let now = rest.at(0.0);
         assert!((now.vel / edge.vel - 1.0).abs() < 1e-6, "{} {}", now.vel, edge.vel);
         let used = spline.usage(&rest, false);
@@ -236,11 +242,11 @@ fn a_motion_goes_on_behind_a_law_that_ends_sooner() {
 fn the_pace_behind_a_law_is_its_own_until_it_slows_down_for_its_end() {
     let way = line(200, Limits { vel: 1.0, acc: 4.0, jerk: 40.0 });
     let half: Vec<bool> = way.places().iter().map(|at| *at <= 0.5).collect();
-    let short = fastest(&way.only(&half), Edge::REST, Edge::REST).unwrap();
+    let short = fastest(&way.only(&half), BoundaryState::REST, BoundaryState::REST).unwrap();
     let on: Vec<bool> = way.places().iter().map(|at| *at >= 0.1).collect();
     let (way, from) = (way.only(&on), short.time_at(way.only(&on).places()[0]));
     let moment = short.at(from);
-    let edges = [Edge { vel: moment.vel, acc: moment.acc }, Edge::REST];
+    let edges = [BoundaryState { vel: moment.vel, acc: moment.acc }, BoundaryState::REST];
     let warp = Warp::new(way.places()[0], 1.0, false, true);
     let warped: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
     let guess = guess::guess_speeds(&way, &warp, &warped, edges);
@@ -252,19 +258,19 @@ fn the_pace_behind_a_law_is_its_own_until_it_slows_down_for_its_end() {
         }
     }
     let last = pace.times.last().unwrap();
-    let rest = fastest_behind(&way, edges[0], Edge::REST, Some(&short)).unwrap();
+    let rest = fastest_behind(&way, edges[0], BoundaryState::REST, Some(&short)).unwrap();
     assert!((0.7..1.6).contains(&(last / rest.duration())), "{last} {}", rest.duration());
 }
 
 #[test]
 fn a_motion_can_end_moving() {
     let limits = Limits { vel: 1.0, acc: 4.0, jerk: 40.0 };
-    let end = Edge { vel: 0.5, acc: 0.0 };
-    let law = fastest(&line(200, limits), Edge::REST, end).unwrap();
+    let end = BoundaryState { vel: 0.5, acc: 0.0 };
+    let law = fastest(&line(200, limits), BoundaryState::REST, end).unwrap();
     let moment = law.at(law.duration());
     assert!((moment.vel - 0.5).abs() < 1e-6 && moment.acc.abs() < 1e-4, "{moment:?}");
     // A second motion backwards in time takes as long.
-    let back = fastest(&line(200, limits), end, Edge::REST).unwrap();
+    let back = fastest(&line(200, limits), end, BoundaryState::REST).unwrap();
     assert!((law.duration() / back.duration() - 1.0).abs() < 5e-3);
     assert!(law.duration() < limits.duration(1.0));
 }
@@ -275,7 +281,8 @@ fn state_and_time_fit_together() {
     let robot = Robot::builtin("six-10").unwrap();
     let spline = Spline::random(&robot, &mut random, 5, 0.5);
     for jerk in [true, false] {
-        let law = fastest(&spline.way(0.0, Edge::REST, jerk), Edge::REST, Edge::REST).unwrap();
+        let law =
+            fastest(&spline.way(0.0, BoundaryState::REST, jerk), BoundaryState::REST, BoundaryState::REST).unwrap();
         assert_eq!(law.time_at(spline.length()), law.duration());
         assert_eq!(law.time_at(0.0), 0.0);
         let step = 1e-5;
@@ -300,7 +307,7 @@ fn what_cannot_be_timed_is_refused() {
     let of = |places: &[f64], row: Row| {
         let mut way = Way::new();
         places.iter().for_each(|at| way.push(*at, [row]));
-        fastest(&way, Edge::REST, Edge::REST).map(|law| law.duration())
+        fastest(&way, BoundaryState::REST, BoundaryState::REST).map(|law| law.duration())
     };
     let even = [0.0, 0.25, 0.5, 0.75, 1.0];
     assert!(of(&even, row).is_ok());
@@ -321,26 +328,33 @@ fn what_cannot_be_timed_is_refused() {
     assert_eq!(of(&even, Row { first: 0.0, ..row }), Err(Refusal::Still));
     let way = line(50, Limits { vel: 1.0, acc: 4.0, jerk: 40.0 });
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(fastest(&way, Edge { vel: bad, acc: 0.0 }, Edge::REST).map(|_| ()), Err(Refusal::Edge));
+        assert_eq!(
+            fastest(&way, BoundaryState { vel: bad, acc: 0.0 }, BoundaryState::REST).map(|_| ()),
+            Err(Refusal::Boundary)
+        );
     }
-    for fast in [Edge { vel: 2.0, acc: 0.0 }, Edge { vel: 0.99, acc: 3.9 }, Edge { vel: 0.5, acc: -4.08 }] {
-        assert_eq!(fastest(&way, fast, Edge::REST).map(|_| ()), Err(Refusal::Fast), "{fast:?}");
+    for fast in [
+        BoundaryState { vel: 2.0, acc: 0.0 },
+        BoundaryState { vel: 0.99, acc: 3.9 },
+        BoundaryState { vel: 0.5, acc: -4.08 },
+    ] {
+        assert_eq!(fastest(&way, fast, BoundaryState::REST).map(|_| ()), Err(Refusal::Fast), "{fast:?}");
     }
 }
 
 #[test]
 fn axes_that_stand_still_and_few_places_do_no_harm() {
     let limits = Limits { vel: 1.0, acc: 4.0, jerk: 40.0 };
-    let alone = fastest(&line(200, limits), Edge::REST, Edge::REST).unwrap().duration();
+    let alone = fastest(&line(200, limits), BoundaryState::REST, BoundaryState::REST).unwrap().duration();
     let Limits { vel, acc, jerk } = limits;
     let row = Row { first: 1.0, second: 0.0, third: 0.0, vel, acc, jerk };
     let mut way = Way::new();
-    for at in places(0.0, 1.0, 200, Edge::REST, Edge::REST) {
+    for at in places(0.0, 1.0, 200, BoundaryState::REST, BoundaryState::REST) {
         way.push(at, [Row { first: 0.0, ..row }, row]);
     }
-    assert!((fastest(&way, Edge::REST, Edge::REST).unwrap().duration() / alone - 1.0).abs() < 1e-9);
+    assert!((fastest(&way, BoundaryState::REST, BoundaryState::REST).unwrap().duration() / alone - 1.0).abs() < 1e-9);
     for count in 3..8 {
-        let law = fastest(&line(count, limits), Edge::REST, Edge::REST).unwrap();
+        let law = fastest(&line(count, limits), BoundaryState::REST, BoundaryState::REST).unwrap();
         assert!(law.duration() > 0.9 * alone && law.duration() < 3.0 * alone, "{count} places: {}", law.duration());
     }
 }
@@ -368,10 +382,10 @@ fn nothing_panics_whatever_the_rows_are() {
                 .collect();
             way.push(at, rows);
         }
-        let law = fastest(&way, Edge::REST, Edge::REST).unwrap();
+        let law = fastest(&way, BoundaryState::REST, BoundaryState::REST).unwrap();
         assert!(law.duration().is_finite() && law.duration() > 0.0);
-        let edge = Edge { vel: some(-3.0, 2.0).abs(), acc: some(-2.0, 3.0) };
-        if let Ok(law) = fastest(&way, edge, Edge::REST) {
+        let edge = BoundaryState { vel: some(-3.0, 2.0).abs(), acc: some(-2.0, 3.0) };
+        if let Ok(law) = fastest(&way, edge, BoundaryState::REST) {
             assert!(law.duration().is_finite() && law.duration() > 0.0);
         }
     }
@@ -385,7 +399,7 @@ fn places_where_derivatives_jump_are_not_left_out() {
         let at = f64::from(index) * 1e-3;
         if index % 50 == 25 { way.push_jump(at, [row(0.0), row(50.0)], 1) } else { way.push(at, [row(0.0)]) }
     }
-    let steps = guess_steps(&way, [Edge::REST; 2]).unwrap();
+    let steps = guess_steps(&way, [BoundaryState::REST; 2]).unwrap();
     let thinned = thinned(&way, &steps, 0.02).unwrap();
     let jumps = |way: &Way| (0..way.places().len()).filter(|index| way.jumps(*index)).count();
     assert_eq!((jumps(&way), jumps(&thinned)), (8, 8));
@@ -395,8 +409,8 @@ fn places_where_derivatives_jump_are_not_left_out() {
 /// A way from one parameter to another, at rest at 0 and at the end, that bends sharply at each half.
 fn sharp(from: f64, to: f64) -> Way {
     let mut way = Way::new();
-    let start = if from > 0.0 { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST };
-    for at in places(from, to, 600, start, Edge::REST) {
+    let start = if from > 0.0 { BoundaryState { vel: 1.0, acc: 0.0 } } else { BoundaryState::REST };
+    for at in places(from, to, 600, start, BoundaryState::REST) {
         let off = ((at + 0.25).rem_euclid(0.5) - 0.25) / 0.01;
         let (bump, slope) = ((-off * off).exp(), -2.0 * off / 0.01);
         let row = |sign: f64, second: f64| Row {
@@ -415,7 +429,7 @@ fn sharp(from: f64, to: f64) -> Way {
 #[test]
 fn places_beside_a_sharp_bend_are_not_left_out() {
     let way = sharp(0.0, 2.0);
-    let steps = guess_steps(&way, [Edge::REST; 2]).unwrap();
+    let steps = guess_steps(&way, [BoundaryState::REST; 2]).unwrap();
     let thinned = thinned(&way, &steps, 0.05).unwrap();
     let speeds: Vec<f64> = way.places().windows(2).zip(&steps).map(|(pair, step)| (pair[1] - pair[0]) / step).collect();
     let kept: Vec<usize> = (0..speeds.len()).filter(|index| thinned.places().contains(&way.places()[*index])).collect();
@@ -431,14 +445,14 @@ fn places_beside_a_sharp_bend_are_not_left_out() {
 
 #[test]
 fn a_law_goes_on_behind_another_one_that_slows_down_for_its_end() {
-    let before = fastest(&sharp(0.0, 1.3), Edge::REST, Edge::REST).unwrap();
+    let before = fastest(&sharp(0.0, 1.3), BoundaryState::REST, BoundaryState::REST).unwrap();
     let mut found = 0;
     for index in 1..40 {
         let moment = before.at(before.duration() * f64::from(index) / 60.0);
-        let edge = Edge { vel: moment.vel, acc: moment.acc };
+        let edge = BoundaryState { vel: moment.vel, acc: moment.acc };
         let way = sharp(moment.at, 2.3);
-        let alone = fastest(&way, edge, Edge::REST).map(|law| law.duration());
-        match fastest_behind(&way, edge, Edge::REST, Some(&before)) {
+        let alone = fastest(&way, edge, BoundaryState::REST).map(|law| law.duration());
+        match fastest_behind(&way, edge, BoundaryState::REST, Some(&before)) {
             Ok(law) => {
                 assert!(
                     law.duration() < 1.01 * alone.unwrap_or(f64::INFINITY),
@@ -465,8 +479,9 @@ fn where_jerk_is_hardly_limited_beside_rest_accelerations_keep_their_limits_all_
     const RISE_S: f64 = 0.002;
     for (count, acc) in [(50, 4.0), (50, 15.0), (150, 4.0), (150, 15.0), (150, 60.0), (250, 4.0), (250, 60.0)] {
         let check = |way: &Way, about: &str| {
-            let law = fastest(way, Edge::REST, Edge::REST).unwrap();
-            let near = law.pace().map(|pace| fastest_near(way, Edge::REST, Edge::REST, &pace).unwrap());
+            let law = fastest(way, BoundaryState::REST, BoundaryState::REST).unwrap();
+            let near =
+                law.pace().map(|pace| fastest_near(way, BoundaryState::REST, BoundaryState::REST, &pace).unwrap());
             let least = 1.0 + 1.0 / acc;
             for law in near.into_iter().chain([law]) {
                 let (used, duration) = (most_acceleration(&law, acc), law.duration());
@@ -479,7 +494,7 @@ fn where_jerk_is_hardly_limited_beside_rest_accelerations_keep_their_limits_all_
         }
         // Jerk is limited on the way alone.
         let mut way = Way::new();
-        for at in places(0.0, 1.0, count, Edge::REST, Edge::REST) {
+        for at in places(0.0, 1.0, count, BoundaryState::REST, BoundaryState::REST) {
             let jerk = if (at - 0.5).abs() < 0.2 { 100.0 * acc } else { f64::INFINITY };
             way.push(at, [Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc, jerk }]);
         }

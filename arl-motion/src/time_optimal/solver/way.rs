@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::time_optimal::solver::{Edge, Refusal};
+use crate::time_optimal::solver::{BoundaryState, Refusal};
 
 /// Beside rest an acceleration takes so many s to rise at least where jerk counts at all, and this counts for so long.
 const RISE_BESIDE_REST_S: f64 = 0.002;
@@ -142,12 +142,12 @@ impl Way {
         self.rows.get(start..end).unwrap_or_default()
     }
 
-    /// The way with acceleration and jerk limits that are `harder` times as high.
+    /// The way with acceleration and jerk limits that are `stop_scale` times as high.
     #[must_use]
-    pub fn hardened(&self, harder: f64) -> Self {
+    pub fn hardened(&self, stop_scale: f64) -> Self {
         let mut way = self.clone();
         for row in &mut way.rows {
-            (row.acc, row.jerk) = (row.acc * harder, row.jerk * harder);
+            (row.acc, row.jerk) = (row.acc * stop_scale, row.jerk * stop_scale);
         }
         way
     }
@@ -175,7 +175,7 @@ impl Way {
 
     /// The way as it is timed with limits on the jerk: none of its accelerations rises at once beside rest. The square
     /// of the warped parameter's speed would have a pole there.
-    pub(crate) fn rising_beside_rest(&self, edges: [Edge; 2]) -> Cow<'_, Self> {
+    pub(crate) fn rising_beside_rest(&self, edges: [BoundaryState; 2]) -> Cow<'_, Self> {
         let mut way = Cow::Borrowed(self);
         let last = self.at.len().saturating_sub(1);
         for (index, edge) in [0, last].into_iter().zip(edges) {

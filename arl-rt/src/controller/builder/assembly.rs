@@ -188,7 +188,7 @@ impl Builder {
             start_date: self.start_date,
             output: self.output.take().unwrap_or_else(|| Box::new(Stream::standard())),
             listeners: mem::take(&mut self.listeners),
-            hearers: mem::take(&mut self.hearers),
+            subscribers: mem::take(&mut self.subscribers),
             state,
             network: mem::take(&mut self.cell.network),
             wiring: mem::take(&mut self.cell.external),

@@ -12,13 +12,13 @@ use super::channel::PROGRAM_STACK_BYTES;
 use super::foreground::{Body, Foreground};
 use crate::builtins::time;
 use crate::communication::NetworkDriver;
-use crate::context::hearers::Event;
 use crate::context::named::Named;
 use crate::context::output::Output;
 use crate::context::program::Program;
 use crate::context::programs::{Initialised, Loadable};
 use crate::context::random;
 use crate::context::shared_state::Listeners;
+use crate::context::subscribers::Event;
 use crate::controller::trace::More;
 use crate::cycle::clock_source::{Clock, VirtualClock};
 use crate::fault::Alarm;
@@ -53,7 +53,7 @@ pub struct Builder {
     scenario: Scenario,
     output: Option<Box<dyn Output>>,
     listeners: Listeners,
-    hearers: Vec<Sender<Event>>,
+    subscribers: Vec<Sender<Event>>,
     storage: Box<dyn Storage>,
     script_dir: PathBuf,
     record: bool,
@@ -85,7 +85,7 @@ impl Default for Builder {
             scenario: Scenario::default(),
             output: None,
             listeners: Listeners::default(),
-            hearers: Vec::new(),
+            subscribers: Vec::new(),
             storage: Box::new(Memory::default()),
             script_dir: PathBuf::from("."),
             record: false,
@@ -255,7 +255,7 @@ impl Builder {
     /// Where all that happens goes, for other threads, from the very start: messages, warnings, alarms, and each change
     /// of the state. They wait in the channel until somebody takes them.
     pub fn events(mut self, tell: Sender<Event>) -> Self {
-        self.hearers.push(tell);
+        self.subscribers.push(tell);
         self
     }
 

@@ -34,8 +34,8 @@ pub enum Event {
 pub(crate) struct Hearers(RefCell<Vec<Sender<Event>>>);
 
 impl Hearers {
-    pub(crate) fn new(hearers: Vec<Sender<Event>>) -> Self {
-        Self(RefCell::new(hearers))
+    pub(crate) fn new(subscribers: Vec<Sender<Event>>) -> Self {
+        Self(RefCell::new(subscribers))
     }
 
     /// Lets one more hear of what happens from now on.
