@@ -6,9 +6,11 @@ cd "$(dirname "$0")/.."
 
 # The parser, first: all else is compiled with it.
 cargo run --quiet --package arl-lang --example renew_grammar
-# The Rust of the emitter's cases and of the examples, the pages of the reference, the words of editors.
+# The Rust of the emitter's cases and of the examples, the pages of the reference, the words of editors; the types of the
+# page of the view.
 UPDATE_EMITTED=1 UPDATE_GENERATED=1 UPDATE_REFERENCE=1 UPDATE_WORDS=1 \
     cargo test --workspace --quiet --test emitter --test generated --test reference --test editor_words
+UPDATE_PAGE_TYPES=1 cargo test --workspace --quiet --lib types_of_the_page
 # What rustc says to mistakes in `arl!`; only that rustc whose words are kept does it (arl-macros/tests/ui.rs).
 UPDATE_GENERATED=1 TRYBUILD=overwrite cargo test --workspace --quiet --test ui
 # With Node.js: the grammar of the extension for VS Code, the bundle of the view.

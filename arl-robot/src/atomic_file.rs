@@ -533,7 +533,7 @@ mod tests {
             fs::write(&path, number.to_string()).unwrap();
             Ok::<_, String>([old, b"!"].concat())
         });
-        assert!(never.unwrap_err().to_string().contains("goes on writing"));
+        assert!(never.unwrap_err().to_string().contains("keeps writing"));
         assert_eq!(fs::read_to_string(&path).unwrap(), number.to_string());
         // Who refuses half of a file that is being written is asked again.
         let mut asked = 0;

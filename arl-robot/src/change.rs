@@ -194,10 +194,10 @@ limits = { velocity = 100, other = [1, 2] }
     fn what_is_not_there_is_told() {
         for (path, words) in [
             ("event.3.at", "`3` is not an entry: there are 2, counted from 1"),
-            ("event.0.at", "count from 1"),
+            ("event.0.at", "counted from 1"),
             ("event.at", "at `event` `at` is not an entry"),
             ("events.1.at", "there is no `events`; did you mean `event`?"),
-            ("event.1.at.x", "at `event.1.at` this is no table"),
+            ("event.1.at.x", "at `event.1.at` this is neither a table nor a list"),
             ("tcp", "name one of them"),
             ("event", "name one of them"),
             ("event.2", "name one of them"),

@@ -3,7 +3,7 @@
 /**
  * An element with these properties and children.
  * @param {string} tag
- * @param {Record<string, any>} [properties]
+ * @param {Record<string, unknown>} [properties]
  * @param {...(Node | string)} children
  * @returns {HTMLElement}
  */
@@ -18,12 +18,21 @@ export function element(tag, properties = {}, ...children) {
 }
 
 /**
+ * @typedef {HTMLElement & Pick<HTMLInputElement, "value" | "disabled" | "checked">} Control
+ */
+
+/**
  * The element with this id, which the page has.
  * @param {string} id
- * @returns {any}
+ * @returns {Control}
  */
 export function byId(id) {
-  return document.getElementById(id);
+  return /** @type {Control} */ (document.getElementById(id));
+}
+
+/** @param {string} id */
+export function dialog(id) {
+  return /** @type {HTMLDialogElement} */ (document.getElementById(id));
 }
 
 /**

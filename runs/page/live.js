@@ -77,7 +77,7 @@ export function holds(button, words, signal) {
     if (event.pointerId === pointer) letGo();
   };
   for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
-    document.addEventListener(end, /** @type {any} */ (lifted), { capture: true, signal });
+    document.addEventListener(end, /** @type {EventListener} */ (lifted), { capture: true, signal });
   button.addEventListener("blur", letGo);
   button.addEventListener("keydown", (event) => {
     if ([" ", "Enter"].includes(event.key)) {
@@ -141,7 +141,7 @@ export class Live {
 
   /** Which buttons do something now. */
   show() {
-    const states = this.run.robots.map((/** @type {any} */ channel) => this.run.stateAt(channel.number, this.run.end));
+    const states = this.run.robots.map((channel) => this.run.stateAt(channel.number, this.run.end));
     for (const { button, states: own } of this.buttons) {
       const acts = states.some((/** @type {string} */ state) => own.includes(state)) && this.run.live && !this.lost;
       if (button.disabled === acts) button.disabled = !acts;

@@ -1,6 +1,6 @@
 // The page of `arl2rs view`: one moment of a run, shown everywhere at once.
 
-import { byId, element, seconds, write } from "./dom.js";
+import { byId, dialog, element, seconds, write } from "./dom.js";
 import { BEHIND_S, Live } from "./live.js";
 import { Now, differences, events, lines } from "./panels.js";
 import { COLORS } from "./path.js";
@@ -30,7 +30,7 @@ const KEYS = [
 /** A step of the arrow keys in s: that of a recording's frames. */
 const STEP_S = 0.02;
 
-class Page {
+export class Page {
   /** @param {Run[]} runs */
   constructor(runs) {
     this.runs = runs;
@@ -126,7 +126,7 @@ class Page {
     byId("fit").addEventListener("click", () => this.scene?.fit());
     byId("link").addEventListener("click", () => this.copyLink());
     byId("theme").addEventListener("click", () => this.theme());
-    byId("help").addEventListener("click", () => byId("keys").showModal());
+    byId("help").addEventListener("click", () => dialog("keys").showModal());
     byId("keys").append(
       element(
         "table",
@@ -134,17 +134,17 @@ class Page {
         ...KEYS.map(([key, does]) => element("tr", {}, element("td", {}, element("kbd", {}, key)), element("td", {}, does))),
       ),
     );
-    byId("keys").addEventListener("click", () => byId("keys").close());
+    byId("keys").addEventListener("click", () => dialog("keys").close());
     byId("rate").append(...RATES.map((rate, at) => element("option", { value: at }, `${rate}×`)));
     byId("rate").addEventListener("change", () => this.setRate(Number(byId("rate").value)));
     byId("color").append(...Object.entries(COLORS).map(([mode, name]) => element("option", { value: mode }, name)));
     byId("color").addEventListener("change", () => this.setMode(byId("color").value));
     byId("channel").append(
-      ...this.run.robots.map((/** @type {any} */ one) => element("option", { value: one.number }, `${one.number}: ${one.robot}`)),
+      ...this.run.robots.map((one) => element("option", { value: one.number }, `${one.number}: ${one.robot}`)),
     );
     byId("channels").hidden = this.run.robots.length < 2;
     byId("channel").addEventListener("change", () => {
-      this.channel = this.run.robots.find((/** @type {any} */ one) => one.number === Number(byId("channel").value));
+      this.channel = this.run.robots.find((one) => one.number === Number(byId("channel").value)) ?? this.channel;
       this.tracks.rebuild(this.channel);
       this.teach?.changed();
       this.showTab(this.tab);
@@ -196,7 +196,7 @@ class Page {
       0: () => this.tracks.fit(),
       l: () => this.copyLink(),
       d: () => this.theme(),
-      "?": () => byId("keys").showModal(),
+      "?": () => dialog("keys").showModal(),
     };
     Object.keys(COLORS).forEach((mode, at) => (does[String(at + 1)] = () => this.setMode(mode)));
     const act = does[event.key.length === 1 ? event.key.toLowerCase() : event.key];
@@ -250,7 +250,7 @@ class Page {
     if (Number.isFinite(time) && time > 0) this.time = Math.min(time, this.end);
     const mode = words.get("color") ?? this.mode;
     if (mode in COLORS) this.mode = mode;
-    this.channel = this.run.robots.find((/** @type {any} */ one) => String(one.number) === words.get("robot")) ?? this.channel;
+    this.channel = this.run.robots.find((one) => String(one.number) === words.get("robot")) ?? this.channel;
     this.stale = true;
   }
 
@@ -330,13 +330,14 @@ async function begin() {
   const wished = localStorage.getItem("theme") ?? (matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
   document.documentElement.classList.toggle("light", wished === "light");
   try {
+    /** @type {string[]} */
     const names = await (await fetch("/api/runs")).json();
     /** @type {Page | undefined} */
     let page;
     const changed = () => {
       if (page) page.stale = page.tracks.stale = true;
     };
-    const runs = await Promise.all(names.map((/** @type {string} */ _, /** @type {number} */ number) => Run.load(number, changed)));
+    const runs = await Promise.all(names.map((_, number) => Run.load(number, changed)));
     page = new Page(runs);
     Object.assign(window, { page });
   } catch (problem) {

@@ -29,9 +29,9 @@ function short(number, digits = 1) {
 export function lines(run, channel, chosen) {
   const { files, lines } = run.track(channel);
   const rows = lines
-    .filter((/** @type {any} */ one) => one.line > 0)
-    .sort((/** @type {any} */ one, /** @type {any} */ other) => other.moving + other.standing - one.moving - one.standing)
-    .map((/** @type {any} */ { file, line, moving, standing }) => {
+    .filter((one) => one.line > 0)
+    .sort((one, other) => other.moving + other.standing - one.moving - one.standing)
+    .map(({ file, line, moving, standing }) => {
       const own = run.motionsOf(channel, files[file] ?? "", line);
       const kinds = [...new Set(own.map((motion) => motion.kind))].join(", ");
       const limits = own.map(closest).filter(Boolean);
@@ -49,14 +49,14 @@ export function lines(run, channel, chosen) {
 /** Messages, warnings, alarms and contacts. @param {import('./run.js').Run} run @param {(time: number) => void} seek */
 export function events(run, seek) {
   const rows = [...run.told.log]
-    .sort((/** @type {any} */ one, /** @type {any} */ other) => one.time - other.time)
+    .sort((one, other) => one.time - other.time)
     .slice(-5000)
-    .map((/** @type {any} */ { time, level, text }) => row([seconds(time), [text, `text ${level}`]], () => seek(time)));
+    .map(({ time, level, text }) => row([seconds(time), [text, `text ${level}`]], () => seek(time)));
   if (rows.length === 0) return element("p", { className: "hint" }, "The program has printed nothing, and nothing went wrong.");
   return table(["s", ""], rows);
 }
 
-/** What differs between two runs. @param {any} told what the server says of both @param {(file: string, line: number) => void} chosen */
+/** What differs between two runs. @param {import('./api.js').Differences} told what the server says of both @param {(file: string, line: number) => void} chosen */
 export function differences(told, chosen) {
   /** @param {number | null} one @param {number | null} other @returns {[string, string]} */
   const change = (one, other) => {
@@ -64,7 +64,7 @@ export function differences(told, chosen) {
     return [Math.abs(by) < 5e-4 ? "" : `${by > 0 ? "+" : ""}${by.toFixed(3)}`, Math.abs(by) < 5e-4 ? "" : by > 0 ? "worse" : "better"];
   };
   const cell = (/** @type {number | null} */ value) => (value === null ? "" : seconds(value));
-  const rows = told.lines.map((/** @type {any} */ { file, line, one, other }) =>
+  const rows = told.lines.map(({ file, line, one, other }) =>
     row([`${file}:${line}`, cell(one), cell(other), change(one, other)], () => chosen(file, line)),
   );
   const said = told.said.map((/** @type {string} */ text) => element("p", { className: "hint" }, text));
@@ -77,16 +77,18 @@ export class Now {
   /** @param {HTMLElement} holder */
   constructor(holder) {
     this.holder = holder;
-    /** @type {any} */
+    /** @type {import('./run.js').Channel | undefined} */
     this.channel = undefined;
+    /** @type {{axis: import('./api.js').PageAxis, value: HTMLElement, bar: HTMLMeterElement, row: HTMLElement}[]} */
+    this.axes = [];
   }
 
-  /** @param {any} channel */
+  /** @param {import('./run.js').Channel} channel */
   build(channel) {
     this.channel = channel;
     this.title = element("h2");
     this.motion = element("p");
-    this.axes = channel.axes.map((/** @type {any} */ axis) => {
+    this.axes = channel.axes.map((axis) => {
       const value = element("td", { className: "number" });
       const bar = /** @type {HTMLMeterElement} */ (
         element("meter", { min: axis.min, max: axis.max, title: `${axis.min} to ${axis.max} ${axis.unit}` })
@@ -97,12 +99,12 @@ export class Now {
     this.holder.replaceChildren(
       this.title,
       this.motion,
-      element("table", {}, ...this.axes.map((/** @type {any} */ axis) => axis.row)),
+      element("table", {}, ...this.axes.map((axis) => axis.row)),
       this.tcp,
     );
   }
 
-  /** @param {import('./run.js').Run} run @param {any} channel @param {number} time */
+  /** @param {import('./run.js').Run} run @param {import('./run.js').Channel} channel @param {number} time */
   show(run, channel, time) {
     if (!channel) return;
     if (this.channel !== channel) this.build(channel);
@@ -119,7 +121,7 @@ export class Now {
       `TCP ${x.toFixed(1)}  ${y.toFixed(1)}  ${z.toFixed(1)} mm, ${moment.speed.toFixed(0)} mm/s`,
     );
     const state = run.stateAt(channel.number, time);
-    const mode = [...run.told.controller].reverse().find((/** @type {any} */ one) => one.time <= time + 1e-9);
+    const mode = [...run.told.controller].reverse().find((one) => one.time <= time + 1e-9);
     write(
       /** @type {HTMLElement} */ (this.title),
       `${channel.robot} · ${state}${mode ? ` · ${mode.mode}, override ${mode.override} %` : ""}`,
@@ -131,7 +133,7 @@ export class Now {
   }
 }
 
-/** A motion in words. @param {any} motion @param {number} line */
+/** A motion in words. @param {import('./run.js').Motion | undefined} motion @param {number} line */
 function told(motion, line) {
   if (!motion) return `Motion of line ${line}.`;
   const { kind, start, duration, way, programmed, reached, unit, blend } = motion;

@@ -11,18 +11,14 @@ export const COLORS = {
   line: "line",
 };
 
-/** Which limit a motion comes closest to, and how much of it is used. @param {any} motion */
+/** Which limit a motion comes closest to, and how much of it is used. @param {import('./run.js').Motion | undefined} motion */
 export function closest(motion) {
-  const limits = [
-    ["speed", motion?.vel],
-    ["acceleration", motion?.acc],
-    ["jerk", motion?.jerk],
-  ];
-  const known = limits.filter(([, limit]) => limit).map(([of, limit]) => ({ of, axis: limit[0], percent: limit[1] }));
+  const limits = { speed: motion?.vel, acceleration: motion?.acc, jerk: motion?.jerk };
+  const known = Object.entries(limits).flatMap(([of, limit]) => (limit ? [{ of, axis: limit[0], percent: limit[1] }] : []));
   return known.sort((one, other) => other.percent - one.percent)[0];
 }
 
-/** How a motion ends. @param {any} motion */
+/** How a motion ends. @param {import('./run.js').Motion | undefined} motion */
 export function ending(motion) {
   if (!motion?.blend) return "stops at the target";
   const { asked, used } = motion.blend;
@@ -34,7 +30,7 @@ const ENDINGS = ["stops at the target", "zone as asked for", "smaller zone than 
 
 /** Colours of a path, and what they mean. */
 export class Paint {
-  /** @param {string} mode @param {import('./run.js').Run} run @param {any} channel @param {number} fastest in mm/s */
+  /** @param {string} mode @param {import('./run.js').Run} run @param {import('./run.js').Channel} channel @param {number} fastest in mm/s */
   constructor(mode, run, channel, fastest) {
     this.mode = mode;
     this.fastest = fastest;

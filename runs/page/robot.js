@@ -24,11 +24,13 @@ const TOOL = [0.7, 0.72, 0.75, 1];
 /** What is another run's is seen through. */
 const GHOST = new Color("#4da3e0");
 
+/** @typedef {ReturnType<Frames['arm']>} Arm */
+
 /** The frames of a run: those of its robots, and the world. */
 export class Frames {
   /**
    * @param {import("./run.js").Run} run @param {Group} world @param {boolean} ghost
-   * @param {any[]} [channels] whose robots, where not all are
+   * @param {import('./run.js').Channel[]} [channels] whose robots, where not all are
    */
   constructor(run, world, ghost, channels = run.robots) {
     this.run = run;
@@ -36,16 +38,16 @@ export class Frames {
     this.ghost = ghost;
     /** @type {Map<string, Object3D>} */
     this.all = new Map([["world", world]]);
-    this.arms = channels.map((/** @type {any} */ channel) => this.arm(channel));
-    /** @type {Map<string, {of: any, group: Group}>} */
+    this.arms = channels.map((channel) => this.arm(channel));
+    /** @type {Map<string, {of: import('./api.js').Entity, group: Group}>} */
     this.entities = new Map();
     /** @type {Map<string, {form: string, group: Group}>} what was drawn last of each body, and how that was told */
     this.drawn = new Map();
-    /** @type {Map<number, any>} triangles that were fetched */
+    /** @type {Map<number, import('three').BufferGeometry>} triangles that were fetched */
     this.meshes = new Map();
   }
 
-  /** @param {any} channel */
+  /** @param {import('./run.js').Channel} channel */
   arm(channel) {
     /** @param {string} name @param {Object3D} parent */
     const frame = (name, parent) => {
@@ -55,7 +57,7 @@ export class Frames {
       return made;
     };
     const base = frame(channel.links[0].parent, this.world);
-    /** @param {any} link @param {Object3D} parent @param {number} moves which of the axes moves it */
+    /** @param {import('./api.js').PageLink} link @param {Object3D} parent @param {number} moves which of the axes moves it */
     const joint = (link, parent, moves) => {
       const [x, y, z, ...turned] = link.origin;
       const made = frame(link.frame, parent);
@@ -66,11 +68,11 @@ export class Frames {
       const axis = link.axis.length === 3 ? new Vector3(...link.axis).normalize() : undefined;
       return { made, rest, place, axis, linear: link.linear, moves };
     };
-    const links = channel.links.map((/** @type {any} */ link, /** @type {number} */ at) =>
+    const links = channel.links.map((link, at) =>
       joint(link, this.all.get(link.parent) ?? base, at),
     );
-    const carriers = (channel.carriers ?? []).map((/** @type {any} */ carrier) => {
-      const moves = channel.axes.findIndex((/** @type {any} */ axis) => axis.name === carrier.moved_by);
+    const carriers = (channel.carriers ?? []).map((carrier) => {
+      const moves = channel.axes.findIndex((axis) => axis.name === carrier.moved_by);
       return joint(carrier, this.all.get(carrier.parent) ?? this.world, moves);
     });
     const tcp = frame(channel.tcp, this.world);
@@ -83,7 +85,7 @@ export class Frames {
 
   /**
    * Puts a robot where it is.
-   * @param {any} arm @param {number[]} axes in deg (mm) @param {number[]} base @param {number[]} tcp
+   * @param {Arm} arm @param {number[]} axes in deg (mm) @param {number[]} base @param {number[]} tcp
    */
   pose(arm, axes, base, tcp) {
     put(arm.base, base);
@@ -103,7 +105,7 @@ export class Frames {
       }
     }
     this.world.updateMatrixWorld(true);
-    const from = arm.links.at(-1).made.getWorldPosition(new Vector3());
+    const from = (arm.links.at(-1)?.made ?? arm.base).getWorldPosition(new Vector3());
     const along = arm.tcp.position.clone().sub(from);
     const length = along.length();
     arm.tool.visible = length > 1e-3;
@@ -112,7 +114,7 @@ export class Frames {
     if (arm.tool.visible) arm.tool.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), along.divideScalar(length));
   }
 
-  /** Shows the bodies that are there, and no others. What comes again is drawn once. @param {Map<string, any>} there */
+  /** Shows the bodies that are there, and no others. What comes again is drawn once. @param {Map<string, import('./api.js').Entity>} there */
   show(there) {
     for (const [id, { of, group }] of this.entities) {
       if (there.get(id) === of) continue;
@@ -134,9 +136,9 @@ export class Frames {
     }
   }
 
-  /** @param {Group} group @param {any} entity */
+  /** @param {Group} group @param {import('./api.js').Entity} entity */
   fill(group, entity) {
-    /** @param {any} geometry @param {any} one */
+    /** @param {import('three').BufferGeometry} geometry @param {import('./api.js').PageSolid | import('./api.js').PageModel} one */
     const add = (geometry, one) => {
       const [x, y, z, ...turned] = one.pose;
       const mesh = new Mesh(geometry, this.material(one.color));
@@ -152,12 +154,13 @@ export class Frames {
       add(new CylinderGeometry(width / 2, width / 2, length, 36).rotateX(Math.PI / 2), one);
     }
     for (const one of entity.models) {
-      /** @param {any} geometry */
+      /** @param {import('three').BufferGeometry} geometry */
       const addMesh = (geometry) => {
         const mesh = add(geometry, one);
         mesh.material.side = DoubleSide;
         mesh.scale.set(.../** @type {[number, number, number]} */ (one.scale));
       };
+      if (one.model === null) continue;
       const known = this.meshes.get(one.model);
       if (known) {
         addMesh(known);
@@ -196,7 +199,7 @@ export class Frames {
       const marked = ids.has(id) || (!id.startsWith("body/") && ids.has(id.replace(/\/\d+$/, "")));
       if (group.userData.marked === marked) continue;
       group.userData.marked = marked;
-      for (const mesh of /** @type {any[]} */ (group.children)) {
+      for (const mesh of /** @type {Mesh<import('three').BufferGeometry, MeshStandardMaterial>[]} */ (group.children)) {
         mesh.material.emissive.set(marked ? color : "#000000");
         mesh.material.emissiveIntensity = marked ? 0.8 : 0;
       }

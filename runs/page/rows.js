@@ -14,7 +14,7 @@ export function lineColor(line) {
   return kind((line * 5) % 8);
 }
 
-/** What robots execute when. @param {import('./run.js').Run} run @param {any} channel @param {string} label @returns {Row} */
+/** What robots execute when. @param {import('./run.js').Run} run @param {import('./run.js').Channel} channel @param {string} label @returns {Row} */
 export function motions(run, channel, label) {
   const starts = () => run.starts?.get(channel.number) ?? [];
   return {

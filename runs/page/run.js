@@ -5,10 +5,12 @@ import { Samples, rowAt } from "./samples.js";
 /**
  * A signal that changes: its name in files, what the cell calls it, and its times and values.
  * @typedef {{signal: string, label: string, times: number[], values: number[]}} Lane
+ * @typedef {import('./api.js').PageMotion} Motion
+ * @typedef {import('./api.js').PageChannel & {number: number, samples: Samples}} Channel
  */
 
 export class Run {
-  /** @param {number} number @param {any} told @param {() => void} changed */
+  /** @param {number} number @param {import('./api.js').RunAnswer} told @param {() => void} changed */
   constructor(number, told, changed) {
     this.address = `/api/run/${number}`;
     this.changed = changed;
@@ -20,14 +22,14 @@ export class Run {
     /** @type {Map<string, Lane>} by the name of the signal */
     this.lanes = new Map();
     this.lanesFrom(told.signals);
-    this.channels = told.channels.map((/** @type {any} */ channel, /** @type {number} */ at) => ({
+    this.channels = told.channels.map((channel, at) => ({
       ...channel,
       number: at + 1,
       samples: new Samples(`${this.address}/samples?channel=${at + 1}`, changed),
     }));
-    /** @type {Map<number, any[]>} by the number of the channel */
+    /** @type {Map<number, Motion[]>} by the number of the channel */
     this.motions = new Map();
-    /** @type {Map<string, any>} by the numbers of channel and motion */
+    /** @type {Map<string, Motion>} by the numbers of channel and motion */
     this.byNumber = new Map();
     /** @type {Map<number, number[]>} */
     this.starts = new Map();
@@ -43,10 +45,10 @@ export class Run {
 
   /** Channels that have a robot. */
   get robots() {
-    return this.channels.filter((/** @type {any} */ channel) => channel.links.length > 0);
+    return this.channels.filter((channel) => channel.links.length > 0);
   }
 
-  /** @param {any[]} signals */
+  /** @param {import('./api.js').SignalChanges[]} signals */
   lanesFrom(signals) {
     for (const { signal, changes } of signals) {
       /** @type {Lane} */
@@ -66,7 +68,7 @@ export class Run {
     return count;
   }
 
-  /** Motions that have ended, some of them told again since they had gone on. @param {any[]} motions */
+  /** Motions that have ended, some of them told again since they had gone on. @param {Motion[]} motions */
   takeMotions(motions) {
     let news = false;
     for (const motion of motions) {
@@ -80,7 +82,7 @@ export class Run {
   }
 
   sortMotions() {
-    this.told.motions.sort((/** @type {any} */ one, /** @type {any} */ other) => one.start - other.start);
+    this.told.motions.sort((one, other) => one.start - other.start);
     this.motions.clear();
     this.byNumber.clear();
     for (const motion of this.told.motions) {
@@ -102,27 +104,26 @@ export class Run {
       contacts: contacts.length,
       motions: motions.length,
     };
-    const [states, bases] = ["states", "bases"].map((list) =>
-      Math.min(...tracks.map((/** @type {any} */ track) => track[list].length), 1e9),
-    );
+    const states = Math.min(...tracks.map((track) => track.states.length), 1e9);
+    const bases = Math.min(...tracks.map((track) => track.bases.length), 1e9);
     const query = new URLSearchParams(
       Object.entries({ ...known, states, bases, signals: this.changes }).map(([name, value]) => [name, String(value)]),
     );
     const answer = await fetch(`${this.address}/news?${query}`);
     if (!answer.ok) throw new Error(await answer.text());
+    /** @type {import('./api.js').News} */
     const news = await answer.json();
     const isNew = news.version !== this.told.version;
     // The program has begun since: what runs on which robots is known only now.
     if (this.channels.length === 0 && isNew) return "begun";
-    for (const list of ["scene", "controller", "log", "contacts"]) this.told[list].push(...news[list]);
-    news.tracks.forEach((/** @type {any} */ track, /** @type {number} */ at) => {
-      const mine = (this.told.tracks[at] ??= { files: [], states: [], bases: [], lines: [] });
-      for (const [list, skip] of /** @type {[string, number][]} */ ([
-        ["states", states],
-        ["bases", bases],
-      ])) {
-        mine[list].splice(Math.min(skip, mine[list].length), Infinity, ...track[list]);
-      }
+    scene.push(...news.scene);
+    controller.push(...news.controller);
+    log.push(...news.log);
+    contacts.push(...news.contacts);
+    news.tracks.forEach((track, at) => {
+      const mine = (this.told.tracks[at] ??= { files: [], states: [], bases: [], lines: [], rows: 0 });
+      mine.states.splice(Math.min(states, mine.states.length), Infinity, ...track.states);
+      mine.bases.splice(Math.min(bases, mine.bases.length), Infinity, ...track.bases);
       Object.assign(mine, { files: track.files, lines: track.lines, rows: track.rows });
     });
     this.lanesFrom(news.signals);
@@ -187,7 +188,7 @@ export class Run {
 
   /** The entities of the scene at a time, by their names. @param {number} time */
   sceneAt(time) {
-    /** @type {Map<string, any>} */
+    /** @type {Map<string, import('./api.js').Entity>} */
     const there = new Map();
     for (const update of this.told.scene) {
       if (update.time > time + 1e-9) break;

@@ -11,6 +11,15 @@ const STEP_S = 0.004;
 
 /**
  * Rows of a run, in columns.
+ * @typedef {Float64Array | Float32Array | Uint32Array | Uint8Array} Column
+ */
+
+/**
+ * @template T
+ * @typedef {{new (length: number): T, new (buffer: ArrayBuffer, at: number, length: number): T}} ColumnKind
+ */
+
+/**
  * @typedef {{count: number, width: number, times: Float64Array, axes: Float32Array, tcp: Float32Array, speed: Float32Array, pointers: Uint32Array, jumps: Uint8Array}} Rows
  * `jumps`: another tool took over since the row before: no motion led there.
  * A moment: axes in deg (mm), TCP in mm and as a quaternion, speed in mm/s.
@@ -25,7 +34,10 @@ const STEP_S = 0.004;
 export function decode(buffer) {
   const [count, width] = new Uint32Array(buffer, 0, 2);
   let at = 8;
-  /** @param {any} kind @param {number} length */
+  /**
+   * @template {Column} T
+   * @param {ColumnKind<T>} kind @param {number} length
+   */
   const next = (kind, length) => {
     const column = new kind(buffer, at, length);
     at += column.byteLength;
@@ -174,9 +186,12 @@ export class Samples {
 function joined(known, more) {
   const skip = rowAt(more.times, known.times[known.count - 1] ?? -1) + 1;
   const count = known.count + more.count - skip;
-  /** @param {any} one @param {any} other @param {number} width */
+  /**
+   * @template {Column} T
+   * @param {T} one @param {T} other @param {number} width
+   */
   const both = (one, other, width) => {
-    const column = new one.constructor(count * width);
+    const column = new /** @type {ColumnKind<T>} */ (one.constructor)(count * width);
     column.set(one);
     column.set(other.subarray(skip * width), known.count * width);
     return column;

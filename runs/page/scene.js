@@ -88,7 +88,7 @@ export class CellScene {
   /** Has the camera see all robots, bodies and paths. */
   fit() {
     const box = new Box3();
-    for (const { all } of this.frames) box.expandByObject(/** @type {any} */ (all.get("world")));
+    for (const { all } of this.frames) box.expandByObject(all.get("world") ?? new Group());
     for (const { group } of this.paths) box.expandByObject(group);
     if (box.isEmpty()) box.set(new Vector3(-1, -1, 0), new Vector3(1, 1, 1.5));
     const middle = box.getCenter(new Vector3());
@@ -115,8 +115,8 @@ export class CellScene {
         else complete = false;
       }
       frames.show(run.sceneAt(now));
-      const near = run.told.contacts.filter((/** @type {any} */ contact) => now >= contact.time - 1e-9 && now < contact.time + CONTACT_S);
-      frames.mark(new Set(near.flatMap((/** @type {any} */ contact) => [...idsOf(contact.one), ...idsOf(contact.other)])), theme("alarm"));
+      const near = run.told.contacts.filter((contact) => now >= contact.time - 1e-9 && now < contact.time + CONTACT_S);
+      frames.mark(new Set(near.flatMap((contact) => [...idsOf(contact.one), ...idsOf(contact.other)])), theme("alarm"));
       this.showPath(at, now, mode);
     });
     if (complete && !this.fitted) {
@@ -129,14 +129,14 @@ export class CellScene {
   /** @param {number} at @param {number} time @param {string} mode */
   showPath(at, time, mode) {
     const [run, shown] = [this.runs[at], this.paths[at]];
-    const pieces = run.robots.map((/** @type {any} */ channel) => ({ channel, rows: channel.samples.piece(time, run.end) }));
+    const pieces = run.robots.map((channel) => ({ channel, rows: channel.samples.piece(time, run.end) }));
     const count = pieces.reduce((sum, { rows }) => sum + (rows?.count ?? 0), 0);
     const of = [mode, run.told.motions.length, ...pieces.map(({ rows }) => (rows ? `${rows.times[0]}` : ""))].join();
     // A path that grows is drawn anew now and then only.
     const grown = count - shown.rows;
     if (of === shown.of && (grown === 0 || (run.live && grown < 25 + shown.rows / 50))) return;
     Object.assign(shown, { of, rows: count });
-    for (const old of /** @type {any[]} */ ([...shown.group.children])) {
+    for (const old of /** @type {import('three').Mesh<import('three').BufferGeometry, import('three').Material>[]} */ ([...shown.group.children])) {
       old.removeFromParent();
       old.geometry.dispose();
       old.material.dispose();

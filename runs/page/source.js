@@ -17,14 +17,14 @@ export class Source {
   constructor(run, chosen) {
     this.run = run;
     this.keywords = new Set(run.told.keywords);
-    /** @type {Map<string, any[]>} */
+    /** @type {Map<string, {row: HTMLElement, took: HTMLElement, pointer: HTMLElement}[]>} */
     this.lines = new Map();
     this.holder = element("div", { className: "source" });
     for (const { name, text } of run.told.sources) {
       const rows = text
         .replace(/\n$/, "")
         .split("\n")
-        .map((/** @type {string} */ line, /** @type {number} */ at) => {
+        .map((line, at) => {
           const took = element("span", { className: "took", title: "How long the robot moved for this line, or stood still in it, in s" });
           const pointer = element("span", { className: "pointer" });
           const code = element("span", {}, ...colored(line, this.keywords));
@@ -33,7 +33,7 @@ export class Source {
           return { row, took, pointer };
         });
       this.lines.set(name.toLowerCase(), rows);
-      this.holder.append(element("div", { className: "file" }, name), ...rows.map((/** @type {any} */ { row }) => row));
+      this.holder.append(element("div", { className: "file" }, name), ...rows.map(({ row }) => row));
     }
     if (this.lines.size === 0) this.holder.append(element("p", { className: "hint" }, "The recording does not contain the source of the program."));
     this.marked = "";
@@ -51,7 +51,7 @@ export class Source {
     if (this.version === this.run.told.version * 100 + channel) return;
     this.version = this.run.told.version * 100 + channel;
     const { files, lines } = this.run.track(channel);
-    const most = Math.max(...lines.map((/** @type {any} */ one) => one.moving + one.standing), 1e-9);
+    const most = Math.max(...lines.map((one) => one.moving + one.standing), 1e-9);
     for (const { file, line, moving, standing } of lines) {
       const found = this.line(files[file] ?? "", line);
       if (!found) continue;

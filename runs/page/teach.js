@@ -25,7 +25,18 @@ const POINT_M = 0.07;
 /** A map of reach goes so far around the robot, and from place to place, in mm. */
 const MAP = { half: 2000, step: 40 };
 
-/** Asks the server for something; what cannot be is told. @param {string} what @param {any} [order] */
+/**
+ * @typedef {{points: import('./api.js').Points, save: import('./api.js').Points, undo: import('./api.js').Points, place: import('./api.js').TaughtPose, map: import('./api.js').Mapped}} Answers
+ * @typedef {import('./api.js').Point} Point
+ * @typedef {Pick<Point, 'file' | 'type' | 'name' | 'values'> & {before: Point['values']}} Change
+ */
+
+/**
+ * Asks the server for something; what cannot be is told.
+ * @template {keyof Answers} What
+ * @param {What} what @param {object} [order]
+ * @returns {Promise<Answers[What] | undefined>}
+ */
 async function ask(what, order) {
   const body = order === undefined ? {} : { method: "POST", body: JSON.stringify(order) };
   const answer = await fetch(`/api/teach/${what}`, body);
@@ -34,7 +45,7 @@ async function ask(what, order) {
   return undefined;
 }
 
-/** What names a point, or a frame: its file and its name. @param {any} of */
+/** What names a point, or a frame: its file and its name. @param {{file: string, name: string}} of */
 function key({ file, name }) {
   return `${file}: ${name}`;
 }
@@ -47,16 +58,16 @@ function button(name, title, does) {
 }
 
 export class Teach {
-  /** @param {any} page */
+  /** @param {import('./main.js').Page} page */
   constructor(page) {
     this.page = page;
-    /** @type {any} */
-    this.told = { points: [], frames: [], undo: 0 };
+    /** @type {import('./api.js').Points} */
+    this.told = { points: [], frames: [], undo: 0, troubles: [] };
     /** @type {Set<string>} the points that are chosen, by their files and names */
     this.chosen = new Set();
     this.tool = "as now";
     this.wobj = "world";
-    /** @type {any} where the dragged robot is, as the server says */
+    /** @type {import('./api.js').TaughtPose | undefined} where the dragged robot is, as the server says */
     this.place = undefined;
     /** @type {number[]} its axes */
     this.axes = [];
@@ -145,11 +156,11 @@ export class Teach {
       );
       return made;
     };
-    const axes = this.channel.axes.map((/** @type {any} */ axis, /** @type {number} */ at) =>
+    const axes = this.channel.axes.map((axis, at) =>
       element("span", {}, ...["-", "+"].map((sign) => held(`${axis.name}${sign}`, `Hold: ${axis.name}`, () => `j${at + 1}${sign}`))),
     );
     const angles = () =>
-      this.told.frames.find((/** @type {any} */ one) => one.type === "wobj" && key(one) === this.wobj)?.angles ?? [0, 0, 0];
+      this.told.frames.find((one) => one.type === "wobj" && key(one) === this.wobj)?.angles ?? [0, 0, 0];
     const seen = () => ({ world: "", tool: "tool ", workpiece: `frame ${angles().join(" ")} ` })[this.frame.value] ?? "";
     const tcp = ["x", "y", "z", "rx", "ry", "rz"].map((name) =>
       element(
@@ -189,17 +200,17 @@ export class Teach {
     if (told) this.take(told);
   }
 
-  /** Takes in what the data files hold. @param {any} told */
+  /** Takes in what the data files hold. @param {import('./api.js').Points} told */
   take(told) {
     this.told = told;
     if (told.troubles.length > 0) trouble(told.troubles.join(" "));
     const option = (/** @type {string} */ name) => element("option", { value: name }, name.split(": ").at(-1) ?? name);
-    const names = (/** @type {string} */ type) => told.frames.filter((/** @type {any} */ frame) => frame.type === type && !frame.other);
+    const names = (/** @type {string} */ type) => told.frames.filter((frame) => frame.type === type && !frame.other);
     this.tools.replaceChildren(...["as now", "flange", ...names("tool").map(key)].map(option));
     this.wobjs.replaceChildren(...["world", ...names("wobj").map(key)].map(option));
     this.tools.value = this.tool;
     this.wobjs.value = this.wobj;
-    const rows = told.points.map((/** @type {any} */ point) => {
+    const rows = told.points.map((point) => {
       const box = /** @type {HTMLInputElement} */ (
         element("input", { type: "checkbox", checked: this.chosen.has(key(point)), ariaLabel: point.name })
       );
@@ -232,13 +243,13 @@ export class Teach {
 
   /** @param {string} name */
   point(name) {
-    return this.told.points.find((/** @type {any} */ point) => key(point) === name);
+    return this.told.points.find((point) => key(point) === name);
   }
 
   /** Tool, workpiece and base, as the server wants them. */
   where() {
     const named = (/** @type {string} */ type, /** @type {string} */ name) =>
-      this.told.frames.find((/** @type {any} */ frame) => frame.type === type && key(frame) === name)?.placed;
+      this.told.frames.find((frame) => frame.type === type && key(frame) === name)?.placed;
     const tool = this.tool === "as now" ? this.toolNow() : (named("tool", this.tool) ?? NOWHERE);
     const base = this.channel ? this.page.run.baseAt(this.channel.number, this.page.time) : NOWHERE;
     return { tool, wobj: named("wobj", this.wobj) ?? NOWHERE, base };
@@ -246,10 +257,10 @@ export class Teach {
 
   /** The tool that the robot has at this moment: the TCP seen from the flange. */
   toolNow() {
-    const arm = this.page.scene?.frames[0].arms.find((/** @type {any} */ arm) => arm.channel === this.channel);
+    const arm = this.page.scene?.frames[0].arms.find((arm) => arm.channel === this.channel);
     if (!arm) return NOWHERE;
     arm.tcp.updateWorldMatrix(true, false);
-    const flange = arm.links.at(-1).made;
+    const flange = arm.links.at(-1)?.made ?? arm.base;
     flange.updateWorldMatrix(true, false);
     const seen = new Object3D();
     seen.applyMatrix4(flange.matrixWorld.clone().invert().multiply(arm.tcp.matrixWorld));
@@ -268,7 +279,7 @@ export class Teach {
     return this.axes.length > 0 ? this.axes : (this.moment?.axes ?? this.channel.axes.map(() => 0));
   }
 
-  /** Where a point is. @param {any} point */
+  /** Where a point is. @param {Point} point */
   goTo({ type, values, plain }) {
     const own = this.channel.links.length - 1;
     const missing = type === "pose" ? values.x === undefined : values.j1 === undefined;
@@ -282,13 +293,13 @@ export class Teach {
   externals(of) {
     const own = this.channel.links.length - 1;
     const now = this.moment?.axes ?? [];
-    return this.channel.axes.slice(own).map((/** @type {any} */ _, /** @type {number} */ at) => of(at + 1) ?? now[own + at] ?? 0);
+    return this.channel.axes.slice(own).map((_, at) => of(at + 1) ?? now[own + at] ?? 0);
   }
 
-  /** Has the dragged robot go somewhere. @param {any} order @param {number} [cfg] the configuration that is wanted */
+  /** Has the dragged robot go somewhere. @param {{axes?: number[], components?: number[], placed?: number[]}} order @param {number} [cfg] the configuration that is wanted */
   async ask(order, cfg) {
     if (!this.channel || this.asking) {
-      this.next = [order, cfg];
+      this.next = { order, cfg };
       return;
     }
     this.asking = true;
@@ -302,17 +313,17 @@ export class Teach {
     this.asking = false;
     if (place) this.show(place, cfg, order.placed !== undefined);
     if (this.next) {
-      const [order, cfg] = this.next;
+      const { order, cfg } = this.next;
       this.next = undefined;
       this.ask(order, cfg);
     }
   }
 
-  /** @param {any} place @param {number | undefined} cfg @param {boolean} dragged */
+  /** @param {import('./api.js').TaughtPose} place @param {number | undefined} cfg @param {boolean} dragged */
   show(place, cfg, dragged) {
     this.place = place;
-    const wanted = place.solutions.findIndex((/** @type {any} */ one) => one.cfg === cfg && one.axes);
-    const same = place.solutions.findIndex((/** @type {any} */ one, /** @type {number} */ at) => at === this.solution && one.axes);
+    const wanted = place.solutions.findIndex((one) => one.cfg === cfg && one.axes);
+    const same = place.solutions.findIndex((one, at) => at === this.solution && one.axes);
     const at = wanted >= 0 ? wanted : dragged && same >= 0 ? same : (place.nearest ?? -1);
     this.values.forEach(({ input }, component) => (input.value = String(Math.round(place.components[component] * 1000) / 1000)));
     this.pick(at);
@@ -321,13 +332,14 @@ export class Teach {
 
   /** Takes one of the configurations. @param {number} at */
   pick(at) {
-    const solution = this.place?.solutions[at];
+    const solutions = this.place?.solutions ?? [];
+    const solution = solutions[at];
     this.solution = at;
     if (solution?.axes) this.axes = solution.axes;
     this.solutions.replaceChildren(
-      ...this.place.solutions.map((/** @type {any} */ one, /** @type {number} */ number) => {
+      ...solutions.map((one, number) => {
         const name = `cfg ${one.cfg}${one.near ? ` ⚠ ${one.near}` : ""}`;
-        const title = one.axes ? one.axes.map((/** @type {number} */ axis) => axis.toFixed(1)).join(", ") : one.why;
+        const title = one.axes ? one.axes.map((axis) => axis.toFixed(1)).join(", ") : one.why;
         const button = /** @type {HTMLButtonElement} */ (
           element("button", { title, disabled: !one.axes, className: number === at ? "on" : "" }, name)
         );
@@ -338,7 +350,7 @@ export class Teach {
         return button;
       }),
     );
-    const reasons = [...new Set(this.place.solutions.map((/** @type {any} */ one) => one.why).filter(Boolean))];
+    const reasons = [...new Set(solutions.map((one) => one.why).filter(Boolean))];
     if (!solution?.axes) write(this.word, `The robot cannot reach this pose: ${reasons.slice(0, 2).join("; ")}.`);
     else if (solution.near)
       write(this.word, `Near the ${solution.near} singularity (clearance ${solution.clearance.toFixed(3)}): axes may turn quickly there.`);
@@ -358,7 +370,7 @@ export class Teach {
     this.ask({ axes: moment.axes.slice(0, this.channel.links.length - 1) });
   }
 
-  /** Writes, and takes in what is there then. @param {string} what @param {any} order */
+  /** Writes, and takes in what is there then. @param {'save' | 'undo'} what @param {object} order */
   async write(what, order) {
     const told = await ask(what, order);
     if (!told) return;
@@ -367,7 +379,7 @@ export class Teach {
     write(this.word, "Written. It takes effect from the next reset of the program.");
   }
 
-  /** A point with these components. @param {any} point @param {number[]} components @param {Record<string, number>} [more] */
+  /** A point with these components. @param {Point} point @param {number[]} components @param {Record<string, number>} [more] */
   moved({ file, type, name, values }, components, more = {}) {
     const now = { ...values, ...Object.fromEntries(COMPONENTS.map((name, at) => [name, components[at]])), ...more };
     // Which turns are meant goes with the axes of before.
@@ -379,7 +391,7 @@ export class Teach {
   teach() {
     const point = this.point([...this.chosen][0]);
     const solution = this.place?.solutions[this.solution];
-    if (!point || !solution?.axes) return;
+    if (!point || !this.place || !solution?.axes) return;
     const { file, type, name, values } = point;
     const external = Object.fromEntries(this.external.map((axis, at) => [`ej${at + 1}`, axis]));
     if (type === "pose") return this.write("save", [this.moved(point, this.place.components, { cfg: solution.cfg, ...external })]);
@@ -392,7 +404,8 @@ export class Teach {
   poses() {
     const points = [...this.chosen]
       .map((name) => this.point(name))
-      .filter((point) => point?.type === "pose" && point.plain && point.values.x !== undefined);
+      .filter((point) => point !== undefined)
+      .filter((point) => point.type === "pose" && point.plain && point.values.x !== undefined);
     if (points.length === 0 || points.length < this.chosen.size) {
       trouble("Choose poses that are plain numbers: only those can be shifted and mirrored.");
       return [];
@@ -403,7 +416,7 @@ export class Teach {
   /** @param {number[]} by mm along x, y and z */
   shift(by) {
     const points = this.poses();
-    const moved = (/** @type {any} */ { values }) => COMPONENTS.map((name, at) => (values[name] ?? 0) + (by[at] ?? 0));
+    const moved = (/** @type {Point} */ { values }) => COMPONENTS.map((name, at) => (values[name] ?? 0) + (by[at] ?? 0));
     if (points.length > 0)
       this.write(
         "save",
@@ -440,8 +453,8 @@ export class Teach {
     const scene = this.page.scene;
     if (this.mapped) {
       this.mapped.removeFromParent();
-      for (const plane of /** @type {any[]} */ (this.mapped.children)) {
-        plane.material.map.dispose();
+      for (const plane of /** @type {Mesh<PlaneGeometry, MeshBasicMaterial>[]} */ (this.mapped.children)) {
+        plane.material.map?.dispose();
         plane.material.dispose();
         plane.geometry.dispose();
       }
@@ -483,7 +496,7 @@ export class Teach {
     const scene = this.page.scene;
     if (!scene) return;
     this.marks?.removeFromParent();
-    for (const old of /** @type {any[]} */ (this.marks?.children ?? [])) old.dispose();
+    for (const old of /** @type {AxesHelper[]} */ (this.marks?.children ?? [])) old.dispose();
     const marks = new Group();
     this.marks = marks;
     scene.scene.add(marks);
@@ -523,15 +536,16 @@ export class Teach {
       this.control.addEventListener("objectChange", () => this.dragged());
       scene.scene.add(this.control.getHelper());
     }
-    if (placed) put(/** @type {any} */ (this.handle), this.place.placed);
-    const arm = this.ghost.arms.find((/** @type {any} */ arm) => arm.channel.number === this.channel.number);
+    if (placed && this.handle) put(this.handle, this.place.placed);
+    const arm = this.ghost.arms.find((arm) => arm.channel.number === this.channel.number);
     const { base } = this.where();
     if (arm) this.ghost.pose(arm, this.axes, base, this.place.placed);
     scene.stale = true;
   }
 
   dragged() {
-    const { position, quaternion } = /** @type {any} */ (this.handle);
+    if (!this.handle) return;
+    const { position, quaternion } = this.handle;
     const placed = [...position.toArray().map((/** @type {number} */ value) => value * 1000), ...quaternion.toArray()];
     this.ask({ placed }, this.place?.solutions[this.solution]?.cfg);
   }

@@ -13,7 +13,7 @@ const SHORTEST_S = 0.02;
 
 export class Tracks {
   /**
-   * @param {HTMLElement} holder @param {import('./run.js').Run[]} runs @param {any} channel the robot whose axes are shown
+   * @param {HTMLElement} holder @param {import('./run.js').Run[]} runs @param {import('./run.js').Channel} channel the robot whose axes are shown
    * @param {(time: number) => void} seek
    */
   constructor(holder, runs, channel, seek) {
@@ -51,7 +51,7 @@ export class Tracks {
     return Math.max(...this.runs.map((run) => run.end), SHORTEST_S);
   }
 
-  /** Another robot, or signals that were not there before. @param {any} [channel] */
+  /** Another robot, or signals that were not there before. @param {import('./run.js').Channel} [channel] */
   rebuild(channel = this.channel) {
     if (channel !== this.channel) this.rows = undefined;
     this.channel = channel;
@@ -80,7 +80,7 @@ export class Tracks {
       );
     }
     for (const lane of run.sortedLanes) list.push(signal(run, lane));
-    channel?.axes.forEach((/** @type {any} */ axis, /** @type {number} */ at) => {
+    channel?.axes.forEach((axis, at) => {
       list.push(
         strip({
           label: axis.name,

@@ -116,7 +116,8 @@ fn go_on(queue: &mut Queue, cycles: f64) -> Vec<Step> {
     rows
 }
 
-/// Goes on to the end, which is where it should be, within all limits, those of acceleration and jerk times `stop_scale`.
+/// Goes on to the end, which is where it should be, within all limits, those of acceleration and jerk times
+/// `stop_scale`.
 fn ends_well(robot: &Robot, queue: &mut Queue, mut rows: Vec<Step>, profile: VelocityProfile, stop_scale: f64) {
     queue.resume();
     let count = rows.len();

@@ -459,8 +459,8 @@ impl LawFollower {
         }
     }
 
-    /// Brakes to rest, where the limits are those of the way times `stop_scale`, as can be done at once; returns whether
-    /// that is something new. There may be a shorter stop then: [`LawFollower::request_stop`].
+    /// Brakes to rest, where the limits are those of the way times `stop_scale`, as can be done at once; returns
+    /// whether that is something new. There may be a shorter stop then: [`LawFollower::request_stop`].
     pub(crate) fn brake(&mut self, stop_scale: f64) -> bool {
         if (self.brakes() && stop_scale <= self.stop_scale) || (self.stop_pause > 0.0 && stop_scale <= 1.0) {
             return false;

@@ -109,7 +109,8 @@ pub(crate) enum LawRequest {
     /// The fastest law from a state to rest at the end of what the sampler sees or as far as is looked ahead, with the
     /// law that leads to that state.
     Fastest(BoundaryState, Option<Arc<Law>>),
-    /// The shortest one from a state to rest, about so far ahead, with acceleration and jerk `stop_scale` times as high.
+    /// The shortest one from a state to rest, about so far ahead, with acceleration and jerk `stop_scale` times as
+    /// high.
     Shortest { start: BoundaryState, about: f64, stop_scale: f64 },
     /// The shortest one to rest, from the state that the robot has so many cycles from now, if that is much sooner than
     /// the governor would rest.
@@ -432,7 +433,8 @@ fn law_within_limits(
     best
 }
 
-/// The shortest law from a state on to rest, which is about so far ahead, with acceleration and jerk times `stop_scale`.
+/// The shortest law from a state on to rest, which is about so far ahead, with acceleration and jerk times
+/// `stop_scale`.
 ///
 /// Whether there is a law to rest at a place is what the solver tells; nearer than the shortest stop there is none.
 fn find_stop(

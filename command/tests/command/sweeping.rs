@@ -309,7 +309,7 @@ fn hostile_tables_are_refused_in_words() {
     sweep(&format!("[grid]\nseed = {grid}\noverride = {grid}\n")).is(2, "").says("more than 10000000 runs");
     for number in ["nan", "inf", "-inf"] {
         sweep(&format!("set.\"global.pitch\" = {number}\n")).is(2, "").says("not null, nan or inf");
-        sweep(&format!("max-time = {number}\n")).is(2, "").says("max-time: expected seconds");
+        sweep(&format!("max-time = {number}\n")).is(2, "").says("max-time: expected a time from 0");
         sweep(&format!("grid.seed = {{ from = {number}, to = 2, count = 3 }}\n")).is(2, "").says("[grid] seed");
     }
     for file in ["../p.arl", "/etc/passwd", "a/../../p.arl"] {

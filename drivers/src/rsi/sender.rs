@@ -129,7 +129,7 @@ mod tests {
         assert!(sender.is_robot(at("10.0.0.1:6")) && !sender.is_robot(at("10.0.0.2:5")));
         let told = sender.take_warning("*:1").unwrap();
         assert!(
-            told.starts_with("the robot at 10.0.0.1:5 is followed") && told.contains("address = \"10.0.0.1\""),
+            told.starts_with("the robot at 10.0.0.1:5 is used") && told.contains("address = \"10.0.0.1\""),
             "{told}"
         );
         assert_eq!(sender.take_warning("*:1"), None);

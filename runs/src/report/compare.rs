@@ -12,16 +12,18 @@ const SAME: f64 = 2e-6;
 
 /// What differs: lines that took another time or way, and the rest in words.
 #[derive(Clone, PartialEq, Default, Serialize, Debug)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct Differences {
     /// How long both took, in s.
     time: [f64; 2],
     said: Vec<String>,
-    lines: Vec<Row>,
+    lines: Vec<LineDifference>,
 }
 
 /// A line in both runs; absent: it did not run.
 #[derive(Clone, PartialEq, Serialize, Debug)]
-struct Row {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(crate) struct LineDifference {
     channel: usize,
     file: String,
     line: u32,
@@ -69,7 +71,7 @@ impl Differences {
 }
 
 /// The lines that took another time or way.
-fn rows(before: &OfChannel, after: &OfChannel) -> Vec<Row> {
+fn rows(before: &OfChannel, after: &OfChannel) -> Vec<LineDifference> {
     let key = |line: &OfLine| (line.file.clone(), line.line);
     let keys: BTreeSet<(String, u32)> = before.lines.iter().chain(&after.lines).map(key).collect();
     let row = |(file, line): (String, u32)| {
@@ -78,7 +80,7 @@ fn rows(before: &OfChannel, after: &OfChannel) -> Vec<Row> {
         let way = [&one, &other].map(|line| line.as_ref().map_or(0.0, |line| line.way));
         let [one, other] = [one, other].map(|line| line.map(|line| line.time()));
         let same = matches!((one, other), (Some(one), Some(other)) if (one - other).abs() < SAME);
-        let row = Row { channel: before.channel, file, line, one, other, way };
+        let row = LineDifference { channel: before.channel, file, line, one, other, way };
         (!same || (way[0] - way[1]).abs() >= SAME).then_some(row)
     };
     keys.into_iter().filter_map(row).collect()
@@ -148,7 +150,7 @@ impl fmt::Display for Differences {
             writeln!(f, "{text}")?;
         }
         let several = self.lines.iter().any(|row| row.channel > 1);
-        let place = |row: &Row| {
+        let place = |row: &LineDifference| {
             let place = format!("{}:{}", row.file, row.line);
             if several { format!("{place} (channel {})", row.channel) } else { place }
         };

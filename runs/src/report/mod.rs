@@ -1,6 +1,6 @@
 //! What a run took and what happened in it: as JSON, as a page, and beside another run.
 
-mod compare;
+pub(crate) mod compare;
 mod html;
 mod summary;
 #[cfg(test)]

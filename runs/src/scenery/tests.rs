@@ -126,7 +126,7 @@ fn another_robot_is_refused_by_name() {
             "kr10",
             "/no folder/a.stl",
         ),
-        (good.clone(), "hsr065", "its arm has 6 moving joints, hsr065 has 4 axes"),
+        (good.clone(), "hsr065", "its arm has 6 moving joints, but hsr065 has 4 axes"),
         (good.replace("0.05", "0"), "kr10", "link `link_1`: it has a form whose size is not finite and above 0"),
         (
             good.replace("<sphere radius=\"0.05\"/>", "<mesh filename=\"package://no_such/a.stl\"/>"),
@@ -242,8 +242,8 @@ fn a_carrier_has_an_axis_of_its_robot() {
     let arm = file.display().to_string();
     assert_eq!(of("ej1", Some(&arm)).unwrap().carriers.len(), 1);
     for (axis, robot, words) in [
-        ("ej2", Some(&*arm), "`ej2`: the robot kr10-r1420 of channel 1 has only ej1"),
-        ("ej1", None, "`ej1`: the robot kr10-r1420 of channel 1 has no external axes"),
+        ("ej2", Some(&*arm), "`ej2`, but the robot kr10-r1420 of channel 1 has only ej1"),
+        ("ej1", None, "`ej1`, but the robot kr10-r1420 of channel 1 has no external axes"),
     ] {
         let Failure::Usage(text) = of(axis, robot).unwrap_err() else { panic!("a usage failure") };
         assert!(text.contains(words), "{text}");

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::{Map, Value, json};
-
-use crate::playback::{Signal, Store, TOLD_AGAIN, Took, Track};
-use crate::record::messages::{
-    Blend, Closest, Color, Level, Link, Log, Motion, Pose, Quaternion, SceneUpdate, Solid, Vector3,
+use super::api::{
+    Entity, Levels, Line, Logged, Mode, News, PageChannel, PageContact, PageModel, PageMotion, PageSceneUpdate,
+    PageSolid, PageTrack, RunAnswer, SignalChanges, SourceText,
 };
+use crate::playback::{Signal, Store, TOLD_AGAIN, Track};
+use crate::record::messages;
 
 /// How much of a run the page knows already, by the numbers of what it has.
 #[derive(Clone, Copy, Default, Debug)]
@@ -33,160 +33,87 @@ pub(super) struct About<'a> {
 }
 
 /// All of a run but where the robots were.
-pub(super) fn run(store: &Store, about: About<'_>) -> Value {
-    let mut answer = news(store, &Known::default());
-    let channels = store.cell.channels.iter().map(|runs| {
-        let axes = runs.axes.iter();
-        let axes = axes.map(|axis| json!({"name": axis.name, "unit": axis.unit, "min": axis.min, "max": axis.max}));
-        let link = |link: &Link| {
-            json!({"frame": link.frame, "parent": link.parent, "origin": link.origin, "axis": link.axis, "linear": link.linear,
-                   "moved_by": link.moved_by})
-        };
-        json!({
-            "program": runs.program, "robot": runs.robot, "tcp": runs.tcp,
-            "axes": axes.collect::<Value>(), "links": runs.links.iter().map(link).collect::<Value>(),
-            "carriers": runs.carriers.iter().map(link).collect::<Value>(),
-        })
-    });
-    let names = store.cell.names.iter().map(|name| (name.signal.clone(), Value::from(name.name.clone())));
-    let sources = store.sources.iter().map(|source| json!({"name": source.name, "text": source.text}));
-    let more = [
-        ("name", Value::from(about.name)),
-        ("channels", channels.collect()),
-        ("names", names.collect::<Map<_, _>>().into()),
-        ("sources", sources.collect()),
-        ("keywords", arl_lang::language_words().collect()),
-        ("teaches", about.teaches.into()),
-        ("trouble", store.trouble.clone().into()),
-    ];
-    if let Value::Object(fields) = &mut answer {
-        fields.extend(more.map(|(name, value)| (name.to_owned(), value)));
+pub(super) fn run(store: &Store, about: About<'_>) -> RunAnswer {
+    let source = |text: &crate::texts::Text| SourceText { name: text.name.clone(), text: text.text.clone() };
+    RunAnswer {
+        name: about.name.to_owned(),
+        channels: store.cell.channels.iter().map(PageChannel::from).collect(),
+        names: store.cell.names.iter().map(|name| (name.signal.clone(), name.name.clone())).collect(),
+        sources: store.sources.iter().map(source).collect(),
+        keywords: arl_lang::language_words().collect(),
+        teaches: about.teaches,
+        trouble: store.trouble.clone(),
+        news: news(store, &Known::default()),
     }
-    answer
 }
 
 /// What happened since.
-pub(super) fn news(store: &Store, known: &Known) -> Value {
+pub(super) fn news(store: &Store, known: &Known) -> News {
     let mut models = store.scene.iter().take(known.scene).map(|(_, update)| models_of(update)).sum::<usize>();
     let scene = store.scene.iter().skip(known.scene).map(|(time, update)| scene(store, *time, update, &mut models));
-    let scene: Value = scene.collect();
-    let controller = store.controller.iter().skip(known.controller);
-    let controller = controller.map(|one| json!({"time": one.time, "mode": one.mode, "override": one.speed_override}));
-    let contacts = store.contacts.iter().skip(known.contacts).map(|one| {
-        json!({
-            "time": one.time, "file": one.file, "line": one.line, "one": one.one, "other": one.other,
-            "distance": one.distance,
-        })
-    });
-    let tracks = store.tracks.iter().map(|track| {
-        let states = track.states.iter().skip(known.states).map(|(time, state)| json!([time, state]));
-        let bases = track.bases.iter().skip(known.bases).map(|(time, base)| json!([time, base]));
-        json!({
-            "files": track.files, "rows": track.times.len(),
-            "states": states.collect::<Value>(), "bases": bases.collect::<Value>(), "lines": lines(track),
-        })
-    });
-    json!({
-        "end": store.end,
-        "version": store.version,
-        "live": store.goes_on,
-        "scene": scene,
-        "controller": controller.collect::<Value>(),
-        "log": store.log.iter().skip(known.log).map(|(time, log)| logged(*time, log)).collect::<Value>(),
-        "contacts": contacts.collect::<Value>(),
-        "motions": store.motions.iter().skip(known.motions.saturating_sub(TOLD_AGAIN)).map(motion).collect::<Value>(),
-        "tracks": tracks.collect::<Value>(),
-        "signals": signals(store, known.signals),
-        "levels": levels(store),
-    })
+    News {
+        end: store.end,
+        version: store.version,
+        live: store.goes_on,
+        scene: scene.collect(),
+        controller: store.controller.iter().skip(known.controller).map(Mode::from).collect(),
+        log: store.log.iter().skip(known.log).map(|(time, log)| Logged::new(*time, log)).collect(),
+        contacts: store.contacts.iter().skip(known.contacts).map(PageContact::from).collect(),
+        motions: store.motions.iter().skip(known.motions.saturating_sub(TOLD_AGAIN)).map(PageMotion::from).collect(),
+        tracks: store.tracks.iter().map(|track| track_news(track, known)).collect(),
+        signals: signals(store, known.signals),
+        levels: Levels::from(&store.io),
+    }
 }
 
-/// What each line took.
-fn lines(track: &Track) -> Value {
-    let line = |(&(file, line), took): (&(u16, u32), &Took)| json!({"file": file, "line": line, "moving": took.moving, "standing": took.standing});
-    track.lines.iter().map(line).collect()
+fn track_news(track: &Track, known: &Known) -> PageTrack {
+    let base = |(time, base): &(f64, [f32; 7])| (*time, base.map(f64::from));
+    let line = |(&(file, line), took): (&(u16, u32), &crate::playback::Took)| Line {
+        file,
+        line,
+        moving: took.moving,
+        standing: took.standing,
+    };
+    PageTrack {
+        files: track.files.clone(),
+        rows: track.times.len(),
+        states: track.states.iter().skip(known.states).cloned().collect(),
+        bases: track.bases.iter().skip(known.bases).map(base).collect(),
+        lines: track.lines.iter().map(line).collect(),
+    }
 }
 
-fn models_of(update: &SceneUpdate) -> usize {
+fn models_of(update: &messages::SceneUpdate) -> usize {
     update.entities.iter().map(|entity| entity.models.len()).sum()
 }
 
-fn scene(store: &Store, time: f64, update: &SceneUpdate, models: &mut usize) -> Value {
+fn scene(store: &Store, time: f64, update: &messages::SceneUpdate, models: &mut usize) -> PageSceneUpdate {
     let entities = update.entities.iter().map(|entity| {
-        let solid = |one: &Solid| json!({"pose": pose(one.pose), "size": vector(one.size), "color": color(one.color)});
-        let cylinders = entity.cylinders.iter();
-        let cylinders =
-            cylinders.map(|one| json!({"pose": pose(one.pose), "size": vector(one.size), "color": color(one.color)}));
         let drawn = entity.models.iter().map(|one| {
-            let mesh = store.models.get(*models);
+            let mesh = store.models.get(*models).copied();
             *models += 1;
-            json!({"pose": pose(one.pose), "scale": vector(one.scale), "color": color(one.color), "model": mesh})
+            PageModel::new(one, mesh)
         });
-        json!({
-            "id": entity.id, "frame": entity.frame_id,
-            "cubes": entity.cubes.iter().map(solid).collect::<Value>(),
-            "spheres": entity.spheres.iter().map(solid).collect::<Value>(),
-            "cylinders": cylinders.collect::<Value>(),
-            "models": drawn.collect::<Value>(),
-        })
+        Entity {
+            id: entity.id.clone(),
+            frame: entity.frame_id.clone(),
+            cubes: entity.cubes.iter().map(PageSolid::from).collect(),
+            spheres: entity.spheres.iter().map(PageSolid::from).collect(),
+            cylinders: entity.cylinders.iter().map(PageSolid::from).collect(),
+            models: drawn.collect(),
+        }
     });
-    let entities: Value = entities.collect();
-    let gone: Value = update.deletions.iter().map(|gone| gone.id.clone()).collect();
-    json!({"time": time, "entities": entities, "gone": gone})
-}
-
-fn vector(vector: Option<Vector3>) -> [f64; 3] {
-    vector.map_or([0.0; 3], |Vector3 { x, y, z }| [x, y, z])
-}
-
-/// x, y, z, and a quaternion x, y, z, w.
-fn pose(pose: Option<Pose>) -> [f64; 7] {
-    let Some(Pose { position, orientation }) = pose else { return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0] };
-    let [at_x, at_y, at_z] = vector(position);
-    let Quaternion { x, y, z, w } = orientation.unwrap_or(Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 });
-    [at_x, at_y, at_z, x, y, z, w]
-}
-
-fn color(color: Option<Color>) -> [f64; 4] {
-    color.map_or([0.5, 0.5, 0.5, 1.0], |Color { r, g, b, a }| [r, g, b, a])
-}
-
-fn logged(time: f64, log: &Log) -> Value {
-    let level = match log.level() {
-        Level::Error | Level::Fatal => "alarm",
-        Level::Warning => "warning",
-        _ => "message",
-    };
-    json!({"time": time, "level": level, "text": log.message, "name": log.name, "file": log.file, "line": log.line})
-}
-
-fn motion(motion: &Motion) -> Value {
-    let closest = |closest: &Option<Closest>| closest.as_ref().map(|one| json!([one.of, one.percent]));
-    let blend = |one: &Blend| json!({"asked": one.asked, "used": one.used, "unit": one.unit, "why": one.why});
-    json!({
-        "channel": motion.channel, "motion": motion.motion, "file": motion.file, "line": motion.line, "kind": motion.kind,
-        "start": motion.start, "duration": motion.duration, "way": motion.way,
-        "programmed": motion.programmed, "reached": motion.reached, "unit": motion.unit,
-        "blend": motion.blend.as_ref().map(blend),
-        "vel": closest(&motion.closest_vel), "acc": closest(&motion.closest_acc), "jerk": closest(&motion.closest_jerk),
-    })
-}
-
-/// All inputs and outputs as they are now.
-fn levels(store: &Store) -> Value {
-    let row = |levels: &[bool]| levels.iter().map(|on| if *on { '1' } else { '0' }).collect::<String>();
-    let io = &store.io;
-    json!({"di": row(&io.di), "do": row(&io.r#do), "ai": io.ai, "ao": io.ao})
+    let entities = entities.collect();
+    PageSceneUpdate { time, entities, gone: update.deletions.iter().map(|gone| gone.id.clone()).collect() }
 }
 
 /// Changes of signals: each one's times and values in turn.
-fn signals(store: &Store, known: usize) -> Value {
+fn signals(store: &Store, known: usize) -> Vec<SignalChanges> {
     let mut of: BTreeMap<Signal, Vec<f64>> = BTreeMap::new();
     for (signal, time, value) in store.changes.iter().skip(known) {
         of.entry(*signal).or_default().extend([*time, *value]);
     }
-    let told = |(signal, changes): (Signal, Vec<f64>)| json!({"signal": signal.to_string(), "changes": changes});
-    of.into_iter().map(told).collect()
+    of.into_iter().map(|(signal, changes)| SignalChanges { signal: signal.to_string(), changes }).collect()
 }
 
 /// Where the robot of a channel was from one time to another, in at most so many rows, and the row before the first.

@@ -4,6 +4,7 @@
 //! take them.
 
 mod answer;
+mod api;
 mod http;
 mod live;
 mod page;
@@ -168,8 +169,8 @@ impl Shown {
 
 fn of_run(store: &Store, about: About<'_>, path: &[&str], asked: &PageRequest<'_>) -> Answer {
     match path {
-        [] => Answer::Json(answer::run(store, about)),
-        ["news"] => Answer::Json(answer::news(store, &known(asked))),
+        [] => Answer::Json(json!(answer::run(store, about))),
+        ["news"] => Answer::Json(json!(answer::news(store, &known(asked)))),
         ["model", number] => match number.parse().ok().and_then(|number: usize| store.meshes.get(number)) {
             Some(bytes) => Answer::Bytes("model/stl", bytes.clone()),
             None => Answer::NotFound,

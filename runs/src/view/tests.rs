@@ -136,7 +136,7 @@ fn signals_are_told_from_where_they_changed() {
     assert_eq!(store.signals[&Signal { kind: "di", number: 2 }], [(1.0, 1.0), (3.0, 0.0)]);
     assert!(!store.signals.contains_key(&Signal { kind: "di", number: 1 }));
     // The first two changes are known: those of both signals after 1 s.
-    let news = answer::news(&store, &Known { signals: 2, ..Known::default() });
+    let news = serde_json::json!(answer::news(&store, &Known { signals: 2, ..Known::default() }));
     let analog = serde_json::json!({"signal": "ai.1", "changes": [2.0, 2.0, 3.0, 3.0]});
     let digital = serde_json::json!({"signal": "di.2", "changes": [3.0, 0.0]});
     let told = news["signals"].as_array().unwrap();
@@ -151,7 +151,7 @@ fn what_is_no_number_is_none_of_the_page() {
     assert!(store.take("/arl/io", 0, &io.encode_to_vec()).is_err());
     let motion = Motion { channel: 1, motion: 1, way: none, ..Motion::default() };
     assert!(store.take("/arl/motions", 0, &motion.encode_to_vec()).is_err());
-    let news = answer::news(&store, &Known::default());
+    let news = serde_json::json!(answer::news(&store, &Known::default()));
     assert_eq!((&news["motions"], &news["signals"]), (&serde_json::json!([]), &serde_json::json!([])));
 }
 

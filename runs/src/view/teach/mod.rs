@@ -2,8 +2,8 @@
 //!
 //! Nothing is written but data files of the program that is shown, by the code of `savefilepose`.
 
-mod place;
-mod points;
+pub(super) mod place;
+pub(super) mod points;
 #[cfg(test)]
 mod tests;
 

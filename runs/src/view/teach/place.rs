@@ -46,7 +46,8 @@ pub(super) struct Where {
 
 /// What is there.
 #[derive(Clone, PartialEq, Serialize, Debug)]
-pub(super) struct TaughtPose {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(in crate::view) struct TaughtPose {
     /// The TCP in the workpiece frame: x, y, z, a, b, c.
     components: [f64; 6],
     /// And in the world.
@@ -58,7 +59,8 @@ pub(super) struct TaughtPose {
 
 /// A configuration: the axes, or why there are none.
 #[derive(Clone, PartialEq, Serialize, Debug)]
-struct Solution {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(in crate::view) struct Solution {
     cfg: u8,
     axes: Option<Axes>,
     why: Option<String>,
@@ -85,7 +87,8 @@ pub(super) struct Map {
 /// The places of a plane, row by row: a digit each, 0 where the robot does not reach, else how clear of singular points
 /// it is.
 #[derive(Clone, PartialEq, Serialize, Debug)]
-pub(super) struct Mapped {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(in crate::view) struct Mapped {
     side: usize,
     step: f64,
     /// The first place, and the frame of the plane, in the world.

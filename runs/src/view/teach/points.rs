@@ -183,7 +183,7 @@ fn expect_known(bytes: &[u8], change: &Change, family: Family) -> Result<(), Str
     // Whoever replaces the value tells of texts that cannot be read.
     let Ok(text) = arl_lang::text::decode(bytes) else { return Ok(()) };
     let (name, file) = (&change.name, &change.file);
-    let mut told = Told::default();
+    let mut told = Points::default();
     told.read(file, &text, family);
     let is = |own: &str, asked: &str| own.eq_ignore_ascii_case(asked);
     let Some(point) = told.points.iter().find(|one| is(&one.name, name) && is(&one.r#type, &change.r#type)) else {
@@ -248,7 +248,8 @@ pub(super) fn expect_sensible(number: f64) -> Result<(), String> {
 
 /// What data files hold, for the page.
 #[derive(Default, Serialize, Debug)]
-pub(super) struct Told {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(in crate::view) struct Points {
     points: Vec<Point>,
     frames: Vec<Mounted>,
     /// How many steps can be taken back.
@@ -259,7 +260,8 @@ pub(super) struct Told {
 
 /// A point: its components that are plain numbers, in mm and deg.
 #[derive(Serialize, Debug)]
-struct Point {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(in crate::view) struct Point {
     file: String,
     r#type: String,
     name: String,
@@ -270,7 +272,8 @@ struct Point {
 
 /// A tool or workpiece.
 #[derive(Serialize, Debug)]
-struct Mounted {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(in crate::view) struct Mounted {
     file: String,
     r#type: String,
     name: String,
@@ -282,8 +285,8 @@ struct Mounted {
 }
 
 /// The points, tools and workpieces of all files.
-pub(super) fn told(files: &Files) -> Told {
-    let mut told = Told { undo: files.steps.len(), ..Told::default() };
+pub(super) fn told(files: &Files) -> Points {
+    let mut told = Points { undo: files.steps.len(), ..Points::default() };
     for path in &files.paths {
         let name = files.name(path);
         let text = read(path).and_then(|bytes| {
@@ -297,7 +300,7 @@ pub(super) fn told(files: &Files) -> Told {
     told
 }
 
-impl Told {
+impl Points {
     fn read(&mut self, file: &str, text: &str, family: Family) {
         let mut names = Interner::default();
         let parsed = arl_lang::parse(text, &mut names, arl_lang::ParseOptions::default());

@@ -111,7 +111,7 @@ fn nothing_else_is_written() {
         ask(&teacher, "save", &change).unwrap_err()
     };
     for file in ["p.arl", "../p_data.arl", "/etc/passwd", ""] {
-        assert!(refused(file, "pose", "feeder", json!({"x": 1})).contains("is no data file"), "{file}");
+        assert!(refused(file, "pose", "feeder", json!({"x": 1})).contains("is not a data file"), "{file}");
     }
     assert!(refused("p_data.arl", "int", "n", json!({"x": 1})).contains("a pose or a joint"));
     assert!(refused("p_data.arl", "pose", "feeder", json!({"x}": 1})).contains("no component"));
