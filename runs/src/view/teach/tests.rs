@@ -114,7 +114,7 @@ fn nothing_else_is_written() {
         assert!(refused(file, "pose", "feeder", json!({"x": 1})).contains("is not a data file"), "{file}");
     }
     assert!(refused("p_data.arl", "int", "n", json!({"x": 1})).contains("a pose or a joint"));
-    assert!(refused("p_data.arl", "pose", "feeder", json!({"x}": 1})).contains("no component"));
+    assert!(refused("p_data.arl", "pose", "feeder", json!({"x}": 1})).contains("not a component"));
     assert!(refused("p_data.arl", "pose", "feeder", json!({"cfg": 1.5})).contains("expected a whole number"));
     for (name, value) in [("x", 1e306), ("z", -1e7), ("ej1", 8.9e9), ("cfg", 8.0), ("cfg", 1e300), ("turn", -2.0)] {
         assert!(refused("p_data.arl", "pose", "feeder", json!({name: value})).contains("expected"), "{name} {value}");
