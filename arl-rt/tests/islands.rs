@@ -109,7 +109,7 @@ fn without_its_island_no_controller_starts() {
     drop(plc);
     let error = Controller::builder().cell(cell(address, "")).build(Box::new(common::script(endless))).err();
     let Some(SetupError::Outside(text)) = error else { panic!("it starts") };
-    assert!(text.contains("the island plc") && text.contains("is not there"), "{text}");
+    assert!(text.contains("the island plc") && text.contains("is not available"), "{text}");
 }
 
 /// A driver whose outputs take five cycles.

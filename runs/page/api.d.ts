@@ -161,12 +161,12 @@ export type PageTrack = {
 /**
  * The names of files that rows and lines have numbers of.
  */
-files: Array<string>, rows: number, states: Array<[number, string]>, bases: Array<[number, [number, number, number, number, number, number, number]]>, lines: Array<Line>, };
+files: Array<string>, rows: number, states: Array<[number, string]>, bases: Array<[number, [number, number, number, number, number, number, number]]>, lines: Array<PageLine>, };
 
 /**
  * How long the robot moved for a line, and stood in it, in s.
  */
-export type Line = { file: number, line: number, moving: number, standing: number, };
+export type PageLine = { file: number, line: number, moving: number, standing: number, };
 
 /**
  * Changes of a signal: times and values in turn.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::api::{
-    Entity, Levels, Line, Logged, Mode, News, PageChannel, PageContact, PageModel, PageMotion, PageSceneUpdate,
+    Entity, Levels, Logged, Mode, News, PageChannel, PageContact, PageLine, PageModel, PageMotion, PageSceneUpdate,
     PageSolid, PageTrack, RunAnswer, SignalChanges, SourceText,
 };
 use crate::playback::{Signal, Store, TOLD_AGAIN, Track};
@@ -68,7 +68,7 @@ pub(super) fn news(store: &Store, known: &Known) -> News {
 
 fn track_news(track: &Track, known: &Known) -> PageTrack {
     let base = |(time, base): &(f64, [f32; 7])| (*time, base.map(f64::from));
-    let line = |(&(file, line), took): (&(u16, u32), &crate::playback::Took)| Line {
+    let line = |(&(file, line), took): (&(u16, u32), &crate::playback::Took)| PageLine {
         file,
         line,
         moving: took.moving,

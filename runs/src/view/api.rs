@@ -221,13 +221,13 @@ pub(super) struct PageTrack {
     pub(super) rows: usize,
     pub(super) states: Vec<(f64, String)>,
     pub(super) bases: Vec<(f64, Placed)>,
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<PageLine>,
 }
 
 /// How long the robot moved for a line, and stood in it, in s.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
-pub(super) struct Line {
+pub(super) struct PageLine {
     pub(super) file: u16,
     pub(super) line: u32,
     pub(super) moving: f64,
@@ -403,7 +403,7 @@ mod tests {
             PageMotion,
             PageBlend,
             PageTrack,
-            Line,
+            PageLine,
             SignalChanges,
             Levels,
             Differences,
