@@ -236,7 +236,10 @@ def sweep(
         raise RefusedError(f"{processes} processes: expected 0 or more")
     if engine not in ("local", "ray"):
         raise RefusedError(f"engine {engine!r}: expected 'local' or 'ray'")
-    with told, notice(f"compiling {path.name} for {len(texts)} runs: this takes a minute or two the first time, and seconds after a change"):
+    with (
+        told,
+        notice(f"compiling {path.name} for {len(texts)} runs: this takes a minute or two the first time, and seconds after a change"),
+    ):
         bundle = _arl2rs.Bundle(settings, texts)
     lines: list[str] = []
     with _Progress(len(texts), progress) as bar, told:
