@@ -100,7 +100,7 @@ def test_wrong_shapes_are_told():
         (lambda: robot.inverse([0] * 6, cfg=9), "no configuration 9"),
         (lambda: robot.inverse({"x": 1}), "the pose has no y"),
         (lambda: robot.forward(robot.home, tool=[1, 2, 3]), "tool: expected 6 numbers"),
-        (lambda: robot.forward(robot.home, tool={"w": 1}), "no w"),
+        (lambda: robot.forward(robot.home, tool={"w": 1}), "not w"),
         (lambda: robot.forward(robot.home, base=[np.inf] * 6), "base: expected six numbers"),
         (lambda: robot.solutions(np.zeros((2, 6))), "expected one pose"),
     ]:

@@ -183,7 +183,7 @@ def test_arrays_become_points_to_the_last_bit():
         assert [session.global_value("q20")[f"j{axis}"] for axis in range(1, 7)] == numbers[19].tolist()
         assert "a" not in session.global_value("r")[0] and session.global_value("s")[0]["cfg"] == 2
     for arguments, words in [
-        (("1p", numbers), "not a name of a variable"),
+        (("1p", numbers), "is not a valid name of a variable"),
         (("p", numbers[0]), "found an array of shape"),
         (("p", [[1, np.nan, 3]]), "row 0 has a value that is not finite"),
         (("p", numbers, "place"), None),
@@ -242,10 +242,10 @@ def test_what_does_not_fit_is_told_by_its_name(short):
     for arguments, words in [
         ({"globals": {"part": 1}}, "did you mean `parts`"),
         ({"globals": {"parts": "x"}}, "expected a value of type int, found a string"),
-        ({"globals": {"parts": None}}, "None is nothing"),
+        ({"globals": {"parts": None}}, "ARL has no value for None"),
         ({"set": {"speed": 1}}, "there is no parameter `speed`"),
-        ({"set": {"io.event.1.at": 1}}, "`scenario` says whose"),
-        ({"set": {"robot.axis.1.vel": 1}}, "`robot` says whose"),
+        ({"set": {"io.event.1.at": 1}}, "`scenario`, which is not given"),
+        ({"set": {"robot.axis.1.vel": 1}}, "`robot`, which is not given"),
         ({"globals": ["parts"]}, "dictionaries"),
         ({"robot": "nobody"}, "no robot of this name"),
         ({"mode": "fast"}, "--mode fast"),
