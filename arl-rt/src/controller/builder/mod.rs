@@ -204,7 +204,7 @@ impl Builder {
     }
 
     /// What is told every alarm, of all channels, in the cycle in which it comes up. It runs within that cycle and must
-    /// be quick. [`Controller::take_alarms`] gives them as well.
+    /// be quick. [`Controller::take_alarms`](crate::Controller::take_alarms) gives them as well.
     ///
     /// ```
     /// use arl_rt::emit::*;
@@ -260,7 +260,7 @@ impl Builder {
     }
 
     /// What is told every warning when it comes up: what is not an alarm but worth a word, such as a button that cannot
-    /// act now. [`Controller::take_warnings`] gives them as well.
+    /// act now. [`Controller::take_warnings`](crate::Controller::take_warnings) gives them as well.
     pub fn on_warning(mut self, listener: impl FnMut(&str) + 'static) -> Self {
         self.listeners.warning = Some(Box::new(listener));
         self
@@ -291,7 +291,7 @@ impl Builder {
         self
     }
 
-    /// Keeps a record of every motion, for [`Controller::motions`].
+    /// Keeps a record of every motion, for [`Controller::motions`](crate::Controller::motions).
     pub fn record_motions(mut self) -> Self {
         self.record = true;
         self
@@ -322,7 +322,7 @@ impl Builder {
     }
 
     /// How many bytes of stack the program's functions may fill. The thread must have some 256 KiB more: that of
-    /// [`Controller::spawn`] has room for 1 MiB, which is what holds without this.
+    /// [`Controller::spawn`](crate::Controller::spawn) has room for 1 MiB, which is what holds without this.
     pub fn stack(mut self, bytes: usize) -> Self {
         self.stack = bytes;
         self
