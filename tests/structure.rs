@@ -215,9 +215,19 @@ const TWICE: &[(&str, &str)] = &[
     ("transpiler", "Globals"),
 ];
 
+/// The name of the type that a line declares, where others than its own module may use it. Those of macros have none.
+fn type_of_others(line: &str) -> Option<&str> {
+    let line = line.trim_start().strip_prefix("pub")?;
+    // Behind `pub`, or `pub(super)`.
+    let rest = if line.starts_with('(') { line.split_once(')')?.1 } else { line };
+    let mut words = rest.split_whitespace();
+    words.next().filter(|kind| ["struct", "enum", "trait", "type", "union"].contains(kind))?;
+    let name = words.next()?.split(|c: char| !c.is_alphanumeric()).next()?;
+    Some(name).filter(|name| !name.is_empty())
+}
+
 #[test]
 fn a_type_name_has_one_meaning_in_a_crate() {
-    const KINDS: [&str; 5] = ["struct", "enum", "trait", "type", "union"];
     let mut faults = Vec::new();
     for name in CRATES {
         let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src");
@@ -229,16 +239,9 @@ fn a_type_name_has_one_meaning_in_a_crate() {
             }
             let text = std::fs::read_to_string(&file).unwrap();
             let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
-            for line in text.lines().map(str::trim_start).filter(|line| line.starts_with("pub")) {
-                let words: Vec<&str> = line.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
-                let Some(at) = words.iter().position(|word| KINDS.contains(word)) else { continue };
-                // Types of traits come behind these words, and no function does.
-                if words.iter().take(at).any(|word| ["fn", "use", "mod", "const"].contains(word)) {
-                    continue;
-                }
-                let Some(ty) = words.get(at + 1).filter(|ty| !ty.is_empty()) else { continue };
-                let other = seen.insert((*ty).to_owned(), inside.clone());
-                if let Some(other) = other.filter(|_| !TWICE.contains(&(*name, *ty))) {
+            for ty in text.lines().filter_map(type_of_others) {
+                let other = seen.insert(ty.to_owned(), inside.clone());
+                if let Some(other) = other.filter(|_| !TWICE.contains(&(*name, ty))) {
                     faults.push(format!("{name}: `{ty}` is in {other} and in {inside}"));
                 }
             }

@@ -47,7 +47,7 @@ pub(crate) fn plan(
     let planner = Planner { robot, start, command, settings };
     let end = planner.choose(pose, wobj, *wanted, external)?;
     let (from, to) = (height(start), height(&end));
-    let top = top(&planner, gate, (from, to), lift.max)?;
+    let top = top(&planner, gate, from, to, lift.max)?;
     let stays = at(start, top).all().iter().zip(at(&end, top).all()).all(|(a, b)| (a - b).abs() < NO_DISTANCE_MM);
     let ways = Ways { robot, command, settings };
     if stays {
@@ -62,7 +62,7 @@ pub(crate) fn plan(
     };
     // The share of a way of the lift that is left when it has gone straight for so long.
     let rest = |way: f64, straight: f64| 1.0 - (straight / way).min(1.0);
-    let way_over = (command.clone(), *settings);
+    let way_over = Instruction { command: command.clone(), settings: *settings };
     let form_over = ways.form(&up, over, &way_over)?;
     if top - from > NO_DISTANCE_MM {
         let rising = ways.lifting(&gate.rising);
@@ -105,7 +105,7 @@ fn at(joints: &Joints, height: f64) -> Joints {
 }
 
 /// How high the lift goes over between two heights; `most` is the end of its range.
-fn top(planner: &Planner<'_>, gate: &Gate, (from, to): (f64, f64), most: f64) -> Result<f64, PlanError> {
+fn top(planner: &Planner<'_>, gate: &Gate, from: f64, to: f64, most: f64) -> Result<f64, PlanError> {
     // The TCP is everywhere as far above the lift.
     let above = planner.start_frame().translation.vector.z - from;
     let highest = gate.highest.map_or(most, |highest| most.min(highest - above));
@@ -114,6 +114,12 @@ fn top(planner: &Planner<'_>, gate: &Gate, (from, to): (f64, f64), most: f64) ->
         return Err(PlanError::AboveLimit { height: highest_end + above, highest: highest + above });
     }
     Ok((from + 2.0 * gate.rise).max(to + 2.0 * gate.sink).min(highest).max(highest_end))
+}
+
+/// What one way of a gate is planned with.
+struct Instruction {
+    command: Command,
+    settings: Settings,
 }
 
 /// Plans the three ways of a gate.
@@ -125,26 +131,24 @@ struct Ways<'a> {
 
 impl Ways<'_> {
     /// What a way of the lift is planned with.
-    fn lifting(&self, way: &Lift) -> (Command, Settings) {
+    fn lifting(&self, way: &Lift) -> Instruction {
         let (command, settings) = (self.command, self.settings);
         let speed = Speed { percent: way.vel.unwrap_or(command.speed.percent), ..command.speed };
         let acc_percent = way.acc.unwrap_or(settings.acc_percent);
-        (Command { speed, ..command.clone() }, Settings { acc_percent, ..*settings })
+        let command = Command { speed, ..command.clone() };
+        Instruction { command, settings: Settings { acc_percent, ..*settings } }
     }
 
-    fn part(&self, from: &Joints, to: Joints, (command, settings): &(Command, Settings)) -> Result<Motion, PlanError> {
+    fn part(&self, from: &Joints, to: Joints, asked: &Instruction) -> Result<Motion, PlanError> {
+        let Instruction { command, settings } = asked;
         Planner { robot: self.robot, start: from, command, settings }.axes(to)
     }
 
     /// What the form of a corner follows from; it is the same at every override, and in manual operation.
-    fn form(
-        &self,
-        from: &Joints,
-        to: Joints,
-        (command, settings): &(Command, Settings),
-    ) -> Result<Option<Limits>, PlanError> {
-        let settings = Settings { speed_percent: 100.0, manual: false, ..*settings };
-        self.part(from, to, &(command.clone(), settings)).map(|motion| motion.limits)
+    fn form(&self, from: &Joints, to: Joints, asked: &Instruction) -> Result<Option<Limits>, PlanError> {
+        let settings = Settings { speed_percent: 100.0, manual: false, ..asked.settings };
+        let command = asked.command.clone();
+        self.part(from, to, &Instruction { command, settings }).map(|motion| motion.limits)
     }
 }
 

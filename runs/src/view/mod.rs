@@ -21,7 +21,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 
 use arl_robot::Robot;
-use serde_json::{Value, json};
 
 use crate::listen::Hears;
 use crate::playback::{self, Store};
@@ -136,11 +135,11 @@ impl Shown {
             return Answer::Bytes(kind, bytes.to_vec());
         }
         match asked.path.strip_prefix("/api/").map(|path| path.split('/').collect::<Vec<_>>()).as_deref() {
-            Some(["runs"]) => Answer::Json(self.runs.iter().map(|(name, _)| name.clone()).collect()),
+            Some(["runs"]) => Answer::json(&self.runs.iter().map(|(name, _)| name).collect::<Vec<_>>()),
             Some(["differences"]) => match &self.runs[..] {
                 [(_, one), (_, other)] => {
                     let [one, other] = [one, other].map(|store| Summary::of(&lock(store)));
-                    Answer::Json(json!(Differences::between(&one, &other)))
+                    Answer::json(&Differences::between(&one, &other))
                 }
                 _ => Answer::NotFound,
             },
@@ -149,9 +148,7 @@ impl Shown {
                 None => Answer::Refused("points are only written if the command was started with --teach".to_owned()),
             },
             Some(["order"]) => match (&self.live, asked.order) {
-                (Some(live), Some(order)) => {
-                    live.order(order).map_or_else(Answer::Refused, |()| Answer::Json(Value::Null))
-                }
+                (Some(live), Some(order)) => live.order(order).map_or_else(Answer::Refused, |()| Answer::json(&())),
                 (None, Some(_)) => {
                     Answer::Refused("this is a recording: there is no program that takes orders".to_owned())
                 }
@@ -169,8 +166,8 @@ impl Shown {
 
 fn of_run(store: &Store, about: About<'_>, path: &[&str], asked: &PageRequest<'_>) -> Answer {
     match path {
-        [] => Answer::Json(json!(answer::run(store, about))),
-        ["news"] => Answer::Json(json!(answer::news(store, &known(asked)))),
+        [] => Answer::json(&answer::run(store, about)),
+        ["news"] => Answer::json(&answer::news(store, &known(asked))),
         ["model", number] => match number.parse().ok().and_then(|number: usize| store.meshes.get(number)) {
             Some(bytes) => Answer::Bytes("model/stl", bytes.clone()),
             None => Answer::NotFound,

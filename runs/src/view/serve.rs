@@ -2,6 +2,8 @@
 
 use std::net::SocketAddr;
 
+use serde::Serialize;
+
 use super::http::{Answers, Rank, Request, Response, Status};
 
 /// What is asked for.
@@ -16,10 +18,18 @@ pub(super) struct PageRequest<'a> {
 pub(super) enum Answer {
     /// A file of the page, or what it asked for: the type and the bytes.
     Bytes(&'static str, Vec<u8>),
-    Json(serde_json::Value),
+    /// JSON.
+    Json(String),
     NotFound,
     /// It cannot be, and why.
     Refused(String),
+}
+
+impl Answer {
+    /// A value as JSON.
+    pub(super) fn json(value: &impl Serialize) -> Self {
+        serde_json::to_string(value).map_or_else(|error| Self::Refused(error.to_string()), Self::Json)
+    }
 }
 
 impl PageRequest<'_> {
@@ -64,7 +74,7 @@ impl<F: Fn(&PageRequest<'_>) -> Answer> ToPage<F> {
         };
         match (self.answer)(&PageRequest { path: &request.path, query: &request.query, order }) {
             Answer::Bytes(kind, bytes) => Ok(Response::new(Status::Ok, kind, bytes)),
-            Answer::Json(value) => Ok(Response::new(Status::Ok, "application/json", value.to_string().into_bytes())),
+            Answer::Json(text) => Ok(Response::new(Status::Ok, "application/json", text.into_bytes())),
             Answer::NotFound => Err((Status::NotFound, "there is no such page".to_owned())),
             Answer::Refused(why) => Err((Status::Conflict, why)),
         }

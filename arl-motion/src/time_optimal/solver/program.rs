@@ -150,7 +150,8 @@ const ALMOST_REST: f64 = 1e-9;
 fn pace_from(
     known: Known,
     way: &Way,
-    (warp, places): (Warp, &[f64]),
+    warp: Warp,
+    places: &[f64],
     edges: [BoundaryState; 2],
 ) -> Result<(PacedWarp, Option<Beginning>), Refusal> {
     let guess = || guess_speeds(way, &warp, places, edges);
@@ -204,7 +205,7 @@ impl Program {
         // Without jerk limits it is faster everywhere, but for the start, where a law may have used more than there is.
         let edges = [start, end];
         let most = reach::squares(way, edges, MOST_EXCESS_AT_START)?;
-        let (warp, beginning) = pace_from(known, way, (warp, &places), edges)?;
+        let (warp, beginning) = pace_from(known, way, warp, &places, edges)?;
         let is_known = beginning == Some(Beginning::Known);
         let places: Vec<f64> = warp.places().collect();
         let middles = middles(way, &warp, &places, (edges, &most));

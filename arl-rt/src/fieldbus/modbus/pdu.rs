@@ -142,7 +142,7 @@ fn execute(request: &[u8], tables: &mut Tables, answer: &mut Answer) -> Result<(
             if usize::from(bytes) != 2 * written || data.len() != 2 * written {
                 return Err(Value);
             }
-            exchange_registers((address(a, b), read), (address(e, f), data), tables, answer)
+            exchange_registers(address(a, b), read, address(e, f), data, tables, answer)
         }
         [
             function::READ_COILS
@@ -182,10 +182,12 @@ fn mask(register: &mut [u8], and: [u8; 2], or: [u8; 2]) {
     }
 }
 
-/// Writes registers from an address on, then reads so many from another one on.
+/// Writes registers from `to` on, then reads so many from `from` on.
 fn exchange_registers(
-    (from, read): (usize, usize),
-    (to, data): (usize, &[u8]),
+    from: usize,
+    read: usize,
+    to: usize,
+    data: &[u8],
     tables: &mut Tables,
     answer: &mut Answer,
 ) -> Result<(), Exception> {

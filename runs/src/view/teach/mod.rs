@@ -12,7 +12,6 @@ use std::sync::{Mutex, PoisonError};
 
 use arl_robot::{Family, Robot};
 use serde::de::DeserializeOwned;
-use serde_json::json;
 
 use super::serve::Answer;
 use place::{AskedPose, Map};
@@ -41,20 +40,20 @@ impl Teacher {
     pub(super) fn answer(&self, path: &[&str], order: Option<&str>) -> Answer {
         let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         let answer = match (path, order) {
-            (["points"], None) => Ok(json!(points::told(&files))),
+            (["points"], None) => Ok(Answer::json(&points::told(&files))),
             (["place"], Some(order)) => read::<AskedPose>(order)
                 .and_then(|asked| place::place(self.robot(asked.channel)?, &asked))
-                .map(|place| json!(place)),
-            (["map"], Some(order)) => {
-                read::<Map>(order).and_then(|map| place::map(self.robot(map.channel)?, &map)).map(|map| json!(map))
-            }
+                .map(|place| Answer::json(&place)),
+            (["map"], Some(order)) => read::<Map>(order)
+                .and_then(|map| place::map(self.robot(map.channel)?, &map))
+                .map(|map| Answer::json(&map)),
             (["save"], Some(order)) => read::<Vec<Change>>(order)
                 .and_then(|changes| files.save(&changes))
-                .map(|()| json!(points::told(&files))),
-            (["undo"], Some(_)) => files.undo().map(|()| json!(points::told(&files))),
+                .map(|()| Answer::json(&points::told(&files))),
+            (["undo"], Some(_)) => files.undo().map(|()| Answer::json(&points::told(&files))),
             _ => return Answer::NotFound,
         };
-        answer.map_or_else(Answer::Refused, Answer::Json)
+        answer.unwrap_or_else(Answer::Refused)
     }
 }
 
