@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Measures what `cargo bench -p arl-benches --bench anchors` is compared with and crates.io does not have.
+"""Measures the rivals of `cargo bench -p arl-benches --bench anchors` that are not on crates.io.
 
     python3 -m venv venv && venv/bin/pip install pin toppra ruckig && venv/bin/python scripts/anchors-python.py
 
-Run it in the same sitting as the bench: ratios count. Times are processor time, the least of rounds, without what a call
-from Python costs where that can be told apart. It prints, and writes nothing.
+Run it together with the bench: only ratios count. Times are processor time, the least of several rounds, without the cost
+of a call from Python where that can be separated. The script prints the times and writes no files.
 """
 
 import math
@@ -21,14 +21,14 @@ ROUNDS = 20
 
 
 def least(work, calls):
-    """us a call."""
+    """The least time per call, us."""
     return min(timeit.repeat(work, number=calls, repeat=ROUNDS, timer=time.process_time)) / calls * 1e6
 
 
 def inverse_dynamics():
     import pinocchio as pin
 
-    # Six axes with any masses: what rnea takes does not depend on them.
+    # Six axes with arbitrary masses: the time of rnea does not depend on them.
     model = pin.Model()
     joint = 0
     kinds = [pin.JointModelRZ, pin.JointModelRY, pin.JointModelRY, pin.JointModelRZ, pin.JointModelRY, pin.JointModelRZ]
@@ -38,7 +38,7 @@ def inverse_dynamics():
     data = model.createData()
     q, v, a = (np.random.default_rng(seed).uniform(-1, 1, 6) for seed in (1, 2, 3))
     call = least(lambda: pin.rnea(model, data, q, v, a), 20_000)
-    # The same way into C++ and back, three vectors in and one out, with next to no work in between.
+    # The same call into C++ and back, three vectors in and one out, with almost no work in between.
     crossing = least(lambda: pin.integrate(model, q, v), 20_000)
     print(f"pinocchio {version('pin')}: rnea {call:.2f} us a call from Python, of which crossing takes some {crossing:.2f}")
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Makes arl-rt/tests/data/newton-euler.txt: axis torques as Pinocchio computes them, for the built-in robots.
+"""Writes arl-rt/tests/data/newton-euler.txt: axis torques computed by Pinocchio for the built-in robots.
 
     python3 -m venv venv && venv/bin/pip install pin && venv/bin/python scripts/newton-euler.py
 
-The frames of the links are those that arl-rt/src/unit/dynamics/mod.rs describes. A line: robot; axes (deg, mm), speeds and
+The frames of the links are described in arl-rt/src/unit/dynamics/mod.rs. A line has: robot; axes (deg, mm), speeds and
 accelerations (the same per s, per s2); the load's mass (kg), centre (mm) and inertia (kg mm2); force (N) and torque (Nm) on
 the flange, in the base; the base's rotation vector (rad); the torques (Nm, N).
 """
@@ -30,7 +30,7 @@ def inertia(mass, com, i):
 
 
 def build(robot, load):
-    """The model, the senses and offsets (deg) of the axes, and the flange seen from the last joint (m)."""
+    """The model, the directions and offsets (deg) of the axes, and the flange seen from the last joint (m)."""
     g = robot["geometry"]
     z, y, lift = pin.JointModelRZ, pin.JointModelRY, pin.JointModelPZ
     if robot["family"] == "six-axis":

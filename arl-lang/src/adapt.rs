@@ -1,5 +1,5 @@
-//! Between lexer and grammar: lexemes of one line become its tokens. Names are interned here, and what depends on
-//! the neighbours is decided here: labels, components in braces, units, instructions whose names are not reserved.
+//! The step between lexer and grammar: turns the lexemes of one line into its tokens. It interns names and decides what
+//! depends on neighbouring lexemes: labels, components in braces, units, instructions whose names are not reserved.
 
 use crate::ast::{BinaryOp, Radix, Unit};
 use crate::lexer::Lexeme;
@@ -10,7 +10,7 @@ use crate::syntax_error::{BRACKET_LEVELS, Bracket, SyntaxError, SyntaxErrorKind}
 use crate::token::{Placed, Token};
 use crate::words::{Vocabulary, Word};
 
-/// A lexeme between its first byte and the byte behind its last one.
+/// A lexeme with its first byte and the byte after its last one.
 pub(crate) type PlacedLexeme = (u32, Lexeme, u32);
 
 /// Makes tokens of lexemes, a line at a time.
@@ -22,15 +22,15 @@ pub(crate) struct Adapter<'a> {
     pub(crate) tokens: Vec<Placed>,
     /// The brackets that are open.
     open: Vec<Bracket>,
-    /// How many splices came before.
+    /// The number of splices read so far.
     splices: u32,
 }
 
-/// What became of a line.
+/// The result of adapting a line.
 pub(crate) struct Adapted {
     /// How many lexemes were taken; the rest is a line of its own.
     pub(crate) taken: usize,
-    /// Whether the tokens are not the whole line, because something was wrong with it.
+    /// Whether the tokens cover only a part of the line, because of an error in it.
     pub(crate) broken: bool,
 }
 
@@ -49,7 +49,7 @@ impl<'a> Adapter<'a> {
     pub(crate) fn adapt(&mut self, lexemes: &[PlacedLexeme], errors: &mut Vec<SyntaxError>) -> Adapted {
         self.tokens.clear();
         self.open.clear();
-        // Whether a statement begins here; it does once more behind the condition of an `if`.
+        // Whether a statement begins here; another one begins after the condition of an `if`.
         let mut start = true;
         let mut at = 0;
         while let Some((from, lexeme, to)) = lexemes.get(at).copied() {
@@ -120,7 +120,7 @@ impl<'a> Adapter<'a> {
         Adapted { taken: lexemes.len(), broken: false }
     }
 
-    /// What stands from `behind` on in the line of a label.
+    /// The error for a label that is not alone on its line: everything from `behind` on.
     fn label_not_alone(&self, label: Span, behind: PlacedLexeme, lexemes: &[PlacedLexeme]) -> SyntaxError {
         let span = Span::new(behind.0, lexemes.last().map_or(behind.2, |last| last.2));
         SyntaxError::new(SyntaxErrorKind::LabelNotAlone(label.text(self.source).into()), span)
@@ -160,7 +160,7 @@ impl<'a> Adapter<'a> {
     }
 
     /// Whether what follows a name at the start of a statement can only be the arguments of an instruction. For a
-    /// `known` instruction that is more: its line may end at once, and a word behind it is not a declared variable.
+    /// `known` instruction the line may also end at once, and a word after the name is not a declared variable.
     fn is_instruction(&self, rest: &[PlacedLexeme], known: bool) -> bool {
         match rest {
             [] => known,
@@ -168,7 +168,7 @@ impl<'a> Adapter<'a> {
                 true
             }
             [(_, Lexeme::Word, _), (_, Lexeme::Colon, _), ..] => true,
-            // No declaration goes on so.
+            // No declaration continues like this.
             [(_, Lexeme::Word, _), (_, next, _), ..] if begins_operation(*next) => true,
             [(_, Lexeme::Semicolon, _), ..] => known,
             [(from, Lexeme::Word, to), ..] => {
@@ -187,7 +187,7 @@ impl<'a> Adapter<'a> {
         text.eq_ignore_ascii_case("true") || text.eq_ignore_ascii_case("false")
     }
 
-    /// The token of a word inside of a statement, and how many more lexemes it takes.
+    /// The token of a word inside a statement, and how many more lexemes it takes.
     fn later_word(&self, symbol: Symbol, word: Word, rest: &[PlacedLexeme]) -> (Token, usize) {
         let before = self.tokens.last().map(|token| token.1);
         let next = rest.first().map(|lexeme| lexeme.1);
@@ -223,7 +223,7 @@ impl<'a> Adapter<'a> {
         (token, 0)
     }
 
-    /// The unit that a word behind a number and a blank is, how many more lexemes it takes, and its end.
+    /// The unit named by a word that follows a number and a blank, how many more lexemes it takes, and its end.
     fn spaced_unit(&self, from: u32, to: u32, rest: &[PlacedLexeme]) -> Option<(Unit, usize, u32)> {
         if !matches!(self.tokens.last(), Some((_, Token::Int(_, Radix::Decimal) | Token::Double(_), _))) {
             return None;
@@ -250,7 +250,7 @@ impl<'a> Adapter<'a> {
         matches!(self.tokens.first(), Some((_, Token::Case | Token::Default, _)))
     }
 
-    /// Whether the parenthesis that closes now is the one behind the `if` that the line begins with.
+    /// Whether the parenthesis being closed is that of the `if` at the start of the line.
     fn ends_condition(&self) -> bool {
         if !matches!(self.tokens.first(), Some((_, Token::If, _))) {
             return false;
@@ -262,7 +262,7 @@ impl<'a> Adapter<'a> {
                 Token::ParenClose | Token::BracketClose | Token::BraceClose => depth = depth.saturating_sub(1),
                 _ => {}
             }
-            // Closed before: this parenthesis is part of the statement behind the condition.
+            // Closed before: this parenthesis is part of the statement after the condition.
             if depth == 0 {
                 return false;
             }
@@ -280,12 +280,12 @@ fn opening(lexeme: Lexeme) -> (Bracket, Token) {
     }
 }
 
-/// Whether a `%` in front of it is a unit, and a reserved type in front of it a constant.
+/// Whether a `%` before this lexeme is a unit, and a reserved type before it a constant.
 fn ends_value(lexeme: Lexeme) -> bool {
     matches!(lexeme, Lexeme::Comma | Lexeme::Semicolon | Lexeme::ParenClose | Lexeme::BraceClose | Lexeme::BracketClose)
 }
 
-/// Whether a value in front of it goes on.
+/// Whether a value before this lexeme continues with it.
 fn begins_operation(lexeme: Lexeme) -> bool {
     use Lexeme as L;
     matches!(
@@ -294,7 +294,7 @@ fn begins_operation(lexeme: Lexeme) -> bool {
     ) || matches!(lexeme, L::LessEqual | L::Greater | L::GreaterEqual | L::And | L::Or | L::BitAnd | L::BitOr)
 }
 
-/// Whether a name in front of it in braces is a component's.
+/// Whether a name in braces before this lexeme is a component.
 fn begins_component_value(lexeme: Lexeme) -> bool {
     matches!(
         lexeme,
@@ -310,7 +310,7 @@ fn begins_component_value(lexeme: Lexeme) -> bool {
     )
 }
 
-/// The token of a lexeme that is always the same one.
+/// The token of a lexeme that always becomes the same token.
 fn plain(lexeme: Lexeme) -> Token {
     use Lexeme as L;
     match lexeme {
@@ -352,7 +352,7 @@ fn plain(lexeme: Lexeme) -> Token {
         L::Colon => Token::Colon,
         L::Scope => Token::Scope,
         L::Dot => Token::Dot,
-        // The rest never comes here: the caller has a rule of its own for each.
+        // The other lexemes never get here: the caller has a rule of its own for each.
         _ => Token::Faulty,
     }
 }

@@ -5,12 +5,12 @@
 use crate::span::Span;
 use crate::symbol::Symbol;
 
-/// A name where it stands.
+/// A name and its place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Ident {
     /// The name, folded.
     pub symbol: Symbol,
-    /// Where it stands.
+    /// Where it is in the source.
     pub span: Span,
 }
 
@@ -21,7 +21,7 @@ pub struct File {
     pub items: Vec<Item>,
 }
 
-/// What may stand outside functions.
+/// An item outside functions.
 #[derive(Clone, Debug)]
 pub enum Item {
     /// `import "path"`
@@ -80,7 +80,7 @@ pub struct TypeRef {
     pub name: Symbol,
     /// Whether it was written with `$`.
     pub system: bool,
-    /// Where it stands.
+    /// Where it is in the source.
     pub span: Span,
 }
 
@@ -104,7 +104,7 @@ pub struct Var {
     pub name: Ident,
     /// Sizes of the dimensions; empty for a scalar.
     pub dims: Vec<Expr>,
-    /// The value behind `=`.
+    /// The value after `=`.
     pub init: Option<Expr>,
 }
 
@@ -116,7 +116,7 @@ pub type Block = Vec<Stmt>;
 pub struct Stmt {
     /// What it does.
     pub kind: StmtKind,
-    /// Where it stands.
+    /// Where it is in the source.
     pub span: Span,
 }
 
@@ -204,7 +204,7 @@ pub struct Instr {
     pub name: Ident,
     /// The arguments as written.
     pub args: Vec<Arg>,
-    /// Events behind `;`: (event, action).
+    /// Events after `;`: (event, action).
     pub events: Vec<(Expr, Expr)>,
 }
 
@@ -215,7 +215,7 @@ pub struct Arg {
     pub label: Option<Ident>,
     /// The value.
     pub value: Expr,
-    /// The unit behind a number.
+    /// The unit after a number.
     pub unit: Option<(Unit, Span)>,
 }
 
@@ -245,7 +245,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// As it is written.
+    /// The unit as it is written.
     pub const fn text(self) -> &'static str {
         match self {
             Unit::Percent => "%",
@@ -263,7 +263,7 @@ impl Unit {
 pub struct Expr {
     /// What it is.
     pub kind: ExprKind,
-    /// Where it stands (parentheses included).
+    /// Where it is in the source (parentheses included).
     pub span: Span,
 }
 
@@ -297,7 +297,7 @@ pub enum ExprKind {
         scope: Ident,
         /// Whether the scope was written with `$`.
         system: bool,
-        /// What is behind `::`.
+        /// The name after `::`.
         name: Ident,
     },
     /// `$NAME`, the symbol is the name without `$`.
@@ -320,7 +320,7 @@ pub enum ExprKind {
     Brace(Vec<BraceItem>),
     /// A Rust value spliced in by the macro: its number.
     Splice(u32),
-    /// What could not be read; reported already.
+    /// A part that could not be read; the error is already reported.
     Error,
 }
 
@@ -389,7 +389,7 @@ pub enum BinaryOp {
 }
 
 impl BinaryOp {
-    /// As it is written.
+    /// The operator as it is written.
     pub const fn text(self) -> &'static str {
         match self {
             BinaryOp::Add => "+",
@@ -413,7 +413,7 @@ impl BinaryOp {
         }
     }
 
-    /// Whether the result is a bool.
+    /// Whether it compares its operands; `&&` and `||` do not.
     pub const fn compares(self) -> bool {
         matches!(
             self,
@@ -428,7 +428,7 @@ impl BinaryOp {
 }
 
 impl UnaryOp {
-    /// As it is written.
+    /// The operator as it is written.
     pub const fn text(self) -> &'static str {
         match self {
             UnaryOp::Negate => "-",

@@ -1,27 +1,28 @@
-//! Where a closing line does not fit the innermost block: whether the blocks inside lack theirs, or this line is one
-//! too many. The lines that follow, up to the end of the function, decide: the reading with fewer mistakes wins.
+//! Decides, where a closing line does not fit the innermost block, whether the blocks inside lack their closing lines
+//! or this line is superfluous. The lines that follow, up to the end of the function, decide: the reading with fewer
+//! mistakes wins.
 
 use crate::line::LineKind;
 use crate::syntax_error::BlockKind;
 
-/// How many lines are looked at.
+/// The greatest number of lines to look ahead.
 const MOST_LINES: usize = 400;
 
 /// What a line means for the blocks.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Event {
-    /// It opens a block; `true` where it may be none.
+    /// It opens a block; `true` where it may not open one after all.
     Open(BlockKind, bool),
     /// It closes a block.
     Close(BlockKind),
-    /// It begins another branch of such a block.
+    /// It begins another branch of a block of this kind.
     Branch(BlockKind),
     /// Nothing.
     None,
 }
 
 impl Event {
-    /// What the line means; `may_open` is what is known besides its kind.
+    /// The event of a line of this kind; `may_open`: whether it is uncertain that the line opens a block.
     pub(crate) fn of(kind: &LineKind, may_open: bool) -> Event {
         match kind {
             LineKind::Func(_) => Event::Open(BlockKind::Func, may_open),

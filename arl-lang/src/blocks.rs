@@ -1,5 +1,5 @@
-//! Sorts lines into blocks with a stack of its own, so that a missing or a wrong closing line is one error that
-//! knows its opening line, and depth costs no call stack.
+//! Nests lines into blocks with an explicit stack, so that a missing or wrong closing line is one error that refers to
+//! its opening line, and nesting uses no call stack.
 
 use std::collections::VecDeque;
 
@@ -13,17 +13,17 @@ use crate::syntax_error::{BLOCK_LEVELS, BlockKind, Bracket, Hint, SyntaxError, S
 /// What is known of a line besides its kind.
 #[derive(Clone, Copy, Default, Debug)]
 pub(crate) struct Doubts {
-    /// It may open a block or not: it could not be read.
+    /// The line could not be read and may or may not open a block.
     pub(crate) may_open: bool,
-    /// A wrong word closed it perhaps: the right one may be missing.
+    /// A wrong word may have closed the block: the right one may be missing.
     pub(crate) may_be_closed: bool,
-    /// A `{` stood at its end.
+    /// The line ended with a `{`.
     pub(crate) braced: bool,
-    /// A `}` stood at its beginning.
+    /// The line began with a `}`.
     pub(crate) closes_brace: Option<Span>,
     /// It was written `else if`.
     pub(crate) else_if: bool,
-    /// What it opens is not to be kept.
+    /// The block that it opens is not kept.
     pub(crate) drop: bool,
 }
 
@@ -35,7 +35,7 @@ struct Frame {
     /// The statements of the current branch.
     body: Block,
     doubts: Doubts,
-    /// How many braces are open around the statements of its cases, each of which was reported.
+    /// How many braces are open around the statements of its cases; each of them was reported.
     case_braces: usize,
 }
 
@@ -44,12 +44,12 @@ impl Frame {
         Self { kind, span, body: Vec::new(), doubts, case_braces: 0 }
     }
 
-    /// Whether it is a `switch` with a case.
+    /// Whether the block is a `switch` with a case.
     fn is_in_case(&self) -> bool {
         matches!(self.kind, Open::Switch(_, _, Some(_), _))
     }
 
-    /// Whether its closing line may be missing without another mistake.
+    /// Whether the closing line may be missing without this being another mistake.
     fn is_quiet(&self) -> bool {
         self.doubts.may_open || self.doubts.may_be_closed
     }
@@ -64,7 +64,7 @@ enum Open {
     Repeat,
     Loop,
     For(Box<For>),
-    /// The subject, the cases that are complete, the current one, and whether a `default` came.
+    /// The subject, the complete cases, the current case, and whether a `default` was read.
     Switch(Expr, Vec<Arm>, Option<(Option<Expr>, Span)>, bool),
 }
 
@@ -82,7 +82,7 @@ impl Open {
     }
 }
 
-/// In a text with more stray closing lines it is no longer a slip here and there.
+/// The limit of searches for a misspelt opener: a text with more stray closing lines has more than an occasional slip.
 const MOST_SEARCHES: usize = 50;
 
 /// Takes lines in order and makes a file, or a block of statements, of them.
@@ -91,24 +91,24 @@ pub(crate) struct Blocks<'source> {
     lines: Option<LineIndex>,
     frames: Vec<Frame>,
     items: Vec<Item>,
-    /// Statements outside of all blocks, where only statements are read.
+    /// Statements outside all blocks, where only statements are read.
     statements: Block,
     only_statements: bool,
-    /// The lines of a function, as far as it was read.
+    /// The lines of the current function read so far.
     waiting: VecDeque<(Line, Doubts)>,
-    /// Whether lines wait for the end of their function, so that the ones to come can be looked at.
+    /// Whether lines are held back until the end of their function, so that later lines can be looked at.
     waits: bool,
     /// How many `endif` may lack their `if`, because of an `else if` reported before.
     forgiven: usize,
-    /// Whether a statement outside of functions was reported since the last function.
+    /// Whether a statement outside functions was reported since the last function.
     outside: bool,
     /// Whether the function before this one was reported as not closed: what follows this one may be its rest.
     cut_short: bool,
-    /// How many blocks beyond the limit are open; what is in them is not kept.
+    /// How many blocks beyond the limit are open; their contents are not kept.
     beyond: usize,
-    /// Whether the block that is one too many was reported in this function.
+    /// Whether exceeding the limit was reported in this function.
     too_deep: bool,
-    /// How often an opener with a slip may still be looked for: each time costs a walk, and may nest what was read.
+    /// How many searches for a misspelt opener remain: each walks the statements, and may nest those already read.
     searches: usize,
     last: Span,
 }
@@ -150,7 +150,7 @@ impl<'source> Blocks<'source> {
         }
     }
 
-    /// Takes the lines that wait.
+    /// Processes the lines that were held back.
     fn take_waiting(&mut self, errors: &mut Vec<SyntaxError>) {
         while let Some((line, doubts)) = self.waiting.pop_front() {
             self.take_now(line, doubts, errors);
@@ -214,14 +214,14 @@ impl<'source> Blocks<'source> {
         }
     }
 
-    /// The items read, after closing what is open.
+    /// Closes all open blocks and returns the items.
     pub(crate) fn file(mut self, errors: &mut Vec<SyntaxError>) -> File {
         self.finish(errors);
         self.items.shrink_to_fit();
         File { items: self.items }
     }
 
-    /// The statements read, after closing what is open.
+    /// Closes all open blocks and returns the statements.
     pub(crate) fn block(mut self, errors: &mut Vec<SyntaxError>) -> Block {
         self.finish(errors);
         self.statements.shrink_to_fit();
@@ -241,13 +241,13 @@ impl<'source> Blocks<'source> {
         self.frames.last().is_some_and(|frame| frame.doubts.braced)
     }
 
-    /// Whether a `}` ends the braces around statements of a case, which then are closed.
+    /// Closes one brace around the statements of a case; returns whether one was open.
     fn closes_case_brace(&mut self) -> bool {
         let open = self.frames.last_mut().map(|frame| &mut frame.case_braces).filter(|open| **open > 0);
         open.map(|open| *open -= 1).is_some()
     }
 
-    /// A line that closes the innermost block, or the function, in another language's words.
+    /// Handles a line that closes the innermost block, or the function, in another language's words.
     fn close_other(&mut self, text: Box<str>, span: Span, function: bool, errors: &mut Vec<SyntaxError>) {
         if function && let Some(position) = self.find(BlockKind::Func) {
             self.close_inside(position, span, errors);
@@ -327,7 +327,7 @@ impl<'source> Blocks<'source> {
             doubts.drop = true;
         }
         if let Some(Frame { kind: Open::Switch(_, _, None, _), .. }) = self.frames.last() {
-            // The block belongs to no case; a statement in its place says so.
+            // The block belongs to no case; a statement in its place reports that.
             self.statement(Stmt { kind: StmtKind::Expr(Box::new(error_at(span))), span }, errors);
         }
         if self.frames.len() >= BLOCK_LEVELS {
@@ -345,8 +345,8 @@ impl<'source> Blocks<'source> {
         self.frames.iter().rposition(|frame| frame.kind.kind() == kind)
     }
 
-    /// The position of the block that a closing line (`closes`) or a branch belongs to, if it belongs to one: of the
-    /// blocks of its kind the innermost, but one that may not be a block, if that makes fewer mistakes.
+    /// The position of the block that a closing line (`closes`) or a branch belongs to, if any: the innermost block of
+    /// its kind, except for one that may not be a block, where that makes fewer mistakes.
     fn owner(&self, kind: BlockKind, closes: bool, span: Span) -> Option<usize> {
         let innermost = self.find(kind)?;
         if innermost + 1 == self.frames.len() && !self.frames.get(innermost)?.doubts.may_open {
@@ -383,7 +383,7 @@ impl<'source> Blocks<'source> {
         best.1
     }
 
-    /// How many mistakes the lines that wait contain when `stack` is open.
+    /// How many mistakes the lines held back contain when `stack` is open.
     fn mistakes_to_come(&self, stack: Stack) -> usize {
         block_look_ahead::mistakes(
             stack,
@@ -402,7 +402,7 @@ impl<'source> Blocks<'source> {
         own == of_frame(self.frames.last()) && own != of_frame(self.frames.get(position))
     }
 
-    /// Closes all blocks inside of the one at `position`; each of them lacks its closing line.
+    /// Closes all blocks inside the one at `position`; each of them lacks its closing line.
     fn close_inside(&mut self, position: usize, span: Span, errors: &mut Vec<SyntaxError>) {
         while self.frames.len() > position + 1 {
             self.unclosed(span, errors);
@@ -429,7 +429,7 @@ impl<'source> Blocks<'source> {
         let Open::If(arms, current) = &mut frame.kind else { return };
         frame.doubts.may_open = false;
         frame.doubts.braced |= doubts.braced;
-        // Whoever means an `if` of its own inside of the `else` writes one `endif` more.
+        // If a separate `if` inside the `else` was meant, one more `endif` follows.
         self.forgiven += usize::from(doubts.else_if);
         let Some(before) = current.take() else {
             let error = SyntaxError::new(SyntaxErrorKind::BranchAfterElse(word), span);
@@ -481,7 +481,7 @@ impl<'source> Blocks<'source> {
         self.pop(span, condition);
     }
 
-    /// A closing line that belongs to no block.
+    /// Handles a closing line that belongs to no block.
     fn close_nothing(&mut self, kind: BlockKind, span: Span, condition: Option<Expr>, errors: &mut Vec<SyntaxError>) {
         if kind == BlockKind::If && self.forgiven > 0 {
             self.forgiven -= 1;
@@ -496,7 +496,7 @@ impl<'source> Blocks<'source> {
                 let line = self.line_of(opened);
                 let error = SyntaxError::new(SyntaxErrorKind::WrongEnd(open, line, kind), span);
                 errors.push(error.with(opened, format!("this `{}` is open", open.opener())));
-                // It stays open: the line may as well be one too many, with the right one still to come.
+                // The block stays open: the line may just as well be superfluous, with the right one still to come.
                 if let Some(frame) = self.frames.last_mut() {
                     frame.doubts.may_be_closed = true;
                 }
@@ -508,7 +508,7 @@ impl<'source> Blocks<'source> {
         }
     }
 
-    /// Looks for the statement before this closing line that was meant to open its block, and makes it do so.
+    /// Finds the statement before this closing line that was meant to open its block, and makes it open the block.
     fn misspelt_opener(&mut self, kind: BlockKind, condition: Option<Expr>) -> Option<SyntaxError> {
         if !matches!(kind, BlockKind::Loop | BlockKind::Repeat | BlockKind::While | BlockKind::If) {
             return None;
@@ -524,7 +524,7 @@ impl<'source> Blocks<'source> {
         Some(error)
     }
 
-    /// Looks for the statement directly before a case that was meant to open its `switch`, and opens that.
+    /// Finds the statement directly before a case that was meant to open its `switch`, and opens the `switch`.
     fn misspelt_switch(&mut self) -> Option<SyntaxError> {
         if self.frames.len() >= BLOCK_LEVELS {
             return None;
@@ -535,12 +535,12 @@ impl<'source> Blocks<'source> {
         Some(error)
     }
 
-    /// Takes the last statement of the innermost block that looks like the opener of such a block: the error at it,
-    /// where it stands, and the statements behind it.
+    /// Takes the last statement of the innermost block that looks like a misspelt opener of this kind of block. Returns
+    /// its error, its place, and the statements after it.
     fn take_misspelt(&mut self, kind: BlockKind) -> Option<(SyntaxError, Span, Block)> {
         self.searches = self.searches.checked_sub(1)?;
         let source = self.source;
-        // What the program defines itself has no slip in it.
+        // A name that the program itself defines is not a slip.
         let functions = self.items.iter().filter_map(|item| match item {
             Item::Func(func) => Some(func.name.span.text(source)),
             _ => None,
@@ -553,7 +553,7 @@ impl<'source> Blocks<'source> {
             slipped.then_some(span)
         };
         let body = self.body();
-        // Nothing stands between `switch` and its first case.
+        // Nothing is allowed between `switch` and its first case.
         let looked_at = if kind == BlockKind::Switch { 1 } else { usize::MAX };
         let mut last = body.iter().enumerate().rev().take(looked_at);
         let (at, name) = last.find_map(|(at, stmt)| Some((at, word(stmt)?)))?;
@@ -587,7 +587,7 @@ impl<'source> Blocks<'source> {
             Open::Func(head) => head.name.span.text(self.source).into(),
             _ => "".into(),
         };
-        // Where blocks were too many, closing lines were not followed.
+        // Beyond the limit of nested blocks, closing lines were not tracked.
         if !self.too_deep && !doubts.may_be_closed {
             let error = SyntaxError::new(SyntaxErrorKind::UnclosedBlock(kind, name), opened);
             errors.push(error.with(span, format!("`{}` belongs before this, or earlier", kind.closer())));
@@ -642,7 +642,7 @@ fn end_case(arms: &mut Vec<Arm>, current: &mut Option<(Option<Expr>, Span)>, bod
     }
 }
 
-/// The name that a statement is, or calls.
+/// The name that a statement consists of, or calls.
 fn named(stmt: &Stmt) -> Option<Span> {
     let StmtKind::Expr(expr) = &stmt.kind else { return None };
     match &expr.kind {

@@ -1,4 +1,4 @@
-//! Values of variables in data files: put in place of the old ones, and nothing else of the text changes.
+//! Replaces the values of variables in data files; nothing else in the text changes.
 
 use std::ops::Range;
 
@@ -6,8 +6,8 @@ use crate::ast::{Item, Var};
 use crate::symbol::Interner;
 use crate::{ParseOptions, parse, text};
 
-/// The bytes of a file in which the global variable `variable` of type `ty` has `value`, a literal; comments, layout
-/// and encoding stay (manual 5.11.5, `savefilepose`).
+/// Returns the bytes of a file with the global variable `variable` of type `ty` set to `value`, a literal; comments,
+/// layout and encoding stay (manual 5.11.5, `savefilepose`).
 ///
 /// ```
 /// let file = b"// points\npose p1 = {x 1} // above the tray\n";
@@ -17,8 +17,8 @@ use crate::{ParseOptions, parse, text};
 /// ```
 ///
 /// # Errors
-/// The file has mistakes or no such variable, or its encoding cannot express the value; in words that go on behind the
-/// name of the file.
+/// If the file has mistakes or no such variable, or its encoding cannot express the value. The message continues a
+/// sentence that begins with the name of the file.
 pub fn with_value(bytes: &[u8], ty: &str, variable: &str, value: &str) -> Result<Vec<u8>, String> {
     let text = text::decode(bytes).map_err(|error| format!("cannot be read: {error}"))?;
     let (place, value) = match place(&text, ty, variable)? {
@@ -30,9 +30,9 @@ pub fn with_value(bytes: &[u8], ty: &str, variable: &str, value: &str) -> Result
 
 /// Where a value goes in a text.
 enum Place {
-    /// In place of the one that is there.
+    /// In place of the present value.
     Value(Range<usize>),
-    /// Behind the name: there is none.
+    /// After the name: the variable has no value yet.
     Behind(usize),
 }
 

@@ -1,6 +1,6 @@
 //! Words of other robot languages, of Python and of C, and what ARL has in their place.
 
-/// Types that other languages have under another name, and the name here.
+/// Types that other languages name differently, and their names in ARL.
 const TYPES: &[(&str, &str)] = &[
     ("boolean", "bool"),
     ("char", "string"),
@@ -34,7 +34,7 @@ const NO_EXCEPTIONS: &str = "no exceptions: a mistake ends the program with an a
 const NO_TIMER_BLOCKS: &str = "no timer blocks: `waittime 0.5` waits (in s), `pulsedo(1, true, 0.5)` pulses an output, \
 a `clock` with `clkstart` and `clkread` measures";
 
-/// Instructions, functions and words of control structures of other languages, and what is written here.
+/// Instructions, functions and words of control structures of other languages, and what ARL has in their place.
 const WORDS: &[(&str, &str)] = &[
     ("atoi", "`toint(text, dec)`"),
     ("begin", "no word for the beginning of a block: the line that opens it is enough"),
@@ -208,7 +208,7 @@ const ARGUMENTS: &[(&str, &str)] = &[
     ("wobj0", "`$WORLD` for the world, `$wobj0` for workpiece frame 0 of the controller"),
 ];
 
-/// Labels of other languages' motions, and those that ARL has for the same.
+/// Labels of other languages' motions, and the ARL labels with the same meaning.
 const LABELS: &[(&str, &[&str])] = &[
     ("base", &["w"]),
     ("blend", &["sl", "sp"]),
@@ -258,7 +258,7 @@ pub fn type_of(word: &str) -> Option<&'static str> {
     find(TYPES, word)
 }
 
-/// What ARL has in place of an instruction, function or control word of another language: what follows on "ARL has".
+/// What ARL has in place of an instruction, function or control word of another language: the text continues "ARL has".
 ///
 /// ```
 /// assert_eq!(arl_lang::elsewhere::word("MoveL"), Some("`lin`"));
@@ -273,12 +273,12 @@ pub fn system(name: &str) -> Option<&'static str> {
     find(SYSTEM, name)
 }
 
-/// What ARL has in place of a value that other languages have: `fine`, `C_DIS`, `tool0` behind a motion.
+/// What ARL has in place of a value that other languages have: `fine`, `C_DIS`, `tool0` after a motion.
 pub fn argument_word(name: &str) -> Option<&'static str> {
     find(ARGUMENTS, name)
 }
 
-/// The same, with names that a program may well have itself: `v100`, `z10`, `di1`.
+/// Like `argument_word`, and also covers names that a program may well define itself: `v100`, `z10`, `di1`.
 pub fn argument(name: &str) -> Option<&'static str> {
     let numbered = |first: char| {
         let digits = name.strip_prefix([first, first.to_ascii_uppercase()]);
@@ -303,7 +303,7 @@ fn signal(name: &str) -> Option<&'static str> {
     digits.bytes().all(|digit| digit.is_ascii_digit()).then_some(ours)
 }
 
-/// The labels of ARL's motions for what another language labels so; not every motion has all of them.
+/// The ARL labels for a motion label of another language; not every motion has all of them.
 pub fn labels(label: &str) -> &'static [&'static str] {
     LABELS.iter().find(|(other, _)| other.eq_ignore_ascii_case(label)).map_or(&[], |(_, ours)| ours)
 }

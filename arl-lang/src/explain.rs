@@ -1,4 +1,4 @@
-//! What is wrong with a line that the grammar refuses, in the words of the program.
+//! Explains, in terms of the program, what is wrong with a line that the grammar refuses.
 
 use std::convert::Infallible;
 
@@ -14,20 +14,21 @@ use crate::token::{Placed, Token, open_brackets};
 struct Refused<'a> {
     source: &'a str,
     tokens: &'a [Placed],
-    /// The refused token; behind the last one, the end of the line is refused.
+    /// The index of the refused token; past the last token, the end of the line is refused.
     at: usize,
-    /// Whether the line up to there can go on with a token, or end.
+    /// Whether the given tokens can be followed by a token, or by the end of the line.
     goes_on: &'a dyn Fn(&[Placed], Option<Token>) -> bool,
-    /// Stands for any name.
+    /// A symbol that stands for any name.
     symbol: Symbol,
-    /// The brackets that are open there.
+    /// The brackets that are open at that place.
     open: Vec<(Bracket, Span)>,
 }
 
-/// The error for what the grammar refused, and the number of the token it is about.
+/// The error for what the grammar refused, and the index of the token it is about.
 ///
-/// `goes_on` says whether some first tokens of a line can be followed by a token, or by the end of the line. (What
-/// lalrpop itself expects is not enough: its states are merged, and the wrong token may have ended something.)
+/// `goes_on` returns whether the first tokens of a line can be followed by a token, or by the end of the line.
+/// (lalrpop's own list of expected tokens is not enough: its states are merged, and the wrong token may have ended
+/// something.)
 pub(crate) fn explain(
     error: &ParseError<u32, Token, Infallible>,
     source: &str,
@@ -50,7 +51,7 @@ pub(crate) fn explain(
     (error, at)
 }
 
-/// The number of the token that begins at `offset`.
+/// The index of the token that begins at `offset`.
 fn position(tokens: &[Placed], offset: u32) -> usize {
     tokens.partition_point(|token| token.0 < offset)
 }
@@ -68,7 +69,7 @@ impl Refused<'_> {
         self.tokens.first().map(|token| token.1)
     }
 
-    /// Whether the line could go on with the token, or end, where it is refused.
+    /// Whether the line could continue with the token, or end, where it is refused.
     fn can_follow(&self, token: Option<Token>) -> bool {
         (self.goes_on)(self.tokens.get(..self.at).unwrap_or(self.tokens), token)
     }
@@ -77,7 +78,7 @@ impl Refused<'_> {
         self.can_follow(Some(token))
     }
 
-    /// Whether a value could stand here.
+    /// Whether a value is possible here.
     fn expects_value(&self) -> bool {
         self.expects(Token::Text) && self.expects(Token::True)
     }
@@ -150,7 +151,7 @@ impl Refused<'_> {
         self.tokens.iter().any(|token| token.1 == Token::Semicolon)
     }
 
-    /// The error at the token `found`; `complete` says whether what stands before it is a line.
+    /// The error at the token `found`; `complete`: whether the tokens before it form a complete line.
     fn at_token(&self, found: Placed, complete: bool) -> SyntaxError {
         let place = Span::new(found.0, found.2);
         if let Some(bracket) = closed(found.1) {
@@ -219,7 +220,7 @@ impl Refused<'_> {
         SyntaxError::new(kind, place).with(opened, related)
     }
 
-    /// The error where a reserved word stands in the place of a name or begins a statement in the middle of a line.
+    /// The error where a reserved word is in the place of a name or begins a statement in the middle of a line.
     fn at_reserved(&self, found: Placed, complete: bool) -> Option<SyntaxError> {
         let reserved = |token: Placed| {
             let place = Span::new(token.0, token.2);
@@ -282,7 +283,7 @@ impl Refused<'_> {
     /// The error where two values follow each other.
     fn between_values(&self, found: Placed, complete: bool) -> SyntaxError {
         let place = Span::new(found.0, found.2);
-        // `lin p1 ; go down`: no event, and no comma of one is missing.
+        // `lin p1 ; go down` is not an event that lacks a comma.
         let before = self.tokens.get(..self.at).unwrap_or_default();
         let events = matches!(self.first(), Some(Token::Instruction(_)))
             && before.iter().any(|token| token.1 == Token::Semicolon);
@@ -310,7 +311,7 @@ impl Refused<'_> {
         SyntaxErrorKind::Unexpected { found: self.show(found).into(), expected, hint }
     }
 
-    /// What may help where nothing more is known of the mistake.
+    /// A hint where nothing more is known of the mistake.
     fn hint(&self, found: Placed, complete: bool) -> Hint {
         let before = self.before().map(|before| before.1);
         match (self.first(), before, found.1) {
@@ -349,19 +350,19 @@ impl Refused<'_> {
         }
     }
 
-    /// Whether what stands before is the name of a component.
+    /// Whether the tokens before are the name of a component.
     fn is_component(&self) -> bool {
         self.at >= 2 && matches!(self.tokens.get(self.at - 2), Some((_, Token::Dot, _)))
     }
 
-    /// Whether the bracket that is open stands behind the `=` of a declaration.
+    /// Whether the open bracket follows the `=` of a declaration.
     fn is_behind_equals(&self) -> bool {
         let opened = self.open.last().and_then(|(_, span)| self.tokens.iter().position(|token| token.0 == span.start));
         let before = opened.and_then(|at| self.tokens.get(at.checked_sub(1)?));
         matches!(before, Some((_, Token::Assign(None), _)))
     }
 
-    /// Whether the bracket that is open stands behind a `p`.
+    /// Whether the open bracket follows a `p`.
     fn is_pose_literal(&self) -> bool {
         let opened = self.open.last().map(|(_, span)| span.start);
         let before = self.tokens.iter().rfind(|token| opened.is_some_and(|start| token.2 <= start));
@@ -376,14 +377,14 @@ impl Refused<'_> {
         self.first() == Some(Token::Func) && token == Token::Operator(BinaryOp::BitAnd)
     }
 
-    /// Whether the name is one that other languages write behind a condition.
+    /// Whether the name is one that other languages write after a condition.
     fn is_then(&self, name: Option<Placed>) -> bool {
         let header = matches!(self.first(), Some(Token::If | Token::While | Token::ElseIf | Token::For));
         let behind_condition = self.at >= 2 && matches!(self.tokens.get(self.at - 2), Some((_, Token::ParenClose, _)));
         header && behind_condition && name.is_some_and(|name| crate::habits::is_then(&self.text(name)))
     }
 
-    /// What could have stood at the refused place.
+    /// What would have been accepted at the refused place.
     fn describe(&self, line_end: bool) -> String {
         if self.at == 0 {
             return "a statement, a declaration or the beginning or end of a block".into();
@@ -476,7 +477,7 @@ pub(crate) fn ends_value(token: Token) -> bool {
     )
 }
 
-/// Whether a value can begin with the token, but with an operator in front.
+/// Whether a value can begin with the token; a sign, which may also stand between two values, does not count.
 pub(crate) fn begins_value(token: Token) -> bool {
     matches!(
         token,
@@ -499,7 +500,7 @@ pub(crate) fn begins_value(token: Token) -> bool {
     )
 }
 
-/// Whether the token stands between values.
+/// Whether the token separates values.
 pub(crate) fn is_infix(token: Token) -> bool {
     matches!(token, Token::Operator(_) | Token::Minus | Token::Assign(_) | Token::Comma | Token::Semicolon)
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// How the name of a data file ends.
+/// The end of a data file's name.
 const DATA: &str = "_data";
 
 /// Whether a file holds the data of the program beside it: `NAME_data.arl`, in any case.
@@ -10,7 +10,7 @@ pub fn is_data(path: &Path) -> bool {
     path.file_stem().is_some_and(|stem| stem.to_string_lossy().to_ascii_lowercase().ends_with(DATA))
 }
 
-/// The program whose data a file holds: `NAME.arl` of `NAME_data.arl`, in any case. `None`: it is not a data file.
+/// The program whose data a file holds: `NAME.arl` of `NAME_data.arl`, in any case. `None` if it is not a data file.
 ///
 /// ```
 /// use std::path::Path;

@@ -1,4 +1,4 @@
-//! Which tokens may follow the beginning of a line: what explanations of mistakes ask the grammar again and again.
+//! Which tokens may follow the beginning of a line. Explaining mistakes queries the grammar for this again and again.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -16,10 +16,10 @@ const LONGEST: usize = 64;
 /// How many answers are remembered.
 const ANSWERS: usize = 4096;
 
-/// The kinds of the first tokens of a line, and of the one behind them: all that the grammar goes by.
+/// The kinds of the first tokens of a line, and of the token after them: all that the grammar depends on.
 type Question = (Vec<Discriminant<Token>>, Option<Discriminant<Token>>);
 
-/// Asks the grammar, and remembers what it said of lines of the same form: files with many mistakes have the same ones.
+/// Queries the grammar and caches its answers for lines of the same form, which files with many mistakes repeat.
 #[derive(Default)]
 pub(crate) struct Followers {
     known: RefCell<HashMap<Question, bool>>,

@@ -10,17 +10,17 @@ use crate::token::{Placed, Token, open_brackets};
 /// What was found in a line.
 #[derive(Default)]
 pub(crate) struct Habits {
-    /// The line is nothing else.
+    /// The line, if it consists of nothing else.
     pub(crate) whole: Option<Line>,
-    /// A `{` stood at its end.
+    /// The line ended with a `{`.
     pub(crate) opens_brace: bool,
-    /// A `}` stood at its beginning.
+    /// The line began with a `}`.
     pub(crate) closes_brace: Option<Span>,
     /// `else if`: one more `endif` may follow.
     pub(crate) else_if: bool,
 }
 
-/// What other languages write behind a condition.
+/// What other languages write after a condition.
 const THEN: [&str; 3] = ["then", "do", "begin"];
 
 /// What other languages write at the end of a block.
@@ -67,7 +67,7 @@ const FUNCTION_ENDS: [&str; 10] = [
     "end_function",
 ];
 
-/// Whether `name` is what other languages write behind a condition.
+/// Whether `name` is what other languages write after a condition.
 pub(crate) fn is_then(name: &str) -> bool {
     THEN.iter().any(|then| then.eq_ignore_ascii_case(name))
 }
@@ -92,7 +92,7 @@ fn span(token: Placed) -> Span {
     Span::new(token.0, token.2)
 }
 
-/// Reports such habits in the line and takes them out of its tokens.
+/// Reports these habits in the line and removes them from its tokens.
 pub(crate) fn repair(tokens: &mut Vec<Placed>, source: &str, errors: &mut Vec<SyntaxError>) -> Habits {
     let mut report = |kind, span| errors.push(SyntaxError::new(kind, span));
     let mut habits = Habits::default();

@@ -1,4 +1,4 @@
-//! Text to lexemes. The lexer never fails: what it cannot read becomes an error in the place of a lexeme.
+//! Turns text into lexemes. The lexer never fails: what it cannot read becomes an error in the place of a lexeme.
 
 use crate::number::{Number, NumberError, read_number};
 use crate::span::Span;
@@ -6,7 +6,7 @@ use logos::FilterResult;
 
 pub use crate::lexeme::Lexeme;
 
-/// What cannot be read.
+/// Text that cannot be read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum LexicalError {
     /// A character that means nothing in ARL.
@@ -14,7 +14,7 @@ pub enum LexicalError {
     UnknownCharacter,
     /// A character from outside ASCII that looks like this one.
     LooksLike(char),
-    /// Letters from outside ASCII where a name stands.
+    /// Letters from outside ASCII in the place of a name.
     ForeignLetters,
     /// A `"` without its partner on the line.
     UnclosedText,
@@ -22,7 +22,7 @@ pub enum LexicalError {
     UnclosedComment,
     /// An escape in a string that ARL does not have: the offset of its backslash from the string's start.
     BadEscape(u32),
-    /// A number that is none.
+    /// A malformed number.
     Number(NumberError),
     /// A `$` without a name.
     BareDollar,
@@ -30,13 +30,13 @@ pub enum LexicalError {
     Backslash,
     /// Text in single quotes.
     SingleQuotes,
-    /// A `#` without a Rust name or parentheses behind it.
+    /// A `#` without a Rust name or parentheses after it.
     BareSplice,
     /// A `#(` without its `)`.
     UnclosedSplice,
 }
 
-/// The lexemes of a text with their places. What lies between them is blanks, comments and continued line ends.
+/// The lexemes of a text with their places. Between them are blanks, comments and continued line ends.
 ///
 /// ```
 /// use arl_lang::lexer::{Lexeme, lexemes};
@@ -202,10 +202,10 @@ pub(crate) fn splice(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
     end.map(|_| ()).ok_or(LexicalError::UnclosedSplice)
 }
 
-/// How many bytes of Rust may be spliced in at one place.
+/// The most bytes of Rust that may be spliced in at one place.
 const SPLICE_BYTES: usize = 16 * 1024;
 
-/// The bytes from a `(` to behind its `)`; Rust strings and characters inside are passed over.
+/// The length from a `(` to the end of its `)`; Rust strings and characters inside are skipped.
 fn splice_end(rest: &str) -> Option<usize> {
     let bytes = rest.as_bytes();
     let bytes = bytes.get(..SPLICE_BYTES).unwrap_or(bytes);

@@ -15,7 +15,7 @@ pub(crate) struct Line {
 /// The kinds of lines.
 #[derive(Debug)]
 pub(crate) enum LineKind {
-    /// A statement that is whole on its line; declarations, labels and the compact `if` are, too.
+    /// A statement that is complete on its line, including declarations, labels and the compact `if`.
     Statement(StmtKind),
     Import(Box<Import>),
     Func(Box<FuncHead>),
@@ -30,7 +30,7 @@ pub(crate) enum LineKind {
     Until(Expr),
     Loop,
     EndLoop,
-    /// The body is empty yet.
+    /// The body is still empty.
     For(Box<For>),
     EndFor,
     Switch(Expr),

@@ -1,5 +1,5 @@
-//! Statements that go on on the next line without the `\` that joins lines: where one is not complete at the end of
-//! its line, and whether the next line is its rest.
+//! Statements that continue on the next line without the `\` that joins lines: whether a statement is incomplete at the
+//! end of its line, and whether the next line is the rest of it.
 
 use crate::adapt::PlacedLexeme;
 use crate::explain::is_infix;
@@ -58,12 +58,12 @@ impl Statement {
         self.last = lexemes.last().map(|last| last.1);
     }
 
-    /// Whether it cannot end here: a bracket is open, or an operator or comma waits for what follows.
+    /// Whether the statement cannot end here: a bracket is open, or an operator or comma needs a value after it.
     pub(crate) fn is_unfinished(&self) -> bool {
         !self.is_odd && (!self.open.is_empty() || self.last.is_some_and(waits))
     }
 
-    /// Whether a line can be its rest. What is a statement itself is none.
+    /// Whether a line can be the rest of this statement. A line that is a statement itself cannot.
     pub(crate) fn can_go_on_with(&self, line: &[PlacedLexeme], source: &str) -> bool {
         let Some(first) = line.first() else { return false };
         let assigns = line.iter().any(|(_, lexeme, _)| writes(*lexeme));
@@ -85,7 +85,7 @@ impl Statement {
     }
 }
 
-/// Whether something has to follow.
+/// Whether something must follow this lexeme.
 fn waits(lexeme: Lexeme) -> bool {
     use Lexeme as L;
     matches!(
@@ -94,7 +94,7 @@ fn waits(lexeme: Lexeme) -> bool {
     ) || matches!(lexeme, L::Less | L::LessEqual | L::Greater | L::GreaterEqual | L::BitAnd | L::BitOr)
 }
 
-/// Whether a variable is written there: then the line is a statement of its own.
+/// Whether this lexeme writes a variable: the line is then a statement of its own.
 fn writes(lexeme: Lexeme) -> bool {
     use Lexeme as L;
     matches!(lexeme, L::Assign | L::AddAssign | L::SubtractAssign | L::MultiplyAssign | L::DivideAssign)
@@ -105,7 +105,7 @@ fn word(lexeme: PlacedLexeme, source: &str) -> Option<&str> {
     (lexeme.1 == Lexeme::Word).then(|| Span::new(lexeme.0, lexeme.2).text(source))
 }
 
-/// Whether the `{` at the end of a line opens a block, as in other languages: behind a condition, the head of a block,
+/// Whether the `{` at the end of a line opens a block, as in other languages: after a condition, the head of a block,
 /// or a word that stands alone (`try {`) and is not an instruction, whose braces would hold a value.
 fn opens_block(lexemes: &[PlacedLexeme], source: &str) -> bool {
     let opens = |token| is_header(token) || matches!(token, Token::Case | Token::Default);
@@ -127,12 +127,12 @@ fn begins_statement(lexeme: PlacedLexeme, source: &str) -> bool {
     })
 }
 
-/// The error for a statement that goes on behind the end of its line: where its first line ends, where it goes on.
+/// The error for a statement that continues past the end of its line: where its first line ends, where it continues.
 pub(crate) fn error(end: Span, rest: Span) -> SyntaxError {
     SyntaxError::new(SyntaxErrorKind::LineBreak(LineBreak::Behind), end).with(rest, "it continues here")
 }
 
-/// The error for a refused line that goes on with the statement of the line above, whose end is `above`.
+/// The error for a refused line that continues the statement of the line above, whose end is `above`.
 pub(crate) fn begins_inside(tokens: &[Placed], above: Option<Span>) -> Option<SyntaxError> {
     let [(start, first, end), (_, second, _), ..] = *tokens else { return None };
     let continues = is_infix(first) && !matches!(first, Token::Semicolon | Token::Minus | Token::Assign(_));

@@ -1,7 +1,8 @@
 //! Finds the name that was probably meant.
 
 /// The candidate nearest to `name`, if it is near enough to be a likely slip: the number of single-character edits
-/// (swaps of neighbours count once) may be a third of the length. Names of one or two characters are near to too many.
+/// (swaps of neighbours count once) may be a third of the length. Names of one or two characters are near too many
+/// others.
 ///
 /// ```
 /// let names = ["waituntil", "waittime"];

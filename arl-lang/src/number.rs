@@ -3,7 +3,7 @@
 
 use crate::ast::{Radix, Unit};
 
-/// A number with the unit directly behind it.
+/// A number with the unit directly after it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Number {
     /// The value.
@@ -40,7 +40,7 @@ pub enum NumberError {
     Letters,
 }
 
-/// The units that may stand directly behind a number, longest first where one begins the other.
+/// The units that may directly follow a number, longest first where one begins the other.
 const UNITS: [(&str, Unit); 5] = [
     ("mm/s", Unit::MillimetrePerSecond),
     ("mm", Unit::Millimetre),
@@ -83,7 +83,7 @@ pub fn read_number(text: &str) -> (usize, Result<Number, NumberError>) {
     (at, value.map(|value| Number { value, unit: None }))
 }
 
-/// The unit at `at` and its length, if exactly a unit stands there.
+/// The unit at `at` and its length, if the word there is exactly a unit.
 fn read_unit(bytes: &[u8], at: usize) -> Option<(Unit, usize)> {
     let rest = bytes.get(at..)?;
     let found = UNITS.iter().find(|(text, _)| {
@@ -112,7 +112,7 @@ fn read_radix(word: &[u8]) -> Option<Result<NumberValue, NumberError>> {
     Some(value.map(|value| NumberValue::Int(value, radix)).ok_or(NumberError::IntTooLarge))
 }
 
-/// The value of digits, with a point or an exponent where `double` says so.
+/// The value of digits, with a point or an exponent if `double` is set.
 fn read_decimal(text: &str, double: bool) -> Result<NumberValue, NumberError> {
     if double {
         return match text.parse::<f64>() {
@@ -123,7 +123,7 @@ fn read_decimal(text: &str, double: bool) -> Result<NumberValue, NumberError> {
     text.parse().map(|value| NumberValue::Int(value, Radix::Decimal)).map_err(|_| NumberError::IntTooLarge)
 }
 
-/// Why the letters at `at`, behind digits, are not a number.
+/// Why the letters at `at`, after digits, are not a number.
 fn what_is_wrong(bytes: &[u8], at: usize) -> NumberError {
     let end = word_end(bytes, at);
     let letters = bytes.get(at..end).unwrap_or_default();

@@ -1,8 +1,8 @@
-//! How tightly operators between two operands bind.
+//! How tightly binary operators bind.
 
 use crate::ast::BinaryOp;
 
-/// The rank of `op`: what has the higher one is done first. All of one rank are done from left to right.
+/// The rank of `op`: operators of higher rank are evaluated first, those of equal rank from left to right.
 pub const fn binding(op: BinaryOp) -> u8 {
     match op {
         BinaryOp::Multiply | BinaryOp::Divide | BinaryOp::Remainder => 10,

@@ -1,4 +1,4 @@
-//! Motions as URScript and KRL write them, and the same as ARL writes it.
+//! Motions in URScript and KRL, and their ARL equivalents.
 
 use std::fmt::Write;
 
@@ -10,11 +10,11 @@ const LAST: u32 = 31;
 pub struct OtherMotion {
     /// The language.
     pub language: &'static str,
-    /// The same in ARL.
+    /// The equivalent in ARL.
     pub ours: String,
 }
 
-/// The motion that a statement is in another language.
+/// Recognises a statement as a motion of another language.
 ///
 /// ```
 /// use arl_lang::other_motions::other_motion;
@@ -102,7 +102,7 @@ fn krl(statement: &str) -> Option<String> {
     Some(line)
 }
 
-/// What stands before and behind a word, in any case.
+/// The text before and after a word, in any case.
 fn split_at_word<'a>(text: &'a str, word: &str) -> Option<(&'a str, &'a str)> {
     let at = text.to_ascii_lowercase().find(word)?;
     Some((text.get(..at)?, text.get(at + word.len()..)?))
@@ -117,7 +117,7 @@ fn is_name(word: &str) -> bool {
         && word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// The arguments between parentheses: the commas in brackets belong to lists.
+/// Splits the arguments between parentheses; commas inside brackets belong to lists.
 fn split(inside: &str) -> Vec<&str> {
     let mut depth = 0_i32;
     let outside = |c: char| {
@@ -144,8 +144,8 @@ fn degrees(list: &str) -> Option<String> {
     Some(axes.collect::<Vec<_>>().join(","))
 }
 
-/// A value in metres (and seconds), with the unit that ARL has; what is not a number stays to be computed. `None` where
-/// it is not above 0.
+/// A value in metres (and seconds), with the unit that ARL has; what is not a number is left to be computed. `None`
+/// where it is not above 0.
 fn scaled(value: &str, unit: &str) -> Option<String> {
     match value.parse::<f64>() {
         Ok(number) => millimetres(number).map(|number| format!("{number}{unit}")),

@@ -1,5 +1,5 @@
-//! Operators and words of other languages in a line, and words of ARL with a slip in them: the error is reported, and
-//! the line is read as it was meant.
+//! Operators and words of other languages in a line, and ARL words with a slip in them: the error is reported, and the
+//! line is read as it was meant.
 
 use crate::ast::BinaryOp;
 use crate::elsewhere;
@@ -21,7 +21,7 @@ const PAIRS: [(Token, Token, Token, &str); 7] = [
     (Token::Operator(BinaryOp::NotEqual), Token::Assign(None), Token::Operator(BinaryOp::NotEqual), "!="),
 ];
 
-/// Reports the operators of other languages in a line, and puts those of ARL in their place.
+/// Reports the operators of other languages in a line, and replaces them with those of ARL.
 pub(crate) fn replace_operators(tokens: &mut Vec<Placed>, source: &str, errors: &mut Vec<SyntaxError>) {
     let mut report = |span: Span, ours: &'static str| {
         errors.push(SyntaxError::new(SyntaxErrorKind::OtherOperator(span.text(source).into(), ours), span));
@@ -55,7 +55,7 @@ pub(crate) fn replace_operators(tokens: &mut Vec<Placed>, source: &str, errors: 
             Some(Token::ParenOpen | Token::BracketOpen | Token::BraceOpen) => depth += 1,
             Some(Token::ParenClose | Token::BracketClose | Token::BraceClose) => {
                 depth = depth.saturating_sub(1);
-                // Behind the condition of an `if` on one line a statement begins.
+                // After the condition of an `if` on one line, a statement begins.
                 assigned &= depth > 0 || !matches!(tokens.first(), Some((_, Token::If, _)));
             }
             Some(Token::Assign(_)) => assigned = true,
@@ -65,7 +65,7 @@ pub(crate) fn replace_operators(tokens: &mut Vec<Placed>, source: &str, errors: 
     }
 }
 
-/// The operator that a name is where no name can stand: `and` between two values, `not` in front of one.
+/// The operator that a name means where no name is possible: `and` between two values, `not` before one.
 fn operator_in_letters(
     word: &str,
     before: Option<Token>,
@@ -102,11 +102,11 @@ fn is_word(token: Option<Token>) -> bool {
     token.is_some_and(crate::explain::is_word)
 }
 
-/// A refused line that begins with such a word, as it was meant.
+/// How a refused line was meant that begins with a word of another language or with a slip.
 pub(crate) enum Meant {
-    /// Nothing of it is kept.
+    /// Nothing of the line is kept.
     Nothing,
-    /// It declares what stands behind its first word.
+    /// It declares what follows its first word.
     Declaration,
     /// Its first word is this one.
     Word(Token),
@@ -134,7 +134,7 @@ pub(crate) fn first_word(tokens: &[Placed], source: &str) -> Option<(SyntaxError
         return Some((SyntaxError::new(kind, Span::new(second.0, second.2)), Meant::Nothing));
     }
     let ours = elsewhere::word(word)?;
-    // What a program could do with a thing of its own that has this name.
+    // What may follow this name where the program itself defines it.
     let own = matches!(
         next,
         None | Some(
@@ -189,7 +189,7 @@ pub(crate) fn comment(tokens: &[Placed], source: &str) -> Option<SyntaxError> {
     Some(SyntaxError::new(SyntaxErrorKind::Unexpected { found, expected, hint: Hint::Comment }, span))
 }
 
-/// The error for a refused word behind the first that other languages give a motion.
+/// The error for a refused word, not the first of its line, that other languages give a motion.
 pub(crate) fn argument(found: Placed, source: &str) -> Option<SyntaxError> {
     let (start, Token::Name(_), end) = found else { return None };
     let span = Span::new(start, end);
@@ -197,7 +197,7 @@ pub(crate) fn argument(found: Placed, source: &str) -> Option<SyntaxError> {
     Some(SyntaxError::new(SyntaxErrorKind::OtherWord(word.into(), elsewhere::argument_word(word)?), span))
 }
 
-/// The words that open a line with parentheses behind them, or a function.
+/// The words that begin a function, or a line with parentheses after the word.
 const OPENERS: [(&str, Token); 7] = [
     ("if", Token::If),
     ("elseif", Token::ElseIf),
@@ -223,7 +223,7 @@ fn slip(word: &str, token: Token, next: Option<Token>) -> Option<(Token, &'stati
     fits.then_some((found.1, found.0))
 }
 
-/// The word that closes a block, and its line, where `word` alone on a line is one with a slip in it.
+/// The word that closes a block, and its kind of line, where `word`, alone on a line, is a misspelling of it.
 pub(crate) fn closing_slip(word: &str) -> Option<(&'static str, LineKind)> {
     const CLOSERS: [&str; 6] = ["endfor", "endfunc", "endif", "endloop", "endswitch", "endwhile"];
     // With a digit it is a name: `endwhile2`.
@@ -247,7 +247,7 @@ pub(crate) fn opening_slip(word: &str, opener: &str) -> bool {
     is_plain(word) && word.len() > 2 && within(word, limit, std::iter::once(opener)).is_some()
 }
 
-/// Whether a word has letters only, as all words of control structures have.
+/// Whether a word consists of letters only, as all words of control structures do.
 fn is_plain(word: &str) -> bool {
     word.bytes().all(|letter| letter.is_ascii_alphabetic())
 }

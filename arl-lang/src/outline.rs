@@ -13,7 +13,7 @@ use crate::token::{Placed, Token};
 /// What a lexeme is to the grammar.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub enum LexemeRole {
-    /// A name of the program's or a built-in one; also a reserved word where only a name can stand.
+    /// A name of the program or a built-in one; also a reserved word where only a name is possible.
     Name,
     /// `true`, `false` or `endl`.
     Constant,
@@ -33,7 +33,7 @@ pub enum LexemeRole {
     Target,
     /// A unit, or a part of it, that is not part of its number's lexeme.
     Unit,
-    /// Everything else: what it is, its lexeme says.
+    /// Everything else; the lexeme itself tells what it is.
     #[default]
     Other,
 }
@@ -43,10 +43,10 @@ pub enum LexemeRole {
 pub struct PlacedRole {
     /// The offset of the lexeme's first byte.
     pub start: u32,
-    /// What it is.
+    /// Its role.
     pub role: LexemeRole,
-    /// Whether a statement begins with it: at the start of the line, behind the condition of an `if` on one line,
-    /// behind the colon of a case.
+    /// Whether a statement begins with it: at the start of the line, after the condition of an `if` on one line, after
+    /// the colon of a case.
     pub begins: bool,
 }
 
@@ -57,13 +57,13 @@ pub enum Turn {
     None,
     /// It opens a block.
     Open(BlockKind),
-    /// It could not be read: it opens a block, or it does not.
+    /// It could not be read, and may or may not open a block.
     MayOpen(BlockKind),
-    /// It begins another branch or case of such a block.
+    /// It begins another branch or case of a block of this kind.
     Branch(BlockKind),
-    /// It closes such a block.
+    /// It closes a block of this kind.
     Close(BlockKind),
-    /// It closes the innermost block in another language's words; a function if so.
+    /// It closes the innermost block in another language's words; `true` if that is a function.
     CloseOther(bool),
     /// A `{` alone.
     OpenBrace,
@@ -71,14 +71,14 @@ pub enum Turn {
     CloseBrace,
 }
 
-/// What a line, or its part behind the colon of a case, means for the blocks.
+/// What a line, or its part after the colon of a case, means for the blocks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct PlacedTurn {
     /// An offset in the line.
     pub start: u32,
-    /// What it means.
+    /// The turn.
     pub turn: Turn,
-    /// Whether a `{` stands at its end, as in other languages.
+    /// Whether it ends with a `{`, as in other languages.
     pub braced: bool,
 }
 
@@ -89,7 +89,7 @@ pub struct Outline {
     pub roles: Vec<PlacedRole>,
     /// What the lines mean for the blocks, in the order of the text.
     pub turns: Vec<PlacedTurn>,
-    /// The offsets of mistakes in the form of a line, in no order. Those that only say how lines fit each other as
+    /// The offsets of mistakes in the form of a line, in no order. Mistakes that only concern how lines fit together as
     /// blocks are not among them.
     pub mistakes: Vec<u32>,
 }
@@ -176,7 +176,7 @@ fn turn_of(kind: &LineKind) -> Turn {
     }
 }
 
-/// Whether a mistake is none of the line where it is reported, but says how lines fit each other.
+/// Whether a mistake does not concern the line where it is reported, but how lines fit together.
 fn is_about_blocks(kind: &SyntaxErrorKind) -> bool {
     use SyntaxErrorKind as K;
     matches!(

@@ -1,4 +1,4 @@
-//! Source text to syntax tree. Every entry reads to the end and reports all mistakes, each once.
+//! Turns source text into a syntax tree. Every entry point reads to the end and reports all mistakes, each once.
 
 use logos::Logos;
 
@@ -24,7 +24,7 @@ use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
 use crate::token::Placed;
 use crate::tree::Context;
 
-/// What ends the units of speeds.
+/// The end of the units of speed.
 const PER_SECOND: &str = "/s";
 
 /// What is read besides plain ARL.
@@ -70,7 +70,7 @@ pub struct ParsedExpression {
 /// A Rust value spliced into ARL.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Splice {
-    /// The name, or what stands between the parentheses.
+    /// The name, or the text between the parentheses.
     pub span: Span,
     /// Whether it was written in parentheses.
     pub parenthesised: bool,
@@ -86,7 +86,7 @@ pub fn parse(source: &str, interner: &mut Interner, options: ParseOptions) -> Pa
     Parsed { file, errors: in_order(errors), splices }
 }
 
-/// Reads statements as they stand in a function.
+/// Reads statements, as in the body of a function.
 pub fn parse_statements(source: &str, interner: &mut Interner, options: ParseOptions) -> ParsedStatements {
     let mut parser = Parser::new(source, interner, options, true);
     parser.run();
@@ -143,9 +143,9 @@ struct Parser<'a> {
     blocks: Blocks<'a>,
     splices: Vec<Splice>,
     void: Symbol,
-    /// Where the outline is wanted: as far as it was read.
+    /// The outline read so far, where one is wanted.
     outline: Option<Outline>,
-    /// How far the rest of an incomplete statement was looked for, in vain.
+    /// How far the rest of an incomplete statement was looked for without success.
     looked_until: u32,
     /// The end of the last line that was read.
     above: Option<Span>,
@@ -190,7 +190,7 @@ impl<'a> Parser<'a> {
         loop {
             let before = self.context.errors.len();
             let (mut more, broken) = self.read_line();
-            // What follows from a character or a number that could not be read is not reported once more.
+            // Consequences of a character or a number that could not be read are not reported as well.
             let mut quiet = self.context.errors.len() > before;
             if !quiet && let Some(read) = self.read_on() {
                 (more, quiet) = (read, true);
@@ -213,8 +213,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Reads the lexemes of the next line that has some; whether more may follow, and whether something on the line
-    /// could not be read.
+    /// Reads the lexemes of the next line that has any. Returns whether more lines may follow, and whether something on
+    /// the line could not be read.
     fn read_line(&mut self) -> (bool, bool) {
         self.lexemes.clear();
         let mut broken = false;
@@ -239,12 +239,14 @@ impl<'a> Parser<'a> {
         (false, broken)
     }
 
-    /// Reads the rest of a statement that is not complete at the end of the line, from the lines below, and reports
-    /// that; whether more lines may follow then. `None` where the line is complete, or the next ones are not its rest.
+    /// Reads the rest of a statement that is incomplete at the end of its line from the lines below, and reports the
+    /// error. Returns whether more lines may follow; `None` if the line is complete or the next lines are not the rest
+    /// of it.
     fn read_on(&mut self) -> Option<bool> {
         let mut statement = Statement::of(&self.lexemes, self.source);
         let (_, _, end) = *self.lexemes.last()?;
-        // The layout of lines with mistakes is left alone; and lines are looked at once, however many are incomplete.
+        // The layout of lines with mistakes is left alone, and each line is looked at once, however many are
+        // incomplete.
         if !statement.is_unfinished() || self.outline.is_some() || end < self.looked_until {
             return None;
         }
@@ -289,7 +291,7 @@ impl<'a> Parser<'a> {
         Lexeme::Splice
     }
 
-    /// Reports what the lexer could not read, and says what is read instead.
+    /// Reports what the lexer could not read, and returns what is read instead.
     fn lexical_error(&mut self, error: LexicalError, mut span: Span) -> Instead {
         if matches!(error, LexicalError::Number(NumberError::Letters)) && self.is_per_second() {
             self.lexer.bump(PER_SECOND.len());
@@ -347,7 +349,7 @@ impl<'a> Parser<'a> {
         instead
     }
 
-    /// Whether `/s` follows and nothing else of a word: it belongs to a number that could not be read (`0.25m/s`).
+    /// Whether `/s` follows as a whole word: it then belongs to a number that could not be read (`0.25m/s`).
     fn is_per_second(&self) -> bool {
         let rest = self.lexer.remainder();
         let begins = rest.get(..PER_SECOND.len()).is_some_and(|start| start.eq_ignore_ascii_case(PER_SECOND));
@@ -390,7 +392,7 @@ impl<'a> Parser<'a> {
             Err(error) => {
                 self.context.errors.truncate(before);
                 if !quiet && let Some(error) = line_break::begins_inside(tokens, self.above) {
-                    // Of several such lines the first one tells it.
+                    // Of several such lines only the first is reported.
                     self.context.errors.extend(Some(error).filter(|_| !inside));
                     self.is_inside = true;
                     return;
@@ -422,11 +424,11 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// An `if` on one line whose statement is doubtful: braces of a block, or anything on a line with other mistakes.
+    /// Handles an `if` on one line whose statement is doubtful: braces of a block, or a line with other mistakes.
     fn doubt_compact_if(&mut self, line: &mut Line, quiet: bool, doubts: &mut Doubts) {
         let LineKind::Statement(StmtKind::CompactIf(parts)) = &mut line.kind else { return };
         if quiet {
-            // Whether a statement was meant there or not is anybody's guess.
+            // Whether a statement was meant here is unknown.
             doubts.may_open = true;
             let unknown = error_at(parts.0.span);
             line.kind = LineKind::If(std::mem::replace(&mut parts.0, unknown));
@@ -445,7 +447,7 @@ impl<'a> Parser<'a> {
         self.blocks.take(line, doubts, &mut self.context.errors);
     }
 
-    /// Takes what can be made of a line whose first word belongs to another language, or has a slip in it.
+    /// Keeps what can be recovered of a line whose first word belongs to another language, or has a slip in it.
     fn recover_meant(&mut self, meant: Meant, mut doubts: Doubts) {
         match meant {
             Meant::Nothing => {}
@@ -472,7 +474,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Takes what can be made of a line that is wrong from its token `at` on.
+    /// Keeps what can be recovered of a line that is wrong from its token `at` on.
     fn recover(&mut self, at: usize, mut doubts: Doubts) {
         let tokens = self.adapter.tokens.as_slice();
         let mut context = Context { source: self.source, errors: Vec::new(), endl: self.context.endl };

@@ -9,17 +9,17 @@ use crate::span::Span;
 use crate::symbol::Symbol;
 use crate::token::{Placed, Token};
 
-/// A line made of one that could not be read.
+/// A line recovered from one that could not be read.
 pub(crate) struct Recovered {
     pub(crate) line: Line,
-    /// It opens a block, or it does not.
+    /// It may or may not open a block.
     pub(crate) may_open: bool,
-    /// Its block is not to be kept.
+    /// Its block is not kept.
     pub(crate) drop: bool,
 }
 
-/// What to keep of `tokens`. `read` is the line that its good beginning makes, if it makes one, and `void` the
-/// symbol of that type.
+/// What to keep of `tokens`. `read` is the line that its valid beginning forms, if any, and `void` the symbol of that
+/// type.
 pub(crate) fn recover(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Option<Recovered> {
     let (first, last) = (tokens.first()?, tokens.last()?);
     let span = Span::new(first.0, last.2);
@@ -28,12 +28,12 @@ pub(crate) fn recover(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Op
     let mut drop = false;
     let kind = match first.1 {
         Token::If => match condition_end(tokens) {
-            // `if(a) endif`, `if(a) if(b) x()`: whole on their line. `if(a) while(b)`: the inner block goes on.
+            // `if(a) endif`, `if(a) if(b) x()`: complete on their line. `if(a) while(b)`: the inner block continues.
             Some(end) if matches!(tokens.get(end), Some((_, Token::If | Token::EndIf, _))) => return None,
             Some(end) if tokens.get(end).is_some_and(|next| is_opener(next.1)) => {
                 return recover(tokens.get(end..).unwrap_or_default(), None, void);
             }
-            // `if(a) && (b)`, `if(a) )`: there is no statement behind the condition.
+            // `if(a) && (b)`, `if(a) )`: there is no statement after the condition.
             Some(end) if tokens.get(end).is_none_or(|next| !may_begin_statement(next.1)) => {
                 LineKind::If(guard(read).unwrap_or_else(unknown))
             }
@@ -116,7 +116,7 @@ fn guard(read: Option<Line>) -> Option<Expr> {
     }
 }
 
-/// The number of the token behind the parentheses of the condition that begins with the second one.
+/// The index of the token after the parentheses of the condition that begins with the second token.
 pub(crate) fn condition_end(tokens: &[Placed]) -> Option<usize> {
     let mut depth = 0_usize;
     for (at, (_, token, _)) in tokens.iter().enumerate().skip(1) {
@@ -166,7 +166,7 @@ fn declaration(tokens: &[Placed]) -> Option<Decl> {
             Token::Comma if depth == 0 => in_value = false,
             _ => {}
         }
-        // A name directly behind a variable's: the comma is missing.
+        // A name directly after a variable's name: the comma is missing.
         let begins = *before == Token::Comma || (!in_value && matches!(before, Token::Name(_)));
         let declares = vars.is_empty() || (depth == 0 && begins);
         if let (true, Some(name)) = (declares, name(Some(token))) {
@@ -178,7 +178,7 @@ fn declaration(tokens: &[Placed]) -> Option<Decl> {
 
 /// The variable that a `for` declares.
 fn loop_variable(tokens: &[Placed]) -> Option<Stmt> {
-    // `for i in range(3)`, `FOR i FROM 1 TO 3`: no declaration.
+    // `for i in range(3)`, `FOR i FROM 1 TO 3`: not a declaration.
     let opens = matches!(tokens.get(1), Some((_, Token::ParenOpen, _)));
     let mut decl = declaration(tokens.get(2..).filter(|_| opens)?)?;
     decl.vars.truncate(1);
@@ -197,7 +197,7 @@ pub(crate) fn other_function(tokens: &[Placed], void: Symbol) -> Option<Line> {
     Some(Line { kind: LineKind::Func(Box::new(FuncHead { result, name, params: Vec::new() })), span })
 }
 
-/// The name of a function and such parameters as can be made out.
+/// The name of a function and those of its parameters that can be made out.
 fn function_head(tokens: &[Placed], void: Symbol) -> Option<FuncHead> {
     let (result, name_at) = match (tokens.get(1), tokens.get(2)) {
         (Some((start, Token::Name(_), _)), None | Some((_, Token::ParenOpen, _))) => {
@@ -208,7 +208,7 @@ fn function_head(tokens: &[Placed], void: Symbol) -> Option<FuncHead> {
     let name_of = name(tokens.get(name_at))?;
     let mut params = Vec::new();
     for three in tokens.get(name_at + 1..).unwrap_or_default().windows(3) {
-        // A type directly behind a name: the comma is missing.
+        // A type directly after a name: the comma is missing.
         let [(_, before, _), ty, param] = three else { continue };
         let begins = match before {
             Token::ParenOpen | Token::Comma => true,

@@ -5,7 +5,7 @@
 pub struct Span {
     /// Offset of the first byte.
     pub start: u32,
-    /// Offset behind the last byte.
+    /// Offset after the last byte.
     pub end: u32,
 }
 
@@ -40,7 +40,7 @@ const BLOCK: usize = 1024;
 #[derive(Clone, Debug)]
 pub struct LineIndex {
     starts: Vec<u32>,
-    /// For each block of the text, how many bytes before it do not begin a character; nothing where all of them do.
+    /// For each block of the text, how many bytes before it do not begin a character; empty where all of them do.
     continued: Vec<u32>,
 }
 
@@ -95,7 +95,7 @@ impl LineIndex {
         Some(Span::new(start, end))
     }
 
-    /// How many lines there are.
+    /// The number of lines.
     pub fn count(&self) -> u32 {
         self.starts.len() as u32
     }

@@ -1,4 +1,4 @@
-//! What can be wrong with the form of a program, and the words for it.
+//! The kinds of mistakes in the form of a program, and their texts.
 
 use crate::other_motions::OtherMotion;
 use crate::span::Span;
@@ -9,9 +9,9 @@ use std::fmt;
 pub struct SyntaxError {
     /// What is wrong.
     pub kind: SyntaxErrorKind,
-    /// Where.
+    /// Where it is.
     pub span: Span,
-    /// Other places that explain it, each with its words.
+    /// Other places that explain the mistake, each with a text.
     pub related: Vec<(Span, String)>,
 }
 
@@ -21,7 +21,7 @@ impl SyntaxError {
         Self { kind, span, related: Vec::new() }
     }
 
-    /// The same with another place that explains it.
+    /// Adds another place that explains the mistake.
     #[must_use]
     pub fn with(mut self, span: Span, words: impl Into<String>) -> Self {
         self.related.push((span, words.into()));
@@ -49,7 +49,7 @@ pub enum Bracket {
 }
 
 impl Bracket {
-    /// The opening one.
+    /// The opening bracket.
     pub const fn open(self) -> &'static str {
         match self {
             Bracket::Paren => "(",
@@ -58,7 +58,7 @@ impl Bracket {
         }
     }
 
-    /// The closing one.
+    /// The closing bracket.
     pub const fn close(self) -> &'static str {
         match self {
             Bracket::Paren => ")",
@@ -88,7 +88,7 @@ pub enum BlockKind {
 }
 
 impl BlockKind {
-    /// The word that opens it.
+    /// The word that opens the block.
     pub const fn opener(self) -> &'static str {
         match self {
             BlockKind::Func => "func",
@@ -101,7 +101,7 @@ impl BlockKind {
         }
     }
 
-    /// The word that closes it.
+    /// The word that closes the block.
     pub const fn closer(self) -> &'static str {
         match self {
             BlockKind::Func => "endfunc",
@@ -138,39 +138,39 @@ pub enum Hint {
     InstructionParens,
     /// `if(a) && (b)`: the parentheses go around the whole condition.
     WholeCondition,
-    /// `if a == 1`: the condition stands in parentheses.
+    /// `if a == 1`: the condition needs parentheses.
     ConditionParens,
     /// `int(x)`: types do not convert.
     Conversion,
     /// `if(a) if(b) ...`: the compact `if` takes a simple statement.
     CompactIf,
-    /// A declaration behind a compact `if`.
+    /// A declaration after a compact `if`.
     CompactDeclaration,
     /// `else x = 1`.
     ElseAlone,
     /// The parts of a `for` are separated by `;`.
     For,
-    /// Behind `;` stand an event, a comma and an action.
+    /// A `;` is followed by an event, a comma and an action.
     Events,
     /// `int a[] = ...` lacks the size.
     ArraySize,
-    /// `joint j = j:{...}`: a label outside of arguments.
+    /// `joint j = j:{...}`: a label outside arguments.
     Label,
     /// An instruction in the place of a value.
     InstructionValue,
     /// `; text` and `! text` of other languages.
     Comment,
-    /// `int[3] a`: the sizes stand behind the name.
+    /// `int[3] a`: the sizes come after the name.
     SizeBehindName,
     /// `int $a`: only system variables have a `$`.
     PlainName,
-    /// `setdo 1, true`: a function's arguments stand in parentheses.
+    /// `setdo 1, true`: a function's arguments need parentheses.
     FunctionParens,
     /// `p[0.1, 0.2, ...]`: a pose as URScript writes it.
     PoseLiteral,
     /// `lib.inc(3)`: what is called of a module.
     ModuleCall,
-    /// `void func f()`: the type of the result in front of `func`.
+    /// `void func f()`: the type of the result before `func`.
     TypeBehindFunc,
     /// `case 1, 2:`: several values in a case.
     OneCase,
@@ -182,16 +182,16 @@ pub enum Hint {
     ImportQuotes,
 }
 
-/// Where a statement goes on over the end of a line.
+/// Where a statement continues across the end of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum LineBreak {
-    /// Behind the marked end of a line.
+    /// After the marked end of a line.
     Behind,
     /// The marked place is the beginning of the next line.
     Before,
 }
 
-/// Declares the kinds: number, title, what each is.
+/// Declares the kinds: number, title, description.
 macro_rules! syntax_errors {
     ($dollar:tt $($number:literal $title:literal =>
         $(#[doc = $doc:literal])+ $variant:ident $(($($tuple:tt)*))? $({ $($fields:tt)* })?,)+
@@ -273,7 +273,7 @@ syntax_errors! { $
         /// Text in single quotes.
         SingleQuotes,
     116 "A Rust value outside of the macro" =>
-        /// `#name` outside of the macro.
+        /// `#name` outside the macro.
         SpliceOutsideMacro,
     117 "A `#` that splices nothing" =>
         /// `#` that splices nothing.
@@ -287,9 +287,9 @@ syntax_errors! { $
         Unexpected {
             /// What was found.
             found: Box<str>,
-            /// What could have stood there.
+            /// What would have been accepted there.
             expected: Box<str>,
-            /// What may help.
+            /// A hint at the remedy.
             hint: Hint,
         },
     121 "A line that ends too early" =>
@@ -297,7 +297,7 @@ syntax_errors! { $
         EndsEarly {
             /// What could have followed.
             expected: Box<str>,
-            /// What may help.
+            /// A hint at the remedy.
             hint: Hint,
         },
     122 "A closing bracket is missing" =>
@@ -310,10 +310,10 @@ syntax_errors! { $
         /// A bracket is closed by another kind's: opened, found.
         WrongClose(Bracket, Bracket),
     125 "A comma is missing" =>
-        /// A comma is missing in front of this.
+        /// A comma is missing before this.
         MissingComma(Box<str>),
     126 "The colon of a case is missing" =>
-        /// The colon behind `case x` or `default` is missing.
+        /// The colon after `case x` or `default` is missing.
         MissingColon,
     127 "A value is missing" =>
         /// A value is missing between these two; the second is empty at the end of the line.
@@ -334,7 +334,7 @@ syntax_errors! { $
         /// `else if`
         ElseIf,
     133 "A word of another language after a condition" =>
-        /// `then`, `do` and the like behind a condition.
+        /// `then`, `do` and the like after a condition.
         Then(Box<str>),
     134 "A block in braces" =>
         /// A block in braces.
@@ -365,7 +365,7 @@ syntax_errors! { $
         /// A block that is closed by another kind's word: opened, the line that opens it, found.
         WrongEnd(BlockKind, u32, BlockKind),
     143 "A statement outside of functions" =>
-        /// A statement outside of functions.
+        /// A statement outside functions.
         OutsideFunction,
     144 "A function among statements" =>
         /// A function among statements of the macro.
@@ -383,7 +383,7 @@ syntax_errors! { $
         /// `elseif` or `else` without an `if`.
         BranchOutsideIf(&'static str),
     149 "A branch after the else" =>
-        /// `elseif` or `else` behind `else`.
+        /// `elseif` or `else` after `else`.
         BranchAfterElse(&'static str),
     150 "A second default" =>
         /// A second `default`.
@@ -395,7 +395,7 @@ syntax_errors! { $
         /// `end if`, `end`, `wend`: what was written, the block, the line that opens it.
         OtherEnd(Box<str>, BlockKind, u32),
     153 "Not exactly one expression" =>
-        /// More than one statement where a single expression was asked for.
+        /// More than one statement where a single expression is expected.
         NotOneExpression,
     154 "A word of another language" =>
         /// A word that another language has for something: the word, and what ARL has.
@@ -414,10 +414,10 @@ syntax_errors! { $
         OtherMotion(Box<OtherMotion>),
 }
 
-/// How many brackets may be open at one place.
+/// The most brackets that may be open at one place.
 pub const BRACKET_LEVELS: usize = 200;
 
-/// How many blocks may be open at one place.
+/// The most blocks that may be open at one place.
 pub const BLOCK_LEVELS: usize = 200;
 
 #[cfg(test)]

@@ -292,7 +292,7 @@ impl SyntaxErrorKind {
 }
 
 impl SyntaxErrorKind {
-    /// What to write in place of the marked text, where that surely mends it.
+    /// The replacement for the marked text, where it certainly mends the mistake.
     pub fn fix(&self) -> Option<&'static str> {
         match self {
             Self::OtherOperator(_, ours) | Self::Misspelt(_, ours) => Some(ours),
@@ -302,7 +302,7 @@ impl SyntaxErrorKind {
     }
 }
 
-/// How the motions of ARL are not those of other languages.
+/// How the motions of ARL differ from those of other languages.
 pub const OTHER_MOTIONS: &str = "in ARL commas separate the arguments and a colon follows each label; \
 poses and joints are written in braces, in mm and deg. `accset` sets accelerations; `movej` goes to a joint, \
 `ptp` and `lin` go to a pose.";
@@ -332,7 +332,7 @@ const OTHER_UNITS: [(&str, f64, &str); 8] = [
     ("min", 60.0, "s"),
 ];
 
-/// A number with a unit that ARL does not have, in the one that it has.
+/// A number with a unit that ARL does not have, converted to the unit that it has.
 fn other_unit(text: &str) -> Option<String> {
     let at = text.find(|c: char| c.is_ascii_alphabetic())?;
     let (number, unit) = text.split_at_checked(at)?;

@@ -1,4 +1,4 @@
-//! Bytes of a file to text: UTF-8, with or without byte order mark, or GB18030.
+//! Turns the bytes of a file into text: UTF-8, with or without byte order mark, or GB18030.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -29,7 +29,7 @@ impl fmt::Display for DecodeError {
 
 impl std::error::Error for DecodeError {}
 
-/// The text of a file; line ends stay as they are, a byte order mark goes.
+/// The text of a file; line ends stay as they are, a byte order mark is dropped.
 ///
 /// # Errors
 /// Bytes that are neither UTF-8 nor GB18030, with the offset of the first of them.
@@ -96,8 +96,8 @@ fn decode_gb18030(bytes: &[u8]) -> Result<String, usize> {
     }
 }
 
-/// The bytes of a file with a part of its text, as [`decode`] gives it, replaced by plain characters; all other bytes
-/// stay. `None` where the part is none of the text, or its bytes cannot be told.
+/// The bytes of a file with a part of its text, as returned by [`decode`], replaced by ASCII characters; all other
+/// bytes stay. `None` where the part is not within the text, or its bytes cannot be determined.
 ///
 /// ```
 /// let file = "\u{feff}pose p = {x 1}\r\n".as_bytes();
@@ -120,9 +120,9 @@ pub fn splice(bytes: &[u8], part: Range<usize>, with: &str) -> Option<Vec<u8>> {
     (right && with.is_ascii()).then_some(changed)
 }
 
-/// The bytes of `text` as a file in the encoding of another one, with its byte order mark where that has one. `None`
-/// where `file` is not a text, or would not come out of it byte for byte itself: then other characters could change,
-/// too.
+/// The bytes of `text` as a file in the encoding of another file, with a byte order mark where that file has one.
+/// `None` where `file` is not a text, or could not itself be reproduced byte for byte: then other characters could
+/// change, too.
 ///
 /// ```
 /// let file = b"//\xb5\xe3\nlin p1";

@@ -1,4 +1,4 @@
-//! The tokens of the grammar: what the token adapter makes of the lexer's.
+//! The tokens of the grammar: what the token adapter makes of the lexemes.
 
 use crate::ast::{BinaryOp, Radix, Unit};
 use crate::span::Span;
@@ -8,7 +8,7 @@ use crate::syntax_error::Bracket;
 /// A token of the grammar; its text is under the span that travels with it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Token {
-    /// A name, also a reserved word where only a name can stand (behind `.` and `::`).
+    /// A name, also a reserved word where only a name is possible (after `.` and `::`).
     Name(Symbol),
     /// `$NAME`, without the `$`.
     System(Symbol),
@@ -30,7 +30,7 @@ pub(crate) enum Token {
     Endl,
     /// A number or a string that could not be read; reported already.
     Faulty,
-    /// A unit behind a number.
+    /// A unit after a number.
     Unit(Unit),
     /// A Rust value of the macro.
     Splice(u32),
@@ -80,7 +80,7 @@ pub(crate) enum Token {
     While,
 }
 
-/// A token between its first byte and the byte behind its last one.
+/// A token with its first byte and the byte after its last one.
 pub(crate) type Placed = (u32, Token, u32);
 
 /// The brackets that `tokens` leave open, outermost first.

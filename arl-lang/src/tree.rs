@@ -1,4 +1,4 @@
-//! What the grammar's rules call to build the tree, with an eye on its depth: every later pass may recurse.
+//! What the grammar's rules call to build the tree. Its depth is limited, since every later pass may recurse.
 
 use crate::ast::*;
 use crate::line::LineKind;
@@ -7,7 +7,7 @@ use crate::span::Span;
 use crate::symbol::Symbol;
 use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
 
-/// How many levels the tree of one expression may have.
+/// The most levels that the tree of one expression may have.
 pub const EXPRESSION_LEVELS: u16 = 256;
 
 /// The depth of an expression that was too deep and is an error now.
@@ -25,7 +25,7 @@ impl Deep {
         Self { expr: Expr { kind, span: Span::new(start, end) }, depth: 1 }
     }
 
-    /// The same with parentheses around it.
+    /// The same expression with parentheses around it.
     pub(crate) fn spanning(mut self, start: u32, end: u32) -> Self {
         self.expr.span = Span::new(start, end);
         self

@@ -6,7 +6,7 @@ use crate::token::Token;
 /// What a word is.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Word {
-    /// A name, of the program's or built in.
+    /// A name of the program or a built-in one.
     Name,
     /// A word of a control structure or a constant: always this token.
     Fixed(Token),
@@ -95,7 +95,7 @@ pub(crate) fn control_token(name: &str) -> Option<Token> {
     FIXED.iter().find(|(word, _)| word.eq_ignore_ascii_case(name)).map(|(_, token)| *token)
 }
 
-/// What each interned name is, by its symbol.
+/// The kind of each interned name, by its symbol.
 pub(crate) struct Vocabulary {
     words: Vec<Word>,
 }
@@ -116,7 +116,7 @@ impl Vocabulary {
         Self { words }
     }
 
-    /// What the word `symbol` is.
+    /// The kind of the word `symbol`.
     pub(crate) fn word(&self, symbol: Symbol) -> Word {
         self.words.get(symbol.index()).copied().unwrap_or(Word::Name)
     }

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-/// Appends the shortest literal that is this number, behind a point or an exponent where it is beyond an integer's 32
-/// bits.
+/// Appends the shortest literal for this number, with a point or an exponent where it is beyond the 32 bits of an
+/// integer.
 ///
 /// ```
 /// let mut text = String::new();

@@ -1,4 +1,4 @@
-//! From an invocation to Rust.
+//! Expands an invocation to Rust.
 
 use crate::input::{Form, as_text, attribute};
 use crate::leaf::{Leaf, leaves};
@@ -17,12 +17,13 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{quote, quote_spanned};
 use std::path::{Path, PathBuf};
 
-/// The name of the module that a program in Rust text becomes.
+/// The name of the module made from a program in Rust source.
 const MODULE: &str = "program";
 
-/// The name of the function that statements become.
+/// The name of the function made from statements.
 const FRAGMENT: &str = "fragment";
-/// What statements cannot have: the variables of the modules that they use are theirs, and gone when they have run.
+/// The error for statements: variables of the modules that they use belong to the statements and are dropped after they
+/// have run.
 const GLOBALS_IN_EVENTS: &str = "the condition or the action of an interrupt, timer or trigger uses a global variable of a module; statements in Rust \
     have such variables only as long as they run, but the event goes on\n\
     help: use local variables, or declare the event in a program: arl! { .. } with functions, or arl_file!(\"..\")";
@@ -69,9 +70,9 @@ fn family(word: &proc_macro::Ident) -> Result<Family, TokenStream> {
 
 /// The Rust file of the invocation.
 struct Here {
-    /// As messages name it.
+    /// Its name as shown in messages.
     shown: String,
-    /// Its folder, where it is known.
+    /// Its folder, if known.
     folder: Option<PathBuf>,
 }
 
@@ -82,7 +83,7 @@ impl Here {
         Self { shown: span.file(), folder }
     }
 
-    /// The files under names that messages show: the text itself is in the Rust file.
+    /// The files with the names that messages show: the text itself is in the Rust file.
     fn files(&self, checked: &Checked) -> Files {
         let mut files = Files::default();
         for (id, file) in checked.files.iter() {
@@ -92,21 +93,21 @@ impl Here {
         files
     }
 
-    /// Makes rustc look at the files beside it again when they change.
+    /// Makes rustc read the files beside the Rust file again when they change.
     fn watched(&self, checked: &Checked) -> TokenStream {
         let folder = self.folder.iter();
         let read = folder.flat_map(|folder| checked.read.iter().map(|path| folder.join(path)));
-        // The Rust file itself is looked at anyway.
+        // The Rust file itself is watched anyway.
         watched(read.filter(|path| path.file_name() != Some(self.name().as_os_str())))
     }
 
-    /// The name that the text gets among its neighbours.
+    /// The name of the text among the files beside it.
     fn name(&self) -> PathBuf {
         Path::new(&self.shown).file_name().map_or_else(|| PathBuf::from("program.rs"), PathBuf::from)
     }
 }
 
-/// Files that a text in Rust names: they lie beside the Rust file. The text itself has no data file.
+/// The files that ARL text in a Rust file names: they lie beside the Rust file. The text itself has no data file.
 struct Beside<'a>(&'a Here);
 
 impl Sources for Beside<'_> {
@@ -120,7 +121,7 @@ impl Sources for Beside<'_> {
     }
 }
 
-/// ARL text with the way back to its tokens.
+/// ARL text that can be mapped back to its tokens.
 struct Spanned {
     text: Text,
     leaves: Vec<Leaf<Span>>,
@@ -128,7 +129,7 @@ struct Spanned {
 }
 
 impl Spanned {
-    /// `Ok(None)` where the text is not known.
+    /// `Ok(None)` if the text is not known.
     fn of(tokens: &[TokenTree]) -> Result<Option<Self>, TokenStream> {
         let leaves = leaves(tokens.iter().cloned().collect());
         let call = Span::call_site();
@@ -153,7 +154,7 @@ impl Spanned {
         }
     }
 
-    /// Everything that was found, on its tokens.
+    /// All diagnostics, on their tokens.
     fn shown(&self, checked: &Checked, here: &Here) -> TokenStream {
         let show = |diagnostic: &Diagnostic| {
             let at = diagnostic.primary.at;
@@ -203,7 +204,7 @@ fn program_in_tokens(tokens: &[TokenTree]) -> TokenStream {
     }
 }
 
-/// The items of a program whose text stands in the Rust file.
+/// The items of a program whose text is in the Rust file.
 fn items(program: &mut Program, here: &Here) -> TokenStream {
     if let Some(module) = program.modules.first_mut() {
         module.name = MODULE.into();
@@ -225,7 +226,7 @@ fn literal_text(literal: &Literal) -> Option<String> {
     Some("\n".repeat(span.line().saturating_sub(1)) + &" ".repeat(span.column().saturating_sub(1) + quotes) + &text)
 }
 
-/// What was found in a literal or a file: on the literal, with the place in words.
+/// The diagnostics of a literal or a file: on the literal, with the position in words.
 fn shown_in_words(checked: &Checked, files: &Files, span: Span) -> TokenStream {
     let show = |diagnostic: &Diagnostic| report::shown(diagnostic, &plain_block(diagnostic, files), Place::one(span));
     checked.diagnostics.iter().map(show).collect()
@@ -268,7 +269,7 @@ fn program_in_file(literal: &Literal, family: Family) -> TokenStream {
     }
 }
 
-/// Makes rustc look at files again when they change.
+/// Makes rustc read files again when they change.
 fn watched(read: impl Iterator<Item = PathBuf>) -> TokenStream {
     let there = read.filter_map(|path| std::path::absolute(path).ok()).filter(|path| path.is_file());
     there
@@ -324,7 +325,7 @@ fn respan(tokens: TokenStream, span: proc_macro2::Span) -> TokenStream {
         .collect()
 }
 
-/// The token trees whose leaves lie in a range of leaves; `None` where a group is cut.
+/// The token trees whose leaves lie in a range of leaves; `None` if a group would be cut.
 fn trees(tokens: proc_macro::TokenStream, wanted: std::ops::Range<usize>) -> Option<TokenStream> {
     let mut found = proc_macro::TokenStream::new();
     let mut at = 0;
@@ -357,7 +358,7 @@ fn collect(
     }
 }
 
-/// The future of some statements.
+/// The future made from statements.
 fn statements(
     context: &TokenStream,
     text: &str,
@@ -414,14 +415,14 @@ fn splice_name(number: usize) -> Ident {
     Ident::new(&format!("splice_{number}"), proc_macro2::Span::call_site())
 }
 
-/// The value as the type that its place asks for; mistakes show at the value.
+/// The value converted to the type that its place requires; errors show at the value.
 fn converted(value: Option<Spliced>) -> TokenStream {
     let value = value.unwrap_or_else(|| report::error("expected a Rust value", Place::one(Span::call_site())));
     let span = value.clone().into_iter().next().map_or_else(proc_macro2::Span::call_site, |token| token.span());
     quote_spanned!(span=> ::core::convert::Into::into(#value))
 }
 
-/// Gives the function of the statements a parameter for each spliced value; its call and its items.
+/// Adds a parameter for each spliced value to the function of the statements; returns its call and its items.
 fn function(program: &mut Program, here: &Here, types: &[Option<Type>]) -> Option<(TokenStream, TokenStream)> {
     let func = program.funcs.iter_mut().find(|func| func.name == FRAGMENT)?;
     let mut names = Vec::new();
@@ -457,8 +458,8 @@ fn function(program: &mut Program, here: &Here, types: &[Option<Type>]) -> Optio
     Some((quote!(#variables arl_statements::#module::fragment(#cx #g #(#names),*) #wait #fail;), items))
 }
 
-/// The emitter knows the parameters by name only: it takes them for unused, and their uses for the last ones. A value
-/// that is not copied by itself is cloned where it is used, since a loop may come there again.
+/// The emitter knows the parameters only by name: it considers them unused, and each use the last one. A value that is
+/// not `Copy` is cloned where it is used, since a loop may use it again.
 fn spliced_in(items: TokenStream, types: &[Option<Type>]) -> TokenStream {
     let mut out = TokenStream::new();
     for token in items {

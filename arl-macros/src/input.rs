@@ -1,4 +1,4 @@
-//! What an invocation consists of.
+//! The parts of an invocation.
 
 use proc_macro::{Delimiter, Literal, Spacing, TokenStream, TokenTree};
 
@@ -25,7 +25,8 @@ pub(crate) enum Form {
 }
 
 impl Form {
-    /// Tells the forms apart: a text is a text; a comma and a last group in braces (or a text) make statements.
+    /// Distinguishes the forms: a lone string literal is a program; a comma followed by a last group in braces (or a
+    /// string literal) means statements.
     pub(crate) fn of(input: TokenStream) -> Self {
         let mut tokens: Vec<TokenTree> = input.into_iter().collect();
         if tokens.len() == 1
@@ -56,7 +57,7 @@ fn is_comma(token: Option<&TokenTree>) -> bool {
     matches!(token, Some(TokenTree::Punct(punct)) if punct.as_char() == ',')
 }
 
-/// A string literal, also behind `$text:literal`.
+/// A string literal, also if passed as `$text:literal`.
 pub(crate) fn as_text(token: &TokenTree) -> Option<Literal> {
     match token {
         TokenTree::Literal(literal) => {
@@ -74,7 +75,7 @@ pub(crate) fn as_text(token: &TokenTree) -> Option<Literal> {
     }
 }
 
-/// `#![scara]` at the beginning: how many leaves it takes, and the word. `[` and `]` are leaves, too.
+/// `#![scara]` at the beginning: the number of its leaves, and the word. `[` and `]` are leaves, too.
 pub(crate) fn attribute(tokens: &[TokenTree]) -> Option<(usize, proc_macro::Ident)> {
     match tokens {
         [TokenTree::Punct(hash), TokenTree::Punct(bang), TokenTree::Group(group), ..]

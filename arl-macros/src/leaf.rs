@@ -1,17 +1,17 @@
-//! The tokens of an invocation, flat, with their places in the Rust file.
+//! The tokens of an invocation as a flat list, with their positions in the Rust file.
 
 use proc_macro::{Delimiter, Group, Span, TokenStream, TokenTree};
 
-/// A token that is not a group, or a delimiter of one.
+/// A token that is not a group, or a delimiter of a group.
 #[derive(Clone, Debug)]
 pub(crate) struct Leaf<S> {
     /// Its text.
     pub(crate) text: String,
-    /// Line from 1 and column from 1, in characters.
+    /// Line and column, both from 1, in characters.
     pub(crate) start: (usize, usize),
-    /// Behind its last character.
+    /// The position after its last character.
     pub(crate) end: (usize, usize),
-    /// What rustc underlines.
+    /// The span that rustc underlines.
     pub(crate) span: S,
 }
 

@@ -11,8 +11,8 @@ use proc_macro::TokenStream;
 
 /// ARL inside Rust.
 ///
-/// A whole program, where items may stand. It becomes a module `program` with the functions, and `Globals` with the
-/// global variables, which a controller runs:
+/// A whole program, at a place where items are allowed. It becomes a module `program` with the functions, and `Globals`
+/// with the global variables, which a controller runs:
 ///
 /// ```ignore
 /// mod pick {
@@ -24,7 +24,7 @@ use proc_macro::TokenStream;
 /// }
 /// ```
 ///
-/// Statements, inside an async Rust function, with Rust values spliced in. It becomes a future:
+/// Statements with spliced Rust values, inside an async Rust function. They become a future:
 ///
 /// ```ignore
 /// async fn approach(cx: &Cx, height: f64, count: i32) -> Done<()> {
@@ -38,18 +38,18 @@ use proc_macro::TokenStream;
 /// ```
 ///
 /// A spliced value is evaluated once, before the first statement, and converted with `Into` to the type that its place
-/// asks for; where the place takes any type, `as` with an ARL type says which.
+/// requires; where the place accepts any type, `as` with an ARL type gives it.
 ///
-/// Both forms take a string literal instead: `arl!(r#"..."#)`, `arl!(cx, r#"..."#)`. `#![scara]` in front of the text
-/// says that it is for a SCARA robot.
+/// Both forms also accept a string literal: `arl!(r#"..."#)`, `arl!(cx, r#"..."#)`. `#![scara]` before the text means
+/// that the code is for a SCARA robot.
 #[proc_macro]
 pub fn arl(input: TokenStream) -> TokenStream {
     expand::arl(input).into()
 }
 
-/// A program in a file of its own: `arl_file!("pick.arl")`, or `arl_file!("pick.arl", scara)`.
+/// A program in its own file: `arl_file!("pick.arl")`, or `arl_file!("pick.arl", scara)`.
 ///
-/// The path counts from the folder of the Rust file. It becomes the same as the whole program of [`arl!`].
+/// The path is relative to the folder of the Rust file. The result is the same as for a whole program in [`arl!`].
 #[proc_macro]
 pub fn arl_file(input: TokenStream) -> TokenStream {
     expand::arl_file(input).into()

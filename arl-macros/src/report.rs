@@ -1,10 +1,10 @@
-//! Errors and warnings as Rust that makes rustc show them on the right tokens.
+//! Errors and warnings as Rust code that makes rustc show them on the right tokens.
 
 use arl2rs::diagnostics::{Diagnostic, Severity};
 use proc_macro::Span;
 use proc_macro2::{Group, Ident, Literal, Punct, Spacing, TokenStream, TokenTree};
 
-/// What rustc underlines: from the first token to the last.
+/// The range that rustc underlines: from the first token to the last.
 #[derive(Clone, Copy)]
 pub(crate) struct Place {
     /// The first token.
@@ -20,7 +20,7 @@ impl Place {
     }
 }
 
-/// The words for rustc: what is wrong, other places, what would be right.
+/// The text for rustc: what is wrong, other positions, what would be correct.
 pub(crate) fn words(diagnostic: &Diagnostic, line: impl Fn(&arl2rs::diagnostics::Label) -> String) -> String {
     let mut text = format!("{}: {}", diagnostic.code, diagnostic.message);
     for label in &diagnostic.labels {
@@ -32,7 +32,7 @@ pub(crate) fn words(diagnostic: &Diagnostic, line: impl Fn(&arl2rs::diagnostics:
     text
 }
 
-/// The Rust that shows it: `compile_error!` or the use of a deprecated constant.
+/// The Rust code that shows the diagnostic: `compile_error!` or the use of a deprecated constant.
 pub(crate) fn shown(diagnostic: &Diagnostic, text: &str, place: Place) -> TokenStream {
     match diagnostic.severity {
         Severity::Error => error(text, place),
@@ -62,7 +62,7 @@ pub(crate) fn error(text: &str, place: Place) -> TokenStream {
     tokens
 }
 
-/// The use of a constant whose deprecation says it. Its name is the code.
+/// The use of a constant whose deprecation note is the text. Its name is the code.
 fn warning(code: &str, text: &str, place: Place) -> TokenStream {
     let name = Ident::new(code, place.first.into());
     let declared = Ident::new(code, proc_macro2::Span::call_site());

@@ -1,4 +1,4 @@
-//! What an invocation expands to where its text is not known, or wrong: the names that it would have had.
+//! The expansion of an invocation whose text is unknown or wrong: it declares the names that the program would have.
 
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -1,22 +1,22 @@
-//! The ARL text of an invocation, and the way back from its bytes to tokens.
+//! The ARL text of an invocation, with a mapping from its bytes back to tokens.
 //!
-//! The text is what stands in the Rust file, with comments and line ends. Where the compiler does not hand it out
-//! (behind `macro_rules`), it is put together from the places of the tokens. Where not even those are known
-//! (rust-analyzer), there is no text.
+//! The text is taken from the Rust file, with comments and line ends. If the compiler does not provide it (behind
+//! `macro_rules`), it is put together from the positions of the tokens. If not even those are known (rust-analyzer),
+//! there is no text.
 
 use crate::leaf::Leaf;
 
-/// ARL text, laid out so that its lines have the numbers that they have in the Rust file.
+/// ARL text, laid out so that its lines have the same numbers as in the Rust file.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Text {
-    /// The text, after as many line ends as there are lines above it.
+    /// The text, preceded by one line end for each line above it.
     pub(crate) text: String,
-    /// For each leaf, the bytes that it covers.
+    /// For each leaf, the range of bytes that it covers.
     ranges: Vec<(usize, usize)>,
 }
 
 impl Text {
-    /// The text under `leaves`. `source` is the text of the whole invocation and where it begins.
+    /// The text of `leaves`. `source` is the text of the whole invocation and its start.
     pub(crate) fn of<S>(leaves: &[Leaf<S>], source: Option<(&str, (usize, usize))>) -> Option<Self> {
         if !placed(leaves) {
             return None;
@@ -27,7 +27,8 @@ impl Text {
         Some(text)
     }
 
-    /// `0x3e` is how `3eh`, which Rust cannot read, is written in Rust: it becomes `03eh`, which is as long.
+    /// In Rust, `3eh` must be written `0x3e`, because Rust cannot read `3eh`. It becomes `03eh`, which has the same
+    /// length.
     fn rewrite_hexadecimal(&mut self) {
         for (from, to) in &self.ranges {
             let digits = self.text.get(*from..*to).and_then(|token| token.strip_prefix("0x"));
@@ -39,13 +40,13 @@ impl Text {
         }
     }
 
-    /// Cuts the text out of the invocation; `None` where the tokens do not stand there.
+    /// Cuts the text out of the invocation; `None` if the tokens are not found there.
     fn from_source<S>(leaves: &[Leaf<S>], source: &str, start: (usize, usize)) -> Option<Self> {
         let places = Places::new(source, start);
         let mut ranges = Vec::with_capacity(leaves.len());
         for leaf in leaves {
             let range = (places.offset(leaf.start)?, places.offset(leaf.end)?);
-            // A comment of Rust's documentation kind comes as tokens that all cover the whole comment.
+            // A Rust documentation comment is split into tokens that all cover the whole comment.
             let found = source.get(range.0..range.1)?;
             if found != leaf.text && !found.starts_with("//") && !found.starts_with("/*") {
                 return None;
@@ -79,8 +80,8 @@ impl Text {
         Self { text, ranges }
     }
 
-    /// The first and the last leaf that a range of bytes touches. A range between tokens belongs to the token before
-    /// it.
+    /// The first and the last leaf that a range of bytes touches. A range between tokens belongs to the preceding
+    /// token.
     pub(crate) fn leaves(&self, start: usize, end: usize) -> Option<(usize, usize)> {
         let touched = |(from, to): &(usize, usize)| *from < end.max(start + 1) && start < *to;
         let first = self.ranges.iter().position(touched);
@@ -104,7 +105,7 @@ impl Text {
         }
     }
 
-    /// Blanks out leaves that are not ARL.
+    /// Replaces leaves that are not ARL by blanks.
     pub(crate) fn blank(&mut self, leaves: std::ops::Range<usize>) {
         let ranges = self.ranges.get(leaves).unwrap_or(&[]);
         if let (Some((from, _)), Some((_, to))) = (ranges.first(), ranges.last()) {
@@ -114,15 +115,15 @@ impl Text {
     }
 }
 
-/// The line ends and blanks in front of a place.
+/// The line ends and blanks before a position.
 fn lead(start: (usize, usize)) -> String {
     "\n".repeat(start.0.saturating_sub(1)) + &" ".repeat(start.1.saturating_sub(1))
 }
 
-/// Whether the tokens know where they stand: in rust-analyzer all of them are at the same place.
+/// Whether the positions of the tokens are known: in rust-analyzer all tokens have the same one.
 fn placed<S>(leaves: &[Leaf<S>]) -> bool {
     let known = leaves.iter().all(|leaf| leaf.start.0 > 0 && leaf.start <= leaf.end);
-    // Tokens of one documentation comment share their place.
+    // Tokens of one documentation comment share their position.
     let ascending = leaves.windows(2).all(|pair| match pair {
         [one, next] => one.start <= next.start,
         _ => true,
@@ -134,7 +135,7 @@ fn placed<S>(leaves: &[Leaf<S>]) -> bool {
     known && ascending && spread && leaves.iter().all(|leaf| leaf.start != leaf.end)
 }
 
-/// Offsets of the lines of a text that begins somewhere in a file.
+/// Offsets of the lines of a text that begins anywhere in a file.
 struct Places<'a> {
     text: &'a str,
     start: (usize, usize),
@@ -147,7 +148,7 @@ impl<'a> Places<'a> {
         Self { text, start, lines }
     }
 
-    /// The offset of a place in the file; `None` outside the text.
+    /// The offset of a position in the file; `None` outside the text.
     fn offset(&self, (line, column): (usize, usize)) -> Option<usize> {
         let index = line.checked_sub(self.start.0)?;
         let begin = *self.lines.get(index)?;
@@ -163,7 +164,7 @@ impl<'a> Places<'a> {
 mod tests {
     use super::*;
 
-    /// The tokens of a text that begins at a place; blanks part them, `§` stands for a place without a token.
+    /// The tokens of a text that begins at a position, separated by blanks; `§` is a position without a token.
     fn tokens(text: &str, start: (usize, usize)) -> Vec<Leaf<()>> {
         let mut all = Vec::new();
         let (mut line, mut column) = start;

@@ -1,22 +1,22 @@
 //! Motion of robot arms: commands in, a set-point each cycle out.
 //!
 //! A [`Queue`] takes [`Command`]s (lines, circles, splines, axis motions) and plans them ahead, blended where their
-//! zones say so. Each [`Queue::step`] moves the robot on by one cycle, within the limits of every axis and of the TCP.
-//! The robot stops on its path ([`Queue::stop_on_path`]), goes on, follows an override that changes at any time, and
-//! leaves its motion for others and comes back ([`Queue::request_suspension`]). A [`Recorder`] tells what each motion
-//! really did.
+//! zones request it. Each [`Queue::step`] advances the robot by one cycle, within the limits of every axis and of the
+//! TCP. The robot stops on its path ([`Queue::stop_on_path`]), continues, follows an override that may change at any
+//! time, and suspends its motion for other motion and returns to it ([`Queue::request_suspension`]). A [`Recorder`]
+//! shows what each motion really did.
 //!
-//! Lengths are in mm, angles in deg, times in s; rotation vectors, where there are any, are in rad.
+//! Lengths are in mm, angles in deg, times in s; rotation vectors are in rad.
 //!
-//! # Real time, or the same every time
+//! # Real time or reproducible runs
 //!
-//! [`Queue::new`] is for a control loop: a step never waits, and what threads find beside it (blends, time laws) is
-//! taken over when it is there. [`Queue::repeatable`] is for simulation and planning: there a step waits for the
+//! [`Queue::new`] is for a control loop: a step never waits, and what threads find in parallel (blends, time laws) is
+//! taken over when it is ready. [`Queue::repeatable`] is for simulation and planning: there a step waits for the
 //! threads, and a queue that is stepped with the same commands at the same cycles gives the same set-points to the last
-//! bit, on every machine. `arl-rt` uses the one with its real clock, the other with its virtual one.
+//! bit, on every machine. `arl-rt` uses the former with its real clock, the latter with its virtual one.
 //!
-//! A build without optimisation is about 50 times slower, too slow for real time. Optimise what computes in debug
-//! builds, too, in the `Cargo.toml` of the workspace:
+//! A build without optimisation is about 50 times slower, too slow for real time. Optimise the computing crates in
+//! debug builds as well, in the `Cargo.toml` of the workspace:
 //!
 //! ```toml
 //! [profile.dev.package]
@@ -27,8 +27,8 @@
 //!
 //! # Features
 //!
-//! `files` (a default one) has the robots that are built in, and those from files. Without it a robot is what
-//! [`robot::Robot::new`] makes of its description, and neither the language nor a reader of TOML is compiled.
+//! `files` (enabled by default) provides the built-in robots, and robots from files. Without it, a robot is created
+//! from its description by [`robot::Robot::new`], and neither the language nor a TOML reader is compiled.
 //!
 //! # Example
 //!
@@ -71,13 +71,14 @@
 //! ```
 //!
 //! Every motion, and every blend between two, is a stretch of one path with one parameter. Planning finds limits of
-//! that parameter's speed, acceleration and jerk, constant for each stretch, such that *whatever* moves along it within
-//! them keeps every axis and the TCP within theirs. Starting, stopping, resuming and changing the override are then
-//! problems of that one parameter and can never leave the path or break a limit. Where neither a duration is given nor
-//! a weave laid over it, every place has limits of its own, and the whole of the way ahead is timed at once.
+//! that parameter's speed, acceleration and jerk, constant for each stretch, such that *any* motion along it within
+//! these limits keeps every axis and the TCP within theirs. Starting, stopping, resuming and changing the override then
+//! concern that one parameter alone, and can never leave the path or exceed a limit. Where a motion has neither a given
+//! duration nor an overlay (a weave, a compensation), every place has limits of its own, and the whole path ahead is
+//! timed at once.
 //!
 //! The folders are the stages: `command`, `geometry`, `limits`, `overlay`, `plan`, `blend`, `follow`, `time_optimal`,
-//! `junction`, `queue`. Each imports from those before it only. [`beside`] starts the threads that find blends and time
+//! `junction`, `queue`. Each imports only from those before it. [`beside`] starts the threads that find blends and time
 //! laws.
 
 pub mod beside;
@@ -111,7 +112,7 @@ pub use queue::{
     Step, Stop, UnblendedTarget,
 };
 
-/// The examples of the README run.
+/// Runs the examples of the README.
 #[cfg(all(doctest, feature = "files"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,6 +1,6 @@
-//! Files are replaced atomically: they are there whole, old or new, at whatever moment their writer is killed. Symbolic
-//! links, modes and owners stay, and what others have written meanwhile is not lost. Hard links part: the other names
-//! keep the old content.
+//! Replaces files atomically: either the old or the new file is there, complete, at whatever moment the writer is
+//! killed. Symbolic links, modes and owners are kept, and what other programs write meanwhile is not lost. Hard links
+//! are separated: the other names keep the old content.
 
 use std::fmt;
 use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
@@ -11,30 +11,31 @@ use std::time::{Duration, Instant};
 
 use crate::regular_file;
 
-/// How the name of a file ends that is to take the place of another one: `NAME.PROCESS-NUMBER` and this. No user calls
-/// a file so.
+/// The ending of the name of a file that is to replace another one: `NAME.PROCESS-NUMBER` and this. No user names a
+/// file like this.
 const BESIDE: &str = ".arl-new";
-/// What it ends with instead where it may hold the only copy of something.
+/// The ending instead of `BESIDE` if the file may be the only copy of some content.
 const KEPT: &str = "arl-kept";
-/// So long it is waited for others who replace files of the same directory.
+/// The longest wait for other writers that replace files of the same directory.
 const LONGEST_WAIT: Duration = Duration::from_secs(5);
-/// So often a change is made anew for others who write the same file.
+/// How often a change is tried while others write the same file.
 const TRIES: usize = 50;
-/// An editor empties a file, and has written it anew so long after.
+/// The time after which an editor that has emptied a file has written it again.
 const HALF_WRITTEN: Duration = Duration::from_millis(20);
-/// A link that leads to a link, and so on, at most so often.
+/// The longest chain of symbolic links that is followed.
 const MOST_LINKS: usize = 40;
 
-/// Why a file was not changed; the old content is there, but for [`ChangeError::Aside`].
+/// The reason why a file was not changed; the old content is still there, except with [`ChangeError::Aside`].
 #[derive(Debug)]
 pub enum ChangeError<E> {
-    /// It cannot be read.
+    /// The file cannot be read.
     Read(io::Error),
-    /// Who changes it does not want to.
+    /// The function that changes the content refuses.
     Refused(E),
-    /// It cannot be written.
+    /// The file cannot be written.
     Write(io::Error),
-    /// It was replaced, but what others may have written in that moment cannot be put back: it is kept in this file.
+    /// The file was replaced, but content that others may have written at that moment cannot be restored; it is kept in
+    /// this file.
     Aside(PathBuf, io::Error),
 }
 
@@ -53,10 +54,12 @@ impl<E: fmt::Display> fmt::Display for ChangeError<E> {
 
 impl<E: fmt::Debug + fmt::Display> std::error::Error for ChangeError<E> {}
 
-/// Writes a file, whatever it holds. A kill at any moment leaves the old or the new content, whole.
+/// Writes a file, whatever its old content. If the process is killed at any moment, either the old or the new content
+/// is there, complete.
 ///
 /// # Errors
-/// It is not a regular file, it must not be written, or what the file system says; the old content is still there.
+/// The path is not a regular file, the file must not be written, or the file system fails; the old content is still
+/// there.
 pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     let old = writable(path)?;
     let file = followed(path)?;
@@ -69,10 +72,10 @@ pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes a file that is not there yet.
+/// Writes a file that does not exist yet.
 ///
 /// # Errors
-/// `AlreadyExists`, or what the file system says.
+/// `AlreadyExists`, or an error of the file system.
 pub fn create(path: &Path, content: &[u8]) -> io::Result<()> {
     if writable(path)?.is_some() {
         return Err(io::ErrorKind::AlreadyExists.into());
@@ -89,12 +92,13 @@ pub fn create(path: &Path, content: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// Replaces the content of a file by what `change` makes of it: under a lock that all callers share, in all processes
-/// of this computer. What others write meanwhile, editors, is noticed: then `change` is asked again.
+/// Replaces the content of a file with the result of `change`, under a lock shared by all callers in all processes of
+/// this computer. If another program, such as an editor, writes the file meanwhile, this is noticed and `change` is
+/// called again.
 ///
 /// # Errors
-/// It cannot be read or written, `change` refuses, or somebody else goes on writing. The file is as others have left
-/// it, but for [`ChangeError::Aside`].
+/// The file cannot be read or written, `change` refuses, or another program keeps writing. The file is as the others
+/// have left it, except with [`ChangeError::Aside`].
 pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E>) -> Result<(), ChangeError<E>> {
     let read = |path: &Path| regular_file::read(path).map_err(ChangeError::Read);
     let file = followed(path).map_err(ChangeError::Read)?;
@@ -108,7 +112,7 @@ pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E
                 return Ok(());
             }
             Ok(_) => std::thread::sleep(Duration::from_millis(1)),
-            // Half of what others write may make no sense: they get the time to end it.
+            // A half-written file may make no sense: the writer gets time to finish it.
             Err(why) => {
                 std::thread::sleep(HALF_WRITTEN);
                 if read(&file)? == old {
@@ -120,7 +124,7 @@ pub fn change<E>(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, E
     Err(ChangeError::Write(io::Error::new(io::ErrorKind::ResourceBusy, "another program keeps writing it")))
 }
 
-/// Replaces content that is still the old one; whether it was.
+/// Replaces the content if it is still the old one; returns whether it was.
 fn replace<E>(file: &Path, old: &[u8], new: &[u8]) -> Result<bool, ChangeError<E>> {
     let metadata = writable(file).map_err(ChangeError::Write)?;
     let draft = Draft::new(file, new, metadata.as_ref()).map_err(ChangeError::Write)?;
@@ -130,13 +134,14 @@ fn replace<E>(file: &Path, old: &[u8], new: &[u8]) -> Result<bool, ChangeError<E
     match exchange(&draft.path, file) {
         Ok(()) => put_back_news(&draft.path, file, old, new).map_err(|error| ChangeError::Aside(draft.keep(), error)),
         Err(_) if !file.exists() => Ok(false),
-        // Not every file system can. What is written in this very moment is lost there.
+        // Not every file system supports this. On such ones, what is written at this very moment is lost.
         Err(_) => fs::rename(&draft.path, file).map(|()| true).map_err(ChangeError::Write),
     }
 }
 
-/// After an exchange the old content lies beside. Where that is not what was read, somebody has written in between:
-/// theirs goes back to its place. Whether the new content stayed. After an error, what lies beside may be theirs.
+/// After an exchange the file `beside` has the previous content. If that is not the content that was read, another
+/// program has written in between, and its content is put back. Returns whether the new content stayed. After an error,
+/// `beside` may have the content of the other program.
 fn put_back_news(beside: &Path, file: &Path, old: &[u8], new: &[u8]) -> io::Result<bool> {
     let (mut expected, mut placed) = (old.to_vec(), new.to_vec());
     let mut stays = true;
@@ -153,7 +158,7 @@ fn put_back_news(beside: &Path, file: &Path, old: &[u8], new: &[u8]) -> io::Resu
     }
 }
 
-/// Lets two files change places, at once.
+/// Exchanges two files atomically.
 #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
 fn exchange(one: &Path, other: &Path) -> io::Result<()> {
     use rustix::fs::{CWD, RenameFlags, renameat_with};
@@ -165,20 +170,20 @@ fn exchange(_one: &Path, _other: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// Where a path leads, also where nothing is there yet.
+/// The target of a path with its links followed; it need not exist.
 fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
         match fs::read_link(&path) {
             Ok(target) => path = directory_of(&path).join(target),
-            // It is not a link; whether it is anything will be seen.
+            // Not a link; whether it exists is checked later.
             Err(_) => return Ok(path),
         }
     }
     Err(io::Error::other("its links form a loop"))
 }
 
-/// What is known of a file that may be written; nothing where there is none.
+/// The metadata of a file that may be written; `None` if it does not exist.
 fn writable(path: &Path) -> io::Result<Option<Metadata>> {
     match regular_file::expect(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
@@ -186,28 +191,28 @@ fn writable(path: &Path) -> io::Result<Option<Metadata>> {
     }
     let file = OpenOptions::new().write(true).open(path)?;
     let metadata = file.metadata()?;
-    // The superuser could open it all the same.
+    // The superuser could open the file all the same.
     if metadata.permissions().readonly() {
         return Err(io::ErrorKind::PermissionDenied.into());
     }
     Ok(Some(metadata))
 }
 
-/// The directory that a file lies in.
+/// The directory of a file.
 pub fn directory_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The new name is on the disk when its directory is.
+/// Writes a file's directory to the disk, so that a new name is there, too.
 fn sync_directory(file: &Path) {
-    // Some systems cannot sync a directory; they do it themselves.
+    // Some systems cannot sync a directory, but do so by themselves.
     if let Ok(directory) = File::open(directory_of(file)) {
         let _ = directory.sync_all();
     }
 }
 
-/// Waits until nobody else replaces files of a directory by this module. Nothing where directories cannot be locked:
-/// then what is written meanwhile is only noticed.
+/// Waits until no other user of this module replaces files of a directory. `None` if directories cannot be locked: then
+/// files written meanwhile are only noticed.
 fn lock(directory: &Path) -> io::Result<Option<File>> {
     let Ok(directory) = File::open(directory) else { return Ok(None) };
     let began = Instant::now();
@@ -225,16 +230,17 @@ fn lock(directory: &Path) -> io::Result<Option<File>> {
     }
 }
 
-/// A file beside another one, whose place it is to take; gone again where it does not.
+/// A file beside another one that it is to replace; removed again if it does not.
 struct Draft {
     path: PathBuf,
     is_kept: bool,
-    /// As long as it is open, nobody takes the file for abandoned.
+    /// As long as this is open, the file does not count as abandoned.
     _held: File,
 }
 
 impl Draft {
-    /// With this content, on the disk, and as accessible as the one whose place it is to take.
+    /// Creates a draft with this content, written to the disk, with the access rights of the file that it is to
+    /// replace.
     fn new(file: &Path, content: &[u8], old: Option<&Metadata>) -> io::Result<Self> {
         /// Several threads may write the same file.
         static NUMBER: AtomicU64 = AtomicU64::new(0);
@@ -243,7 +249,7 @@ impl Draft {
             path.push(format!(".{}-{}{BESIDE}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed)));
             let path = PathBuf::from(path);
             match create_held(&path, old.is_some()) {
-                // Another computer, or a container, has a process of the same number.
+                // Another computer, or a container, has a process with the same number.
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 held => break (path, held?),
             }
@@ -257,10 +263,10 @@ impl Draft {
         written.map(|()| draft)
     }
 
-    /// Lets it stay, by a name that [`remove_leftovers`] passes over, where it can have one; which that is.
+    /// Keeps the draft, if possible under a name that [`remove_leftovers`] ignores; returns its path.
     fn keep(mut self) -> PathBuf {
         self.is_kept = true;
-        // Another computer, or a container, may have kept one of a process of the same number.
+        // Another computer, or a container, may have kept a draft of a process with the same number.
         let mut names = (0..).map(|number| self.path.with_extension(format!("{number}.{KEPT}")));
         let Some(kept) = names.find(|kept| !kept.exists()) else { return self.path.clone() };
         if fs::rename(&self.path, &kept).is_ok() { kept } else { self.path.clone() }
@@ -270,19 +276,19 @@ impl Draft {
 impl Drop for Draft {
     fn drop(&mut self) {
         if !self.is_kept {
-            // Where it has taken its place, there is none any more. That it cannot be removed changes nothing.
+            // If the draft has replaced the file, it no longer exists. An error here has no consequences.
             let _ = fs::remove_file(&self.path);
         }
     }
 }
 
-/// Gives a file owner, group and mode of another one.
+/// Gives a file the owner, group and mode of another one.
 #[cfg(unix)]
 fn make_alike(file: &File, old: &Metadata) -> io::Result<()> {
     use std::os::unix::fs::{MetadataExt, fchown};
     let own = file.metadata()?;
     if own.uid() != old.uid() {
-        // Few may give files away: whoever may write the file goes on to own it.
+        // Only few users may give files away: otherwise the writer of the file becomes its owner.
         let _ = fchown(file, Some(old.uid()), None);
     }
     if own.gid() != old.gid() && fchown(file, None, Some(old.gid())).is_err() {
@@ -300,8 +306,8 @@ fn make_alike(file: &File, old: &Metadata) -> io::Result<()> {
     file.set_permissions(old.permissions())
 }
 
-/// Makes a file and holds its lock: as long as this process lives and has the file open, nobody takes it for abandoned.
-/// What is `private` nobody else may look at yet.
+/// Creates a file and holds its lock: as long as this process lives and has the file open, it does not count as
+/// abandoned. A `private` file is not yet readable by other users.
 fn create_held(path: &Path, private: bool) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.write(true).create_new(true);
@@ -313,22 +319,22 @@ fn create_held(path: &Path, private: bool) -> io::Result<File> {
     let _ = private;
     loop {
         let file = options.open(path)?;
-        // Where files cannot be locked none is taken for abandoned.
+        // If files cannot be locked, none counts as abandoned.
         if file.lock().is_err() || path.exists() {
             return Ok(file);
         }
-        // Somebody has removed it before it was locked.
+        // Another process has removed it before it was locked.
     }
 }
 
-/// Removes from a directory what processes that were killed while they wrote have left there.
+/// Removes from a directory the leftovers of processes that were killed while writing.
 pub fn remove_leftovers(directory: &Path) {
-    // What cannot be looked at or removed stays: it does no harm.
+    // Files that cannot be inspected or removed stay; they do no harm.
     let Ok(entries) = fs::read_dir(directory) else { return };
     let left = entries.filter_map(Result::ok).filter(|entry| is_in_the_making(&entry.file_name().to_string_lossy()));
     let mut left = left.map(|entry| entry.path()).peekable();
     if left.peek().is_some() {
-        // Somebody may just exchange two files: what lies beside then is nobody's draft.
+        // Another process may be exchanging two files: the file beside then is not an abandoned draft.
         let Ok(locked) = lock(directory) else { return };
         left.for_each(|path| remove_abandoned(&path, &locked));
     }
@@ -341,7 +347,7 @@ fn is_in_the_making(name: &str) -> bool {
     })
 }
 
-/// Removes a file that nobody holds, of a directory that is locked, where directories can be.
+/// Removes a file that no process holds, in a directory that is locked (if directories can be).
 fn remove_abandoned(path: &Path, _locked: &Option<File>) {
     if let Ok(file) = File::open(path)
         && file.try_lock().is_ok()
@@ -368,7 +374,7 @@ mod tests {
     #[test]
     fn what_the_dead_have_left_is_removed_and_what_the_living_make_is_not() {
         let path = folder("left");
-        // This process stands for another one that lives: it holds its file.
+        // This process represents another living one: it holds its file.
         let alive = create_held(&path.join("I.state.17.arl-new"), false).unwrap();
         for name in ["I.state.1.arl-new", "BASE.2.state.12345678.arl-new", "p_data.arl.3.arl-new"] {
             fs::write(path.join(name), "part").unwrap();
@@ -388,7 +394,7 @@ mod tests {
         fs::remove_dir_all(&path).unwrap();
     }
 
-    /// What lies beside while two files are exchanged is held by nobody.
+    /// The file beside is not held by any process while two files are exchanged.
     #[cfg(unix)]
     #[test]
     fn nothing_is_removed_while_others_replace_files() {
@@ -460,7 +466,7 @@ mod tests {
         let (real, link, second) = (folder.join("real.arl"), folder.join("link.arl"), folder.join("second.arl"));
         symlink("real.arl", &link).unwrap();
         symlink(&link, &second).unwrap();
-        // Through a link that leads nowhere yet, too.
+        // Also through a link whose target does not exist yet.
         write(&second, b"new").unwrap();
         let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o7777;
         for bits in [0o660, 0o600, 0o4755] {
@@ -510,7 +516,7 @@ mod tests {
         let folder = folder("others");
         let path = folder.join("kept");
         fs::write(&path, "a").unwrap();
-        // An editor writes after the file was read, twice; in its place, and by another file that takes it.
+        // An editor writes after the file was read, twice: in place, and by a file that replaces it.
         let mut asked = 0;
         let changed = change(&path, |old| {
             asked += 1;
@@ -526,7 +532,7 @@ mod tests {
         });
         changed.unwrap();
         assert_eq!((asked, fs::read_to_string(&path).unwrap()), (3, "c!".to_owned()));
-        // One that goes on writing keeps its file.
+        // A program that keeps writing keeps its file.
         let mut number = 0;
         let never = change(&path, |old| {
             number += 1;
@@ -535,7 +541,7 @@ mod tests {
         });
         assert!(never.unwrap_err().to_string().contains("keeps writing"));
         assert_eq!(fs::read_to_string(&path).unwrap(), number.to_string());
-        // Who refuses half of a file that is being written is asked again.
+        // A function that refuses a half-written file is called again.
         let mut asked = 0;
         let whole = |old: &[u8]| if old == b"half" { Err("half") } else { Ok(b"done".to_vec()) };
         fs::write(&path, "half").unwrap();
@@ -550,7 +556,7 @@ mod tests {
         fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// What is written between the last look and the exchange is found beside, and put back.
+    /// Content written between the last check and the exchange is found beside, and put back.
     #[cfg(target_os = "linux")]
     #[test]
     fn what_was_exchanged_unseen_comes_back() {

@@ -1,4 +1,4 @@
-//! Changes one value of a settings file, so that the same file serves for many variants of it.
+//! Changes one value of a settings file, so that one file serves for many variants.
 
 use std::ops::Range;
 
@@ -6,9 +6,9 @@ use toml::de::{DeTable, DeValue};
 
 use crate::settings::{SettingsError, Source, Value, hint, quoted};
 
-/// The text of a settings file in which the value at `path` is `value`. The path is that of the keys, with points
-/// between; entries of lists count from 1: `axis.1.vel`. The last key may be a new one. What is not a TOML value is a
-/// text.
+/// The text of a settings file in which the value at `path` is `value`. The path consists of keys separated by points;
+/// entries of lists count from 1: `axis.1.vel`. The last key may be a new one. A value that is not TOML becomes a
+/// string.
 ///
 /// ```
 /// let text = "[[event]]\nat = 1.0\ndi.1 = true\n";
@@ -18,7 +18,7 @@ use crate::settings::{SettingsError, Source, Value, hint, quoted};
 /// ```
 ///
 /// # Errors
-/// The text is not TOML, or there is no such place in it.
+/// The text is not TOML, or does not have this path.
 pub fn set(file: &str, text: &str, path: &str, value: &str) -> Result<String, SettingsError> {
     let source = Source { file, text };
     let root = source.parse()?;
@@ -42,13 +42,13 @@ pub fn set(file: &str, text: &str, path: &str, value: &str) -> Result<String, Se
     }
 }
 
-/// Whatever has entries.
+/// A value with entries.
 enum Inner<'a> {
     Table(&'a DeTable<'a>),
     List(&'a [Value<'a>]),
 }
 
-/// How far a path was followed.
+/// The progress in following a path.
 struct Place<'a> {
     source: Source<'a>,
     whole: &'a str,
@@ -72,7 +72,7 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// The entry that a number means, from 0.
+    /// The index of the entry with a number, from 0.
     fn number(&self, key: &str, count: usize) -> Result<usize, SettingsError> {
         let number = key.parse::<usize>().ok().filter(|number| (1..=count).contains(number));
         number
@@ -104,7 +104,7 @@ impl<'a> Place<'a> {
         Ok(self.with(span, value))
     }
 
-    /// A new key goes in front of the first one, in the same manner.
+    /// Inserts a new key before the first one, in the same style.
     fn insert(&self, table: &DeTable<'_>, key: &str, value: &str) -> Result<String, SettingsError> {
         let is_key = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         if key.is_empty() || !key.chars().all(is_key) {
@@ -112,7 +112,7 @@ impl<'a> Place<'a> {
         }
         let text = self.source.text;
         let line_of = |at: usize| text.get(..at).and_then(|before| before.rfind('\n')).map_or(0, |end| end + 1);
-        // A table of its own has its header, which is no place for a key.
+        // The header of a table of its own is not a place for a key.
         let is_header = |at: &usize| {
             let before = text.get(line_of(*at)..*at).unwrap_or_default();
             before.trim_start().starts_with('[') && !before.contains('=')
@@ -120,7 +120,7 @@ impl<'a> Place<'a> {
         let own = table.keys().map(|key| key.span().start).filter(|at| !is_header(at)).min();
         let first = match own {
             Some(first) => first,
-            // The first lines of a file belong to it.
+            // The first lines of a file belong to the root table.
             None if self.walked == 0 => 0,
             None => return Err(self.missing("there is no key there beside which a new one could be put")),
         };
@@ -139,7 +139,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// A value as TOML has it.
+/// A value in TOML syntax.
 fn as_toml(value: &str) -> String {
     let text = format!("v = {value}\n");
     let alone = !value.contains('\n') && DeTable::parse(&text).is_ok_and(|table| table.get_ref().len() == 1);

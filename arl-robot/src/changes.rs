@@ -1,10 +1,9 @@
-//! Values that are others in a run, as `--set` names them: of its robot, its cell, its scenario and its global
-//! variables.
+//! Values changed for a run by `--set`: of its robot, its cell, its scenario and its global variables.
 
 use crate::change;
 use crate::settings::SettingsError;
 
-/// What a change is for.
+/// The target of a change.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Part {
     /// The robot file.
@@ -18,12 +17,12 @@ pub enum Part {
 }
 
 impl Part {
-    /// All of them, by the first key of a place.
+    /// All parts, by the first key of a place.
     const NAMED: [(&'static str, Part); 4] =
         [("robot", Part::Robot), ("cell", Part::Cell), ("io", Part::Io), ("global", Part::Global)];
 }
 
-/// Changes in the order in which they were named: a later one goes before an earlier one.
+/// Changes in the order of their options: a later one takes precedence over an earlier one.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Changes(Vec<Change>);
 
@@ -35,7 +34,7 @@ struct Change {
 }
 
 impl Changes {
-    /// Changes in words of a command line.
+    /// Parses changes from words of a command line.
     ///
     /// # Errors
     /// As for [`add`](Self::add).
@@ -45,10 +44,10 @@ impl Changes {
         Ok(changes)
     }
 
-    /// Takes a word of a command line: `robot.axis.1.vel=90`.
+    /// Parses a word of a command line: `robot.axis.1.vel=90`.
     ///
     /// # Errors
-    /// It is not a change: what would be one.
+    /// The word is not a change; the message shows valid ones.
     pub fn add(&mut self, word: &str) -> Result<(), String> {
         let split = || {
             let (place, value) = word.split_once('=')?;
@@ -74,7 +73,7 @@ impl Changes {
     /// The text of a file with all changes of a part.
     ///
     /// # Errors
-    /// The file has no such place, or is not TOML.
+    /// The file does not have the place, or is not TOML.
     pub fn apply(&self, part: Part, file: &str, text: String) -> Result<String, SettingsError> {
         self.of_part(part).try_fold(text, |text, (path, value)| change::set(file, &text, path, value))
     }

@@ -1,4 +1,4 @@
-//! The channels of io that a cell has, as `[io]` of its file says.
+//! The I/O channels of a cell, from `[io]` of its file.
 
 use toml::de::DeValue;
 
@@ -6,10 +6,10 @@ use crate::settings::{Section, SettingsError};
 
 const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
 
-/// Far more channels of a kind than any cell has.
+/// The most channels of a kind, far more than any cell has.
 pub const MOST_CHANNELS: u32 = 10_000;
 
-/// What an analog channel carries.
+/// The signal type of an analog channel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum AnalogType {
     /// A voltage, -10 to 10 V.
@@ -44,7 +44,7 @@ impl AnalogType {
     }
 }
 
-/// The channels of io of a cell.
+/// The I/O channels of a cell.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Channels {
     /// Digital inputs.
@@ -66,10 +66,10 @@ impl Default for Channels {
 }
 
 impl Channels {
-    /// The channels of a cell file: those of `[io]`, where there is one.
+    /// The channels of a cell file: those of `[io]`, if it exists.
     ///
     /// # Errors
-    /// What stands there are no channels.
+    /// The values are not channels.
     pub fn read(top: &Section<'_>) -> Result<Channels, SettingsError> {
         let mut channels = Channels::default();
         if let Some(io) = top.table("io", "[io]", IO)? {

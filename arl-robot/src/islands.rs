@@ -1,5 +1,5 @@
-//! Io islands of a cell: which channels of io stand for which coils and registers of a Modbus TCP server, as the tables
-//! `[[island]]` of the cell file say.
+//! I/O islands of a cell: the mapping of I/O channels to coils and registers of a Modbus TCP server, from the tables
+//! `[[island]]` of the cell file.
 //!
 //! ```toml
 //! [[island]]
@@ -25,48 +25,48 @@ use std::time::Duration;
 
 use crate::channels::AnalogType;
 
-/// A server of Modbus TCP that has inputs and outputs of the cell.
+/// A Modbus TCP server with inputs and outputs of the cell.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Island {
-    /// How messages call it.
+    /// The name in messages.
     pub name: String,
-    /// Where it listens.
+    /// The address on which the server listens.
     pub address: SocketAddr,
     /// The unit number in its requests.
     pub unit: u8,
-    /// From one exchange to the next.
+    /// The period of the exchange.
     pub poll: Duration,
-    /// How long an answer may take, and a connection to be made.
+    /// The longest time for an answer, and for connecting.
     pub timeout: Duration,
-    /// What its loss means.
+    /// The consequence of losing the island.
     pub lost: Lost,
-    /// What its inputs do while it is lost.
+    /// The state of its inputs while it is lost.
     pub inputs: Rest,
-    /// What its outputs do when the run ends.
+    /// The state of its outputs when the run ends.
     pub end: Rest,
-    /// What its channels stand for.
+    /// The mapping of its channels.
     pub points: Points,
 }
 
-/// What the loss of an island means.
+/// The consequence of losing an island.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Lost {
     /// All robots stop, with an alarm.
     Alarm,
-    /// The user is told.
+    /// The user is warned.
     Warning,
 }
 
-/// What signals do that nobody drives any more.
+/// The state of signals that are no longer driven.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Rest {
     /// Off, 0 V, 4 mA.
     Zero,
-    /// They stay as they were.
+    /// The last state.
     Hold,
 }
 
-/// The channels of an island, by direction and kind. Channels count from 0 here.
+/// The channels of an island, by direction and kind. Here, channels count from 0.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Points {
     /// Digital inputs.
@@ -79,12 +79,12 @@ pub struct Points {
     pub ao: Vec<Analog>,
 }
 
-/// A digital channel and its place in the island.
+/// A digital channel and its location in the island.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Bit {
     /// The channel, from 0.
     pub channel: usize,
-    /// Which table of the island.
+    /// The table of the island.
     pub table: Table,
     /// The address in that table.
     pub address: u16,
@@ -92,16 +92,16 @@ pub struct Bit {
     pub bit: u8,
 }
 
-/// An analog channel and its place in the island.
+/// An analog channel and its location in the island.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Analog {
     /// The channel, from 0.
     pub channel: usize,
-    /// Which table of the island.
+    /// The table of the island.
     pub table: Table,
     /// The address in that table.
     pub address: u16,
-    /// How its register stands for V or mA.
+    /// The scale between its register and V or mA.
     pub scale: Scale,
 }
 
@@ -121,7 +121,7 @@ pub enum Table {
 impl Table {
     const ALL: [Table; 4] = [Table::Coil, Table::DiscreteInput, Table::HoldingRegister, Table::InputRegister];
 
-    /// As the cell file writes it.
+    /// The key in the cell file.
     pub const fn key(self) -> &'static str {
         match self {
             Table::Coil => "coil",
@@ -131,7 +131,7 @@ impl Table {
         }
     }
 
-    /// As messages write one of them; several have an s behind it.
+    /// The name of one entry in messages; the plural has an s appended.
     pub const fn singular(self) -> &'static str {
         match self {
             Table::Coil => "coil",
@@ -141,22 +141,22 @@ impl Table {
         }
     }
 
-    /// Whether it has bits and not registers.
+    /// Whether the table has bits instead of registers.
     pub const fn has_bits(self) -> bool {
         matches!(self, Table::Coil | Table::DiscreteInput)
     }
 }
 
-/// How a register stands for the value of an analog channel: in a straight line through two points.
+/// The linear scale between a register and the value of an analog channel, defined by two points.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Scale {
-    /// The register at the least and at the greatest value that the channel carries.
+    /// The register at the least and at the greatest value of the channel.
     raw: (i32, i32),
     ty: AnalogType,
 }
 
 impl Scale {
-    /// The line through the ends of what a channel carries. Without `raw`, the whole of a signed register for V, its
+    /// The line through the ends of a channel's range. Without `raw`, the whole range of a signed register for V, its
     /// upper half for mA.
     fn new(ty: AnalogType, raw: Option<(i32, i32)>) -> Self {
         let usual = match ty {
@@ -166,7 +166,7 @@ impl Scale {
         Self { raw: raw.unwrap_or(usual), ty }
     }
 
-    /// Whether the register holds numbers below 0: where both ends are such as a signed register has.
+    /// Whether the register is signed: if both ends fit a signed register.
     fn is_signed(self) -> bool {
         self.raw.0.max(self.raw.1) <= i32::from(i16::MAX)
     }
@@ -176,19 +176,19 @@ impl Scale {
         self.ty.without_signal()
     }
 
-    /// The value that a register stands for, in V or mA.
+    /// The value of a register, in V or mA.
     pub fn value(self, register: u16) -> f64 {
         let raw = if self.is_signed() { f64::from(register.cast_signed()) } else { f64::from(register) };
         let ((r0, r1), (low, high)) = (self.raw, self.ty.range());
         low + (raw - f64::from(r0)) / f64::from(r1 - r0) * (high - low)
     }
 
-    /// The register that stands for a value in V or mA; the nearest one that there is.
+    /// The register for a value in V or mA, limited to the scale.
     pub fn register(self, value: f64) -> u16 {
         let ((r0, r1), (low, high)) = (self.raw, self.ty.range());
         let raw = f64::from(r0) + (value - low) / (high - low) * f64::from(r1 - r0);
         let raw = raw.round().clamp(f64::from(r0.min(r1)), f64::from(r0.max(r1))) as i32;
-        // The two's complement of what is below 0.
+        // Values below 0 become their two's complement.
         raw as u16
     }
 }

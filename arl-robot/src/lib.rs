@@ -1,12 +1,13 @@
-//! Robots: the axes with their limits, kinematics in closed form, and what robot and cell files say.
+//! Robots: axes with their limits, kinematics in closed form, and robot and cell files.
 //!
-//! The runtime moves robots with it, and the command tells before a program runs which targets a robot cannot reach.
+//! The runtime uses this crate to move robots, and the command to report, before a program runs, the targets that a
+//! robot cannot reach.
 //!
-//! The feature `files` (a default one) has the files: robots that are built in or [loaded](Robot::load), and cells.
-//! Without it there are values and kinematics alone, a robot is one from [`Robot::new`], and neither a reader of TOML
-//! nor the language is compiled.
+//! The feature `files` (on by default) adds files: robots that are built in or [loaded](Robot::load), and cells.
+//! Without it the crate has only values and kinematics, robots come from [`Robot::new`], and neither a TOML parser nor
+//! the language is compiled.
 
-// The runtime and the command write files so; it is not part of what this crate is for.
+// The runtime and the command write files with this module; it is not part of the purpose of this crate.
 #[cfg(feature = "files")]
 #[doc(hidden)]
 pub mod atomic_file;
@@ -25,13 +26,13 @@ pub mod kinematics;
 #[cfg(feature = "files")]
 pub mod outline;
 mod rate;
-// As `atomic_file`: the runtime and the command read files so.
+// Like `atomic_file`: the runtime and the command read files with this module.
 #[cfg(feature = "files")]
 #[doc(hidden)]
 pub mod regular_file;
 pub mod robot;
-// How all our crates read the files that users write. `SettingsError`, which they all give, is [`cell::SettingsError`],
-// too.
+// All crates of this project read the files that users write with this module. Their common error, `SettingsError`, is
+// also [`cell::SettingsError`].
 #[cfg(feature = "files")]
 #[doc(hidden)]
 pub mod settings;
@@ -40,7 +41,7 @@ pub use nalgebra;
 pub use rate::Rate;
 pub use robot::{Family, Robot};
 
-/// The examples of the README run.
+/// Runs the examples of the README.
 #[cfg(all(doctest, feature = "files"))]
 #[doc = include_str!("../README.md")]
 struct Readme;

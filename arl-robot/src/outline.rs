@@ -1,5 +1,5 @@
-//! What a program can be held against before it runs: that part of a cell file which says what there is around the
-//! robot.
+//! The part of a cell file that describes the robot's surroundings, against which a program can be checked before it
+//! runs.
 
 use std::collections::BTreeMap;
 
@@ -8,37 +8,37 @@ use crate::channels::Channels;
 use crate::islands::Island;
 use crate::settings::{Section, SettingsError};
 
-/// What a cell has for programs.
+/// The resources of a cell for programs.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Outline {
-    /// The channels of io.
+    /// The I/O channels.
     pub channels: Channels,
-    /// The servers of Modbus TCP that have some of them.
+    /// The Modbus TCP servers with some of these channels.
     pub islands: Vec<Island>,
-    /// The names of serial lines in programs, and the devices that they stand for.
+    /// The names of serial lines in programs, and their devices.
     pub lines: BTreeMap<String, String>,
-    /// What signals are called.
+    /// The names of signals.
     pub names: Names,
-    /// How many bytes the DeviceNet bus exchanges.
+    /// The number of bytes that the DeviceNet bus exchanges.
     pub devicenet: u32,
     /// Whether the controller serves registers and coils over Modbus TCP.
     pub modbus_tcp: bool,
-    /// Whether other programs run beside the first one.
+    /// Whether other programs run besides the first one.
     pub others: bool,
-    /// Whether the cell says of robots where they stand in the world.
+    /// Whether the cell has the position of a robot in the world.
     pub based: bool,
-    /// How many programs with a robot run beside each other: foreground channels, from 1.
+    /// The number of programs with a robot that run in parallel: foreground channels, at least 1.
     pub foreground: u32,
 }
 
-/// How many bytes a DeviceNet bus exchanges where the cell does not say.
+/// The default number of bytes that a DeviceNet bus exchanges.
 pub const DEVICENET: u32 = 512;
 
-/// The most that it can be told to.
+/// The most bytes that can be configured.
 const MOST_DEVICENET: u32 = 65536;
 
 impl Outline {
-    /// That of a cell.
+    /// The outline of a cell.
     pub fn of(cell: &Cell) -> Outline {
         Outline {
             channels: cell.channels.clone(),
@@ -56,7 +56,7 @@ impl Outline {
         }
     }
 
-    /// That of the cell file with this text; `file` names it in errors.
+    /// The outline of the cell file with this text; `file` names it in errors.
     ///
     /// # Errors
     /// The text is not TOML, or not a cell: with line, column and what was expected.
@@ -65,10 +65,10 @@ impl Outline {
     }
 }
 
-/// The serial lines of a cell file: `[serial]`, where there is one.
+/// The serial lines of a cell file: its table `[serial]`, if it exists.
 ///
 /// # Errors
-/// What stands there are no devices.
+/// The values are not devices.
 pub(crate) fn lines(top: &Section<'_>) -> Result<BTreeMap<String, String>, SettingsError> {
     const WHAT: &str = "the path of a device, like \"/dev/ttyUSB0\"";
     let Some(value) = top.find("serial") else { return Ok(BTreeMap::new()) };
@@ -81,10 +81,10 @@ pub(crate) fn lines(top: &Section<'_>) -> Result<BTreeMap<String, String>, Setti
     pairs.collect()
 }
 
-/// How many bytes the DeviceNet bus of a cell file exchanges: `size` of `[devicenet]`.
+/// The number of bytes that the DeviceNet bus of a cell file exchanges: `size` of `[devicenet]`.
 ///
 /// # Errors
-/// What stands there is no size.
+/// The value is not a size.
 pub(crate) fn devicenet(top: &Section<'_>) -> Result<u32, SettingsError> {
     let Some(section) = top.table("devicenet", "[devicenet]", &["size"])? else { return Ok(DEVICENET) };
     Ok(section.count("size", "how many bytes the bus exchanges", MOST_DEVICENET)?.unwrap_or(DEVICENET))

@@ -1,6 +1,6 @@
-//! The length of a control cycle, and how seconds become cycles.
+//! The length of a control cycle, and the conversion of seconds into cycles.
 
-/// The longest wait in cycles: what no program outlives.
+/// The longest wait in cycles: longer than any program runs.
 const MAX_WAIT_CYCLES: f64 = 9e15;
 
 /// The length of the control cycle. It is a whole number of microseconds, so that times stay exact.
@@ -15,7 +15,7 @@ impl Rate {
     /// The longest cycle, in microseconds.
     pub const LONGEST: u32 = 100_000;
 
-    /// A cycle of so many microseconds, brought into the range [`Rate::SHORTEST`] to [`Rate::LONGEST`].
+    /// A cycle of `micros` microseconds, clamped to the range [`Rate::SHORTEST`] to [`Rate::LONGEST`].
     pub fn from_micros(micros: u32) -> Self {
         Self { micros: micros.clamp(Self::SHORTEST, Self::LONGEST) }
     }
@@ -38,9 +38,9 @@ impl Rate {
         (cycle as f64 * f64::from(self.micros)) / 1e6
     }
 
-    /// How many cycles pass until `seconds` are over: 0 for 0, at least 1 for everything longer.
+    /// The number of cycles until `seconds` have passed: 0 for 0, at least 1 for any longer time.
     pub fn cycles(self, seconds: f64) -> u64 {
-        // A thousandth of a cycle of slack, so that 0.003 s are three cycles of 1 ms whatever the last bit says.
+        // A slack of a thousandth of a cycle, so that 0.003 s are three cycles of 1 ms, whatever the last bit.
         let cycles = (seconds * 1e6 / f64::from(self.micros) - 1e-3).ceil();
         if cycles >= 1.0 {
             cycles.min(MAX_WAIT_CYCLES) as u64

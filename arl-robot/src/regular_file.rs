@@ -1,17 +1,17 @@
-//! Reads files of the user's. Only regular ones are read: a named pipe may never be written, and a device never end.
+//! Reads files of the user. Only regular ones are read: a named pipe may never be written, and a device may never end.
 //! Links are followed.
 
 use std::fs;
 use std::io;
 use std::path::Path;
 
-/// What is wrong with a path that is there, but no file.
+/// The message for a path that exists, but is not a file.
 const NOT_REGULAR: &str = "this is not a regular file";
 
-/// That a path, where links have led to, is a regular file.
+/// Checks that a path, with links followed, is a regular file.
 ///
 /// # Errors
-/// Nothing is there (`NotFound`), it cannot be looked at, or it is a directory, a pipe, a socket or a device.
+/// The path does not exist (`NotFound`), cannot be inspected, or is a directory, a pipe, a socket or a device.
 pub fn expect(path: &Path) -> io::Result<()> {
     let kind = fs::metadata(path)?.file_type();
     match kind.is_file() {
@@ -24,7 +24,7 @@ pub fn expect(path: &Path) -> io::Result<()> {
 /// The bytes of a regular file.
 ///
 /// # Errors
-/// It cannot be read, or is not a regular file.
+/// The file cannot be read, or is not a regular file.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
     expect(path)?;
     fs::read(path)
@@ -33,7 +33,7 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// The text of a regular file.
 ///
 /// # Errors
-/// It cannot be read, is not a regular file, or no text in UTF-8.
+/// The file cannot be read, is not a regular file, or is not UTF-8 text.
 pub fn read_text(path: &Path) -> io::Result<String> {
     expect(path)?;
     fs::read_to_string(path)

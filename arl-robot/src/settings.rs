@@ -1,4 +1,4 @@
-//! TOML files that users write, read key by key: errors name the line, what is wrong and what was expected.
+//! Reads TOML files of users key by key: errors have the line, the problem and the expected value.
 
 use std::fmt::{self, Write};
 use std::ops::Range;
@@ -6,16 +6,16 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// What is wrong with such a file, and where.
+/// An error in a settings file, with its position.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SettingsError {
     /// The file.
     pub file: String,
-    /// Line from 1; 0 where the whole file is meant.
+    /// Line from 1; 0 for the whole file.
     pub line: u32,
-    /// Column from 1, in characters; 0 where the whole file is meant.
+    /// Column from 1, in characters; 0 for the whole file.
     pub column: u32,
-    /// What is wrong and what would be right.
+    /// The problem, and what would be right.
     pub message: String,
 }
 
@@ -38,10 +38,10 @@ impl fmt::Display for SettingsError {
 
 impl std::error::Error for SettingsError {}
 
-/// A value with its place.
+/// A value with its position.
 pub type Value<'a> = Spanned<DeValue<'a>>;
 
-/// The text that spans point into.
+/// The text that spans refer to.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
     /// The file's name in messages.
@@ -54,7 +54,7 @@ impl<'a> Source<'a> {
     /// The whole text as a table.
     ///
     /// # Errors
-    /// It is not TOML.
+    /// The text is not TOML.
     pub fn parse(self) -> Result<Spanned<DeTable<'a>>, SettingsError> {
         DeTable::parse(self.text).map_err(|error| {
             self.error(error.span().unwrap_or(0..0), format!("this is not TOML: {}", error.message().trim_end()))
@@ -67,7 +67,7 @@ impl<'a> Source<'a> {
         before.bytes().filter(|byte| *byte == b'\n').count() as u32 + 1
     }
 
-    /// An error at a place of the text.
+    /// An error at a span of the text.
     pub fn error(self, span: Range<usize>, message: impl Into<String>) -> SettingsError {
         let before = self.text.get(..span.start).unwrap_or(self.text);
         let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
@@ -83,7 +83,7 @@ impl<'a> Source<'a> {
 /// A table with its name in messages.
 #[derive(Clone, Copy, Debug)]
 pub struct Section<'a> {
-    /// The text that it stands in.
+    /// The text that contains the table.
     pub source: Source<'a>,
     name: &'a str,
     table: &'a DeTable<'a>,
@@ -110,7 +110,7 @@ impl<'a> Section<'a> {
         Ok(Self { source, name, table })
     }
 
-    /// The value of a key, if it is there.
+    /// The value of a key, if it exists.
     pub fn find(&self, key: &str) -> Option<&'a Value<'a>> {
         self.table.get(key)
     }
@@ -123,7 +123,7 @@ impl<'a> Section<'a> {
         entries
     }
 
-    /// The table under `key`, if it is there.
+    /// The table under `key`, if it exists.
     ///
     /// # Errors
     /// The value is not a table, or has a key that is not `known`.
@@ -131,7 +131,7 @@ impl<'a> Section<'a> {
         self.find(key).map(|value| table(self.source, value, name, known)).transpose()
     }
 
-    /// The table under `key`, if it is there, whatever keys it has.
+    /// The table under `key`, if it exists, with any keys.
     ///
     /// # Errors
     /// The value is not a table.
@@ -140,10 +140,10 @@ impl<'a> Section<'a> {
         self.find(key).map(|value| items(self.source, value, name).map(section)).transpose()
     }
 
-    /// A number within a range, if it is there.
+    /// A number within a range, if it exists.
     ///
     /// # Errors
-    /// The value is no such number.
+    /// The value is not such a number.
     pub fn number(&self, key: &str, what: &str, low: f64, high: f64) -> Result<Option<f64>, SettingsError> {
         let Some(value) = self.find(key) else { return Ok(None) };
         let expected = format!("{what} from {low} to {high}");
@@ -151,10 +151,10 @@ impl<'a> Section<'a> {
         if (low..=high).contains(&number) { Ok(Some(number)) } else { Err(self.wrong(key, value, &expected)) }
     }
 
-    /// A whole number from 0 to `high`, if it is there.
+    /// A whole number from 0 to `high`, if it exists.
     ///
     /// # Errors
-    /// The value is no such number.
+    /// The value is not such a number.
     pub fn count(&self, key: &str, what: &str, high: u32) -> Result<Option<u32>, SettingsError> {
         let Some(value) = self.find(key) else { return Ok(None) };
         let expected = format!("{what} from 0 to {high}");
@@ -166,7 +166,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A text, if it is there.
+    /// A text, if it exists.
     ///
     /// # Errors
     /// The value is not a text.
@@ -175,10 +175,10 @@ impl<'a> Section<'a> {
         value.get_ref().as_str().map(Some).ok_or_else(|| self.wrong(key, value, what))
     }
 
-    /// What one of a few words means, if it is there.
+    /// The meaning of one of a few words, if the key exists.
     ///
     /// # Errors
-    /// The value is none of them.
+    /// The value is not one of them.
     pub fn word<T: Copy>(&self, key: &str, words: &[(&str, T)]) -> Result<Option<T>, SettingsError> {
         let Some(value) = self.find(key) else { return Ok(None) };
         let found = value.get_ref().as_str().and_then(|text| words.iter().find(|(word, _)| *word == text));
@@ -208,7 +208,7 @@ pub fn table<'a>(
     Section::new(source, name, items(source, value, name)?, known)
 }
 
-/// What stands in a table.
+/// The entries of a table.
 fn items<'a>(source: Source<'_>, value: &'a Value<'a>, name: &str) -> Result<&'a DeTable<'a>, SettingsError> {
     match value.get_ref() {
         DeValue::Table(table) => Ok(table),
@@ -226,7 +226,7 @@ pub fn number(value: &DeValue<'_>) -> Option<f64> {
     f64::is_finite(number).then_some(number)
 }
 
-/// What a value is, in a reader's words.
+/// A description of a value for the reader.
 pub fn kind(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(text) => format!("the text \"{text}\""),
@@ -239,7 +239,7 @@ pub fn kind(value: &DeValue<'_>) -> String {
     }
 }
 
-/// A text as TOML and JSON write it.
+/// A text in quotes, in the syntax of TOML and JSON.
 pub fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
@@ -255,7 +255,7 @@ pub fn quoted(text: &str) -> String {
     out
 }
 
-/// `did you mean ...?`, or what there is.
+/// `did you mean ...?`, or a list of what exists.
 pub fn hint(word: &str, known: &[&str]) -> String {
     match nearest(word, known) {
         Some(near) => format!("did you mean `{near}`?"),
@@ -263,10 +263,10 @@ pub fn hint(word: &str, known: &[&str]) -> String {
     }
 }
 
-/// So many names are listed where none is like the one that was looked for.
+/// The number of names listed if none is similar to the one searched for.
 const LISTED: usize = 8;
 
-/// `did you mean ...?`, or how many names there are and some of them: for names that may be many.
+/// `did you mean ...?`, or the number of names and some of them: for possibly many names.
 pub fn hint_of_many(word: &str, known: &[&str]) -> String {
     match (nearest(word, known), known.get(..LISTED)) {
         (Some(near), _) => format!("did you mean `{near}`?"),
@@ -276,7 +276,7 @@ pub fn hint_of_many(word: &str, known: &[&str]) -> String {
     }
 }
 
-/// The known name that `word` may have meant.
+/// The known name that `word` may mean.
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let word = word.to_ascii_lowercase();
     let allowed = 1 + word.len() / 4;
@@ -288,7 +288,7 @@ pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .map(|(_, candidate)| candidate)
 }
 
-/// Letters to insert, delete or replace to get from one word to the other.
+/// The number of letters to insert, delete or replace to turn one word into the other.
 fn distance(from: &[u8], to: &[u8]) -> usize {
     let mut row: Vec<usize> = (0..=to.len()).collect();
     for (i, a) in from.iter().enumerate() {

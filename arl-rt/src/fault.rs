@@ -31,7 +31,7 @@ pub enum Fault {
     Domain {
         /// The function or instruction.
         function: &'static str,
-        /// What it got and what it takes, as a sentence part.
+        /// What it was given and what it takes, as a part of a sentence.
         problem: Box<str>,
     },
     /// A text that is not of the wanted type.
@@ -54,17 +54,17 @@ pub enum Fault {
     Word {
         /// The text.
         text: Box<str>,
-        /// Those that it takes.
+        /// The texts that it takes.
         taken: &'static [&'static str],
     },
-    /// Functions call each other too deep.
+    /// Function calls are nested too deep.
     Depth,
-    /// Functions that call each other hold too much.
+    /// The strings and arrays of nested function calls take too many bytes.
     DepthBytes {
-        /// How many bytes their strings and arrays may have together.
+        /// How many bytes they may take in total.
         most: usize,
     },
-    /// `assert` of something false.
+    /// An `assert` whose condition is false.
     Assertion,
     /// A string that is too long.
     TooLong {
@@ -73,7 +73,7 @@ pub enum Fault {
         /// How many it may have.
         most: usize,
     },
-    /// A file that is missing, not readable or not where programs may go.
+    /// A file that is missing, not readable or outside the folders that programs may use.
     File {
         /// The path as the program wrote it.
         path: Box<str>,
@@ -84,28 +84,28 @@ pub enum Fault {
     NoSuchFile(Box<str>),
     /// `gettextstr`: a line beyond the last (manual 5.12.7).
     NoSuchLine {
-        /// The line that was asked for.
+        /// The requested line.
         line: i32,
-        /// How many there are.
+        /// How many lines there are.
         count: u32,
     },
-    /// A channel of io that does not exist, or a reversed range of channels.
+    /// An io channel that does not exist, or a reversed range of channels.
     Channel(Box<str>),
-    /// `ccir`: points that make no arc.
+    /// `ccir`: points that do not define an arc.
     ArcPlane(Box<str>),
-    /// `jump`: a start or target above the highest place that is allowed (manual 3.3.6).
+    /// `jump`: a start or target above the highest allowed position (manual 3.3.6).
     GateHeight(Box<str>),
     /// A motion that cannot be planned or run.
     Motion(Box<str>),
-    /// The robot met something that it did not expect.
+    /// The robot hit something unexpected.
     Collision(Box<str>),
-    /// The robot is not where it shall be.
+    /// The robot is not where it should be.
     NotFollowing(Box<str>),
-    /// The robot does not say where it is.
+    /// The robot does not report its position.
     NoFeedback(Box<str>),
     /// The drives of the robot are off, or have a fault.
     Drives(Box<str>),
-    /// The robot does not come to rest where it shall.
+    /// The robot does not come to rest where it should.
     NotSettling(Box<str>),
     /// Too many control cycles were lost.
     Late(Box<str>),
@@ -127,18 +127,18 @@ pub enum Fault {
     Event(Box<str>),
     /// A connection that is not open, or lost.
     Connection(Box<str>),
-    /// Inputs and outputs without which no robot may move are lost.
+    /// Inputs and outputs are lost without which no robot may move.
     IoLost(Box<str>),
-    /// What a PLC gives as a program number is none.
+    /// The value that a PLC gives as a program number is not one.
     ProgramNumber(Box<str>),
-    /// What went wrong in the condition of an interrupt or a trigger.
+    /// A fault in the condition of an interrupt or a trigger.
     Condition {
         /// The interrupt or trigger.
         event: Box<str>,
         /// What went wrong.
         fault: Box<Fault>,
     },
-    /// Anything else that has a number of its own.
+    /// Any other fault that has a number of its own.
     Other {
         /// The alarm's number.
         number: u32,
@@ -270,38 +270,38 @@ impl File {
     }
 }
 
-/// A fault at its place in the program.
+/// A fault and its place in the program.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Alarm {
     /// What went wrong.
     pub fault: Fault,
     /// The source file.
     pub file: File,
-    /// The line, from 1; 0 where no line is to blame.
+    /// The line, from 1; 0 where the fault belongs to no line.
     pub line: u32,
     /// The channel whose program it is.
     pub channel: ChannelId,
-    /// The calls that led there, the innermost first.
+    /// The function calls that led there, the innermost first.
     pub calls: Calls,
 }
 
 impl Alarm {
-    /// An alarm at its place; the controller that runs the program knows the channel.
+    /// An alarm at a place in the program; the controller that runs the program sets the channel.
     pub fn new(fault: Fault, file: File, line: u32) -> Self {
         Self { fault, file, line, channel: ChannelId::FIRST, calls: Calls::default() }
     }
 }
 
-/// Calls of a program's functions that led somewhere.
+/// The nested function calls of a program that led to some place.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Calls {
-    /// Where the calls stand, the innermost first; of many only the first.
+    /// The places of the calls, the innermost first; at most the first 20.
     pub places: Vec<(File, u32)>,
-    /// How many there were besides.
+    /// How many more calls there were.
     pub more: usize,
 }
 
-/// Of how many calls the places are kept: functions may call themselves many thousand times.
+/// How many calls keep their places: functions may call themselves many thousand times.
 const MOST_CALLS: usize = 20;
 
 impl Calls {
@@ -326,12 +326,12 @@ impl fmt::Display for Alarm {
 
 impl std::error::Error for Alarm {}
 
-/// The program does not go on. It takes no room, so that results come back in registers: the reason waits in a place of
-/// this thread, for the controller that runs the program.
+/// The program does not go on. The type has no size, so that results are returned in registers: the reason is kept in a
+/// thread-local for the controller that runs the program.
 #[must_use = "the program has to end"]
 pub struct Stop(PhantomData<*const ()>);
 
-/// Why a program does not go on.
+/// The reason why a program does not go on.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum Reason {
@@ -348,14 +348,15 @@ thread_local! {
     static REASON: RefCell<Reason> = const { RefCell::new(Reason::Exit) };
 }
 
-/// Who hears of an alarm where it comes up.
+/// Is called with each alarm where it is raised.
 type Listener = Rc<dyn Fn(&Alarm)>;
 
 thread_local! {
     static LISTENER: RefCell<Option<Listener>> = const { RefCell::new(None) };
 }
 
-/// Lets a debugger hear of the alarms of this thread where they come up: all functions that led there still run.
+/// Sets a debugger's listener for the alarms of this thread. It is called where they are raised: all functions that led
+/// there are still running.
 pub(crate) fn listen(listener: Listener) {
     LISTENER.set(Some(listener));
 }
@@ -387,13 +388,14 @@ impl Stop {
         Self(PhantomData)
     }
 
-    /// Why the program does not go on. Of several stops on a thread that nobody asked, the last one counts.
+    /// The reason why the program does not go on. Of several stops on a thread whose reason was not taken, the last one
+    /// counts.
     pub fn reason(self) -> Reason {
         REASON.replace(Reason::Exit)
     }
 }
 
-/// In the words of the last reason on this thread: ask for [`reason`](Stop::reason) at once where it is to be kept.
+/// Shows the last reason on this thread: take [`reason`](Stop::reason) at once where it is to be kept.
 impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         REASON.with_borrow(|reason| match reason {
@@ -412,7 +414,7 @@ impl fmt::Debug for Stop {
     }
 }
 
-/// The result of whatever may stop the program.
+/// The result of anything that may stop the program.
 pub type Done<T> = Result<T, Stop>;
 
 /// Gives a fault its place.
@@ -434,9 +436,9 @@ impl<T> At<T> for Result<T, Fault> {
     }
 }
 
-/// Gives an alarm the calls that led there.
+/// Adds to an alarm the calls that led there.
 pub trait Called {
-    /// The same result of a function of the program that was called at `line` of `file`.
+    /// The same result, of a function of the program that was called at `line` of `file`.
     #[must_use]
     fn called(self, file: File, line: u32) -> Self;
 }

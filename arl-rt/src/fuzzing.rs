@@ -1,5 +1,4 @@
-//! Doors for `fuzz/` to what reads bytes from outside and is no one else's business. Each panics where something is
-//! wrong.
+//! Entry points for `fuzz/` to internal code that reads bytes from outside. Each panics where something is wrong.
 
 use crate::builtins::communication::melsec_answer;
 use crate::communication::Inbox;
@@ -8,7 +7,7 @@ use crate::fieldbus::modbus::{Tables, client, mbap, pdu};
 use crate::storage::data::{DataFile, teach_file};
 use arl_robot::islands::Table;
 
-/// What a client sends to the Modbus TCP server: each frame is served, its answer fits into a frame.
+/// What a client sends to the Modbus TCP server: each frame is served, and its answer fits into a frame.
 pub fn modbus_tcp(mut bytes: &[u8]) {
     let (mut tables, mut answer, mut out) = (Tables::default(), pdu::Answer::new(), Vec::new());
     while let mbap::Received::Frame(frame, size) = mbap::first(bytes) {
@@ -22,7 +21,7 @@ pub fn modbus_tcp(mut bytes: &[u8]) {
     }
 }
 
-/// What an island answers to a request for so many coils or registers: what is taken of it has their size.
+/// What an island answers to a request for `count` coils or registers: the data that is taken from it has their size.
 pub fn island(table: u8, count: u16, bytes: &[u8]) {
     let tables = [Table::Coil, Table::DiscreteInput, Table::HoldingRegister, Table::InputRegister];
     let table = tables.get(usize::from(table % 4)).copied().unwrap_or(Table::Coil);
@@ -36,12 +35,12 @@ pub fn island(table: u8, count: u16, bytes: &[u8]) {
     }
 }
 
-/// What comes over the line of a Modbus RTU slave, in pieces, some of them after a silence.
+/// What arrives over the line of a Modbus RTU slave, in pieces, some of them after a silence.
 pub fn modbus_rtu(pieces: &[(bool, &[u8])]) {
-    let (mut heard, mut tables, mut answer) = (ReceiveBuffer::default(), Tables::default(), pdu::Answer::new());
+    let (mut received, mut tables, mut answer) = (ReceiveBuffer::default(), Tables::default(), pdu::Answer::new());
     for (after_silence, piece) in pieces {
-        heard.hear(piece, *after_silence);
-        while let Some(request) = heard.take() {
+        received.receive(piece, *after_silence);
+        while let Some(request) = received.take() {
             pdu::serve(&request.pdu, &mut tables, &mut answer);
             assert!((2..=pdu::LONGEST).contains(&answer.bytes().len()));
         }
@@ -56,8 +55,8 @@ pub fn melsec(mut bytes: &[u8]) {
     }
 }
 
-/// What comes over a socket, in pieces, while a program reads up to a mark: what is taken, the marks and what is left
-/// are all that came.
+/// What arrives over a socket, in pieces, while a program reads up to a mark: what is taken, the marks and what is left
+/// are together all that arrived.
 pub fn read_until(mark: &[u8], pieces: &[&[u8]]) {
     if mark.is_empty() {
         return;
@@ -77,7 +76,7 @@ pub fn read_until(mark: &[u8], pieces: &[&[u8]]) {
     assert_eq!(taken, came);
 }
 
-/// What somebody made of a data file.
+/// The content of a data file that was edited by hand.
 pub fn data_file(data: &DataFile<'_>, content: &[u8]) {
     for alarm in teach_file(data, content) {
         assert!(!alarm.to_string().is_empty());

@@ -1,13 +1,13 @@
-//! What robot programs in ARL run on: the cycle, motion, io, system variables and a simulated robot.
+//! The runtime for robot programs in ARL: the control cycle, motion, io, system variables and a simulated robot.
 //!
 //! The compiler turns an ARL program into an implementation of [`Program`]; a [`Controller`] runs it, cycle by cycle.
-//! Whoever embeds one needs little more than what stands here at the top:
+//! To embed a controller you need little more than these items at the root of the crate:
 //!
-//! - [`Builder`] takes what a controller has: [`Robot`], [`Cell`], clock, drivers, more programs ([`Foreground`])
-//! - [`Controller::step`] and [`Controller::run`] run it; [`Outcome`], [`State`] and [`Status`] say how it stands,
-//!   [`Captured`] keeps what it prints, and an [`Alarm`] says what went wrong
-//! - [`Handle`] is a controller as other threads have it, [`Running`] one on a thread of its own
-//! - [`Cx`] is what a running program sees of its controller
+//! - [`Builder`] takes the parts of a controller: [`Robot`], [`Cell`], clock, drivers, more programs ([`Foreground`])
+//! - [`Controller::step`] and [`Controller::run`] run it; [`Outcome`], [`State`] and [`Status`] report its state,
+//!   [`Captured`] keeps what it prints, and an [`Alarm`] reports what went wrong
+//! - [`Handle`] gives other threads access to a controller, [`Running`] is a controller on a thread of its own
+//! - [`Cx`] is a running program's view of its controller
 //!
 //! ```
 //! use arl_rt::emit::*; // what programs are made of
@@ -41,8 +41,8 @@
 //! # Ok::<(), arl_rt::SetupError>(())
 //! ```
 //!
-//! A build without optimisation is slow, too slow for cycles of 1 ms in real time. The `Cargo.toml` of your workspace
-//! can have what computes optimised in debug builds, too:
+//! A build without optimisation is too slow for cycles of 1 ms in real time. The `Cargo.toml` of your workspace can
+//! have the computing crates optimised in debug builds, too:
 //!
 //! ```toml
 //! [profile.dev.package]
@@ -53,12 +53,12 @@
 //! ```
 //!
 //! The modules are for those who drive a real arm ([`robot_driver`], [`io`], [`clock`], [`devicenet`], [`network`]),
-//! who keep what outlives a run ([`storage`]), who write programs in Rust ([`program`], [`fault`], [`values`]), or who
-//! want to know more of a run ([`status`], [`output`], [`system`]). What is below is there, too: [`motion`], [`robot`],
-//! [`kinematics`], [`cell`], [`dynamics`].
+//! keep data that outlives a run ([`storage`]), write programs in Rust ([`program`], [`fault`], [`values`]), or want
+//! more details of a run ([`status`], [`output`], [`system`]). The crates below are re-exported, too: [`motion`],
+//! [`robot`], [`kinematics`], [`cell`], [`dynamics`].
 //!
-//! The features: `macros` has `arl!` and `arl_file!`; `serial` (a default one) has serial lines; `realtime` has
-//! [`clock::Realtime`] on Linux.
+//! The features: `macros` provides `arl!` and `arl_file!`; `serial` (on by default) provides serial lines; `realtime`
+//! provides [`clock::Realtime`] on Linux.
 
 mod builtins;
 mod command;
@@ -91,7 +91,7 @@ pub use fault::Alarm;
 pub use fieldbus::devicenet;
 pub use unit::{dynamics, robot_driver};
 
-/// Where the time of cycles comes from: clocks, how late cycles began, and what the system gives the cycle.
+/// Sources of cycle time: clocks, statistics of late cycles, and the real-time setup of the cycle's thread.
 pub mod clock {
     pub use crate::cycle::clock_source::{Clock, Late, Lateness, RealClock, VirtualClock};
     pub use crate::cycle::realtime::Realtime;
@@ -116,7 +116,7 @@ pub mod program {
     pub use crate::storage::data::{DataFile, DataVar};
 }
 
-/// How a controller, its channels and its robots stand.
+/// The state of a controller, its channels and its robots.
 pub mod status {
     pub use crate::context::named::GlobalError;
     pub use crate::context::standstill::{Standstill, WaitsFor};

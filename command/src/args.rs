@@ -209,7 +209,7 @@ pub(crate) struct ViewOptions {
 }
 
 impl ViewOptions {
-    /// Whether there are options that only programs have.
+    /// Whether there are options that apply to programs only.
     pub(crate) fn is_of_program(&self) -> bool {
         let paths = [&self.cell, &self.io, &self.script_dir, &self.state_dir];
         self.teach || self.robot.is_some() || self.mode.is_some() || paths.iter().any(|path| path.is_some())
@@ -262,7 +262,7 @@ pub(crate) struct TestOptions {
     pub debug: bool,
 }
 
-/// How tests are told of.
+/// How test results are shown.
 #[derive(Clone, Copy, PartialEq, Eq, Default, ValueEnum, Debug)]
 pub(crate) enum TestFormat {
     /// What failed, with the differences, and how many cases passed and failed.

@@ -20,11 +20,12 @@ use std::collections::HashSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Checks each file as a program, and those that the cell names. A data file, and a file that an earlier one uses, is a
-/// module and needs no `main`. Programs without mistakes are run, where collisions are looked for.
+/// Checks each file as a program, and the programs that the cell names. A data file, and a file that an earlier one
+/// uses, is a module and needs no `main`. Programs without mistakes are run if collisions are looked for.
 pub(crate) fn check(
     files: &[PathBuf],
-    (format, mut limit): (Format, Limit),
+    format: Format,
+    mut limit: Limit,
     look: Option<collisions::Look>,
     checking: &Checking,
 ) -> Result<Exit, Failure> {
@@ -52,7 +53,7 @@ pub(crate) fn check(
     Ok(if refused { Exit::FAILURE } else { Exit::SUCCESS })
 }
 
-/// What there is to say of files, a JSON object each, and whether there are errors.
+/// The diagnostics of files, a JSON object each, and whether there are errors.
 pub(crate) fn found(files: &[PathBuf], checking: &Checking) -> Result<(Vec<String>, bool), Failure> {
     let (mut all, mut refused) = (Vec::new(), false);
     let mut keep = |compiled: Compiled| {
@@ -70,7 +71,7 @@ fn lines(compiled: &Compiled) -> Vec<String> {
     compiled.checked.diagnostics.iter().map(|diagnostic| json(diagnostic, &files)).collect()
 }
 
-/// The files by what they are for.
+/// The files, grouped by what they are checked for.
 fn groups(files: &[PathBuf], checking: &Checking) -> Result<Vec<(Checking, Vec<PathBuf>)>, Failure> {
     // Files of several projects are for robots and cells of their own.
     let mut groups: Vec<(Checking, Vec<PathBuf>)> = Vec::new();
@@ -84,7 +85,7 @@ fn groups(files: &[PathBuf], checking: &Checking) -> Result<Vec<(Checking, Vec<P
     Ok(groups)
 }
 
-/// What came of checking some files.
+/// The result of checking some files.
 struct Checked<'a> {
     /// Whether there were errors.
     mistaken: bool,
@@ -107,7 +108,7 @@ fn check_group<'a>(
         |one: &Path, other: &Path| one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|it| it == one));
     let mut all: Vec<(&Path, CheckOptions)> = Vec::new();
     for file in programs {
-        // What the cell names is checked as the cell has it.
+        // The programs that the cell names are checked as the cell has them.
         if !others.iter().any(|other| same(&other.path, file)) {
             all.push((file, options.clone()));
         }
@@ -115,7 +116,7 @@ fn check_group<'a>(
     for other in &others {
         all.push((&other.path, self::options(&other.checking(checking))?));
     }
-    // A single program says nothing twice.
+    // For a single program nothing is reported twice.
     let said = (all.len() + modules.len() > 1).then(HashSet::new);
     let mut reporter = Reporter { say, said };
     let mut refused = false;
@@ -145,8 +146,8 @@ fn check_group<'a>(
     Ok(Checked { mistaken: refused, programs: programs.collect() })
 }
 
-/// The options of a check that is all there is to come. A program that runs meets its robot itself, and one that is
-/// compiled may meet several.
+/// The options of a check that no run follows. A program that runs gets its robot itself, and one that is compiled may
+/// get several.
 fn options(checking: &Checking) -> Result<CheckOptions, Failure> {
     let mut options = check_options(checking)?;
     if let Some(robot) = &checking.robot {
@@ -155,7 +156,7 @@ fn options(checking: &Checking) -> Result<CheckOptions, Failure> {
     Ok(options)
 }
 
-/// Whether what the cell says of robots is for them: what the program would refuse when it starts.
+/// Whether what the cell says of robots fits them: what the program would refuse when it starts.
 fn cell_fits(checking: &Checking) -> Result<(), Failure> {
     let Some(path) = &checking.cell else { return Ok(()) };
     let cell = Cell::load(path).map_err(|error| Failure::Usage(error.to_string()))?;
@@ -174,15 +175,15 @@ fn as_module(file: &Path, options: &CheckOptions) -> Result<Compiled, Failure> {
     check_program(file, &FileSystem, &CheckOptions { library: true, ..options.clone() }).map_err(bug)
 }
 
-/// Says what was found, a module's mistakes only once.
+/// Reports diagnostics, a module's mistakes only once.
 struct Reporter<'a> {
     say: &'a mut dyn FnMut(Compiled) -> Result<(), Failure>,
-    /// What was said, as JSON; none where nothing can come twice.
+    /// What was reported, as JSON; `None` where nothing can come twice.
     said: Option<HashSet<String>>,
 }
 
 impl Reporter<'_> {
-    /// Tells whether there were errors.
+    /// Reports the diagnostics of a program; returns whether there were errors.
     fn report(&mut self, mut compiled: Compiled) -> Result<bool, Failure> {
         let refused = compiled.checked.has_errors();
         let files = compiled.shown_files();

@@ -7,7 +7,7 @@ use arl_terminal::show;
 use indicatif::DecimalBytes;
 use std::time::Duration;
 
-/// Empties the cache of what was not used for so many days; of everything without a number.
+/// Removes from the cache what was not used for this many days; everything without a number.
 pub(crate) fn clean(days: Option<u32>) -> Result<(), Failure> {
     let cache = Cache::find()?;
     let removed = cache.clean(Duration::from_secs(u64::from(days.unwrap_or(0)) * 24 * 3600));

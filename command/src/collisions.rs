@@ -11,7 +11,7 @@ use arl_project::options::{Checking, RunOptions};
 use arl_project::program::{Ready, prepare_checked};
 use arl_project::robots;
 use arl_runs::collide::Scene;
-use arl_runs::listen::{Heard, Listener};
+use arl_runs::listen::{Listener, Received};
 use arl_runs::scenery::Scenery;
 use arl_terminal::answer::{self, Format};
 use arl_terminal::exit::Exit;
@@ -20,9 +20,9 @@ use arl_terminal::private_folder::PrivateFolder;
 use arl_terminal::show;
 use arl_wire::Contact;
 
-/// A run ends after so many controller seconds.
+/// The limit of a run, in controller seconds.
 const MOST_SECONDS: f64 = 600.0;
-/// The code of what is found, where diagnostics have theirs.
+/// The code of a collision, in place of that of a diagnostic.
 const CODE: &str = "collision";
 
 /// What to look for.
@@ -33,11 +33,11 @@ pub(crate) struct Look {
     pub clearance: f64,
 }
 
-/// Runs a program, and tells what comes too near to each other; whether something does. The scenario is that of its
-/// `arl.toml`.
+/// Runs a program with the scenario of its `arl.toml`, and reports what comes too near to each other; returns whether
+/// anything does.
 ///
 /// # Errors
-/// The program does not begin, or its cell speaks to the outside, which a check must not.
+/// The program does not begin, or its cell communicates with the outside, which a check must not.
 pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool, Failure> {
     let asked = RunOptions {
         robot: checking.robot.clone(),
@@ -59,9 +59,9 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
     let scenery = Scenery::of(&cell, &robots, &show::warning)?;
     let (watchers, found) = Scene::of(&scenery, &show::warning)?.watch(look.clearance, false);
     let ready = prepare_checked(Kind::Program, file, options.cell.as_deref(), &options.checking())?;
-    let Ran { code, why, heard } = run(ready, &options, Listener::of(watchers)?)?;
+    let Ran { code, why, received } = run(ready, &options, Listener::of(watchers)?)?;
     let found = found.borrow();
-    if found.begun && heard != Heard::All {
+    if found.begun && received != Received::All {
         let text = "part of its run was not observed: there may be more collisions";
         show::warning(&format!("{}: {text}", file.display()));
     }
@@ -78,12 +78,12 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
     Ok(!found.contacts.is_empty())
 }
 
-/// How a run went.
+/// The outcome of a run.
 struct Ran {
     code: Option<Exit>,
-    /// The first words of it that are not warnings.
+    /// The first line that it wrote that is not a warning.
     why: String,
-    heard: Heard,
+    received: Received,
 }
 
 /// Runs the program.
@@ -98,14 +98,14 @@ fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result
     let errors = child.stderr.take();
     let reader = std::thread::spawn(move || errors.and_then(|errors| std::io::read_to_string(errors).ok()));
     let ended = match listener {
-        Some(listener) => listener.hear(&mut child),
-        None => child.wait().map(|status| (status, Heard::All)),
+        Some(listener) => listener.receive(&mut child),
+        None => child.wait().map(|status| (status, Received::All)),
     };
     let said = reader.join().ok().flatten().unwrap_or_default();
     let words = |line: &&str| !line.starts_with("warning") && !line.trim().is_empty();
     let why = said.lines().find(words).unwrap_or("it printed no message").trim().to_owned();
-    let (status, heard) = ended.map_err(fail)?;
-    Ok(Ran { code: status.code().and_then(|code| u8::try_from(code).ok()).map(Exit), why, heard })
+    let (status, received) = ended.map_err(fail)?;
+    Ok(Ran { code: status.code().and_then(|code| u8::try_from(code).ok()).map(Exit), why, received })
 }
 
 fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {
@@ -113,7 +113,7 @@ fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {
         Format::Human => show::error(&contact.to_string()),
         Format::Json => {
             let Contact { time, line, one, other, distance, .. } = contact;
-            // As diagnostics name it: from where the command runs.
+            // Named as in diagnostics: from where the command runs.
             let beside = file.with_file_name(&contact.file);
             let of = if !contact.file.is_empty() && beside.is_file() { &beside } else { file }.display().to_string();
             let object = json!({

@@ -31,7 +31,8 @@ pub(crate) fn emit(file: &Path, out: Option<&Path>, checking: &Checking) -> Resu
 pub(crate) fn build(
     file: &Path,
     out: Option<&Path>,
-    (release, library): (bool, bool),
+    release: bool,
+    library: bool,
     checking: &Checking,
 ) -> Result<(), Failure> {
     let checking = checking.of_program(file)?;

@@ -5,7 +5,7 @@ use arl_terminal::failure::Failure;
 use arl2rs::diagnostics::{Code, info, registry};
 use arl2rs::{alarms, reference};
 
-/// The numbers of alarms begin here.
+/// The first number of an alarm.
 const FIRST_ALARM: u32 = 10_000;
 
 /// The page of a diagnostic (`ARL0203`, `arl203` or `203`) or of an alarm (`20003`).
@@ -41,7 +41,7 @@ fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> 
     Failure::Usage(format!("there is no {what} {name}{hint}"))
 }
 
-/// The pages of a name; without one, what there is; with words, the pages in which they stand.
+/// The pages of a name; without a name, the list of pages; with words, the pages that contain them.
 pub(crate) fn doc(name: Option<&str>, search: &[String]) -> Result<String, Failure> {
     if !search.is_empty() {
         let nothing = || Failure::Usage(format!("no page has all of these words: {}", search.join(" ")));

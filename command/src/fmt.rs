@@ -11,8 +11,7 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Lays out the files, those below folders, and standard input for `-`; with `check` only names those that would
-/// change.
+/// Formats the files, those below folders, and standard input for `-`; with `check` only names those that would change.
 pub(crate) fn fmt(files: &[PathBuf], check: bool) -> Result<Exit, Failure> {
     let mut good = true;
     for file in files {
@@ -32,8 +31,8 @@ pub(crate) fn fmt(files: &[PathBuf], check: bool) -> Result<Exit, Failure> {
     Ok(if good { Exit::SUCCESS } else { Exit::FAILURE })
 }
 
-/// Whether all went well with a file, and nothing had to be named. What went wrong is said, and others still have their
-/// turn.
+/// Whether a file caused no error, and did not have to be named. Errors are reported, and the other files are still
+/// handled.
 fn succeeds(outcome: Result<Option<PathBuf>, Failure>) -> Result<bool, Failure> {
     match outcome {
         Ok(None) => Ok(true),
@@ -68,7 +67,7 @@ fn programs(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(programs)
 }
 
-/// The bytes of a program, laid out.
+/// The bytes of a program, formatted.
 fn laid_out(name: &Path, bytes: &[u8]) -> Result<Vec<u8>, Failure> {
     let text = decode(bytes).map_err(|error| Failure::Other(format!("cannot read {}: {error}", name.display())))?;
     let new = format(&text);
@@ -79,7 +78,7 @@ fn laid_out(name: &Path, bytes: &[u8]) -> Result<Vec<u8>, Failure> {
     encode_like(bytes, &new).ok_or_else(|| Failure::Other(format!("cannot format {}: {words}", name.display())))
 }
 
-/// Lays a file out; gives its name where it would change and is only to be named.
+/// Formats a file; returns its name if it would change and is only to be named.
 fn in_place(file: &Path, check: bool) -> Result<Option<PathBuf>, Failure> {
     if check {
         let bytes = regular_file::read(file).map_err(|error| Failure::io("read", file, &error))?;

@@ -1,11 +1,11 @@
-//! What other doors than the command need: the package for Python.
+//! What hosts other than the command need: the package for Python.
 //!
-//! Everything here is as the command does it, with the same `arl.toml`, cache and words.
+//! Everything here works as in the command, with the same `arl.toml`, cache and messages.
 
 use crate::check;
 use crate::sweep;
 pub use crate::sweep::{
-    Bundle, Kept, MAX_TIME, Parameters, Row, RunResult, Settings, Spread, Sweep, TIMEOUT, Worker, as_arl,
+    Bundle, Kept, MAX_TIME, Parameters, Row, RunResult, Settings, Spread, Sweep, SweepSettings, TIMEOUT, Worker, as_arl,
 };
 use crate::variables;
 pub use crate::variables::Variable;
@@ -25,9 +25,9 @@ use twox_hash::XxHash3_128;
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum HostError {
-    /// Programs have mistakes: a JSON object each, as `arl2rs check --format json` says them, with the warnings.
+    /// Programs have mistakes: a JSON object each, as in `arl2rs check --format json`, with the warnings.
     Mistakes(Vec<String>),
-    /// What is asked for cannot be.
+    /// The request cannot be fulfilled.
     Usage(String),
     /// Something around the compiler went wrong: cargo is missing, a folder cannot be written.
     Other(String),
@@ -54,39 +54,36 @@ impl From<Failure> for HostError {
     }
 }
 
-/// A compiled library. As long as this lives nobody compiles the program anew, which would remove it: it is for loading
-/// it.
+/// A compiled library. As long as this value lives, the program is not compiled again, which would remove the library:
+/// it is for loading it.
 #[derive(Debug)]
 pub struct CompiledLibrary {
     /// The file.
     pub path: PathBuf,
-    /// The words that all runs need: robot, cell, scenario and folder, from the settings and the `arl.toml`.
+    /// The command-line words that all runs need: robot, cell, scenario and folder, from the settings and the
+    /// `arl.toml`.
     pub words: Vec<String>,
     _lock: Lock,
 }
 
-/// Says which file this code is in, where that is not the program of the process: what another one compiled is compiled
-/// anew.
+/// Sets which file this code is in, if that is not the program of the process: what another file compiled is compiled
+/// again.
 pub fn is_part_of(file: PathBuf) {
     program::is_part_of(file);
 }
 
-/// What there is to say of programs, a JSON object each.
+/// The diagnostics of programs, a JSON object each.
 ///
 /// # Errors
-/// A file cannot be read, or the robot or the cell is none.
-pub fn check(
-    files: &[PathBuf],
-    settings: &Settings,
-    (strict, background): (bool, bool),
-) -> Result<Vec<String>, HostError> {
-    found(files, settings, (strict, background)).map(|(all, _)| all)
+/// A file cannot be read, or the robot or the cell is not valid.
+pub fn check(files: &[PathBuf], settings: &Settings, strict: bool, background: bool) -> Result<Vec<String>, HostError> {
+    found(files, settings, strict, background).map(|(all, _)| all)
 }
 
 /// Compiles a program into a library, unless that was done before.
 ///
 /// # Errors
-/// It has mistakes, or cannot be compiled here.
+/// The program has mistakes, or cannot be compiled here.
 pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
     mistakes(settings)?;
     safely(|| {
@@ -110,7 +107,7 @@ pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
 /// The global variables of a program, in the order of their files and declarations.
 ///
 /// # Errors
-/// It cannot be read, or the robot or the cell is not there.
+/// The program cannot be read, or the robot or the cell is not there.
 pub fn variables(settings: &Settings) -> Result<Vec<Variable>, HostError> {
     safely(|| {
         let checking = options(settings).of_program(&settings.program)?.checking();
@@ -118,7 +115,7 @@ pub fn variables(settings: &Settings) -> Result<Vec<Variable>, HostError> {
     })
 }
 
-/// The signals of a program's cell, each with what the cell calls it, where it has a name.
+/// The signals of a program's cell, each with its name in the cell, if it has one.
 ///
 /// # Errors
 /// The cell cannot be read.
@@ -136,10 +133,10 @@ pub fn signals(settings: &Settings) -> Result<Vec<(Signal, Option<String>)>, Hos
     })
 }
 
-/// The folder of the texts in that of a program that was given as text.
+/// The folder of the texts in the folder of a program that was given as text.
 const TEXTS: &str = "texts";
 
-/// A program that was given as text, in a folder of the cache. As long as this lives nobody removes it.
+/// A program that was given as text, in a folder of the cache. As long as this value lives, the folder is not removed.
 #[derive(Debug)]
 pub struct TextProgram {
     /// Its main file.
@@ -147,7 +144,7 @@ pub struct TextProgram {
     _lock: Lock,
 }
 
-/// Puts a program that is given as text into the cache: its main file first, and what lies beside it, by their names.
+/// Puts a program that is given as text into the cache: its main file first, then the files beside it, by their names.
 /// The same texts have the same folder, so that they are compiled once.
 ///
 /// # Errors
@@ -167,13 +164,13 @@ pub fn text_program(files: &[(String, String)]) -> Result<TextProgram, HostError
         let (main, _) = files.first().ok_or_else(|| Failure::Usage("expected the text of the program".into()))?;
         let folder = Cache::find()?.text(&format!("{:032x}", hasher.finish_128()));
         let lock = Lock::take(&folder, true, "waiting for another arl2rs that is removing this program")?;
-        // Not where the lock is: a text may have its name.
+        // Not where the lock is: a text may have the lock's name.
         let folder = folder.join(TEXTS);
         for (name, text) in files {
             let path = folder.join(name);
             let parent = path.parent().unwrap_or(&folder);
             std::fs::create_dir_all(parent).map_err(|error| Failure::io("make the folder", parent, &error))?;
-            // Others may read it, and write the same.
+            // Other processes may read the file, and write the same.
             if std::fs::read(&path).is_ok_and(|there| there == text.as_bytes()) {
                 continue;
             }
@@ -188,38 +185,36 @@ pub fn text_program(files: &[(String, String)]) -> Result<TextProgram, HostError
 /// their own.
 ///
 /// # Errors
-/// It has mistakes, cannot be compiled here, a file cannot be read, or no row has parameters that there are.
+/// The program has mistakes, cannot be compiled here, a file cannot be read, or no row has known parameters.
 pub fn bundle(settings: &Settings, rows: &[Parameters]) -> Result<Bundle, HostError> {
     mistakes(settings)?;
     safely(|| Bundle::new(settings, rows.iter()))
 }
 
-/// The file of a sweep.
+/// Reads the file of a sweep.
 ///
 /// # Errors
-/// It cannot be read, or says what it cannot say.
+/// The file cannot be read, or its content is not valid.
 pub fn table(file: &Path) -> Result<Sweep, HostError> {
     safely(|| Sweep::read(file))
 }
 
-/// Makes runs on so many processes (0: one for each core), and hands out their rows in order, until `is_enough`. With
-/// `keeps`, what is known from earlier does not run again, and what is new is kept. `warn` is told what is no reason to
-/// end.
+/// Makes runs, and passes on their rows in order, until `is_enough`. `warn` gets what is no reason to end.
 ///
 /// # Errors
 /// The program cannot be written to the disk.
 pub fn sweep(
     bundle: &Bundle,
     rows: &[Parameters],
-    (processes, timeout, keeps): (usize, Option<f64>, bool),
+    settings: SweepSettings,
     is_enough: &(dyn Fn() -> bool + Sync),
     take: &mut dyn FnMut(Row),
     warn: &mut dyn FnMut(&str),
 ) -> Result<(), HostError> {
-    sweep::all(bundle, rows, (processes, timeout, keeps), is_enough, take, warn).map_err(HostError::from)
+    sweep::all(bundle, rows, settings, is_enough, take, warn).map_err(HostError::from)
 }
 
-/// The results that are kept of a bundle on this computer.
+/// The kept results of a bundle on this computer.
 ///
 /// # Errors
 /// There is no folder for them.
@@ -237,14 +232,15 @@ fn safely<T: Send>(work: impl FnOnce() -> Result<T, Failure> + Send) -> Result<T
 
 /// Refuses a program with mistakes.
 fn mistakes(settings: &Settings) -> Result<(), HostError> {
-    let (all, refused) = found(std::slice::from_ref(&settings.program), settings, (false, false))?;
+    let (all, refused) = found(std::slice::from_ref(&settings.program), settings, false, false)?;
     if refused { Err(HostError::Mistakes(all)) } else { Ok(()) }
 }
 
 fn found(
     files: &[PathBuf],
     settings: &Settings,
-    (strict, background): (bool, bool),
+    strict: bool,
+    background: bool,
 ) -> Result<(Vec<String>, bool), HostError> {
     let Settings { robot, cell, script_dir, .. } = settings.clone();
     let checking = Checking { strict, background, robot, cell, script_dir, verbose: false };
@@ -256,7 +252,7 @@ fn options(settings: &Settings) -> RunOptions {
     RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }
 }
 
-/// Looks whether a scenario is there, and is TOML; whether it fits the cell is found out when a run begins.
+/// Checks that a scenario is there, and is TOML; whether it fits the cell shows when a run begins.
 fn scenario(path: &Path) -> Result<(), Failure> {
     let shown = path.display().to_string();
     let text = regular_file::read_text(path)
@@ -270,7 +266,7 @@ fn folder_of(program: &Path) -> Result<PathBuf, Failure> {
     Ok(full.parent().map(Path::to_path_buf).unwrap_or_default())
 }
 
-/// A robot by its name, or its file in full.
+/// A robot by its name, or the full path of its file.
 fn robot(name: &str) -> Result<String, Failure> {
     if Robot::text(name).is_some() { Ok(name.to_owned()) } else { full(Path::new(name)) }
 }

@@ -28,19 +28,19 @@ use clap::Parser;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Does what the command line of this process says.
+/// Executes the command line of this process.
 pub fn main() -> ExitCode {
     ExitCode::from(command(std::env::args_os()))
 }
 
-/// Does what these words say, the first of which is the name of the command; gives the exit code: 0 done, 1 compile
-/// errors, 2 usage, 3 alarm, 4 out of time, 130 interrupted. On Unix a program that runs may take the place of this
+/// Executes these words, the first of which is the name of the command; returns the exit code: 0 done, 1 compile
+/// errors, 2 usage, 3 alarm, 4 out of time, 130 interrupted. On Unix a program that is run may take the place of this
 /// process.
 pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
         Err(said) => {
-            // Where nobody can read it, the exit code says enough.
+            // If the message cannot be printed, the exit code is enough.
             let _ = said.print();
             return u8::try_from(said.exit_code()).unwrap_or(Exit::USAGE.0);
         }
@@ -56,11 +56,11 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
     match command {
         Command::Check { files, format, max_errors, collisions, clearance, checking } => {
             let look = collisions.then(|| collisions::Look { format, clearance: clearance.unwrap_or_default() });
-            check::check(&files, (format, listing::Limit::of(max_errors)), look, &checking)
+            check::check(&files, format, listing::Limit::of(max_errors), look, &checking)
         }
         Command::Emit { file, out, checking } => done(emit::emit(&file, out.as_deref(), &checking)),
         Command::Build { file, out, release, library, checking } => {
-            done(emit::build(&file, out.as_deref(), (release, library), &checking))
+            done(emit::build(&file, out.as_deref(), release, library, &checking))
         }
         Command::Run { file, options } => run::run(&file, &options),
         Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
@@ -84,7 +84,7 @@ fn done(outcome: Result<(), Failure>) -> Result<Exit, Failure> {
     outcome.map(|()| Exit::SUCCESS)
 }
 
-/// The answer of a command that only tells something.
+/// Prints the answer of a command that only shows something.
 fn print(text: Result<String, Failure>) -> Result<Exit, Failure> {
     let mut text = text?;
     if !text.ends_with('\n') {

@@ -1,14 +1,14 @@
-//! A parameter of a run: a place that has another value there, as the words of a command line.
+//! A parameter of a run: a place that has another value in that run, as the words of a command line.
 
 use serde::{Deserialize, Serialize, Serializer, de};
 use serde_json::Value;
 use std::fmt;
 
-/// What a parameter may be beside a place of `--set`: an option of a run.
+/// What a parameter may be besides a place of `--set`: an option of a run.
 const OPTIONS: [&str; 7] = ["robot", "io", "max-time", "mode", "override", "seed", "start-time"];
-/// Where the place of a global variable begins.
+/// How the place of a global variable begins.
 pub(crate) const GLOBAL: &str = "global.";
-/// Where places of `--set` begin.
+/// How places of `--set` begin.
 const PLACES: [&str; 4] = [GLOBAL, "robot.", "cell.", "io."];
 
 /// The parameters of one run, in their order.
@@ -16,7 +16,7 @@ const PLACES: [&str; 4] = [GLOBAL, "robot.", "cell.", "io."];
 pub struct Parameters(pub Vec<(String, Value)>);
 
 impl Parameters {
-    /// Puts a value in; one of this name that is there already gets it.
+    /// Sets a value, in place of one with the same name.
     pub(crate) fn set(&mut self, name: &str, value: Value) {
         match self.0.iter_mut().find(|(known, _)| known == name) {
             Some((_, old)) => *old = value,
@@ -34,10 +34,10 @@ impl Parameters {
         self.0.iter().filter_map(|(place, _)| place.strip_prefix(GLOBAL))
     }
 
-    /// The words that they are, but for those that name files.
+    /// The command-line words of the parameters, except for those that name files.
     ///
     /// # Errors
-    /// There is no such parameter, or its value is none.
+    /// A parameter is unknown, or its value is not valid.
     pub fn words(&self) -> Result<Vec<String>, String> {
         let mut words = Vec::new();
         for (name, value) in &self.0 {
@@ -76,10 +76,10 @@ fn word(name: &str, value: &Value) -> Result<[String; 2], String> {
     }
 }
 
-/// The key under which a time comes from TOML.
+/// The key under which a time of TOML arrives.
 const TIME: &str = "$__toml_private_datetime";
 
-/// The key of a table that has a literal of ARL as it stands: `{ arl = "controlmode::auto" }`.
+/// The key of a table that has a literal of ARL as it is: `{ arl = "controlmode::auto" }`.
 const AS_IT_STANDS: &str = "arl";
 
 /// A value as a literal of ARL: lists and tables are braces.
@@ -109,7 +109,7 @@ fn quoted(text: &str) -> String {
     quoted
 }
 
-/// A value as TOML has it.
+/// A value in TOML.
 fn as_toml(value: &Value) -> Option<String> {
     Some(match value {
         Value::Null => return None,
@@ -151,7 +151,7 @@ impl<'de> de::Visitor<'de> for InOrder {
     fn visit_map<A: de::MapAccess<'de>>(self, mut map: A) -> Result<Parameters, A::Error> {
         let mut all = Parameters::default();
         while let Some((name, value)) = map.next_entry::<String, Value>()? {
-            // A time of TOML is the text that it was.
+            // A time of TOML is kept as its text.
             let time = value.as_object().and_then(|table| table.get(TIME)).cloned();
             all.set(&name, time.unwrap_or(value));
         }

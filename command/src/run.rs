@@ -9,7 +9,7 @@ use arl_robot::Robot;
 use arl_robot::cell::Cell;
 use arl_robot::changes::Part;
 use arl_runs::collide::Scene;
-use arl_runs::listen::{Hears, Listener};
+use arl_runs::listen::{Listener, Subscriber};
 use arl_runs::pendant;
 use arl_runs::plot::{self, Lane, Ran};
 use arl_runs::record::Recording;
@@ -28,10 +28,10 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Compiles where needed, then lets the program take over.
+/// Compiles if needed, then lets the program take over.
 pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
     let options = &options.of_program(file)?;
-    // The screen looks into programs.
+    // The screen shows the inside of programs.
     let on_screen = options.pendant && options.plot.is_none() && std::io::stdout().is_terminal();
     let kind = match on_screen {
         true => Kind::Watched,
@@ -41,47 +41,47 @@ pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
     let ready = prepare(kind, file, options.cell.as_deref(), &options.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options.arguments());
-    let mut hearers = hearers(options, &ready.sources)?;
+    let mut subscribers = subscribers(options, &ready.sources)?;
     if on_screen {
-        return pendant::run(command, (&ready.sources, ready.lock), hearers);
+        return pendant::run(command, &ready.sources, ready.lock, subscribers);
     }
     if let Some(picture) = &options.plot {
         let (signals, lanes) = Signals::new();
-        hearers.push(Box::new(signals));
-        let listener = Listener::of(hearers)?;
-        return run_and_plot((command, listener), ready, file, options, (picture, &lanes));
+        subscribers.push(Box::new(signals));
+        let listener = Listener::of(subscribers)?;
+        return run_and_plot(command, listener, ready, file, options, picture, &lanes);
     }
-    match Listener::of(hearers)? {
+    match Listener::of(subscribers)? {
         Some(listener) => wait(command, Some(listener), ready),
         None => start(command, ready),
     }
 }
 
-/// Who is to hear what the program does: collisions come first, so that they are recorded.
-fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hears>>, Failure> {
+/// The subscribers of the program: collisions come first, so that they are recorded.
+fn subscribers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Subscriber>>, Failure> {
     let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;
     let cell = cell(options)?;
     let scenery = Scenery::of(&cell, &robots::of_cell(&cell, robot)?, &show::warning)?;
-    let mut hearers = watchers(&scenery, options.clearance)?;
+    let mut subscribers = watchers(&scenery, options.clearance)?;
     if let Some(path) = &options.record {
-        hearers.push(Box::new(Recording::create(path, &scenery, sources)?));
+        subscribers.push(Box::new(Recording::create(path, &scenery, sources)?));
     }
     if let (Some(file), Some(format @ (ReportFormat::Json | ReportFormat::Html))) = (&options.report, options.format) {
-        hearers.push(Box::new(Reporting::create(file, format, &scenery)?));
+        subscribers.push(Box::new(Reporting::create(file, format, &scenery)?));
     }
-    Ok(hearers)
+    Ok(subscribers)
 }
 
-/// The cell of a run; one with nothing in it where none is named.
+/// The cell of a run; an empty one if none is named.
 pub(crate) fn cell(options: &RunOptions) -> Result<Cell, Failure> {
     let changes = options.changed()?;
     let cell = options.cell.as_deref().map(|cell| Cell::load_with(cell, &changes)).transpose();
     Ok(cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default())
 }
 
-/// Who watches what robots touch, and what they take along: where the cell has bodies, or somebody asks for a
-/// clearance.
-pub(crate) fn watchers(scenery: &Scenery, clearance: Option<f64>) -> Result<Vec<Box<dyn Hears>>, Failure> {
+/// The subscribers that watch what robots touch, and what they take along, if the cell has bodies or a clearance is
+/// requested.
+pub(crate) fn watchers(scenery: &Scenery, clearance: Option<f64>) -> Result<Vec<Box<dyn Subscriber>>, Failure> {
     if clearance.is_none() && scenery.bodies.is_empty() {
         return Ok(Vec::new());
     }
@@ -89,7 +89,7 @@ pub(crate) fn watchers(scenery: &Scenery, clearance: Option<f64>) -> Result<Vec<
     Ok(scene.watch(clearance.unwrap_or_default(), true).0)
 }
 
-/// Draws a trace that is there.
+/// Draws an existing trace.
 pub(crate) fn plot(trace: &Path, picture: &Path, robot: Option<&str>) -> Result<(), Failure> {
     let beside = arl_toml::of_program(trace)?.and_then(|file| file.robot);
     let robot = robot.or(beside.as_deref());
@@ -99,26 +99,28 @@ pub(crate) fn plot(trace: &Path, picture: &Path, robot: Option<&str>) -> Result<
 
 fn draw(trace: &Path, picture: &Path, robot: Robot, ran: &Ran) -> Result<(), Failure> {
     if !plot::plot(trace, picture, robot, ran)? {
-        // There may be an empty one, made to see whether it can be.
+        // There may be an empty picture, made to check that it can be written.
         let _ = std::fs::remove_file(picture);
         show::warning(&format!("no motion was executed, so {} was not drawn", picture.display()));
     }
     Ok(())
 }
 
-/// The program runs, then its trace is drawn, however it ended.
+/// Runs the program, then draws its trace, however the run ended.
 fn run_and_plot(
-    (mut command, listener): (Command, Option<Listener>),
+    mut command: Command,
+    listener: Option<Listener>,
     ready: Ready,
     file: &Path,
     options: &RunOptions,
-    (picture, lanes): (&Path, &RefCell<Vec<Lane>>),
+    picture: &Path,
+    lanes: &RefCell<Vec<Lane>>,
 ) -> Result<Exit, Failure> {
-    // Better now than after a long run.
+    // Better to fail now than after a long run.
     std::fs::write(picture, "").map_err(|error| Failure::io("write", picture, &error))?;
     let (trace, _passing) = match options.trace.clone() {
         Some(trace) => (trace, None),
-        // Without a wish for the trace it goes with the plot.
+        // Unless the trace is requested, it is temporary.
         None => {
             let folder = PrivateFolder::new("arl2rs-plot-");
             let folder = folder
@@ -128,7 +130,7 @@ fn run_and_plot(
             (trace, Some(folder))
         }
     };
-    // What lies there from another run is not to be drawn.
+    // A trace that another run left there must not be drawn.
     let _ = std::fs::remove_file(&trace);
     let ran = ran(file, &ready.sources);
     let code = wait(command, listener, ready)?;
@@ -138,13 +140,13 @@ fn run_and_plot(
             let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;
             draw(&trace, picture, robot, &ran)?;
         }
-        // The program did not even begin, and has said why.
+        // The program did not even begin, and has reported the reason.
         false => drop(std::fs::remove_file(picture)),
     }
     Ok(code)
 }
 
-/// What the plot says of the program.
+/// What the plot shows of the program.
 fn ran(file: &Path, sources: &[PathBuf]) -> Ran {
     let title = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     Ran { main: Some(title.clone()), title, sources: texts::read(sources), lanes: Vec::new() }
@@ -165,7 +167,7 @@ fn start(command: Command, ready: Ready) -> Result<Exit, Failure> {
     wait(command, None, ready)
 }
 
-/// The program runs while this process waits, or hears what it does. Ctrl-C reaches both; only the program acts on it.
+/// Runs the program while this process waits, or listens to it. Ctrl-C reaches both; only the program acts on it.
 fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<Exit, Failure> {
     interrupt::leave_to_the_program();
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
@@ -173,14 +175,14 @@ fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Resul
     let mut child = command.spawn().map_err(fail)?;
     drop(ready.lock);
     let ended = match listener {
-        // What it could not say it tells itself.
-        Some(listener) => listener.hear(&mut child).map(|(status, _)| status),
+        // The program itself reports what it could not send.
+        Some(listener) => listener.receive(&mut child).map(|(status, _)| status),
         None => child.wait(),
     };
     Ok(Exit::from(code(ended.map_err(fail)?)))
 }
 
-/// The exit code of a program, as a shell has it.
+/// The exit code of a program, as in a shell.
 fn code(ended: std::process::ExitStatus) -> u8 {
     #[cfg(unix)]
     let by_signal = std::os::unix::process::ExitStatusExt::signal(&ended).map(|signal| 128 + signal);

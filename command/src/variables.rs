@@ -1,4 +1,4 @@
-//! The global variables of programs: what can be set, watched and asked for from outside.
+//! The global variables of programs: what can be set, watched and queried from outside.
 
 use crate::parameters::Parameters;
 use arl_lang::catalog::Base;
@@ -20,7 +20,7 @@ use std::path::Path;
 pub struct Variable {
     /// Its name.
     pub name: String,
-    /// The file that declares it, counted from the folder of the main file.
+    /// The file that declares it, relative to the folder of the main file.
     pub file: String,
     /// The line of its declaration, from 1.
     pub line: u32,
@@ -31,9 +31,9 @@ pub struct Variable {
     pub sizes: Vec<u16>,
     /// Whether it is `const`: it cannot be set.
     pub constant: bool,
-    /// Its first value as the declaration has it; none where the declaration has none.
+    /// Its initial value as in the declaration; `None` if the declaration has none.
     pub first: Option<String>,
-    /// What of one element is a number or a truth value, by where it is: `.x`; the empty text is the element itself.
+    /// The places of numbers and truth values in one element: `.x`; the empty text is the element itself.
     pub numbers: Vec<String>,
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn of_program(main: &Path, checking: &Checking) -> Result<Vec<Variabl
     Ok(all)
 }
 
-/// Where in a value of this type there are numbers and truth values.
+/// Collects the places of numbers and truth values in a value of this type.
 fn push_numbers(base: Base, options: &CheckOptions, place: String, all: &mut Vec<String>) {
     match base {
         Base::Int | Base::Uint | Base::Byte | Base::Double | Base::Bool => all.push(place),
@@ -84,8 +84,8 @@ fn push_numbers(base: Base, options: &CheckOptions, place: String, all: &mut Vec
     }
 }
 
-/// The names of all variables that parameters of runs can be for: those of the program, and of what its cell has beside
-/// it.
+/// The names of all variables that parameters of runs can set: those of the program, and those of the other programs of
+/// its cell.
 fn settable(main: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Vec<(String, String)>, Failure> {
     let named = |variable: Variable| (stem(&variable.file), variable.name);
     let mut all: Vec<_> = of_program(main, checking)?.into_iter().map(named).collect();
@@ -99,14 +99,14 @@ fn stem(file: &str) -> String {
     Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Refuses a table of which every row has a global variable that there is not: a slip in a name, which would cost all
-/// runs.
+/// Refuses a table in which every row has an unknown global variable: a slip in a name, which would cost all runs.
 ///
 /// # Errors
-/// That is so; the error names what is like the first of them.
+/// Every row has one; the error names variables that are similar to the first of them.
 pub(crate) fn refuse_unknown<'p>(
     rows: impl Iterator<Item = &'p Parameters> + Clone,
-    (main, cell): (&Path, Option<&Path>),
+    main: &Path,
+    cell: Option<&Path>,
     checking: &Checking,
 ) -> Result<(), Failure> {
     if rows.clone().next().is_none() || rows.clone().any(|row| row.globals().next().is_none()) {
@@ -114,7 +114,7 @@ pub(crate) fn refuse_unknown<'p>(
     }
     let known = settable(main, cell, checking)?;
     let unknown = |row: &'p Parameters| row.globals().find(|name| !is_known(name, &known));
-    // The first good row is enough to know better.
+    // One good row is enough to accept the table.
     if !rows.clone().all(|row| unknown(row).is_some()) {
         return Ok(());
     }
@@ -186,7 +186,7 @@ mod tests {
         let main = folder.path().join("pick.arl");
         let refused = |rows: &[&str]| {
             let rows: Vec<Parameters> = rows.iter().map(|row| serde_json::from_str(row).unwrap()).collect();
-            match refuse_unknown(rows.iter(), (&main, None), &checking()) {
+            match refuse_unknown(rows.iter(), &main, None, &checking()) {
                 Err(Failure::Usage(text)) => Some(text),
                 Err(other) => panic!("{other:?}"),
                 Ok(()) => None,

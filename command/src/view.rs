@@ -1,4 +1,4 @@
-//! `arl2rs view`: a page in the browser that shows a run, of a recording or of a program that goes on.
+//! `arl2rs view`: a page in the browser that shows a run, of a recording or of a running program.
 
 use crate::args::ViewOptions;
 use crate::run;
@@ -13,7 +13,7 @@ use arl_terminal::show;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Serves the page: that of a program until it ends, that of recordings until the command is interrupted.
+/// Serves the page: for a program until it ends, for recordings until the command is interrupted.
 pub(crate) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<Exit, Failure> {
     let is_program = |file: &Path| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("arl"));
     let page = Page { port: options.port, opens: !options.no_open };
@@ -47,7 +47,7 @@ fn live(program: &Path, options: &ViewOptions, page: Page) -> Result<Exit, Failu
         command,
         sources: &ready.sources,
         scenery: &scenery,
-        hearers: run::watchers(&scenery, None)?,
+        subscribers: run::watchers(&scenery, None)?,
         teaches: options.teach.then_some(robots),
     };
     view::program(program, ready.lock, page)

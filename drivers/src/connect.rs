@@ -1,4 +1,4 @@
-//! The drivers that cell files ask for.
+//! Creation of the drivers that cell files select.
 
 use arl_rt::cell::{DriverSettings, DriverTime, Protocol};
 use arl_rt::robot_driver::{Driven, DrivenTime, DriverError};
@@ -6,11 +6,10 @@ use arl_rt::robot_driver::{Driven, DrivenTime, DriverError};
 use crate::rsi::RsiArm;
 use crate::udp::UdpArm;
 
-/// Makes the driver that `[driver]` of a cell file asks for: what [`arl_rt::Builder::drivers`] wants. Nothing is opened
-/// yet.
+/// Creates the driver selected by `[driver]` of a cell file, for [`arl_rt::Builder::drivers`]. Nothing is opened yet.
 ///
 /// # Errors
-/// The protocol is one that this crate does not know.
+/// This crate does not have a driver for the protocol.
 pub fn connect(settings: &DriverSettings) -> Result<Driven, DriverError> {
     let waits = settings.time == DriverTime::Robot;
     match &settings.protocol {

@@ -1,10 +1,10 @@
-//! Drivers for robots that [`arl_rt`] moves.
+//! Drivers for robots that are moved by [`arl_rt`].
 //!
-//! - [`udp::UdpArm`]: packets of set-points over UDP, for arms whose side one writes oneself, and for simulators
+//! - [`udp::UdpArm`]: packets of set-points over UDP, for arms with a self-written receiver, and for simulators
 //! - [`rsi::RsiArm`]: XML over UDP, as KUKA's RobotSensorInterface sends it
 //!
-//! Their formats, and what the other side has to do, stand in `docs/udp-and-rsi.md`. [`connect`] makes them as a cell
-//! file asks for:
+//! `docs/udp-and-rsi.md` describes their formats, and what the other side has to do. [`connect`] creates them according
+//! to a cell file:
 //!
 //! ```no_run
 //! # fn drive(program: Box<dyn arl_rt::Program>) -> Result<(), Box<dyn std::error::Error>> {
@@ -24,7 +24,7 @@ pub mod udp;
 
 pub use connect::connect;
 
-/// The examples of the README run.
+/// Runs the examples of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

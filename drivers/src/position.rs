@@ -2,7 +2,7 @@
 
 use arl_rt::motion::Joints;
 
-/// How far one is from another, axis by axis, in deg (mm).
+/// The difference of two positions, axis by axis, in deg (mm).
 pub(crate) fn difference(one: &Joints, other: &Joints) -> Joints {
     let mut result = *one;
     result.axes.iter_mut().zip(&other.axes).for_each(|(axis, other)| *axis -= other);

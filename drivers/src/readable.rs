@@ -1,11 +1,10 @@
-//! Waiting for a packet, to the microsecond. The time limit of sockets would count in ticks of the kernel: 4 ms or
-//! more.
+//! Waits for a packet with microsecond resolution. The timeout of sockets counts in ticks of the kernel: 4 ms or more.
 
 use std::net::UdpSocket;
 use std::time::Instant;
 
-/// Waits until there is something to receive, or the time is over; whether there is. A socket with an error has
-/// something, too.
+/// Waits until there is something to receive or the time is over; returns whether there is. A socket with an error also
+/// counts as readable.
 #[cfg(unix)]
 pub(crate) fn wait_until(socket: &UdpSocket, until: Instant) -> bool {
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -21,14 +20,14 @@ pub(crate) fn wait_until(socket: &UdpSocket, until: Instant) -> bool {
     }
 }
 
-/// The same with the time limit of sockets.
+/// Like the version above, with the timeout of sockets.
 #[cfg(not(unix))]
 pub(crate) fn wait_until(socket: &UdpSocket, until: Instant) -> bool {
     let left = until.saturating_duration_since(Instant::now());
     let limit = left.max(std::time::Duration::from_micros(1));
     let is_there = socket.set_nonblocking(false).is_ok()
         && socket.set_read_timeout(Some(limit)).is_ok()
-        // A packet that is larger than nothing is an error there, but one that is there.
+        // A packet larger than the buffer is an error there, but it has arrived.
         && !matches!(socket.peek(&mut [0; 1]), Err(error) if error.kind() == std::io::ErrorKind::TimedOut);
     socket.set_nonblocking(true).is_ok() && is_there
 }

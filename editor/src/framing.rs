@@ -1,16 +1,16 @@
-//! Messages of editors over streams: a header that tells the length, and JSON.
+//! Messages of editors over streams: a header that gives the length, and JSON.
 //!
-//! What stands between messages and is not a header is passed over. A length that is wrong costs its own message only:
-//! JSON has no line ends in its texts, so that a header within a message is that of the next one.
+//! What is between messages and is not a header is skipped. A wrong length costs its own message only: JSON has no line
+//! ends in its strings, so a header within a message is that of the next one.
 
 use serde_json::Value;
 use std::io::{BufRead, ErrorKind, Read, Write};
 
-/// The longest message that is read, in bytes: more is no robot program.
+/// The longest message that is read, in bytes; no robot program is longer.
 const MOST_BYTES: usize = 256 << 20;
-/// The field of a header that counts.
+/// The header field that counts.
 const LENGTH: &[u8] = b"content-length";
-/// What ends a header.
+/// The end of a header.
 const END: &[u8] = b"\r\n\r\n";
 
 /// Writes a message.
@@ -23,7 +23,7 @@ pub(crate) fn write(output: &mut impl Write, message: &Value) -> std::io::Result
 /// A stream of messages.
 pub(crate) struct Messages<R> {
     input: R,
-    /// What was read too far.
+    /// Bytes that were read beyond a message.
     ahead: Vec<u8>,
 }
 
@@ -59,14 +59,14 @@ impl<R: BufRead> Messages<R> {
         Some(body)
     }
 
-    /// The bytes from a place on are read once more.
+    /// Puts back the bytes from a place on, so that they are read again.
     fn put_back(&mut self, body: &mut Vec<u8>, at: usize) {
         let mut ahead = body.split_off(at);
         ahead.append(&mut self.ahead);
         self.ahead = ahead;
     }
 
-    /// The length of the body, from the header in front of it. What is not a header is passed over.
+    /// The length of the body, from the header before it. What is not a header is skipped.
     fn header(&mut self) -> Option<usize> {
         let mut length = None;
         let mut line = Vec::new();
@@ -109,8 +109,8 @@ impl<R: BufRead> BufRead for Messages<R> {
     }
 }
 
-/// Where a line names the length for the last time: behind a message that was longer than it said, there is no line
-/// end.
+/// Where a line names the length for the last time: after a message that was longer than its header said, there is no
+/// line end.
 fn last_length(line: &[u8]) -> Option<usize> {
     let mut starts = (0..line.len().saturating_sub(LENGTH.len() - 1)).rev();
     starts.find(|at| line.get(*at..*at + LENGTH.len()).is_some_and(|name| name.eq_ignore_ascii_case(LENGTH)))
@@ -122,18 +122,18 @@ fn length_in(field: &[u8]) -> Option<usize> {
     value.trim().parse().ok().filter(|length| *length <= MOST_BYTES)
 }
 
-/// Where a header begins that is whole within a message; it is looked for from a place on.
+/// Where a complete header begins within a message, searched from a place on.
 fn header_within(body: &[u8], from: usize) -> Option<usize> {
     let ends =
         (from..body.len().saturating_sub(END.len() - 1)).find(|at| body.get(*at..*at + END.len()) == Some(END))?;
     let before = body.get(..ends)?;
     let at = last_length(before)?;
-    // Another field may stand between it and the end.
+    // Another field may be between it and the end.
     let field = before.get(at..)?.split(|byte| *byte == b'\n').next()?;
     length_in(field).map(|_| at)
 }
 
-/// Where the JSON of a message ends, if something stands behind it.
+/// Where the JSON of a message ends, if something follows it.
 fn end_of_json(body: &[u8]) -> Option<usize> {
     let mut values = serde_json::Deserializer::from_slice(body).into_iter::<serde::de::IgnoredAny>();
     let is_json = values.next().is_some_and(|value| value.is_ok());
@@ -145,7 +145,7 @@ fn end_of_json(body: &[u8]) -> Option<usize> {
 mod tests {
     use super::*;
 
-    /// What is read of an input, whatever pieces it comes in.
+    /// What is read from an input, whatever pieces it comes in.
     fn all(input: &str) -> Vec<String> {
         let read = |piece: usize| {
             let mut messages = Messages::new(std::io::BufReader::with_capacity(piece, input.as_bytes()));

@@ -1,4 +1,4 @@
-//! The interface as both sides see it: the same as in `arl.h`, which says what each part does.
+//! The interface as both sides see it: the same as in `arl.h`, which describes each part.
 
 use std::ffi::{c_char, c_void};
 
@@ -6,14 +6,14 @@ use crate::Served;
 
 /// The version of the interface.
 pub const INTERFACE: u32 = 3;
-/// What `go_on` answers where the run goes on.
+/// The result of `go_on` if the run continues.
 pub const RUNS: i32 = -1;
-/// What is answered where the run has panicked.
+/// The result if the run has panicked.
 pub const BROKEN: i32 = -2;
-/// What is answered on another thread than that of the run.
+/// The result on another thread than that of the run.
 pub const WRONG_THREAD: i32 = -3;
 
-/// Takes a text: its context, and the bytes.
+/// A function that receives a text: its context, and the bytes.
 pub type Take = unsafe extern "C" fn(*mut c_void, *const c_char, usize);
 
 /// `ArlInterface` of `arl.h`.

@@ -1,9 +1,9 @@
 //! A compiled ARL program as a shared library, behind a small versioned C interface: `arl.h` describes it.
 //!
-//! [`library!`] makes a crate such a library; `arl2rs build --library` writes one that uses it. With the feature
-//! `load`, `Library` opens one from Rust.
+//! [`library!`] turns a crate into such a library; `arl2rs build --library` writes one that uses it. With the feature
+//! `load`, `Library` opens such a library from Rust.
 //!
-//! Whatever crosses the interface is plain C: pointers, numbers, functions. No panic crosses it.
+//! Only plain C crosses the interface: pointers, numbers, functions. No panic crosses it.
 
 mod interface;
 #[cfg(feature = "load")]
@@ -20,12 +20,12 @@ pub use arl_rt;
 #[doc(hidden)]
 pub use serve::{Made, begin, interface};
 
-/// Makes the crate, of type `cdylib`, a library with this program, those that its cells may name, and the folder of its
-/// files: `library!(program::Globals::new, [], "/robot/pick")`.
+/// Turns the crate, of type `cdylib`, into a library with this program, the programs that its cells may name, and the
+/// folder of its files: `library!(program::Globals::new, [], "/robot/pick")`.
 #[macro_export]
 macro_rules! library {
     ($program:expr, [$($other:expr),* $(,)?], $script_dir:expr) => {
-        /// What a host asks for first.
+        /// The function that a host calls first.
         // SAFETY: no other crate of the library has a symbol of this name.
         #[unsafe(no_mangle)]
         pub extern "C" fn arl_interface() -> *const $crate::Interface {
@@ -41,7 +41,7 @@ macro_rules! library {
                     others: &[$($other),*],
                     script_dir: $script_dir,
                 };
-                // SAFETY: the host keeps what `arl.h` says of these pointers.
+                // SAFETY: the host meets the requirements of `arl.h` for these pointers.
                 unsafe { $crate::begin(made, (arguments, count), traced, (why, context)) }
             }
             static INTERFACE: $crate::Interface = $crate::interface(begin);

@@ -8,23 +8,23 @@ use std::ptr::NonNull;
 use crate::Served;
 use crate::interface::{BROKEN, INTERFACE, Interface, RUNS, WRONG_THREAD};
 
-/// A program as a library, loaded into this process. It stays loaded until that ends.
+/// A program as a library, loaded into this process. It stays loaded until the process ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Library {
     interface: &'static Interface,
 }
 
-/// Why a library cannot be loaded, or a run not be begun or gone on with.
+/// The reason why a library cannot be loaded, or a run cannot be begun or continued.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum LoadError {
-    /// It cannot be opened; why.
+    /// The file cannot be opened, with the reason.
     Open(String),
-    /// It is not a library of a program.
+    /// The file is not a library of a program.
     NotOurs,
-    /// It was made by another version of arl2rs: the version of its interface.
+    /// The library was made by another version of arl2rs; this is the version of its interface.
     Version(u32),
-    /// A run cannot be begun with these arguments, or an order not be carried out; why.
+    /// A run cannot be begun with these arguments, or an order cannot be carried out; with the reason.
     Refused(String),
     /// The run has panicked.
     Broken,
@@ -57,30 +57,30 @@ impl Library {
     /// Loads a library that `arl2rs build --library` made.
     ///
     /// # Errors
-    /// It is no such library, or one of another version.
+    /// The file is not such a library, or one of another version.
     ///
     /// # Safety
-    /// Loading a library runs code of it: the file is what it says.
+    /// Loading a library runs its code: the file must be what it claims to be.
     pub unsafe fn open(path: &Path) -> Result<Self, LoadError> {
         // SAFETY: by this function's contract.
         let library = unsafe { libloading::Library::new(path) }.map_err(|error| LoadError::Open(error.to_string()))?;
         // SAFETY: a library with this symbol has it with this type, in all versions.
         let symbol = unsafe { library.get::<unsafe extern "C" fn() -> *const Interface>(b"arl_interface\0") };
         let ask = symbol.map_err(|_| LoadError::NotOurs)?;
-        // SAFETY: it may always be called, and gives what `of` takes: the library is not unloaded.
+        // SAFETY: it may always be called, and returns what `of` takes: the library is not unloaded.
         let opened = unsafe { Self::of(ask()) };
-        // Threads of it may run still, and threads of ours have its variables.
+        // Its threads may still run, and threads of this process have its variables.
         std::mem::forget(library);
         opened
     }
 
-    /// What `arl_interface` of a library gives that is loaded already.
+    /// The library whose `arl_interface` returned this pointer, which is already loaded.
     ///
     /// # Errors
-    /// It has another version.
+    /// The library has another version.
     ///
     /// # Safety
-    /// The pointer is what such a function gave, and is valid as long as this process lives.
+    /// The pointer was returned by such a function, and is valid as long as this process lives.
     pub unsafe fn of(interface: *const Interface) -> Result<Self, LoadError> {
         // SAFETY: the version comes first, in all versions.
         let version = unsafe { *interface.cast::<u32>() };
@@ -91,11 +91,11 @@ impl Library {
         Ok(Self { interface: unsafe { &*interface } })
     }
 
-    /// A run at the start of its first cycle, with arguments as on a command line. With `traced` it keeps the trace of
-    /// the first robot.
+    /// A run at the start of its first cycle, with arguments as on a command line. With `traced` it records the trace
+    /// of the first robot.
     ///
     /// # Errors
-    /// What is wrong with the arguments, or why there is no controller.
+    /// The error in the arguments, or the reason why the controller cannot be built.
     pub fn begin(self, arguments: &[&str], traced: bool) -> Result<Session, LoadError> {
         let words: Result<Vec<CString>, _> = arguments.iter().map(|word| CString::new(*word)).collect();
         let words = words.map_err(|_| LoadError::Refused("an argument contains a NUL character".into()))?;
@@ -120,7 +120,7 @@ impl Library {
     }
 }
 
-/// A run of a program. It goes on only on the thread that began it: elsewhere everything is refused but
+/// A run of a program. It only continues on the thread that began it: on others everything is refused except
 /// [`stop`](Self::stop), texts are empty, and a run that is dropped there stays in memory.
 #[derive(Debug)]
 pub struct Session {
@@ -128,20 +128,20 @@ pub struct Session {
     interface: &'static Interface,
 }
 
-// SAFETY: the other side of the interface looks at which thread calls, and does nothing on another one than that of the
+// SAFETY: the other side of the interface checks which thread calls, and does nothing on another one than that of the
 // run.
 unsafe impl Send for Session {}
-// SAFETY: as for `Send`; what takes `&self` may be called while another call is under way.
+// SAFETY: as for `Send`; functions that take `&self` may be called while another call is in progress.
 unsafe impl Sync for Session {}
 
 impl Session {
-    /// Goes on for so many cycles, or until the run is over: then its exit code. `alone`: nobody else changes anything,
-    /// so that programs that all wait in vain end it.
+    /// Continues for `cycles` cycles, or until the run is over; then returns its exit code. `alone`: nothing outside
+    /// changes anything, so that the run ends if all programs wait in vain.
     ///
     /// # Errors
     /// The run has panicked.
     pub fn go_on(&mut self, cycles: u64, alone: bool) -> Result<Option<u8>, LoadError> {
-        // SAFETY: the run is ours until it is dropped, on its own thread.
+        // SAFETY: this session owns the run until it is dropped, on its own thread.
         match unsafe { (self.interface.go_on)(self.run.as_ptr(), cycles, i32::from(alone)) } {
             RUNS => Ok(None),
             WRONG_THREAD => Err(LoadError::WrongThread),
@@ -155,38 +155,38 @@ impl Session {
         unsafe { (self.interface.stop)(self.run.as_ptr()) }
     }
 
-    /// Does what an event of a scenario does: `di.5 = true`.
+    /// Carries out an order, as an event of a scenario does: `di.5 = true`.
     ///
     /// # Errors
-    /// It is not an order, or the run has panicked.
+    /// The text is not an order, or the run has panicked.
     pub fn order(&mut self, order: &str) -> Result<(), LoadError> {
         let order = string(order)?;
         // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
         self.tried(|run, why| unsafe { (self.interface.order)(run, order.as_ptr(), take_bytes, why) }).map(drop)
     }
 
-    /// Which signals and global variables [`observe`](Self::observe) tells behind the row of the trace: `["do.1",
-    /// "global.placed"]`.
+    /// Selects the signals and global variables that [`observe`](Self::observe) returns after the row of the trace:
+    /// `["do.1", "global.placed"]`.
     ///
     /// # Errors
-    /// Something is not there, or no number; then nothing changes.
+    /// A name does not exist or is not a number; then nothing changes.
     pub fn watch(&mut self, names: &[&str]) -> Result<(), LoadError> {
         let names = string(&names.join("\n"))?;
         // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
         self.tried(|run, why| unsafe { (self.interface.watch)(run, names.as_ptr(), take_bytes, why) }).map(drop)
     }
 
-    /// Fills in the last cycle's row of the trace, then what is watched, as far as there is room; how many numbers
-    /// there are.
+    /// Fills in the last cycle's row of the trace, then the watched values, as far as there is room; returns how many
+    /// numbers there are.
     pub fn observe(&mut self, numbers: &mut [f64]) -> usize {
-        // SAFETY: as in `go_on`; there is room for so many.
+        // SAFETY: as in `go_on`; there is room for this many.
         unsafe { (self.interface.observe)(self.run.as_ptr(), numbers.as_mut_ptr(), numbers.len()) }
     }
 
     /// The value of a global variable, as a literal of ARL.
     ///
     /// # Errors
-    /// There is none of this name, or the run has panicked.
+    /// The variable does not exist, or the run has panicked.
     pub fn global(&mut self, name: &str) -> Result<String, LoadError> {
         let name = string(name)?;
         // SAFETY: as in `go_on`; `take_bytes` takes a vector of bytes.
@@ -196,7 +196,7 @@ impl Session {
     /// Gives a global variable a value, between two cycles; components that the literal leaves out keep theirs.
     ///
     /// # Errors
-    /// There is none of this name, the value does not fit, or the run has panicked.
+    /// The variable does not exist, the value does not fit, or the run has panicked.
     pub fn set_global(&mut self, name: &str, literal: &str) -> Result<(), LoadError> {
         let (name, literal) = (string(name)?, string(literal)?);
         let set = self.interface.set_global;
@@ -204,7 +204,7 @@ impl Session {
         self.tried(|run, why| unsafe { set(run, name.as_ptr(), literal.as_ptr(), take_bytes, why) }).map(drop)
     }
 
-    /// Does something that can be refused; the text that it gave.
+    /// Calls a function that can refuse; returns the text that it gave.
     fn tried(&self, act: impl FnOnce(*mut Served, *mut c_void) -> i32) -> Result<String, LoadError> {
         let mut said = Vec::new();
         match act(self.run.as_ptr(), context(&mut said)) {
@@ -215,36 +215,36 @@ impl Session {
         }
     }
 
-    /// What came of the run, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s and
-    /// the alarms; with `--report` also what the motions of the first robot were together.
+    /// The result of the run, or its state so far: a JSON object with the outcome, the exit code, the cycle time in s
+    /// and the alarms; with `--report` also a summary of the motions of the first robot.
     pub fn summary(&mut self) -> String {
         text(self.taken(self.interface.summary))
     }
 
-    /// What each motion did, a JSON object a line, where `--report` asked for it.
+    /// The reports of the motions, one JSON object per line, if `--report` was given.
     pub fn report(&mut self) -> String {
         text(self.taken(self.interface.report))
     }
 
-    /// What was said since the last call: a JSON object a line.
+    /// The output since the last call: one JSON object per line.
     pub fn take_said(&mut self) -> String {
         text(self.taken(self.interface.said))
     }
 
-    /// How everything stands, a JSON object.
+    /// The current state, a JSON object.
     pub fn state(&mut self) -> String {
         text(self.taken(self.interface.state))
     }
 
-    /// The rows of the trace since the last call, one behind the other. With `--trace-columns file` among its words
-    /// each has one number more at its end: which of [`files`](Self::files) its line is of, from 0; no number where no
-    /// motion is executed.
+    /// The rows of the trace since the last call, one after the other. With `--trace-columns file` among its arguments
+    /// each has one more number at its end: the index in [`files`](Self::files) of the file of its line, from 0; not a
+    /// number if no motion is executed.
     pub fn take_rows(&mut self) -> Vec<f64> {
         let bytes = self.taken(self.interface.rows);
         bytes.chunks_exact(8).map(|double| f64::from_ne_bytes(double.try_into().unwrap_or_default())).collect()
     }
 
-    /// The names of the files that rows of the trace have named so far.
+    /// The names of the files that rows of the trace have referred to so far.
     pub fn files(&mut self) -> Vec<String> {
         text(self.taken(self.interface.files)).lines().map(str::to_owned).collect()
     }
@@ -265,7 +265,7 @@ impl Session {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        // SAFETY: as in `go_on`; nobody has it any more.
+        // SAFETY: as in `go_on`; there are no other users any more.
         unsafe { (self.interface.end)(self.run.as_ptr()) }
     }
 }
@@ -284,10 +284,10 @@ fn text(bytes: Vec<u8>) -> String {
 
 /// Adds the bytes to the vector that is its context.
 unsafe extern "C" fn take_bytes(context: *mut c_void, bytes: *const c_char, length: usize) {
-    // SAFETY: the context is that of `context`, and nobody else has the vector during the call.
+    // SAFETY: the context is that of `context`, and the vector is not used elsewhere during the call.
     let all = unsafe { &mut *context.cast::<Vec<u8>>() };
     if length > 0 {
-        // SAFETY: there are so many bytes, as long as the call lasts.
+        // SAFETY: there are `length` bytes, as long as the call lasts.
         all.extend_from_slice(unsafe { std::slice::from_raw_parts(bytes.cast(), length) });
     }
 }

@@ -14,7 +14,7 @@ use arl_rt::program::Other;
 
 use crate::interface::{BROKEN, INTERFACE, Interface, RUNS, Take, WRONG_THREAD};
 
-/// What a library was made of.
+/// The parts from which a library was made.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Made<'a> {
@@ -23,11 +23,11 @@ pub struct Made<'a> {
     pub script_dir: &'a str,
 }
 
-/// A run, as a host has it: `ArlRun`. Other threads may come with a pointer to it, and are sent away.
+/// A run as the host sees it: `ArlRun`. Calls from other threads with a pointer to it are refused.
 pub struct Served {
     thread: ThreadId,
     stops: Arc<AtomicBool>,
-    /// Of its own thread alone.
+    /// Used only by the run's own thread.
     own: UnsafeCell<Own>,
 }
 
@@ -43,15 +43,15 @@ impl fmt::Debug for Served {
 }
 
 impl Served {
-    /// Does something with the run on its own thread, also with one that is broken. A panic breaks it.
+    /// Calls `act` with the run on its own thread, even if the run is broken. A panic breaks the run.
     ///
     /// # Safety
-    /// No other call is under way on this thread: `arl.h` says that what takes a text calls nothing.
+    /// No other call is in progress on this thread: `arl.h` requires that functions that receive a text call nothing.
     unsafe fn with_any<T>(&self, act: impl FnOnce(&mut Own) -> T) -> Result<T, i32> {
         if thread::current().id() != self.thread {
             return Err(WRONG_THREAD);
         }
-        // SAFETY: this is its thread, and no other call is under way there.
+        // SAFETY: this is its thread, and no other call is in progress there.
         let own = unsafe { &mut *self.own.get() };
         let done = catch_unwind(AssertUnwindSafe(|| act(own)));
         if done.is_err() {
@@ -60,18 +60,18 @@ impl Served {
         done.map_err(|_| BROKEN)
     }
 
-    /// The same with one that is not broken.
+    /// Calls `act` with the run if it is not broken.
     ///
     /// # Safety
     /// As for `with_any`.
     unsafe fn with<T>(&self, act: impl FnOnce(&mut Run) -> T) -> Result<T, i32> {
-        // SAFETY: as for this.
+        // SAFETY: as for this function.
         let done = unsafe { self.with_any(|own| if own.is_broken { Err(BROKEN) } else { Ok(act(&mut own.run)) }) };
         done.flatten()
     }
 }
 
-/// The interface of a library whose runs begin like that.
+/// The interface of a library whose runs begin with `begin`.
 #[doc(hidden)]
 pub const fn interface(
     begin: unsafe extern "C" fn(*const *const c_char, usize, i32, Take, *mut c_void) -> *mut Served,
@@ -133,34 +133,35 @@ pub unsafe fn begin(
     std::ptr::null_mut()
 }
 
-/// Hands bytes to the host.
+/// Passes bytes to the host.
 ///
 /// # Safety
 /// `take` may be called with `context`.
 unsafe fn give(take: Take, context: *mut c_void, bytes: &[u8]) {
-    // SAFETY: by this function's contract; the bytes are there as long as the call lasts.
+    // SAFETY: by this function's contract; the bytes are valid as long as the call lasts.
     unsafe { take(context, bytes.as_ptr().cast(), bytes.len()) }
 }
 
 unsafe extern "C" fn go_on(run: *mut Served, cycles: u64, alone: i32) -> i32 {
     let outside = if alone != 0 { Outside::Nobody } else { Outside::Somebody };
-    // SAFETY: the host gives what `begin` gave and `end` has not taken, as `arl.h` says; no other call is under way.
+    // SAFETY: the host passes a pointer that `begin` returned and `end` has not taken, as `arl.h` requires; no other
+    // call is in progress.
     let gone_on = unsafe { (*run).with(|run| run.go_on(cycles, outside)) };
     gone_on.map_or_else(|problem| problem, |code| code.map_or(RUNS, i32::from))
 }
 
 unsafe extern "C" fn stop(run: *const Served) {
-    // SAFETY: as in `go_on`, but for other calls: this looks at nothing that they change.
+    // SAFETY: as in `go_on`, except for other calls: this reads nothing that they change.
     unsafe { &*run }.stops.store(true, Ordering::Relaxed);
 }
 
 unsafe extern "C" fn order(run: *mut Served, text: *const c_char, why: Take, context: *mut c_void) -> i32 {
-    // SAFETY: the host gives what `arl.h` says.
+    // SAFETY: the host passes what `arl.h` requires.
     unsafe { tried(run, (why, context), |run| run.order(&words(text))) }
 }
 
 unsafe extern "C" fn watch(run: *mut Served, names: *const c_char, why: Take, context: *mut c_void) -> i32 {
-    // SAFETY: the host gives what `arl.h` says.
+    // SAFETY: the host passes what `arl.h` requires.
     unsafe { tried(run, (why, context), |run| run.watch(&words(names))) }
 }
 
@@ -171,12 +172,12 @@ unsafe extern "C" fn set_global(
     why: Take,
     context: *mut c_void,
 ) -> i32 {
-    // SAFETY: the host gives what `arl.h` says.
+    // SAFETY: the host passes what `arl.h` requires.
     unsafe { tried(run, (why, context), |run| run.set_global(&words(name), &words(literal))) }
 }
 
 unsafe extern "C" fn global(run: *mut Served, name: *const c_char, take: Take, context: *mut c_void) -> i32 {
-    // SAFETY: the host gives what `arl.h` says.
+    // SAFETY: the host passes what `arl.h` requires.
     unsafe {
         let mut value = String::new();
         let done = tried(run, (take, context), |run| run.global(&words(name)).map(|found| value = found));
@@ -187,7 +188,7 @@ unsafe extern "C" fn global(run: *mut Served, name: *const c_char, take: Take, c
     }
 }
 
-/// Does something that can be refused: then `why` is told the reason, and 1 answered.
+/// Calls a function that can refuse: then `why` receives the reason, and 1 is returned.
 ///
 /// # Safety
 /// As for `Served::with`, and `why` may be called with `context`.
@@ -211,16 +212,16 @@ unsafe fn tried(
 /// A string of the host.
 ///
 /// # Safety
-/// It is ended by 0.
+/// The string is terminated by 0.
 unsafe fn words(text: *const c_char) -> String {
     // SAFETY: by this function's contract.
     unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned()
 }
 
 unsafe extern "C" fn said(run: *mut Served, take: Take, context: *mut c_void) {
-    // SAFETY: as in `go_on`. What led to a panic is told, too.
+    // SAFETY: as in `go_on`. After a panic, too, so that its cause is reported.
     if let Ok(text) = unsafe { (*run).with_any(|own| own.run.take_said()) } {
-        // SAFETY: the host gives a function that takes its context.
+        // SAFETY: the host passes a function that takes its context.
         unsafe { give(take, context, text.as_bytes()) };
     }
 }
@@ -228,7 +229,7 @@ unsafe extern "C" fn said(run: *mut Served, take: Take, context: *mut c_void) {
 unsafe extern "C" fn state(run: *mut Served, take: Take, context: *mut c_void) {
     // SAFETY: as in `go_on`.
     if let Ok(text) = unsafe { (*run).with(|run| run.state()) } {
-        // SAFETY: the host gives a function that takes its context.
+        // SAFETY: the host passes a function that takes its context.
         unsafe { give(take, context, text.as_bytes()) };
     }
 }
@@ -236,7 +237,7 @@ unsafe extern "C" fn state(run: *mut Served, take: Take, context: *mut c_void) {
 unsafe extern "C" fn summary(run: *mut Served, take: Take, context: *mut c_void) {
     // SAFETY: as in `go_on`.
     if let Ok(text) = unsafe { (*run).with(|run| run.summary()) } {
-        // SAFETY: the host gives a function that takes its context.
+        // SAFETY: the host passes a function that takes its context.
         unsafe { give(take, context, text.as_bytes()) };
     }
 }
@@ -244,7 +245,7 @@ unsafe extern "C" fn summary(run: *mut Served, take: Take, context: *mut c_void)
 unsafe extern "C" fn report(run: *mut Served, take: Take, context: *mut c_void) {
     // SAFETY: as in `go_on`.
     if let Ok(text) = unsafe { (*run).with(|run| run.report()) } {
-        // SAFETY: the host gives a function that takes its context.
+        // SAFETY: the host passes a function that takes its context.
         unsafe { give(take, context, text.as_bytes()) };
     }
 }
@@ -252,7 +253,7 @@ unsafe extern "C" fn report(run: *mut Served, take: Take, context: *mut c_void) 
 unsafe extern "C" fn observe(run: *mut Served, numbers: *mut f64, count: usize) -> usize {
     let room: &mut [f64] = match count {
         0 => &mut [],
-        // SAFETY: the host gives room for so many.
+        // SAFETY: the host provides room for `count` numbers.
         count => unsafe { std::slice::from_raw_parts_mut(numbers, count) },
     };
     // SAFETY: as in `go_on`.
@@ -266,17 +267,17 @@ unsafe extern "C" fn observe(run: *mut Served, numbers: *mut f64, count: usize) 
 }
 
 unsafe extern "C" fn rows(run: *mut Served, take: Take, context: *mut c_void) {
-    // SAFETY: as in `go_on`. What led to a panic is told, too.
+    // SAFETY: as in `go_on`. After a panic, too, so that its cause is reported.
     if let Ok(rows) = unsafe { (*run).with_any(|own| own.run.take_rows()) } {
-        // SAFETY: doubles are bytes without gaps, and they are there as long as the call lasts.
+        // SAFETY: doubles are bytes without gaps, and they are valid as long as the call lasts.
         unsafe { take(context, rows.as_ptr().cast(), size_of_val(&*rows)) };
     }
 }
 
 unsafe extern "C" fn files(run: *mut Served, take: Take, context: *mut c_void) {
-    // SAFETY: as in `go_on`. What led to a panic is told, too.
+    // SAFETY: as in `go_on`. After a panic, too, so that its cause is reported.
     if let Ok(text) = unsafe { (*run).with_any(|own| own.run.files().join("\n")) } {
-        // SAFETY: the host gives a function that takes its context.
+        // SAFETY: the host passes a function that takes its context.
         unsafe { give(take, context, text.as_bytes()) };
     }
 }
@@ -291,12 +292,12 @@ unsafe extern "C" fn end(run: *mut Served) {
     if thread::current().id() != unsafe { &*run }.thread {
         return;
     }
-    // SAFETY: it came from a box in `begin`, and the host gives it away.
+    // SAFETY: it came from a box in `begin`, and the host gives up ownership.
     let served = unsafe { Box::from_raw(run) };
     let _ = catch_unwind(AssertUnwindSafe(|| drop(served)));
 }
 
 unsafe extern "C" fn header(take: Take, context: *mut c_void) {
-    // SAFETY: the host gives a function that takes its context.
+    // SAFETY: the host passes a function that takes its context.
     unsafe { give(take, context, Run::HEADER.as_bytes()) };
 }

@@ -1,5 +1,5 @@
-//! `arl.toml`: what a command does not say of the robot and the cell that programs are for. It lies beside a program,
-//! or in a folder above it; its paths count from its own folder. What the command says goes first.
+//! `arl.toml`: settings of the robot and the cell of programs that are not given on the command line. It lies beside a
+//! program, or in a folder above it; its paths are relative to its own folder. The command line takes precedence.
 
 use crate::options::{Checking, RunOptions};
 use crate::program_path;
@@ -12,15 +12,15 @@ use arl2rs::check::clean;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
-/// How the file is called.
+/// The name of the file.
 pub const NAME: &str = "arl.toml";
 
-/// Whether this is no file, but says that there is no scenario, whatever the file says.
+/// Whether this is not a file but means that there is no scenario, whatever the file says.
 pub fn is_no_scenario(io: &Path) -> bool {
     io == Path::new("none")
 }
 
-/// The file.
+/// The contents of the file.
 #[derive(Clone, Default, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 pub struct ArlToml {
@@ -30,20 +30,20 @@ pub struct ArlToml {
     pub cell: Option<PathBuf>,
     /// The scenario of a run.
     pub io: Option<PathBuf>,
-    /// The folder that the program's files are in.
+    /// The folder that contains the program's files.
     pub script_dir: Option<PathBuf>,
-    /// Where it was found.
+    /// The path at which it was found.
     #[serde(skip)]
     pub path: PathBuf,
-    /// The lines of its keys.
+    /// The line numbers of its keys.
     #[serde(skip)]
     lines: Vec<(String, u32)>,
 }
 
-/// The file that holds for a program; none where there is none.
+/// The file that applies to a program, if there is one.
 ///
 /// # Errors
-/// It cannot be read, or says what it cannot say.
+/// The file cannot be read, or has invalid contents.
 pub fn of_program(program: &Path) -> Result<Option<ArlToml>, Failure> {
     match find(program) {
         Some(path) => read(&path).map(Some),
@@ -51,22 +51,22 @@ pub fn of_program(program: &Path) -> Result<Option<ArlToml>, Failure> {
     }
 }
 
-/// Where the file is that holds for a program.
+/// The path of the file that applies to a program.
 pub fn find(program: &Path) -> Option<PathBuf> {
-    // `../other/p.arl` lies in the other folder, and not in this one, too.
+    // `../other/p.arl` lies in the other folder only, not also in this one.
     let program = clean(&std::path::absolute(program).ok()?);
     program.ancestors().skip(1).map(|folder| folder.join(NAME)).find(|path| is_there(path))
 }
 
-/// Whether there is something of this name but a folder: what is not a regular file is refused, and not passed over.
+/// Whether anything but a folder has this name: something that is not a regular file is refused, not skipped.
 fn is_there(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|about| !about.is_dir())
 }
 
-/// Reads the file, which is given in full; so are then the paths in it.
+/// Reads the file, which is given by its absolute path; the paths in it then become absolute, too.
 ///
 /// # Errors
-/// It cannot be read, or a line is not as the file is written: the line, and what it may say.
+/// The file cannot be read, or a line is not valid: the error gives the line and what is allowed.
 pub fn read(path: &Path) -> Result<ArlToml, Failure> {
     let text = regular_file::read_text(path).map_err(|error| Failure::io("read", path, &error))?;
     let source = Source { file: NAME, text: &text };
@@ -74,7 +74,7 @@ pub fn read(path: &Path) -> Result<ArlToml, Failure> {
         let line = source.line(error.span().map_or(0, |span| span.start));
         Failure::Usage(format!("{}:{line}: {}", show::path(path).display(), error.message().trim_end()))
     })?;
-    // In full: who runs the program may do it in another folder.
+    // Absolute, because the program may be run in another folder.
     let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
     for place in [&mut file.cell, &mut file.io, &mut file.script_dir].into_iter().flatten() {
         *place = folder.join(&*place);
@@ -93,7 +93,7 @@ pub fn read(path: &Path) -> Result<ArlToml, Failure> {
     Ok(file)
 }
 
-/// Where a command keeps one of the things that the file says: its name, and the place in the command and in the file.
+/// A setting of the file: its name, and where it is stored in the command and in the file.
 type Entry<'a> = (&'a str, Slot<'a>);
 
 enum Slot<'a> {
@@ -102,7 +102,7 @@ enum Slot<'a> {
 }
 
 impl Slot<'_> {
-    /// What is wrong with what is taken from the file: it is not there.
+    /// The problem with a value taken from the file: it does not exist.
     fn problem(&self) -> Option<String> {
         match self {
             Slot::Robot(None, Some(robot)) => Some(robots::text(Some(robot)).err()?.to_string()),
@@ -114,10 +114,10 @@ impl Slot<'_> {
     }
 }
 
-/// Takes from `file` what was not said; where that is wanted, it is told what came from where.
+/// Takes from `file` what the command line does not give; if `tells` is set, shows the source of each value.
 ///
 /// # Errors
-/// What the file says is not there: the error names it, and the line.
+/// Something that the file names does not exist: the error names it and the line.
 fn fill<'a>(file: &ArlToml, tells: bool, entries: impl IntoIterator<Item = Entry<'a>>) -> Result<(), Failure> {
     let mut said = String::new();
     for (name, slot) in entries {
@@ -148,20 +148,20 @@ fn take<T: Clone>(own: &mut Option<T>, other: &Option<T>) -> Option<T> {
 }
 
 impl Checking {
-    /// The same, with what the `arl.toml` of a program says besides. With `--verbose` it is told what came from where.
+    /// These options, supplemented by the `arl.toml` of a program. With `--verbose` the source of each value is shown.
     ///
     /// # Errors
-    /// The program is not there or no file of ARL; a file beside it or above cannot be read, or names what is not
-    /// there.
+    /// The program does not exist or is not an ARL file; a file beside or above it cannot be read, or names something
+    /// that does not exist.
     pub fn of_program(&self, program: &Path) -> Result<Self, Failure> {
         program_path::check(program)?;
         self.with(&of_program(program)?.unwrap_or_default())
     }
 
-    /// The same, with what a file says besides.
+    /// These options, supplemented by a file.
     ///
     /// # Errors
-    /// It is not there.
+    /// Something that the file names does not exist.
     pub fn with(&self, file: &ArlToml) -> Result<Self, Failure> {
         let mut all = self.clone();
         let entries = [
@@ -175,7 +175,7 @@ impl Checking {
 }
 
 impl RunOptions {
-    /// The same, with what the `arl.toml` of a program says besides. With `--verbose` it is told what came from where.
+    /// These options, supplemented by the `arl.toml` of a program. With `--verbose` the source of each value is shown.
     ///
     /// # Errors
     /// As for [`Checking::of_program`].

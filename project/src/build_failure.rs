@@ -1,17 +1,17 @@
-//! What keeps cargo from compiling, in words of what to do about it.
+//! Explains what keeps cargo from compiling, and what to do about it.
 
-/// Something that is missing around the compiler.
+/// Something that is missing in the environment of the compiler.
 #[derive(Debug)]
 struct Trouble {
-    /// What cargo, rustup or rustc say of it: any of these.
+    /// Messages of cargo, rustup or rustc, any of which indicates the problem.
     signs: &'static [&'static str],
-    /// What it is.
+    /// The problem.
     is: &'static str,
-    /// What to do.
+    /// The remedy.
     help: &'static str,
 }
 
-/// The first that fits is told.
+/// The known problems; the first one that matches is reported.
 const KNOWN: [Trouble; 6] = [
     Trouble {
         signs: &["No space left on device", "os error 28", "os error 112"],
@@ -63,7 +63,7 @@ const KNOWN: [Trouble; 6] = [
     },
 ];
 
-/// What is missing and what to do, followed by what cargo said; none where it is something else.
+/// The problem and its remedy, followed by the output of cargo; `None` for any other problem.
 pub(crate) fn of(said: &str) -> Option<String> {
     let fits = |trouble: &&Trouble| trouble.signs.iter().any(|sign| said.contains(sign));
     let Trouble { is, help, .. } = KNOWN.iter().find(fits)?;

@@ -13,16 +13,16 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-/// What cargo made.
+/// The output of cargo.
 #[derive(Debug, Default)]
 pub struct Built {
-    /// The programs, or libraries, with their names.
+    /// The programs or libraries, with their names.
     pub programs: Vec<(String, PathBuf)>,
-    /// What rustc and cargo refused; empty when all went well.
+    /// The errors of rustc and cargo; empty on success.
     pub errors: Vec<RustError>,
-    /// How many packages were compiled.
+    /// The number of packages that were compiled.
     compiled: usize,
-    /// All that there is.
+    /// All files, including those that existed already.
     artifacts: Vec<Artifact>,
 }
 
@@ -31,30 +31,30 @@ pub struct Built {
 struct Artifact {
     manifest: PathBuf,
     files: Vec<PathBuf>,
-    /// Whether they were made now.
+    /// Whether they were made in this build.
     is_new: bool,
 }
 
 /// An error of rustc in emitted code.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct RustError {
-    /// The file, as rustc names it: relative to the project.
+    /// The file as rustc names it: relative to the project.
     pub file: Option<String>,
     /// The error as rustc shows it.
     pub rendered: String,
 }
 
-/// Compiles the project in `folder`, with what is in `target`. What of that is damaged is made anew.
+/// Compiles the project in `folder`, using the files in `target`. Damaged files are made again.
 ///
 /// # Errors
-/// cargo is not there or cannot be started, another package cannot be had, or the disk does not take what is made. What
-/// rustc says of the program is not an error, but part of what comes back.
+/// cargo does not exist or cannot be started, another package cannot be obtained, or the output cannot be written to
+/// the disk. Errors of rustc in the program are not returned as an error but are part of the result.
 pub fn build(folder: &Path, target: &Path, release: bool, progress: &Progress) -> Result<Built, Failure> {
     let shared = target.parent().unwrap_or(target);
-    // cargo lets one process at a time compile there, too.
+    // cargo also lets only one process at a time compile there.
     let _alone = Lock::take(&shared.join("compiling"), false, "waiting for another arl2rs that is compiling")?;
     let (mut own, mut others) = (Made::read(folder), Made::read(shared));
-    // Who looks at a terminal sees what is done; others would take it for a standstill.
+    // On a terminal the progress is shown; otherwise the build would seem to stand still.
     let profile = target.join(if release { "release" } else { "debug" });
     let is_first = !profile.join("deps").is_dir() && !show::is_watched();
     let begun = Instant::now();
@@ -67,10 +67,10 @@ pub fn build(folder: &Path, target: &Path, release: bool, progress: &Progress) -
     }
     for file in damaged.into_iter().chain(others.take_damaged()) {
         show::warning(&format!("{} is damaged: it is compiled anew", file.display()));
-        // Where it cannot be removed, cargo or the linker says what is wrong.
+        // If it cannot be removed, cargo or the linker reports the problem.
         let _ = std::fs::remove_file(&file);
     }
-    // Who is killed meanwhile has changed what was recorded.
+    // A process killed from here on has changed the recorded files.
     own.forget();
     others.forget();
     let mut built = Built::default();
@@ -88,8 +88,9 @@ pub fn build(folder: &Path, target: &Path, release: bool, progress: &Progress) -
     Ok(built)
 }
 
-/// cargo, which looks for settings from its own folder up to the root: there nobody but the system has any. Those of
-/// `CARGO_HOME` say where packages come from and what links them, but not what the emitted code is compiled to.
+/// The cargo command. cargo looks for settings from its working folder up to the root, so it runs in the root, where
+/// only the system has settings. Those of `CARGO_HOME` determine where packages come from and what links them, but not
+/// how the emitted code is compiled.
 fn command(folder: &Path, target: &Path, release: bool) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command
@@ -106,7 +107,7 @@ fn command(folder: &Path, target: &Path, release: bool) -> Command {
     for (name, _) in std::env::vars_os().filter(|(name, _)| !is_kept(&name.to_string_lossy())) {
         command.env_remove(name);
     }
-    // Set to nothing they go before what settings say.
+    // Set to nothing, these take precedence over settings.
     for name in ["CARGO_ENCODED_RUSTFLAGS", "RUSTC_WRAPPER", "RUSTC_WORKSPACE_WRAPPER"] {
         command.env(name, "");
     }
@@ -115,8 +116,8 @@ fn command(folder: &Path, target: &Path, release: bool) -> Command {
     command
 }
 
-/// Whether cargo is given a variable of the environment: of its own, and of rustc's, those that say where packages come
-/// from, how many things it does at a time, and what links programs.
+/// Whether cargo receives an environment variable. Of its own variables and those of rustc, only those are kept that
+/// determine where packages come from, how many jobs run at a time, and what links programs.
 fn is_kept(name: &str) -> bool {
     const KEPT: [&str; 6] =
         ["CARGO_HOME", "CARGO_HTTP_", "CARGO_NET_", "CARGO_REGISTR", "CARGO_SOURCE_", "CARGO_BUILD_JOBS"];
@@ -135,7 +136,7 @@ fn is_kept(name: &str) -> bool {
     }
 }
 
-/// Lets cargo work, and gathers what it makes.
+/// Runs cargo and collects its output.
 fn compile(built: &mut Built, mut command: Command, progress: &Progress) -> Result<(), Failure> {
     let cargo = Path::new(command.get_program()).to_path_buf();
     let mut child = command.spawn().map_err(|error| match error.kind() {
@@ -148,7 +149,7 @@ fn compile(built: &mut Built, mut command: Command, progress: &Progress) -> Resu
     let complaints = std::thread::spawn(move || {
         let mut text = String::new();
         if let Some(mut errors) = errors {
-            // What cannot be read cannot be shown.
+            // Output that cannot be read cannot be shown.
             let _ = errors.read_to_string(&mut text);
         }
         text
@@ -160,14 +161,14 @@ fn compile(built: &mut Built, mut command: Command, progress: &Progress) -> Resu
     }
     let status = child.wait().map_err(|error| Failure::io("wait for", &cargo, &error))?;
     let complaints = complaints.join().unwrap_or_default();
-    // Who was ended from outside says nothing.
+    // A process that was killed prints nothing.
     let complaints = if complaints.trim().is_empty() { status.to_string() } else { complaints };
     if status.success() { Ok(()) } else { refused(built, complaints.trim_end()) }
 }
 
-/// Why something did not compile, unless that is the emitted code.
+/// The reason why something did not compile, unless it is the emitted code.
 fn refused(built: &Built, complaints: &str) -> Result<(), Failure> {
-    // Emitted Rust that is wrong has a place; what has none is about what is around the compiler.
+    // An error in emitted Rust has a position; one without a position concerns the environment of the compiler.
     let around: BTreeSet<&str> =
         built.errors.iter().filter(|error| error.file.is_none()).map(|error| error.rendered.as_str()).collect();
     let around = if around.is_empty() { complaints.to_owned() } else { around.into_iter().collect() };
@@ -226,11 +227,11 @@ impl Built {
                     files: message.filenames.clone(),
                     is_new: message.fresh == Some(false),
                 });
-                // Beside it there are what other linkers want.
+                // There may also be files for other linkers.
                 let is_library = target.as_ref().is_some_and(|target| target.kind.iter().any(|kind| kind == "cdylib"));
                 let library = message.filenames.into_iter().find(|file| is_library && is_loadable(file));
                 let name = target.map(|target| target.name).unwrap_or_default();
-                // What is there already comes first, and at once.
+                // Packages that exist already come first, all at once.
                 if message.fresh == Some(false) {
                     self.compiled += 1;
                     progress.say(&words(self.compiled, &name));
@@ -243,17 +244,17 @@ impl Built {
     }
 }
 
-/// Whether a file is a library that can be loaded here.
+/// Whether a file is a library that can be loaded on this system.
 fn is_loadable(file: &Path) -> bool {
     file.extension().is_some_and(|ending| ending == std::env::consts::DLL_EXTENSION)
 }
 
-/// What is said while packages are compiled: those of the runtime come first, once for all programs.
+/// The message while packages are compiled: those of the runtime come first, once for all programs.
 fn words(compiled: usize, last: &str) -> String {
     format!("compiling the runtime, once for all programs: {compiled} packages done, last {last}")
 }
 
-/// An error with a place; the closing "aborting due to 2 previous errors" has none and is left out.
+/// An error with its file; the closing "aborting due to 2 previous errors" is left out.
 fn error(message: Rustc) -> Option<RustError> {
     if !message.level.starts_with("error") || message.message.starts_with("aborting due to") {
         return None;
@@ -262,7 +263,7 @@ fn error(message: Rustc) -> Option<RustError> {
     Some(RustError { file, rendered: message.rendered.unwrap_or(message.message) })
 }
 
-/// What to say when the emitted Rust does not compile: that is never the user's mistake.
+/// The message if the emitted Rust does not compile, which is never the user's error.
 pub fn bug(errors: &[RustError], main: &Path) -> Failure {
     let shown: String = errors.iter().take(3).map(|error| error.rendered.clone()).collect();
     Failure::Other(format!(

@@ -1,4 +1,4 @@
-//! Several programs in one: the one of the command line, and those that its cell file names.
+//! Several programs in one: the program on the command line and those that its cell file names.
 
 use crate::options::Checking;
 use crate::robots;
@@ -7,29 +7,29 @@ use arl_robot::cell::{Cell, CellChannel};
 use arl_terminal::failure::Failure;
 use std::path::{Path, PathBuf};
 
-/// A program beside the first one.
+/// A program in addition to the first one.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Other {
-    /// As the cell file names it.
+    /// Its name in the cell file.
     pub file: String,
-    /// Where it is.
+    /// Its path.
     pub path: PathBuf,
-    /// Its robot, where the cell file names one.
+    /// Its robot, if the cell file names one.
     pub robot: Option<String>,
     /// Whether it has no robot.
     pub background: bool,
 }
 
 impl Other {
-    /// How it is checked where the first program is checked like that.
+    /// The options with which it is checked if the first program is checked with `first`.
     pub fn checking(&self, first: &Checking) -> Checking {
         Checking { robot: self.robot.clone(), background: self.background, ..first.clone() }
     }
 
-    /// The folder of its files, counted from that of the main file where it is below.
+    /// The folder of its files, relative to that of the main file if it is below it.
     ///
     /// # Errors
-    /// The current folder cannot be had.
+    /// The current folder cannot be determined.
     pub fn folder(&self, main: &Path) -> Result<String, Failure> {
         let (main, file) = (absolute(main)?, absolute(&self.path)?);
         let folder = file.parent().unwrap_or(Path::new(""));
@@ -38,10 +38,10 @@ impl Other {
     }
 }
 
-/// The programs that a cell file names; `robot` is that of the first program.
+/// The programs that a cell file names; `robot` is the robot of the first program.
 ///
 /// # Errors
-/// The file cannot be read, or its channels are none.
+/// The file cannot be read, or its channels are not valid.
 pub fn named(cell: Option<&Path>, robot: Option<&str>) -> Result<Vec<Other>, Failure> {
     let Some(cell) = cell else { return Ok(Vec::new()) };
     let programs = Cell::load(cell).map_err(|error| Failure::Usage(error.to_string()))?.programs;
@@ -59,7 +59,7 @@ pub fn named(cell: Option<&Path>, robot: Option<&str>) -> Result<Vec<Other>, Fai
     Ok(all.others.into_iter().map(|(other, _)| other).collect())
 }
 
-/// The programs that were named so far, each with the build of the robots that it is for, where one runs it.
+/// The programs named so far, each with the robot family that it is for, if a channel with a robot runs it.
 struct All<'a> {
     cell: &'a Path,
     folder: &'a Path,
@@ -67,8 +67,8 @@ struct All<'a> {
 }
 
 impl All<'_> {
-    /// Adds a program that a channel runs or can load: one with this robot (none: the default one), or one in the
-    /// background. `line` is that of the channel.
+    /// Adds a program that a channel runs or can load, with this robot (`Some(None)`: the default one) or in the
+    /// background (`None`). `line` is the line of the channel.
     fn add(&mut self, file: String, robot: Option<Option<&str>>, line: Option<u32>) -> Result<(), Failure> {
         let family = robot.map(robots::family).transpose()?;
         let Some((known, before)) = self.others.iter_mut().find(|(it, _)| it.file == file) else {
@@ -77,7 +77,7 @@ impl All<'_> {
             self.others.push((Other { file, path, robot, background }, family));
             return Ok(());
         };
-        // What runs in the background somewhere may do there only what it may do everywhere.
+        // A program that runs in the background anywhere may do only what is allowed there, wherever it runs.
         known.background |= robot.is_none();
         match (*before, family) {
             (Some(before), Some(family)) if before != family => {
@@ -108,10 +108,10 @@ fn kind(family: Family) -> &'static str {
     }
 }
 
-/// The path from the root, with a message that names it where there is none.
+/// The absolute path, with a message that names the path if there is none.
 ///
 /// # Errors
-/// The path is empty, or the current folder cannot be had.
+/// The path is empty, or the current folder cannot be determined.
 pub fn absolute(path: &Path) -> Result<PathBuf, Failure> {
     std::path::absolute(path).map_err(|error| Failure::io("use", path, &error))
 }
@@ -160,7 +160,7 @@ mod tests {
             let Err(Failure::Usage(text)) = named(name, &text) else { panic!("{name} passes") };
             assert!(text.contains(line) && text.contains("arl is for a"), "{name}: {text}");
         }
-        // The background has no robot, so its program is checked for that of the other channel.
+        // The background has no robot, so its program is checked for the robot of the other channel.
         let found = named("background", &(channel("a.arl", background) + &channel("a.arl", scara))).expect("a cell");
         let short: Vec<_> = found.iter().map(|it| (it.robot.as_deref(), it.background)).collect();
         assert_eq!(short, [(Some("hsr065"), true)]);

@@ -1,4 +1,4 @@
 //! The files beside a program that make it a case of `arl2rs test`.
 
-/// Endings of those that say what is expected of it.
+/// The extensions of the files that give the expected results.
 pub const EXPECTATIONS: [&str; 3] = [".out", ".err", ".alarm"];

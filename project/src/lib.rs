@@ -1,5 +1,5 @@
-//! What belongs to a program (its robot, its cell, its `arl.toml`), and its way from source texts to a compiled
-//! program, with as little work as the changes need.
+//! Handles everything that belongs to a program (its robot, its cell, its `arl.toml`), and compiles it from its source
+//! texts with as little work as the changes require.
 
 pub mod arl_toml;
 mod build_failure;

@@ -1,23 +1,23 @@
-//! What is listed of programs on standard error: their errors and warnings, and how many there were.
+//! Lists the errors and warnings of programs, and their numbers, on standard error.
 
 use arl_terminal::show;
 use arl2rs::compile::Compiled;
 use arl2rs::diagnostics::{Diagnostic, Files, Severity};
 use arl2rs::render::human;
 
-/// How many diagnostics people are shown by default.
+/// The default maximum number of diagnostics shown to people.
 pub const MOST_SHOWN: usize = 50;
 
-/// How many diagnostics may still be shown; none for any number.
+/// How many more diagnostics may be shown; `None` for no limit.
 pub struct Limit(Option<usize>);
 
 impl Limit {
-    /// At most so many; 0 for any number.
+    /// A limit of `most` diagnostics; 0 for no limit.
     pub fn of(most: usize) -> Self {
         Self((most > 0).then_some(most))
     }
 
-    /// Which of them are shown, in the order of the text: warnings only where all errors are.
+    /// The diagnostics that are shown, in the order of the text. Warnings are shown only if all errors are.
     fn take<'a>(&mut self, all: &'a [Diagnostic]) -> Vec<&'a Diagnostic> {
         let Some(left) = &mut self.0 else { return all.iter().collect() };
         let is_error = |diagnostic: &Diagnostic| diagnostic.severity == Severity::Error;
@@ -41,12 +41,12 @@ impl Default for Limit {
     }
 }
 
-/// Errors and warnings of a program, then how many there were.
+/// Shows the errors and warnings of a program and their numbers.
 pub fn show(compiled: &Compiled, limit: &mut Limit) {
     show::say(&rendered(compiled, limit));
 }
 
-/// The same as text, with terminal colours.
+/// The same output as text, with terminal colours.
 pub fn rendered(compiled: &Compiled, limit: &mut Limit) -> String {
     let all = &compiled.checked.diagnostics;
     if all.is_empty() {

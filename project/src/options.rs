@@ -1,4 +1,4 @@
-//! How programs are checked and run: what the command line and `arl.toml` say of it.
+//! Options for checking and running programs, given on the command line and in `arl.toml`.
 
 use arl_robot::changes::Changes;
 use arl_terminal::answer::ReportFormat;
@@ -144,7 +144,7 @@ pub enum Mode {
 }
 
 impl RunOptions {
-    /// The options as the program takes them.
+    /// The options as arguments of the program.
     pub fn arguments(&self) -> Vec<std::ffi::OsString> {
         let word = |value: Option<clap::builder::PossibleValue>| value.map(|value| value.get_name().into());
         let path = |path: &Option<PathBuf>| path.clone().map(PathBuf::into_os_string);
@@ -177,7 +177,7 @@ impl RunOptions {
             "" => "--realtime".into(),
             core => format!("--realtime={core}").into(),
         }));
-        // Another form of the report is made of what the program says.
+        // Other forms of the report are made from the program's output.
         if let (Some(file), None | Some(ReportFormat::Human)) = (&self.report, self.format) {
             let mut report = std::ffi::OsString::from("--report");
             if file.as_os_str() != "-" {
@@ -189,10 +189,10 @@ impl RunOptions {
         arguments
     }
 
-    /// What `--set` changes.
+    /// The changes given by `--set`.
     ///
     /// # Errors
-    /// One of the words is not a change.
+    /// One of the arguments is not a valid change.
     pub fn changed(&self) -> Result<Changes, Failure> {
         Changes::of(&self.changes).map_err(Failure::Usage)
     }

@@ -1,38 +1,38 @@
-//! The cargo project that a program is compiled in.
+//! The cargo project in which a program is compiled.
 
 use crate::cache::{Kind, Place, write_if_changed};
 use crate::runtime::Unpacked;
 use arl_terminal::failure::Failure;
 use std::path::Path;
 
-/// The emitted Rust of what becomes one program.
+/// The emitted Rust of everything that becomes one program.
 #[derive(Clone, Default, Debug)]
 pub struct Emitted {
     /// The first program.
     pub first: String,
     /// The others.
     pub others: Vec<EmittedOther>,
-    /// What they are made into.
+    /// What they are compiled into.
     pub kind: Kind,
 }
 
-/// The emitted Rust of a program beside the first one.
+/// The emitted Rust of an additional program.
 #[derive(Clone, Hash, Debug)]
 pub struct EmittedOther {
-    /// The name that the cell file gives it.
+    /// Its name in the cell file.
     pub file: String,
-    /// The folder of its files, counted from that of the first program.
+    /// The folder of its files, relative to that of the first program.
     pub folder: String,
-    /// What it became.
+    /// The emitted Rust.
     pub rust: String,
 }
 
-/// Writes the project of a program. `folder` is that of its files.
+/// Writes the project of a program. `folder` is the folder of the program's files.
 ///
 /// # Errors
-/// A file of it cannot be written.
+/// A file of the project cannot be written.
 pub fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &Path) -> Result<(), Failure> {
-    manifest(&place.folder, &place.name, runtime, (rust.kind, PROGRAM_LEVEL))?;
+    manifest(&place.folder, &place.name, runtime, rust.kind, PROGRAM_LEVEL)?;
     let source = |name: &str| place.folder.join("src").join(name);
     write_if_changed(&source("program.rs"), rust.first.as_bytes())?;
     let mut modules = String::from("mod program;\n");
@@ -68,20 +68,20 @@ pub fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &Path) -
     Ok(())
 }
 
-/// The entry of a program beside the first one, which became this module.
+/// The entry of an additional program, which became this module.
 pub fn other(other: &EmittedOther, module: &str) -> String {
     let EmittedOther { file, folder, .. } = other;
     let make = format!("|| Box::new({module}::Globals::new())");
     format!("arl_rt::emit::program_main::Other {{ file: {file:?}, folder: {folder:?}, make: {make} }},")
 }
 
-/// How far programs are optimised: far enough for loops, and soon done.
+/// The optimisation level of programs: high enough for loops, and fast to compile.
 const PROGRAM_LEVEL: u8 = 1;
 
-/// How the runtime is compiled, which everybody waits for once. What moves robots is as fast as it can be, in one piece
-/// each: between pieces nothing small is inlined. The rest of the runtime is mostly called, and seldom loops: small is
-/// fast enough there. What reads files at the start, is only compiled where it is used, or is not used at all, needs no
-/// optimisation of its own.
+/// How the runtime is compiled, which every user waits for once. The crates that move robots are as fast as possible,
+/// in one codegen unit each: between units nothing small is inlined. The rest of the runtime is mostly called and
+/// seldom loops, so small code is fast enough there. Crates that read files at the start, are only compiled where they
+/// are used, or are not used at all, need no optimisation of their own.
 const RUNTIME: &str = "\
 arl-lang = { opt-level = 1, codegen-units = 2 }
 arl-motion = { opt-level = 2, codegen-units = 1 }
@@ -100,7 +100,7 @@ toml_parser = { opt-level = 0 }
 winnow = { opt-level = 0 }
 ";
 
-/// What the profile says of what a program does, said once more where settings of a user's cannot change it.
+/// The settings of the profile that affect what a program does, repeated where the user's settings cannot change them.
 pub const SETTINGS: [&str; 6] = [
     "profile.dev.panic=\"unwind\"",
     "profile.dev.overflow-checks=false",
@@ -110,16 +110,16 @@ pub const SETTINGS: [&str; 6] = [
     "profile.release.debug-assertions=false",
 ];
 
-/// Writes Cargo.toml, and Cargo.lock where the versions of other packages are known.
+/// Writes Cargo.toml, and Cargo.lock if the versions of other packages are known.
 ///
 /// # Errors
 /// One of them cannot be written.
-pub fn manifest(folder: &Path, name: &str, runtime: &Unpacked, (kind, level): (Kind, u8)) -> Result<(), Failure> {
+pub fn manifest(folder: &Path, name: &str, runtime: &Unpacked, kind: Kind, level: u8) -> Result<(), Failure> {
     let (crate_type, library) = match kind {
         Kind::Library => ("[lib]\ncrate-type = [\"cdylib\"]\n\n", format!("arl-library = {}\n", runtime.library)),
         _ => ("", String::new()),
     };
-    // Not `package."*"`: that would also optimise what only runs while compiling.
+    // Not `package."*"`: that would also optimise code that only runs during compilation.
     let text = format!(
         "# Written by arl2rs.\n\
          [package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
@@ -134,7 +134,8 @@ pub fn manifest(folder: &Path, name: &str, runtime: &Unpacked, (kind, level): (K
     );
     write_if_changed(&folder.join("Cargo.toml"), text.as_bytes())?;
     let Some(lock) = runtime.lock_file.as_ref().and_then(|path| std::fs::read(path).ok()) else { return Ok(()) };
-    // cargo takes out of the lock file what the project does not need, so a copy tells whether the original changed.
+    // cargo removes from the lock file what the project does not need, so a copy shows whether the original has
+    // changed.
     let own = folder.join("Cargo.lock");
     if write_if_changed(&folder.join("base.lock"), &lock)? || !is_toml(&own) {
         std::fs::write(&own, &lock).map_err(|error| Failure::io("write", &own, &error))?;
@@ -142,7 +143,7 @@ pub fn manifest(folder: &Path, name: &str, runtime: &Unpacked, (kind, level): (K
     Ok(())
 }
 
-/// Whether a file holds TOML: what is left of a damaged one does not, as a rule, and cargo refuses it for good.
+/// Whether a file is valid TOML: the rest of a damaged one usually is not, and cargo would then always refuse it.
 fn is_toml(path: &Path) -> bool {
     std::fs::read_to_string(path).is_ok_and(|text| toml::from_str::<toml::Table>(&text).is_ok())
 }

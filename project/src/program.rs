@@ -1,4 +1,4 @@
-//! From a source file to a compiled program, with as little work as the changes need.
+//! Compiles a program from its source file, with as little work as the changes require.
 
 use crate::cache::{Cache, Content, Kind, Lock, Place, RECORD, write_if_changed};
 use crate::cargo;
@@ -24,21 +24,21 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-/// A compiled program, safe from other processes that would compile it as long as the lock is held.
+/// A compiled program, which other processes cannot compile again while the lock is held.
 #[derive(Debug)]
 pub struct Ready {
     /// The executable, or the library.
     pub program: PathBuf,
-    /// Nobody compiles it anew as long as this is held.
+    /// No other process compiles the program again while this is held.
     pub lock: Lock,
-    /// The files that were read; none where nobody wrote them down.
+    /// The files that were read; empty if they were not recorded.
     pub sources: Vec<PathBuf>,
 }
 
 /// The options of a check.
 ///
 /// # Errors
-/// The robot is none, or the cell file cannot be read.
+/// The robot does not exist, or the cell file cannot be read.
 pub fn check_options(checking: &Checking) -> Result<CheckOptions, Failure> {
     let script_dir = match &checking.script_dir {
         Some(folder) => Some(std::path::absolute(folder).map_err(|error| Failure::io("use", folder, &error))?),
@@ -50,21 +50,21 @@ pub fn check_options(checking: &Checking) -> Result<CheckOptions, Failure> {
     Ok(CheckOptions { family, strict, background, script_dir, cell, ..CheckOptions::default() })
 }
 
-/// What a cell file has for programs.
+/// What a cell file provides for programs.
 fn outline(cell: &Path) -> Result<Outline, Failure> {
     let cell = Cell::load(cell).map_err(|error| Failure::Usage(error.to_string()))?;
     Ok(Outline::of(&cell))
 }
 
-/// The file that the compiler is in, where that is not the program of this process.
+/// The file that contains the compiler, if it is not the executable of this process.
 static COMPILER: OnceLock<PathBuf> = OnceLock::new();
 
-/// Says which file the compiler is in.
+/// Sets the file that contains the compiler.
 pub fn is_part_of(file: PathBuf) {
     let _ = COMPILER.set(file);
 }
 
-/// What becomes one program: that of the command line, and those that its cell names.
+/// Everything that becomes one program: the program on the command line and those that its cell names.
 #[derive(Debug)]
 pub struct Job<'a> {
     file: &'a Path,
@@ -76,20 +76,20 @@ pub struct Job<'a> {
     is_checked: bool,
 }
 
-/// A job that was done: what was found out about the programs, the first one in front, and the Rust that they became.
+/// A finished job: the results of the check, that of the first program first, and the emitted Rust.
 pub struct Done {
     programs: Vec<Compiled>,
-    /// What they became.
+    /// The emitted Rust.
     pub rust: Emitted,
-    /// What there was to say, rendered.
+    /// The messages, rendered.
     said: String,
 }
 
 impl<'a> Job<'a> {
-    /// A program and what the cell has beside it.
+    /// A job for a program and the additional programs of its cell.
     ///
     /// # Errors
-    /// A robot or a cell file cannot be read, or the channels of the cell are none.
+    /// A robot or a cell file cannot be read, or the channels of the cell are not valid.
     pub fn new(file: &'a Path, cell: Option<&'a Path>, checking: &Checking) -> Result<Self, Failure> {
         let others = cell_programs::named(cell, checking.robot.as_deref())?;
         let with_options = |other: Other| check_options(&other.checking(checking)).map(|options| (other, options));
@@ -103,7 +103,7 @@ impl<'a> Job<'a> {
         })
     }
 
-    /// The same, to be compiled into this.
+    /// The same job, to be compiled into `kind`.
     pub fn into_kind(self, kind: Kind) -> Self {
         Self { kind, ..self }
     }
@@ -111,15 +111,15 @@ impl<'a> Job<'a> {
     /// The main file as an absolute path.
     ///
     /// # Errors
-    /// The current folder cannot be had.
+    /// The current folder cannot be determined.
     pub fn main(&self) -> Result<PathBuf, Failure> {
         absolute(self.file)
     }
 
-    /// Where the program is kept.
+    /// The place of the program in the cache.
     ///
     /// # Errors
-    /// The current folder cannot be had.
+    /// The current folder cannot be determined.
     pub fn place(&self, cache: &Cache) -> Result<Place, Failure> {
         let place = match self.cell {
             Some(cell) => cache.programs(&self.main()?, &absolute(cell)?),
@@ -128,10 +128,10 @@ impl<'a> Job<'a> {
         Ok(place.of(self.kind))
     }
 
-    /// Checks and emits all programs, and shows what there is to say of any of them.
+    /// Checks and emits all programs, and shows their messages.
     ///
     /// # Errors
-    /// [`Failure::Shown`] where one has errors.
+    /// [`Failure::Shown`] if a program has errors.
     pub fn compile(&self, sources: &dyn Sources) -> Result<Done, Failure> {
         let (watched, named) = (self.kind == Kind::Watched, matches!(self.kind, Kind::Library | Kind::Named));
         let emitting = EmitOptions { watched, named, ..EmitOptions::default() };
@@ -156,7 +156,7 @@ impl<'a> Job<'a> {
         Ok(Done { programs, rust: Emitted { first, others, kind: self.kind }, said })
     }
 
-    /// A number that changes with everything but the sources: this command, the runtime, the options, the channels.
+    /// A number that changes with everything except the sources: this command, the runtime, the options, the channels.
     fn identity(&self, runtime: Runtime) -> u64 {
         let mut hasher = DefaultHasher::new();
         if let Some(compiler) = COMPILER.get().cloned().or_else(|| std::env::current_exe().ok()) {
@@ -170,20 +170,20 @@ impl<'a> Job<'a> {
     }
 }
 
-/// A bug of the compiler, as the command ends with it.
+/// A bug of the compiler as the failure of the command.
 pub fn bug(bug: Bug) -> Failure {
     Failure::Other(bug.to_string())
 }
 
-/// Compiles a program, with those that its cell names, unless that was done before.
+/// Compiles a program together with those that its cell names, unless that was done before.
 ///
 /// # Errors
-/// The program is refused, or cannot be compiled: why, and where.
+/// The program is refused or cannot be compiled; the error gives the reason and the position.
 pub fn prepare(kind: Kind, file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
     prepare_job(&Job::new(file, cell, checking)?.into_kind(kind), checking)
 }
 
-/// The same for one of which a check has told all warnings.
+/// Like `prepare`, for a program whose warnings have been shown by a check.
 ///
 /// # Errors
 /// As for [`prepare`].
@@ -212,7 +212,8 @@ fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
 
     let read = Recording::new(&FileSystem);
     let done = job.compile(&read)?;
-    // The runtime reads data files again below the script directory: here it must be the folder of the main file.
+    // The runtime reads data files again below the script directory, which must therefore be the folder of the main
+    // file.
     let read_again = checking.script_dir.is_none() && freshness == Freshness::DataChanged;
     let kept = stamp.filter(|stamp| read_again && only_values(stamp, &done.programs, &read));
     let (name, program) = match kept {
@@ -233,12 +234,12 @@ fn only_values(stamp: &Stamp, compiled: &[Compiled], read: &Recording<'_>) -> bo
     Stamp::of(compiled, read, stamp.identity, stamp.kept.clone()).is_some_and(|now| stamp.same_but_values(&now))
 }
 
-/// What the stamp says. A program that is gone, or not what was compiled, is as good as changed.
+/// The state recorded by the stamp. A program that is missing or damaged counts as changed.
 fn state(place: &Place, identity: u64) -> (Freshness, Option<Stamp>) {
     let none = (Freshness::Stale, None);
     let Some(stamp) = Stamp::read(&place.stamp()) else { return none };
     let freshness = stamp.freshness(identity);
-    // Nobody asks what is in a program that is not started.
+    // The contents of a program that is not started do not matter.
     if freshness != Freshness::Stale && !is_whole(place, &stamp.kept) { none } else { (freshness, Some(stamp)) }
 }
 
@@ -246,7 +247,7 @@ fn is_whole(place: &Place, kept: &Kept) -> bool {
     kept.program.is_in(&place.folder.join(&kept.name)) && kept.said.is_in(&place.said())
 }
 
-/// The file of a program that is not what was written when it was compiled.
+/// The file of a program that has changed since it was written.
 fn damaged(place: &Place) -> Option<PathBuf> {
     let Some(Stamp { kept, .. }) = Stamp::read(&place.stamp()) else {
         return Stamp::is_damaged(&place.stamp()).then(|| place.stamp());
@@ -255,7 +256,7 @@ fn damaged(place: &Place) -> Option<PathBuf> {
     files.into_iter().find_map(|(path, content)| (path.exists() && !content.is_in(&path)).then_some(path))
 }
 
-/// Shows the warnings again, but for what is checked, and leaves the rest as it is.
+/// Shows the warnings again unless the program is checked, and leaves everything else as it is.
 fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Result<Ready, Failure> {
     if !is_checked {
         show::say(&std::fs::read_to_string(place.said()).unwrap_or_default());
@@ -265,13 +266,13 @@ fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Re
     Ok(Ready { program, lock, sources })
 }
 
-/// Makes a program as new as its sources, which have the text that it was compiled from, even where they were written
-/// again: alarms show the lines of files that are no newer than the program.
+/// Makes a program as new as its sources, even if they were written again with the same text: alarms show the lines of
+/// files that are no newer than the program.
 fn renew(program: &Path, sources: &[PathBuf]) {
     let time = |path: &Path| path.metadata().and_then(|about| about.modified()).ok();
     let newest = sources.iter().filter_map(|path| time(path)).max();
     if newest > time(program) {
-        // Where that is not allowed, alarms show their lines without text.
+        // If that is not allowed, alarms show their lines without text.
         let _ = newest.map(|newest| std::fs::File::open(program).and_then(|file| file.set_modified(newest)));
     }
 }
@@ -280,7 +281,7 @@ fn sources(stamp: &Stamp) -> Vec<PathBuf> {
     stamp.files.iter().map(|file| file.path.clone()).collect()
 }
 
-/// Compiles the Rust and puts the program into its place under a name of its own, so that older ones run on.
+/// Compiles the Rust code and stores the program under a name of its own, so that older programs keep running.
 fn build(
     cache: &Cache,
     place: &Place,
@@ -300,10 +301,10 @@ fn build(
     Ok((name, content))
 }
 
-/// Compiles emitted Rust with cargo; the executable is put at `to`.
+/// Compiles emitted Rust with cargo; the executable is copied to `to`.
 ///
 /// # Errors
-/// As for [`cargo::build`], and what rustc refuses.
+/// As for [`cargo::build`], and errors of rustc.
 pub fn compile_rust(
     cache: &Cache,
     place: &Place,
@@ -322,7 +323,7 @@ pub fn compile_rust(
         Some((_, program)) if built.errors.is_empty() => program,
         _ => return Err(cargo::bug(&built.errors, main)),
     };
-    // A program that runs cannot be written over, but it can be removed.
+    // A running program cannot be overwritten, but it can be removed.
     if to.is_file() {
         std::fs::remove_file(to).map_err(|error| Failure::io("replace", to, &error))?;
     }
@@ -331,14 +332,14 @@ pub fn compile_rust(
     Ok(())
 }
 
-/// Removes programs of earlier states. One that runs goes on where the system allows it.
+/// Removes programs of earlier states. A running one continues if the system allows it.
 fn remove_old(place: &Place, keep: &str) {
     const OURS: [&str; 8] = ["Cargo.toml", "Cargo.lock", "base.lock", "src", "stamp", "said", "lock", RECORD];
     let Ok(entries) = std::fs::read_dir(&place.folder) else { return };
     for entry in entries.filter_map(Result::ok) {
         let name = entry.file_name();
         if name != keep && !OURS.iter().any(|ours| name == *ours) {
-            // What cannot be removed now is removed next time.
+            // A file that cannot be removed now is removed next time.
             let _ = std::fs::remove_file(entry.path());
         }
     }

@@ -1,4 +1,4 @@
-//! The path where a program is to be named.
+//! Checks paths that should name a program.
 
 use arl_lang::text::decode;
 use arl_terminal::failure::Failure;
@@ -6,10 +6,10 @@ use arl_terminal::show;
 use arl2rs::check::names_main;
 use std::path::{Path, PathBuf};
 
-/// Looks whether a path may name a program: a folder does not, and neither does a name that lacks its ending.
+/// Checks whether a path may name a program: a folder may not, and neither may a name without its extension.
 ///
 /// # Errors
-/// It does not; the error names the file that is probably meant.
+/// The path does not name a program; the error names the file that is probably meant.
 pub fn check(program: &Path) -> Result<(), Failure> {
     let shown = show::path(program).display();
     if program.is_dir() {

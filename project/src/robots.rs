@@ -1,4 +1,4 @@
-//! `arl2rs robots`, and what the compiler needs to know of a robot.
+//! `arl2rs robots`, and the robot data that the compiler needs.
 
 use arl_lang::catalog::Family;
 use arl_robot::Robot;
@@ -8,10 +8,10 @@ use arl_robot::robot::RobotError;
 use arl_terminal::failure::Failure;
 use std::borrow::Cow;
 
-/// The list of the built-in robots, or the text of the file of one.
+/// The list of the built-in robots, or the text of the file of a given one.
 ///
 /// # Errors
-/// None of this name is built in.
+/// There is no built-in robot of this name.
 pub fn robots(name: Option<&str>) -> Result<String, Failure> {
     let Some(name) = name else {
         let width = Robot::builtin_names().map(str::len).max().unwrap_or(0);
@@ -27,10 +27,10 @@ pub fn robots(name: Option<&str>) -> Result<String, Failure> {
     Ok(Robot::text(name).unwrap_or_default().to_owned())
 }
 
-/// The kind of the robot that `--robot` names. The rest of a robot file is read when the program starts.
+/// The family of the robot that `--robot` names. The rest of a robot file is read when the program starts.
 ///
 /// # Errors
-/// There is none, or its file does not say it.
+/// The robot does not exist, or its file does not give the family.
 pub(crate) fn family(robot: Option<&str>) -> Result<Family, Failure> {
     if robot.is_none() {
         return Ok(Family::default());
@@ -42,7 +42,7 @@ pub(crate) fn family(robot: Option<&str>) -> Result<Family, Failure> {
 /// The name and the text of the file of the robot that `--robot` names, or of the default one.
 ///
 /// # Errors
-/// There is none.
+/// The robot does not exist.
 pub(crate) fn text(robot: Option<&str>) -> Result<(&str, Cow<'static, str>), Failure> {
     let robot = named(robot);
     Ok((robot, Robot::source(robot).map_err(refused)?))
@@ -51,23 +51,24 @@ pub(crate) fn text(robot: Option<&str>) -> Result<(&str, Cow<'static, str>), Fai
 /// The robot that `--robot` names, or the default one.
 ///
 /// # Errors
-/// There is none, or its file is wrong.
+/// The robot does not exist, or its file is wrong.
 pub fn load(robot: Option<&str>) -> Result<Robot, Failure> {
     load_with(robot, &Changes::default())
 }
 
-/// The same with other values at some places.
+/// Like `load`, with changed values.
 ///
 /// # Errors
-/// As for [`load`], or there is no such place.
+/// As for [`load`], or a changed value does not exist.
 pub fn load_with(robot: Option<&str>, changes: &Changes) -> Result<Robot, Failure> {
     Robot::load_with(named(robot), changes).map_err(refused)
 }
 
-/// The robots of a cell's channels that have one, in the order of the channels; `first` is that of the first one.
+/// The robots of a cell's channels, in the order of the channels, skipping channels without one; `first` is the first
+/// robot.
 ///
 /// # Errors
-/// One of the others is none.
+/// One of the other robots cannot be loaded.
 pub fn of_cell(cell: &Cell, first: Robot) -> Result<Vec<Robot>, Failure> {
     let beside = cell.programs.channels.iter().filter(|channel| !channel.background);
     let named = beside.map(|channel| load(channel.robot.as_deref()));

@@ -1,4 +1,4 @@
-//! Where programs get the runtime from.
+//! The sources of the runtime that programs are compiled with.
 
 use crate::cache::{Cache, Lock, write_if_changed};
 use arl_sources::{Carried, Origin};
@@ -10,36 +10,36 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Runtime(Origin);
 
-/// A runtime that programs can be compiled with; nobody removes it from the cache as long as this lives.
+/// A runtime ready for compiling programs; it is not removed from the cache while this value lives.
 #[derive(Debug)]
 pub struct Unpacked {
     /// Its folder in the cache.
     pub folder: PathBuf,
     /// The value of `arl-rt` under `[dependencies]`.
     pub dependency: String,
-    /// The value of `arl-drivers` there.
+    /// The value of `arl-drivers` in the same table.
     pub drivers: String,
-    /// The value of `arl-library` there.
+    /// The value of `arl-library` in the same table.
     pub library: String,
-    /// The lock file that says which versions of other packages to take.
+    /// The lock file with the versions of other packages.
     pub lock_file: Option<PathBuf>,
     _lock: Lock,
 }
 
 impl Unpacked {
-    /// The folder that all programs are compiled in, so that the runtime is compiled once.
+    /// The folder in which all programs are compiled, so that the runtime is compiled only once.
     pub fn target(&self) -> PathBuf {
         self.folder.join("target")
     }
 
-    /// Gives it back: from now on it may be removed. Its folder.
+    /// Releases the runtime, which may be removed from now on. Returns its folder.
     pub fn give_back(self) -> PathBuf {
         self.folder
     }
 }
 
 impl Runtime {
-    /// The one of this command.
+    /// The runtime of this command.
     pub fn find() -> Self {
         Self(arl_sources::ORIGIN)
     }
@@ -63,7 +63,7 @@ impl Runtime {
         hasher.finish()
     }
 
-    /// Its name in the cache.
+    /// The name in the cache.
     fn name(self) -> String {
         let version = env!("CARGO_PKG_VERSION");
         match self.0 {
@@ -77,10 +77,10 @@ impl Runtime {
         }
     }
 
-    /// Makes it ready: carried sources are written into the cache.
+    /// Prepares the runtime: carried sources are written to the cache.
     ///
     /// # Errors
-    /// The checkout is gone, or the cache cannot be written.
+    /// The checkout no longer exists, or the cache cannot be written.
     pub fn unpack(self, cache: &Cache) -> Result<Unpacked, Failure> {
         let folder = cache.runtime(&self.name());
         let lock = Lock::take(&folder, true, "waiting for another arl2rs that is removing this runtime")?;
@@ -121,8 +121,8 @@ fn gone(checkout: &Path) -> Failure {
     ))
 }
 
-/// Writes the files that are not there or not right: somebody may have tidied up. What is right keeps its time, so that
-/// cargo does not compile it again.
+/// Writes the files that are missing or differ, for example because the cache was cleaned up. Unchanged files keep
+/// their time, so that cargo does not compile them again.
 fn write(carried: &Carried, workspace: &Path) -> Result<(), Failure> {
     let Some(parent) = workspace.parent() else { return Ok(()) };
     let _alone =
@@ -133,7 +133,7 @@ fn write(carried: &Carried, workspace: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Hashes names, sizes and times of change, not contents: this runs at each start.
+/// Hashes names, sizes and modification times instead of contents, because this runs at each start.
 fn hash_tree(folder: &Path, hasher: &mut DefaultHasher) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
@@ -147,7 +147,7 @@ fn hash_tree(folder: &Path, hasher: &mut DefaultHasher) {
     }
 }
 
-/// Hashes the name, size and time of change of one file.
+/// Hashes the name, size and modification time of one file.
 pub fn hash_state(path: &Path, hasher: &mut DefaultHasher) {
     path.hash(hasher);
     if let Ok(data) = std::fs::metadata(path) {

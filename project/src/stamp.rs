@@ -1,4 +1,4 @@
-//! What a compiled program was made from, so that an unchanged one starts without compiling.
+//! Records what a compiled program was made from, so that an unchanged one starts without compiling.
 
 use crate::cache::{Content, read_sealed, sealed};
 use arl_robot::regular_file;
@@ -10,17 +10,17 @@ use std::fmt::Write;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
-/// The first line of a stamp file; another version is as good as no stamp.
+/// The first line of a stamp file; a stamp of another version is ignored.
 const VERSION: &str = "arl2rs stamp 2";
 
-/// A program that was compiled, and what was said then.
+/// A compiled program and the messages shown when it was compiled.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Kept {
     /// The program's file name in its place.
     pub name: String,
-    /// What the program's file holds.
+    /// The content of the program's file.
     pub program: Content,
-    /// What the file of the warnings holds.
+    /// The content of the file with the warnings.
     pub said: Content,
 }
 
@@ -29,44 +29,44 @@ pub struct Kept {
 pub struct Stamp {
     /// The compiler, its runtime and its options.
     pub identity: u64,
-    /// What is kept in its place.
+    /// What is stored in the program's place.
     pub kept: Kept,
     /// The files that were read.
     pub files: Vec<Stamped>,
-    /// The files that were looked for and not there.
+    /// The files that were looked for but did not exist.
     pub missing: Vec<PathBuf>,
 }
 
 /// A file that was read.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Stamped {
-    /// Where it is.
+    /// The path of the file.
     pub path: PathBuf,
     /// Hash of the bytes.
     pub content: u64,
-    /// For a data file: hash of all but the values that the runtime reads again.
+    /// For a data file: the hash of everything except the values that the runtime reads again.
     pub shape: Option<u64>,
 }
 
-/// How a compiled program stands to its sources.
+/// The state of a compiled program relative to its sources.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Freshness {
     /// Nothing changed.
     Fresh,
-    /// Data files changed, nothing else: perhaps only in values.
+    /// Only data files have changed, possibly only in their values.
     DataChanged,
-    /// It has to be compiled.
+    /// The program must be compiled.
     Stale,
 }
 
-/// Sources that remember what was read, so that a stamp tells of what was compiled and not of what lies there later.
+/// Sources that record what was read, so that a stamp describes what was compiled and not what is there later.
 pub struct Recording<'a> {
     sources: &'a dyn Sources,
     seen: RefCell<Vec<(PathBuf, Option<u64>)>>,
 }
 
 impl<'a> Recording<'a> {
-    /// Of what is read from these.
+    /// Records what is read from `sources`.
     pub fn new(sources: &'a dyn Sources) -> Self {
         Self { sources, seen: RefCell::default() }
     }
@@ -81,7 +81,7 @@ impl Sources for Recording<'_> {
 }
 
 impl Stamp {
-    /// The stamp of what was compiled together. `None` where a path cannot be written into a stamp.
+    /// The stamp of programs compiled together. `None` if a path cannot be written to a stamp.
     pub fn of(compiled: &[Compiled], read: &Recording<'_>, identity: u64, kept: Kept) -> Option<Self> {
         let mut stamp = Self { identity, kept, files: Vec::new(), missing: Vec::new() };
         for (path, content) in read.seen.borrow().iter() {
@@ -104,7 +104,7 @@ impl Stamp {
         Some(stamp)
     }
 
-    /// Reads a stamp; `None` where there is none, or one that is damaged or of another version.
+    /// Reads a stamp; `None` if it does not exist, is damaged, or has another version.
     pub fn read(path: &Path) -> Option<Self> {
         let text = read_sealed(path)?;
         let mut lines = text.lines();
@@ -129,7 +129,7 @@ impl Stamp {
         Some(stamp)
     }
 
-    /// Whether a file was a stamp once.
+    /// Whether a file is a damaged stamp.
     pub fn is_damaged(path: &Path) -> bool {
         let begins = |bytes: Vec<u8>| bytes.starts_with(VERSION.as_bytes());
         regular_file::read(path).is_ok_and(begins) && Self::read(path).is_none()
@@ -150,7 +150,7 @@ impl Stamp {
         sealed(&text)
     }
 
-    /// How the program stands to its sources now.
+    /// The present state of the program relative to its sources.
     pub fn freshness(&self, identity: u64) -> Freshness {
         if self.identity != identity || self.missing.iter().any(|path| path.exists()) {
             return Freshness::Stale;
@@ -185,7 +185,7 @@ pub fn hash(bytes: &[u8]) -> u64 {
     hasher.finish()
 }
 
-/// The data files of a program with the hash of their text, but for the values that can be re-taught.
+/// The data files of a program, each with the hash of its text without the values that can be re-taught.
 fn shapes(program: &Program) -> Vec<(String, u64)> {
     let data = program.modules.iter().enumerate().filter(|(_, module)| module.data);
     data.map(|(at, module)| {

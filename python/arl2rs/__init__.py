@@ -1,4 +1,4 @@
-"""Robot programs in ARL: checked, compiled to native code, run a thousand times, stepped.
+"""Checks robot programs in ARL, compiles them to native code, runs them many times, and steps them.
 
 >>> import arl2rs
 >>> program = arl2rs.compile(source='int parts = 3\\nfunc void main()\\n    print parts, " parts"\\nendfunc\\n')
@@ -63,7 +63,7 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> object:
-    # gymnasium is imported only where somebody wants it.
+    # gymnasium is imported only when it is needed.
     if name == "Environment":
         from .environment import Environment
 

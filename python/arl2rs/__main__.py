@@ -6,7 +6,7 @@ from ._arl2rs import command
 
 
 def main() -> int:
-    """Does what the command line says."""
+    """Executes the command line."""
     return command(["arl2rs", *sys.argv[1:]])
 
 

@@ -1,4 +1,4 @@
-"""A run as an environment of gymnasium."""
+"""A run as a gymnasium environment."""
 
 from __future__ import annotations
 
@@ -18,27 +18,29 @@ from .session import Session, Snapshot
 __all__ = ["ID", "Environment"]
 
 ID = "arl2rs/Program-v0"
-"""The name that gymnasium knows it by: `gymnasium.make("arl2rs.environment:arl2rs/Program-v0", program=.., ..)`."""
+"""The ID of the environment in gymnasium: `gymnasium.make("arl2rs.environment:arl2rs/Program-v0", program=.., ..)`."""
 
 Observation = NDArray[np.float64]
 Action = Mapping[str, Any] | NDArray[Any]
 
 
 class Environment(gymnasium.Env[Observation, Any]):
-    """A run of a program that an agent takes part in: it gives inputs and global variables, and observes.
+    """A run of a program that an agent controls: it sets inputs and global variables, and observes the run.
 
-    - `program`: a compiled one, or its file.
-    - `actions`: what the agent sets, and within which bounds: `{"di.1": bool, "ai.2": (0.0, 10.0), "override": (10, 100), "global.speed": (50,
-      250)}`. The action space is a `Dict` with `Discrete(2)` for truth values and a `Box` of one number for the others; with `flat` it is one `Box`
-      of float32 with a number for each action, in their order, where a truth value is true from 0.5 on.
-    - `observe`: columns of the trace (without it the axes that the robot has, and the TCP) and `watch`: signals, global variables and points.
-    - `cycles`: how many control cycles a step takes.
-    - `reward`: what a step is worth, computed from the session after it.
+    - `program`: a compiled program, or its file.
+    - `actions`: what the agent sets, and within which bounds: `{"di.1": bool, "ai.2": (0.0, 10.0),
+      "override": (10, 100), "global.speed": (50, 250)}`. The action space is a `Dict` with `Discrete(2)` for truth
+      values and a `Box` of one number for the others; with `flat` it is one `Box` of float32 with a number for each
+      action, in their order, where a truth value is true from 0.5 on.
+    - `observe`: columns of the trace (by default the axes that the robot has, and the TCP) and `watch`: signals, global
+      variables and points.
+    - `cycles`: the number of control cycles per step.
+    - `reward`: the reward of a step, computed from the session after it.
     - `max_time`: after this many seconds of the robot's time an episode is truncated.
 
-    Further arguments are those of `Program.session`. `reset(options={"globals": .., "points": .., "set": ..})` gives an episode other ones; its
-    seed is that of `rand`. An episode terminates with the run: `info["outcome"]` says how, `info["alarms"]` why. After that, as before the first
-    one, a step raises gymnasium's `ResetNeeded`.
+    Further arguments are those of `Program.session`. `reset(options={"globals": .., "points": .., "set": ..})` gives an
+    episode different ones; the seed of `reset` is that of `rand`. An episode terminates with the run: `info["outcome"]`
+    says how, `info["alarms"]` why. After that, as before the first episode, a step raises gymnasium's `ResetNeeded`.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012
@@ -77,7 +79,9 @@ class Environment(gymnasium.Env[Observation, Any]):
             all_names = [*session.columns, *session.watched]
             unknown = [name for name in (observe or ()) if name not in all_names]
             if unknown or observe == []:
-                raise RefusedError(f"observe: expected some of {', '.join(all_names)}, found {unknown[0] if unknown else 'nothing'}")
+                raise RefusedError(
+                    f"observe: expected some of {', '.join(all_names)}, found {unknown[0] if unknown else 'nothing'}"
+                )
             self.observed = [*(there if observe is None else observe), *session.watched]
             self._at = np.array([all_names.index(name) for name in self.observed])
         self.observation_space = spaces.Box(-np.inf, np.inf, (len(self.observed),), np.float64)
@@ -89,7 +93,9 @@ class Environment(gymnasium.Env[Observation, Any]):
             raise gymnasium.error.ResetNeeded("an episode begins with reset()")
         return self._session
 
-    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Observation, dict[str, Any]]:
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
         """Begins an episode."""
         super().reset(seed=seed)
         self.close()
@@ -100,17 +106,17 @@ class Environment(gymnasium.Env[Observation, Any]):
         if seed is not None:
             arguments["seed"] = seed
         self._session, self._is_over, self._before = self.program.session(**arguments), False, {}
-        # Variables have their first values from the first cycle on.
+        # Variables get their first values in the first cycle.
         return self._observation(_stepped(self._session, 1)), {}
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Sets what the action says, and goes on for some control cycles."""
+        """Sets the values of the action, and runs `cycles` control cycles."""
         session = self.session
         if self._is_over:
             raise gymnasium.error.ResetNeeded("the episode is over: the next one begins with reset()")
-        # An alarm of the first cycle ended it: there is nothing to set any more.
+        # If an alarm in the first cycle ended the run, there is nothing left to set.
         for name, value in () if session.is_over else self._chosen(action).items():
-            # A program may change its variables meanwhile; what it cannot change is told once.
+            # A program may change its variables between steps; what it cannot change is set only if the action changed.
             if name.startswith("global.") or self._before.get(name) != value:
                 self._before[name] = value
                 self._set(session, name, value)
@@ -130,24 +136,31 @@ class Environment(gymnasium.Env[Observation, Any]):
             self._session, self._is_over = None, True
 
     def snapshot(self) -> Snapshot:
-        """The episode as it is now: see `Session.snapshot`."""
+        """The current state of the episode: see `Session.snapshot`."""
         return self.session.snapshot()
 
     def restore(self, snapshot: Snapshot) -> Observation:
-        """Goes on from a snapshot of an episode of this environment, or of one like it; what is observed there."""
+        """Continues from a snapshot of an episode of this or a similar environment; returns the observation there."""
         session = snapshot.resume()
         self.close()
         self._session, self._is_over, self._before = session, session.is_over, {}
         return self._observation(session.observe())
 
     def _chosen(self, action: Action) -> dict[str, bool | float]:
-        """What the agent sets."""
+        """The values that the agent sets, by name."""
         if not isinstance(action, Mapping):
             numbers = np.ravel(action)
             if len(numbers) != len(self._actions):
-                raise RefusedError(f"an action has {len(self._actions)} numbers, not {len(numbers)}: {', '.join(self._actions)}")
-            return {name: bool(it >= 0.5) if name in self._truths else float(it) for name, it in zip(self._actions, numbers, strict=True)}
-        return {name: bool(given) if name in self._truths else float(np.ravel(given)[0]) for name, given in action.items()}
+                raise RefusedError(
+                    f"an action has {len(self._actions)} numbers, not {len(numbers)}: {', '.join(self._actions)}"
+                )
+            return {
+                name: bool(it >= 0.5) if name in self._truths else float(it)
+                for name, it in zip(self._actions, numbers, strict=True)
+            }
+        return {
+            name: bool(given) if name in self._truths else float(np.ravel(given)[0]) for name, given in action.items()
+        }
 
     def _set(self, session: Session, name: str, value: bool | float) -> None:
         if name.startswith("global."):
@@ -160,7 +173,7 @@ class Environment(gymnasium.Env[Observation, Any]):
 
 
 def _stepped(session: Session, cycles: int) -> Observation:
-    """What is observed after so many cycles. An alarm ends the episode, which is not an error of who learns."""
+    """The observation after this many cycles. An alarm ends the episode; it is not raised as an error to the agent."""
     try:
         return session.step(cycles)
     except AlarmError:
@@ -175,7 +188,9 @@ def _space(bounds: type[bool] | tuple[float, float]) -> spaces.Space[Any]:
 
 
 def _box(actions: Mapping[str, type[bool] | tuple[float, float]]) -> spaces.Box:
-    bounds = np.array([(0, 1) if bound is bool else bound for bound in actions.values()], dtype=np.float32).reshape(-1, 2)
+    bounds = np.array([(0, 1) if bound is bool else bound for bound in actions.values()], dtype=np.float32).reshape(
+        -1, 2
+    )
     return spaces.Box(bounds[:, 0], bounds[:, 1], dtype=np.float32)
 
 

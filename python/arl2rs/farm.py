@@ -1,8 +1,9 @@
-"""Sweeps on several machines, by Ray: `arl2rs.sweep(.., engine="ray")`.
+"""Sweeps on several machines, with Ray: `arl2rs.sweep(.., engine="ray")`.
 
-The compiled program and the files that it reads travel as one object of Ray; each task makes some runs. The runs of a node that dies, or of a task that
-never ends, are made again elsewhere: a run depends on its parameters only, so this changes nothing, and one result of each run
-counts. The nodes have the same system and processor as this computer.
+The compiled program and the files that it reads are sent as one Ray object; each task executes some runs. The runs of a
+node that dies, or of a task that never ends, are repeated elsewhere: a run depends on its parameters only, so this
+changes nothing, and one result of each run counts. The nodes have the same operating system and processor as this
+computer.
 """
 
 from __future__ import annotations
@@ -22,15 +23,15 @@ from .problems import ArlError
 __all__ = ["run"]
 
 BATCH_S = 2.0
-"""So long a task should take; s."""
+"""How long a task should take, s."""
 GRACE_S = 60.0
-"""So much longer than a run may take, a task may; s."""
+"""How much longer than a run a task may take, s."""
 TRIES = 3
-"""So often a run is asked for where its process or its node is lost."""
+"""How often a run is tried if its process or its node is lost."""
 
 Words = list[str]
 How = tuple[float | None, float | None]
-"""After how many seconds a run is given up, and the clearance where it is looked for collisions."""
+"""The seconds after which a run is given up, and the clearance if collisions are looked for."""
 _workers: dict[tuple[str, How], _arl2rs.Worker] = {}
 
 
@@ -38,8 +39,10 @@ class _OtherVersionError(Exception):
     """A node has another version of the package, which may find other collisions."""
 
 
-def _make(version: str, key: str, files: list[tuple[str, bytes]], how: How, runs: list[tuple[int, Words]]) -> list[tuple[int, str, bool]]:
-    """Makes runs, on a node. Its process keeps the worker for the next task; runs that take too long are the worker's business."""
+def _make(
+    version: str, key: str, files: list[tuple[str, bytes]], how: How, runs: list[tuple[int, Words]]
+) -> list[tuple[int, str, bool]]:
+    """Executes runs on a node. Its process keeps the worker, which ends runs that take too long, for the next task."""
     if version != _arl2rs.VERSION:
         raise _OtherVersionError(f"it has version {_arl2rs.VERSION}, the sweep {version}")
     if (key, how) not in _workers:
@@ -50,7 +53,7 @@ def _make(version: str, key: str, files: list[tuple[str, bytes]], how: How, runs
 
 @dataclass
 class _Farm:
-    """The state of a sweep: what is still to do, what is under way, what came."""
+    """The state of a sweep: the runs that wait, the tasks under way, and the results."""
 
     bundle: _arl2rs.Bundle
     timeout: float | None
@@ -64,21 +67,23 @@ class _Farm:
 
     def __post_init__(self) -> None:
         self._files = ray.put(self.bundle.files)
-        # Ray itself begins a task anew whose node has died.
+        # Ray itself restarts a task whose node has died.
         self._remote = ray.remote(num_cpus=1, max_retries=-1)(_make)
         self._key = self.bundle.key
 
     def begin(self) -> None:
-        """Begins tasks, twice as many as there are cores, so that none waits."""
+        """Starts tasks, twice as many as there are cores, so that no core waits."""
         most = 2 * _cores()
         while self.waiting and len(self.tasks) < most:
             runs, self.waiting = self.waiting[: self.batch], self.waiting[self.batch :]
-            task = self._remote.remote(_arl2rs.VERSION, self._key, self._files, (self.timeout, self.bundle.clearance), runs)
+            task = self._remote.remote(
+                _arl2rs.VERSION, self._key, self._files, (self.timeout, self.bundle.clearance), runs
+            )
             self.tasks[task], self.begun[task] = runs, time.monotonic()
 
     def wait(self) -> None:
-        """Takes in what has come. What takes too long may wait for a core that others have, or be on a node that is frozen: it is begun anew, run by
-        run, and that counts for nothing."""
+        """Collects finished tasks. A task that takes too long may be waiting for a core that others use, or be on a
+        frozen node: its runs are started again, one by one, and this does not count as a try."""
         done, _ = ray.wait(list(self.tasks), num_returns=1, timeout=1.0)
         for task in done:
             self.begun.pop(task)
@@ -91,7 +96,7 @@ class _Farm:
                 self._cancel(task)
 
     def end(self) -> None:
-        """Cancels what is under way."""
+        """Cancels the tasks under way."""
         for task in list(self.tasks):
             self._cancel(task)
 
@@ -105,7 +110,7 @@ class _Farm:
             came = ray.get(task)
         except ray.exceptions.RayError as problem:
             _refuse_nodes_without_the_package(problem)
-            # One run may be what kills its node: from now on it is alone.
+            # A single run may have killed its node: from now on each run has its own task.
             self.batch = 1
             for at, words in runs:
                 if self._counts(at):
@@ -135,20 +140,27 @@ class _Farm:
 
 
 def _refuse_nodes_without_the_package(problem: ray.exceptions.RayError) -> None:
-    """A node that lacks the package, or has another version of it, would lose every run that it is given, and swiftly."""
+    """A node that lacks the package, or has another version of it, would quickly lose every run that it is given."""
     cause = getattr(problem, "cause", None)
     is_import = isinstance(cause, ImportError) or str(cause).startswith("The remote function failed to import")
     if is_import or isinstance(cause, _OtherVersionError):
         why = str(cause).strip().splitlines()[-1]
-        raise ArlError(f"a node does not have this arl2rs: install the same version on all nodes of the cluster ({why})") from problem
+        raise ArlError(
+            f"a node does not have this arl2rs: install the same version on all nodes of the cluster ({why})"
+        ) from problem
 
 
 def _not_kept(problem: Exception) -> None:
     warnings.warn(f"results cannot be kept for the next sweep: {problem}", stacklevel=4)
 
 
-def run(bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache: bool, came: Callable[[int], None]) -> Iterator[str]:
-    """Makes the runs of a bundle on the cluster that Ray is connected to, or on this computer; gives their rows as JSON, in order. `came` hears how many are done."""
+def run(
+    bundle: _arl2rs.Bundle, rows: list[str], *, timeout: float | None, cache: bool, came: Callable[[int], None]
+) -> Iterator[str]:
+    """Executes the runs of a bundle on the cluster that Ray is connected to, or on this computer.
+
+    Returns their rows as JSON, in order. `came` is called with the number of finished runs.
+    """
     kept = None
     try:
         kept = _arl2rs.Kept(bundle) if cache else None
@@ -200,7 +212,8 @@ def _cores() -> int:
 
 
 def _batch(farm: _Farm, rate: float) -> int:
-    """How many runs a task should make, where so many are done in a second; few towards the end, so that all cores end together."""
+    """How many runs a task should execute, given the runs finished per second; few towards the end, so that all cores
+    finish together."""
     if any(farm.tries.values()):
         return 1
     cores = _cores()

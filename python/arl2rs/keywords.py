@@ -1,4 +1,4 @@
-"""Names of arguments: a typo is reported with the nearest names before anything is done."""
+"""Names of arguments: a typo is reported with the closest name before anything is done."""
 
 from __future__ import annotations
 
@@ -12,17 +12,25 @@ from .choices import Engine, Mode
 from .problems import StrPath
 from .values import FrameLike, Parameters
 
-__all__ = ["CompileArguments", "EpisodeArguments", "FrameArguments", "RecordArguments", "RunArguments", "SweepArguments", "named"]
+__all__ = [
+    "CompileArguments",
+    "EpisodeArguments",
+    "FrameArguments",
+    "RecordArguments",
+    "RunArguments",
+    "SweepArguments",
+    "named",
+]
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
 _COMMAND_WORDS = {"io": "scenario", "jobs": "processes", "no_cache": "cache"}
-"""How Python calls what the command calls otherwise."""
+"""The Python names of options that have another name in the command."""
 
 
 class CompileArguments(TypedDict, total=False):
-    """What `compile` takes besides the program."""
+    """The arguments of `compile` besides the program."""
 
     robot: StrPath | None
     cell: StrPath | None
@@ -42,13 +50,13 @@ class _AnyRun(TypedDict, total=False):
 
 
 class RecordArguments(_AnyRun, total=False):
-    """What `Program.record` takes besides the recording."""
+    """The arguments of `Program.record` besides the recording."""
 
     max_time: float | None
 
 
 class RunArguments(RecordArguments, total=False):
-    """What `Program.run` takes."""
+    """The arguments of `Program.run`."""
 
     start_time: str | None
     state_dir: StrPath | None
@@ -57,7 +65,7 @@ class RunArguments(RecordArguments, total=False):
 
 
 class EpisodeArguments(_AnyRun, total=False):
-    """What an episode of an `Environment` takes besides the environment's own."""
+    """The arguments of an episode of an `Environment` besides the environment's own."""
 
     start_time: str | None
     state_dir: StrPath | None
@@ -75,7 +83,7 @@ class FrameArguments(TypedDict, total=False):
 
 
 class SweepArguments(TypedDict, total=False):
-    """What `sweep` takes besides the program, its rows, and what it is compiled with."""
+    """The arguments of `sweep` besides the program, its rows, and what the program is compiled with."""
 
     files: Iterable[StrPath]
     max_time: float | None
@@ -89,7 +97,7 @@ class SweepArguments(TypedDict, total=False):
 
 
 def named(function: Callable[P, R], /) -> Callable[P, R]:
-    """Reports a typo in the name of an argument with the nearest names, also where the arguments are passed on."""
+    """Reports a typo in the name of an argument with the closest name, even if the arguments are passed on."""
     known = _names(function)
 
     @functools.wraps(function)

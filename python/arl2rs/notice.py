@@ -1,4 +1,4 @@
-"""What takes long says so where nobody sees a bar."""
+"""Messages about long operations where no progress bar is visible."""
 
 from __future__ import annotations
 
@@ -10,18 +10,19 @@ from contextlib import contextmanager
 __all__ = ["notice", "say"]
 
 PATIENCE_S = 2.0
-"""What is done sooner says nothing; s."""
+"""Operations that take less time give no message, s."""
 
 
 def say(text: str) -> None:
-    """Says it on the standard error, where that is there."""
+    """Writes a message to standard error, if there is one."""
     if sys.stderr is not None:
         print(f"arl2rs: {text}", file=sys.stderr, flush=True)
 
 
 @contextmanager
 def notice(text: str) -> Iterator[None]:
-    """Says this after some seconds within it. On a terminal the command's own sign turns."""
+    """Writes this message if the block takes longer than `PATIENCE_S`. On a terminal the command has its own
+    spinner."""
     if sys.stderr is None or sys.stderr.isatty():
         yield
         return

@@ -1,4 +1,4 @@
-"""Pictures of runs, by matplotlib."""
+"""Plots of runs, with matplotlib."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _MOST_POINTS = 20_000
 
 
 class Picture(Figure):
-    """A figure that a notebook shows by itself."""
+    """A figure that a notebook displays automatically."""
 
     def _repr_png_(self) -> bytes:
         image = io.BytesIO()
@@ -26,7 +26,7 @@ class Picture(Figure):
 
 
 def plot(trace: Trace) -> Figure:
-    """The path of the TCP from above and from the front, its speed, and the velocities of the axes over time."""
+    """Plots the path of the TCP from above and from the front, its speed, and the velocities of the axes over time."""
     step = max(1, len(trace) // _MOST_POINTS)
     t, tcp, speed, velocities = (all[::step] for all in (trace.t, trace.tcp, trace.speed, trace.velocities))
     figure = Picture(figsize=(10, 7), layout="constrained")
@@ -49,7 +49,7 @@ _UNITS = {"cycle_time": "s", "moving": "s", "standing": "s", "way": "mm"}
 
 
 def plot_sweep(rows: Sequence[dict[str, Any]], parameter: str, figure: str) -> Figure:
-    """A figure of the runs that ended over a parameter; the others as crosses at the bottom."""
+    """Plots a figure of the runs that ended over a parameter; the others are crosses at the bottom."""
     rows = [row for row in rows if row.get(parameter) is not None]
     ended = [row for row in rows if row["outcome"] == "ended"]
     picture = Picture(figsize=(8, 5), layout="constrained")

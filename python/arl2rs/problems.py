@@ -1,4 +1,4 @@
-"""What can go wrong, with file and line where there is one."""
+"""Exceptions and diagnostics, with file and line if there is one."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ StrPath = str | os.PathLike[str]
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """What the checker reports about a place in a program."""
+    """A report of the checker about a place in a program."""
 
     code: str
-    """Its code, which `arl2rs explain` knows: `ARL0203`."""
+    """The code for `arl2rs explain`: `ARL0203`."""
     severity: Severity
     """`error` or `warning`."""
     message: str
@@ -43,17 +43,17 @@ class Diagnostic:
 
     @classmethod
     def of_json(cls, text: str) -> Diagnostic:
-        """Of the object that `arl2rs check --format json` writes."""
+        """Creates a diagnostic from the object that `arl2rs check --format json` writes."""
         return cls(**{name: value for name, value in json.loads(text).items() if name in cls.__dataclass_fields__})
 
     def below(self, folder: Path) -> Diagnostic:
-        """The same, its file counted from this folder where it is below."""
+        """Returns the same diagnostic, with its file relative to this folder if it lies below."""
         path, folder = Path(os.path.abspath(self.file)), Path(os.path.abspath(folder))
         return replace(self, file=path.relative_to(folder).as_posix()) if path.is_relative_to(folder) else self
 
     @property
     def is_error(self) -> bool:
-        """Whether the program is refused for it."""
+        """Whether the program is refused because of it."""
         return self.severity == "error"
 
     def __str__(self) -> str:
@@ -62,7 +62,7 @@ class Diagnostic:
 
 
 class ArlError(Exception):
-    """Whatever this package refuses or cannot do."""
+    """The base of all exceptions of this package."""
 
 
 class CompileError(ArlError):
@@ -80,7 +80,7 @@ class CompileError(ArlError):
 
 
 class RefusedError(ArlError, ValueError):
-    """What is asked for is not possible: a variable that is not there, a value that does not fit, a file that is missing."""
+    """The request is not possible: an unknown variable, a value that does not fit, a missing file."""
 
 
 class AlarmError(ArlError):
@@ -97,7 +97,7 @@ class AlarmError(ArlError):
 
 
 class UnfinishedError(ArlError):
-    """A run did not reach its end, and no alarm ended it: its time was over, it waited in vain, or it was stopped."""
+    """A run did not reach its end, and no alarm ended it: it ran out of time, waited in vain, or was stopped."""
 
 
 class SessionError(ArlError, RuntimeError):
@@ -105,12 +105,14 @@ class SessionError(ArlError, RuntimeError):
 
 
 class _Told:
-    """Makes the exceptions of the Rust side into those of the package."""
+    """Converts the exceptions of the Rust side into those of the package."""
 
     def __enter__(self) -> None:
         pass
 
-    def __exit__(self, kind: type[BaseException] | None, problem: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, problem: BaseException | None, trace: TracebackType | None
+    ) -> None:
         match problem:
             case _arl2rs.Mistakes():
                 raise CompileError([Diagnostic.of_json(text) for text in problem.args[0]]) from None
@@ -123,13 +125,13 @@ class _Told:
 
 
 told = _Told()
-"""Within it the exceptions are those of the package. There is one for all: a step of a session takes microseconds."""
+"""Within this block exceptions are those of the package. All share one: a step of a session takes microseconds."""
 
 
 def there(path: StrPath, what: str) -> Path:
-    """The path of a file that is there.
+    """Returns the path of an existing file.
 
-    Raises `RefusedError` where there is none, with the name of a file that is probably meant.
+    Raises `RefusedError` if there is no such file, with the name of the file that is probably meant.
     """
     path = Path(path)
     if path.is_file():
@@ -137,7 +139,7 @@ def there(path: StrPath, what: str) -> Path:
     if path.is_dir():
         raise RefusedError(f"{path} is a folder: expected {what}")
     files = sorted(path.parent.iterdir()) if path.parent.is_dir() else []
-    # A name that lacks its ending is near to all that have it.
+    # A name without an extension is close to all names that have one.
     beside = [file.name for file in files if not path.suffix or file.suffix == path.suffix]
     near = difflib.get_close_matches(path.name, beside, 1)
     meant = f"; did you mean {path.parent / near[0]}?" if near else ""

@@ -1,4 +1,4 @@
-"""Programs: checked, compiled, run."""
+"""Checks, compiles and runs programs."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 __all__ = ["Program", "check", "compile", "run"]
 
 MAX_TIME = _arl2rs.MAX_TIME
-"""A run that takes longer in the robot's time is ended by default; s."""
+"""The robot's time after which a run is ended by default, s."""
 NO_SCENARIO = "none"
-"""Instead of a scenario: there is none, whatever an `arl.toml` or `compile` says."""
+"""In place of a scenario: the run has none, even if an `arl.toml` or `compile` names one."""
 NAME = "program.arl"
-"""The name of the main file of a program that is given as text."""
+"""The name of the main file of a program given as text."""
 
 
 def given(
@@ -48,7 +48,7 @@ def given(
     collisions: bool = False,
     clearance: float | None = None,
 ) -> dict[str, Any]:
-    """What is run, as the Rust side has it."""
+    """What is to be run, as the Rust side expects it."""
     return {
         "program": Path(program),
         "robot": None if robot is None else os.fspath(robot),
@@ -81,11 +81,12 @@ def check(
 ) -> list[Diagnostic]:
     """Finds the mistakes in programs without running them, as `arl2rs check` does.
 
-    Instead of files it takes the text of a program, `source`, and the texts of the files `beside` it, by their names. `robot` is the name of a
-    built-in robot or a robot file, `cell` a cell file, `script_dir` the folder that `/home/ae/script/` means in an import. `strict` also warns
-    where arl2rs accepts what the controller would not; `background`: the programs have no robot.
+    Instead of files it takes the text of a program, `source`, and the texts of the files `beside` it, by their names.
+    `robot` is the name of a built-in robot or a robot file, `cell` a cell file, `script_dir` the folder that
+    `/home/ae/script/` in an import stands for. `strict` also warns about what arl2rs accepts but the controller would
+    not; `background`: the programs have no robot.
 
-    Raises `RefusedError` where a file, the robot or the cell is not there.
+    Raises `RefusedError` if a file, the robot or the cell does not exist.
 
     >>> [diagnostic] = check(source="func void main()\\n    movej 5\\nendfunc\\n")
     >>> diagnostic.file, diagnostic.line, diagnostic.severity
@@ -102,7 +103,7 @@ def check(
 
 
 def _shown(diagnostic: Diagnostic, text: _arl2rs.Text | None) -> Diagnostic:
-    """Of a program that was given as text, files have the names that were given."""
+    """Restores the given file names in a diagnostic of a program given as text."""
     return diagnostic if text is None else diagnostic.below(text.path.parent)
 
 
@@ -117,17 +118,21 @@ def compile(
     scenario: StrPath | None = None,
     script_dir: StrPath | None = None,
 ) -> Program:
-    """Compiles a program into this process, unless that was done before: then it is loaded at once.
+    """Compiles a program and loads it into this process. A program that was compiled before is loaded at once.
 
-    Instead of a file it takes the text of a program, `source`, and the texts of the files `beside` it, by their names: data files, modules. An
-    `arl.toml` beside the program's file, or above it, says what is not said here. Compiling needs Rust (cargo); what is compiled does not.
+    Instead of a file it takes the text of a program, `source`, and the texts of the files `beside` it, by their names:
+    data files, modules. An `arl.toml` beside the program's file, or above it, provides the settings that are not given
+    here. Compiling needs Rust (cargo); running a compiled program does not.
 
-    Raises `CompileError` where the program has mistakes, `RefusedError` where it, the robot, the cell or the scenario is not there.
+    Raises `CompileError` if the program has mistakes, `RefusedError` if the program, the robot, the cell or the
+    scenario does not exist.
 
     >>> compile(source="func void main()\\n    print 6 * 7\\nendfunc\\n").run().output
     '42\\n'
     """
-    return Program(program, source=source, beside=beside, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
+    return Program(
+        program, source=source, beside=beside, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir
+    )
 
 
 @named
@@ -140,8 +145,10 @@ def run(
     script_dir: StrPath | None = None,
     **arguments: Unpack[RunArguments],
 ) -> Result:
-    """Compiles a program where needed, and runs it: `compile(..).run(..)`."""
-    compiled = Program(program, source=source, beside=beside, robot=arguments.get("robot"), cell=cell, script_dir=script_dir)
+    """Compiles a program if needed, and runs it: `compile(..).run(..)`."""
+    compiled = Program(
+        program, source=source, beside=beside, robot=arguments.get("robot"), cell=cell, script_dir=script_dir
+    )
     return compiled.run(**arguments)
 
 
@@ -150,19 +157,19 @@ def _compiled(arguments: dict[str, Any]) -> Program:
 
 
 def _full(path: StrPath | None) -> StrPath | None:
-    """A file in full; the name of a robot stays."""
+    """The absolute path of a file; the name of a robot is unchanged."""
     if path is None or os.fspath(path) == NO_SCENARIO:
         return path
     return Path(path).absolute() if Path(path).exists() else path
 
 
 def _scenario(path: StrPath | None) -> StrPath | None:
-    """A scenario that is there, or the word that there is none."""
+    """The path of an existing scenario, or the word for none."""
     return path if path is None or os.fspath(path) == NO_SCENARIO else there(path, "a scenario")
 
 
 class Program:
-    """A compiled program in this process: `compile` makes it."""
+    """A compiled program in this process, created by `compile`."""
 
     @named
     def __init__(
@@ -182,10 +189,22 @@ class Program:
             raise RefusedError("`beside` needs `source`: a program from a file uses the files in its folder")
         self._text = None if source is None else _text(source, beside)
         self._source: dict[str, Any] = {} if source is None else {"source": source, "beside": beside}
-        self.path = there(program, "a program") if program is not None else Path() if self._text is None else self._text.path
-        self._arguments: CompileArguments = {"robot": robot, "cell": cell, "scenario": _scenario(scenario), "script_dir": script_dir}
+        self.path = (
+            there(program, "a program") if program is not None else Path() if self._text is None else self._text.path
+        )
+        self._arguments: CompileArguments = {
+            "robot": robot,
+            "cell": cell,
+            "scenario": _scenario(scenario),
+            "script_dir": script_dir,
+        }
         self._given = given(self.path, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
-        with told, notice(f"compiling {self.path.name}: this takes a minute or two the first time, and seconds after a change"):
+        with (
+            told,
+            notice(
+                f"compiling {self.path.name}: this takes a minute or two the first time, and seconds after a change"
+            ),
+        ):
             try:
                 self._library = _arl2rs.Library(self._given)
             except _arl2rs.Mistakes as problem:
@@ -195,7 +214,7 @@ class Program:
         return f"Program({str(self.path)!r})" if self._text is None else "Program(source=..)"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Another process loads it again, from where it is compiled."""
+        """Another process loads the program again, from its compiled form."""
         program = self._source or {"program": self.path.absolute()}
         files = {"robot": self._arguments["robot"], "cell": self._arguments["cell"]}
         files |= {"scenario": self._arguments["scenario"], "script_dir": self._arguments["script_dir"]}
@@ -203,15 +222,16 @@ class Program:
 
     @named
     def sweep(self, rows: Rows, **arguments: Unpack[SweepArguments]) -> Results:
-        """Runs it once for each row of parameters: `arl2rs.sweep` with the robot, the cell and the scenario that it was compiled with."""
+        """Runs the program once for each row of parameters: `arl2rs.sweep` with the robot, the cell and the scenario
+        that the program was compiled with."""
         from .sweeps import sweep
 
         return sweep(self.path, rows, **self._arguments, **arguments)
 
     @cached_property
     def variables(self) -> Mapping[str, Variable]:
-        """The global variables, points among them, in the order of their files and declarations. Where several files have one of the same name, each has
-        its file in front: `grip::held`."""
+        """The global variables, including points, in the order of their files and declarations. If several files have a
+        variable of the same name, each name is preceded by its file: `grip::held`."""
         with told:
             return of_told([json.loads(text) for text in _arl2rs.variables(self._given)])
 
@@ -222,13 +242,13 @@ class Program:
 
     @cached_property
     def signals(self) -> tuple[Signal, ...]:
-        """The signals of the cell: inputs and outputs, each with what the cell calls it."""
+        """The signals of the cell: inputs and outputs, each with its name in the cell."""
         with told:
             return tuple(Signal(signal, name) for signal, name in _arl2rs.signals(self._given))
 
     @cached_property
     def _kinds(self) -> Mapping[str, str]:
-        """The signals that the cell has names for, by these."""
+        """The signals that have a name in the cell, by that name."""
         return {signal.name: signal.signal for signal in self.signals if signal.name is not None}
 
     @property
@@ -256,22 +276,27 @@ class Program:
     ) -> Result:
         """Runs the program to its end on the virtual clock; the same arguments give the same result, to the last bit.
 
-        - `scenario`: what happens at the inputs, a file; `"none"`: no scenario, also where `compile` or an `arl.toml` names one.
+        - `scenario`: what happens at the inputs, a file; `"none"`: no scenario, even if `compile` or an `arl.toml`
+          names one.
         - `robot`: another robot, by name or file.
-        - `globals`, `points`: other first values of global variables: numbers, truth values, texts, lists and arrays; for structures
-          dictionaries, whose missing components keep their values: `points={"feeder": {"z": 120}}`.
-        - `set`: other values at single places: `{"robot.axis.1.vel": 90, "scenario.event.2.at": 1.5, "cell.controller.cycle": 2}`.
+        - `globals`, `points`: other initial values of global variables: numbers, truth values, texts, lists and arrays;
+          for structures dictionaries, whose missing components keep their values: `points={"feeder": {"z": 120}}`.
+        - `set`: other values at single places:
+          `{"robot.axis.1.vel": 90, "scenario.event.2.at": 1.5, "cell.controller.cycle": 2}`.
         - `override` in percent; `mode`: `auto`, `manual`, `manufast`; `seed` of `rand`.
-        - `max_time`: after this many seconds of the robot's time it is ended; None: never.
+        - `max_time`: after this many seconds of the robot's time the run is ended; None: never.
         - `start_time`: the date at the start, `2000-01-01T00:00:00`.
         - `state_dir`: the folder that keeps system variables between runs; without it nothing is kept.
-        - `watch`: signals (`do.1`, or what the cell calls them) and global variables (`global.placed`, `global.feeder.x`) that are columns of the
-          trace, too. A point or an array is a column for each of its numbers.
-        - `trace`: whether to keep the motion; a second of it takes some 170 kB.
+        - `watch`: signals (`do.1`, or their names in the cell) and global variables (`global.placed`,
+          `global.feeder.x`) to add to the trace as columns. A point or an array has a column for each of its numbers.
+        - `trace`: whether to keep the motion; a second of it takes about 170 kB.
 
-        Other threads go on meanwhile; Ctrl-C ends it. Raises `RefusedError` where something is not there or does not fit.
+        Other threads go on during the run; Ctrl-C ends it. Raises `RefusedError` if something does not exist or does
+        not fit.
         """
-        parameters = gathered(globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time)
+        parameters = gathered(
+            globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time
+        )
         with self._begin(self._words(scenario, robot, state_dir, parameters), trace, watch, state_dir) as session:
             return session.finish()
 
@@ -293,21 +318,28 @@ class Program:
         watch: Sequence[str] = (),
         trace: bool = False,
     ) -> Session:
-        """A run that is stepped: inputs in, observations out. The arguments are those of `run`; what `watch` names is observed after the row of the
-        trace."""
-        parameters = gathered(globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time)
+        """Begins a run that is stepped: inputs in, observations out. The arguments are those of `run`; what `watch`
+        names is observed after the row of the trace."""
+        parameters = gathered(
+            globals, points, set, override=override, mode=mode, seed=seed, max_time=max_time, start_time=start_time
+        )
         return self._begin(self._words(scenario, robot, state_dir, parameters), trace, watch, state_dir)
 
     def _begin(self, words: list[str], trace: bool, watch: Sequence[str], state_dir: StrPath | None) -> Session:
         if isinstance(watch, str):
             raise RefusedError(f"watch is a list of names: [{watch!r}]")
-        watched = Watch.of(watch, self.variables) if any(name.startswith("global.") for name in watch) else Watch.of(watch, {})
+        watched = (
+            Watch.of(watch, self.variables)
+            if any(name.startswith("global.") for name in watch)
+            else Watch.of(watch, {})
+        )
         return Session(Beginning(self, tuple(words), watched, trace, keeps_state=state_dir is not None))
 
     @named
     def record(self, recording: StrPath, **arguments: Unpack[RecordArguments]) -> None:
-        """Runs the program with the command, and records the run for `arl2rs view` and viewers of robot data, as an mcap file; the description of the
-        robots is written beside it, `cell.urdf`. The arguments are `scenario`, `robot`, `globals`, `points`, `set`, `override`, `mode`, `seed`, `max_time` of `run`."""
+        """Runs the program with the command, and records the run as an mcap file for `arl2rs view` and viewers of robot
+        data; the description of the robots is written beside it, `cell.urdf`. The arguments are `scenario`, `robot`,
+        `globals`, `points`, `set`, `override`, `mode`, `seed`, `max_time` of `run`."""
         scenario, robot = arguments.get("scenario"), arguments.get("robot")
         parameters = gathered(
             arguments.get("globals"),
@@ -326,15 +358,25 @@ class Program:
         if ran.returncode not in (0, 3, 4):
             raise ArlError(ran.stderr.strip())
 
-    def _words(self, scenario: StrPath | None, robot: StrPath | None, state_dir: StrPath | None, parameters: Parameters) -> list[str]:
+    def _words(
+        self, scenario: StrPath | None, robot: StrPath | None, state_dir: StrPath | None, parameters: Parameters
+    ) -> list[str]:
         parameters = dict(parameters)
-        files = {"--io": parameters.pop("io", scenario), "--robot": parameters.pop("robot", robot), "--state-dir": state_dir}
+        files = {
+            "--io": parameters.pop("io", scenario),
+            "--robot": parameters.pop("robot", robot),
+            "--state-dir": state_dir,
+        }
         _scenario(files["--io"])
         words = dict(zip(self._library.words[::2], self._library.words[1::2], strict=True))
         words.update({option: os.fspath(value) for option, value in files.items() if value is not None})
         if words.get("--io") == NO_SCENARIO:
             del words["--io"]
-        for what, option, argument in (("robot.", "--robot", "robot"), ("cell.", "--cell", "cell"), ("io.", "--io", "scenario")):
+        for what, option, argument in (
+            ("robot.", "--robot", "robot"),
+            ("cell.", "--cell", "cell"),
+            ("io.", "--io", "scenario"),
+        ):
             places = [place for place in parameters if place.startswith(what)]
             if places and option not in words:
                 raise RefusedError(

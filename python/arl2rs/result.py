@@ -1,4 +1,4 @@
-"""What came of a run."""
+"""The result of a run."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Alarm:
     """An alarm of a run."""
 
     number: int
-    """Its number, which `arl2rs explain` knows."""
+    """The number for `arl2rs explain`."""
     text: str
     file: str
     line: int
@@ -38,7 +38,7 @@ class Alarm:
 
 @dataclass(frozen=True)
 class Message:
-    """What a program printed."""
+    """A message that a program printed."""
 
     time: float
     """Controller time, s."""
@@ -52,10 +52,10 @@ class Message:
 
 @dataclass(frozen=True)
 class Result:
-    """What came of a run."""
+    """The result of a run."""
 
     outcome: Outcome
-    """`ended`, `alarm`, `time_over`, `stuck` (nothing could change any more), `stopped`; `runs` while it is not over."""
+    """`ended`, `alarm`, `time_over`, `stuck` (nothing could change any more), `stopped`; `runs` while not over."""
     code: int | None
     """The exit code of `arl2rs run`: 0 ended, 3 alarm, 4 out of time, 130 stopped."""
     cycle_time: float | None
@@ -67,34 +67,35 @@ class Result:
     motions: int | None = None
     """How many motions it executed."""
     way: float | None = None
-    """How far its TCP went, mm."""
+    """The distance that its TCP moved, mm."""
     alarms: tuple[Alarm, ...] = ()
-    """All alarms, also those of channels that ended before the run did, and those that were cleared."""
+    """All alarms, including those of channels that ended before the run did, and those that were cleared."""
     ended_by: Alarm | None = None
-    """The alarm that ended the run: that of its first channel that an alarm ended."""
+    """The alarm that ended the run: that of the first channel that was ended by an alarm."""
     messages: tuple[Message, ...] = field(default=(), repr=False)
     warnings: tuple[str, ...] = ()
     report: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
-    """What each motion did, a row each, as `arl2rs run --report=FILE` writes it: with channel, motion, file, line, start, duration."""
+    """One row per motion, as `arl2rs run --report=FILE` writes it: with channel, motion, file, line, start,
+    duration."""
     totals: tuple[Mapping[str, Any], ...] = field(default=(), repr=False)
-    """The totals of the motions of each channel: channel, cycle_time, moving, standing, motions."""
+    """The totals of each channel's motions: channel, cycle_time, moving, standing, motions."""
     trace: Trace | None = field(default=None, repr=False, compare=False)
 
     @property
     def ended(self) -> bool:
-        """Whether the program came to its end."""
+        """Whether the program reached its end."""
         return self.outcome == "ended"
 
     @property
     def output(self) -> str:
-        """What the program printed for the operator panel or the terminal, a line each."""
+        """What the program printed for the operator panel or the terminal, one line per message."""
         lines = [message.text for message in self.messages if message.hmi or message.console]
         return "".join(line if line.endswith("\n") else line + "\n" for line in lines)
 
     def check(self) -> Result:
-        """The result itself, if the program came to its end.
+        """Returns the result itself if the program reached its end.
 
-        Raises `AlarmError` with file and line where an alarm ended it, `UnfinishedError` where it did not end.
+        Raises `AlarmError` with file and line if an alarm ended the run, `UnfinishedError` if it did not end.
         """
         if self.ended_by is not None:
             raise AlarmError(self.ended_by)
@@ -103,7 +104,7 @@ class Result:
         return self
 
     def plot(self) -> Figure:
-        """A picture of the motion: the path of the TCP, its speed, the axes. matplotlib has to be installed."""
+        """Plots the motion: the path of the TCP, its speed, the axes. Needs matplotlib."""
         from .plots import plot
 
         if self.trace is None:
@@ -122,8 +123,10 @@ def ended_by(figures: Mapping[str, Any]) -> Alarm | None:
     return None if alarm is None else Alarm(**alarm)
 
 
-def of_summary(summary: str, said: str, report: str = "", rows: NDArray[np.float64] | None = None, columns: tuple[str, ...] = ()) -> Result:
-    """The result that the Rust side tells; `rows` are those of the trace."""
+def of_summary(
+    summary: str, said: str, report: str = "", rows: NDArray[np.float64] | None = None, columns: tuple[str, ...] = ()
+) -> Result:
+    """Makes the result from what the Rust side reports; `rows` are those of the trace."""
     figures = json.loads(summary)
     figures.pop("real_time", None)
     alarms, ending = alarms_of(figures), ended_by(figures)

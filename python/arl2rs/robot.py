@@ -29,7 +29,7 @@ class Axis:
     """An axis and its limits, in deg, deg/s, deg/s2, deg/s3; mm instead of deg where it is linear."""
 
     name: str
-    """`j1`.., of external axes `ej1`.."""
+    """`j1`..; for external axes `ej1`.."""
     linear: bool
     min: float
     max: float
@@ -39,19 +39,20 @@ class Axis:
 
 
 def robots() -> list[str]:
-    """The names of the robots that are built in; the first is the default."""
+    """Returns the names of the built-in robots; the first is the default."""
     return _arl2rs.robots()
 
 
 class Robot:
-    """A robot by its name, or of a file: `Robot("kr10-r1420")`.
+    """A robot by its name or from a file: `Robot("kr10-r1420")`.
 
-    Axes are in deg (mm where they are linear), the robot's own ones only; poses are x, y, z in mm, a, b, c in deg, as in a program. A pose is the TCP
-    seen from the workpiece: `tool` is the tool's frame seen from the flange, `wobj` the workpiece's in the world, `base` where the robot stands in the
-    world. With `stationary` the tool is fixed in the world and with `robhold` the workpiece is on the flange, as for `tool` and `wobj` of a program; both
-    together or neither. Many rows at once are one array with a row each.
+    Axes are in deg (mm where they are linear), without external axes; poses are x, y, z in mm, a, b, c in deg, as in
+    a program. A pose is the TCP seen from the workpiece: `tool` is the frame of the tool seen from the flange, `wobj`
+    the frame of the workpiece in the world, `base` the place of the robot in the world. With `stationary` the tool is
+    fixed in the world and with `robhold` the workpiece is on the flange, as for `tool` and `wobj` of a program; both
+    together or neither. Several poses or sets of axes are passed as one array with a row each.
 
-    Raises `RefusedError` where there is no such robot, or an array does not have the right shape.
+    Raises `RefusedError` if there is no such robot, or if an array does not have the right shape.
     """
 
     def __init__(self, name: StrPath) -> None:
@@ -67,7 +68,7 @@ class Robot:
         self.external = all_axes[self._own :]
         """Its external axes."""
         self.home: Array = np.array(self._robot.home[: self._own])
-        """Where the simulated robot starts, its own axes."""
+        """The position where the simulated robot starts, without external axes."""
         self.configurations = tuple(self._robot.configurations)
         """The values that `cfg` can have."""
 
@@ -80,7 +81,7 @@ class Robot:
         joints: ArrayLike,
         **frames: Unpack[FrameArguments],
     ) -> Array:
-        """The pose of the TCP for axes, wherever they are, even beyond their ranges. Rows of axes give rows of poses."""
+        """Returns the pose of the TCP for axes, even beyond their ranges. Rows of axes give rows of poses."""
         rows, one = _rows(joints, self._own, "joints")
         with told:
             poses, _ = self._robot.forward(rows, _frames(**frames))
@@ -88,7 +89,7 @@ class Robot:
         return found[0] if one else found
 
     def configuration(self, joints: ArrayLike) -> NDArray[np.int64]:
-        """The `cfg` of axes, as poses of a program have it; an array for rows of axes, else one number."""
+        """Returns the `cfg` of axes, as in poses of a program: an array for rows of axes, else one number."""
         rows, one = _rows(joints, self._own, "joints")
         with told:
             _, cfgs = self._robot.forward(rows, _frames())
@@ -106,13 +107,13 @@ class Robot:
         chained: bool = False,
         **frames: Unpack[FrameArguments],
     ) -> Array:
-        """The axes that bring the TCP to a pose, within their ranges: those nearest to `near` (without it to `home`), or of the configuration `cfg`.
-        `turn` as in a pose of a program.
+        """Returns the axes that bring the TCP to a pose, within their ranges: those nearest to `near` (by default
+        `home`), or of the configuration `cfg`. `turn` is as in a pose of a program.
 
-        Rows of poses give rows of axes, each near its row of `near`, or all near its only row; with `chained` each near the one before it, as
-        along a path. A row that is not reached is NaN.
+        Rows of poses give rows of axes, each near its row of `near`, or all near its only row; with `chained` each
+        near the row before it, as along a path. The row of a pose that is not reached is NaN.
 
-        Raises `RefusedError` with the reason where one pose is asked for and not reached.
+        Raises `RefusedError` with the reason if a single pose is given and not reached.
         """
         rows, one = _pose_rows(poses)
         found, reasons = self._inverse(rows, near, (cfg, turn, chained), _frames(**frames))
@@ -127,7 +128,8 @@ class Robot:
         poses: ArrayLike | Mapping[str, float],
         **frames: Unpack[FrameArguments],
     ) -> NDArray[np.bool_]:
-        """Whether the TCP can be at a pose, with every axis within its range; an array of truth values for rows of poses, else one."""
+        """Returns whether the TCP can be at a pose with every axis within its range: an array for rows of poses, else
+        one truth value."""
         rows, one = _pose_rows(poses)
         _, reasons = self._inverse(rows, None, (None, -1, False), _frames(**frames))
         found = np.array([reason is None for reason in reasons], dtype=np.bool_)
@@ -139,7 +141,7 @@ class Robot:
         poses: ArrayLike | Mapping[str, float],
         **frames: Unpack[FrameArguments],
     ) -> list[str | None]:
-        """Why each of the poses is not reached; None for one that is."""
+        """Returns for each pose the reason why it is not reached; None if it is reached."""
         rows, _ = _pose_rows(poses)
         return self._inverse(rows, None, (None, -1, False), _frames(**frames))[1]
 
@@ -151,7 +153,7 @@ class Robot:
         near: ArrayLike | None = None,
         **frames: Unpack[FrameArguments],
     ) -> dict[int, Array]:
-        """The axes for one pose in each configuration that reaches it."""
+        """Returns the axes for one pose in each configuration that reaches it, by `cfg`."""
         rows, _ = _pose_rows(pose)
         if len(rows) != 1:
             raise RefusedError(f"expected one pose, found {len(rows)}")
@@ -160,7 +162,7 @@ class Robot:
         return {cfg: found[0] for cfg, (found, reasons) in tried.items() if reasons[0] is None}
 
     def within(self, joints: ArrayLike) -> NDArray[np.bool_]:
-        """Whether axes are within their ranges; an array of truth values for rows of axes, else one."""
+        """Returns whether axes are within their ranges: an array for rows of axes, else one truth value."""
         rows, one = _rows(joints, self._own, "joints")
         low, high = (np.array([getattr(axis, end) for axis in self.axes]) for end in ("min", "max"))
         found: NDArray[np.bool_] = np.all((rows >= low) & (rows <= high), axis=1)
@@ -176,14 +178,20 @@ class Robot:
             raise RefusedError("near: expected finite numbers: deg, or mm where an axis is linear")
         cfg = how[0]
         if cfg is not None and cfg not in self.configurations:
-            raise RefusedError(f"{self.name} has no configuration {cfg}: expected one of {', '.join(map(str, self.configurations))}")
+            raise RefusedError(
+                f"{self.name} has no configuration {cfg}: expected one of {', '.join(map(str, self.configurations))}"
+            )
         with told:
             found, reasons = self._robot.inverse(rows, starts, how, frames)
         return np.frombuffer(found).reshape(-1, self._own).copy(), reasons
 
 
 def _frames(
-    tool: FrameLike = None, wobj: FrameLike = None, base: FrameLike = None, stationary: bool = False, robhold: bool = False
+    tool: FrameLike = None,
+    wobj: FrameLike = None,
+    base: FrameLike = None,
+    stationary: bool = False,
+    robhold: bool = False,
 ) -> _arl2rs.Frames:
     return _frame(tool, "tool"), _frame(wobj, "wobj"), _frame(base, "base"), stationary, robhold
 
@@ -212,11 +220,13 @@ def _pose_rows(poses: ArrayLike | Mapping[str, float]) -> tuple[Array, bool]:
 
 
 def _rows(values: ArrayLike, width: int, what: str) -> tuple[Array, bool]:
-    """Rows of so many numbers, and whether it was one row without an array around it."""
+    """The values as rows of `width` numbers, and whether they were a single row without an array around it."""
     try:
         rows = np.ascontiguousarray(values, dtype=np.float64)
     except (TypeError, ValueError) as problem:
         raise RefusedError(f"{what}: {problem}") from None
     if rows.ndim not in (1, 2) or rows.shape[-1] != width:
-        raise RefusedError(f"{what}: expected {width} numbers, or rows of {width}, found an array of shape {rows.shape}")
+        raise RefusedError(
+            f"{what}: expected {width} numbers, or rows of {width}, found an array of shape {rows.shape}"
+        )
     return rows.reshape(-1, width), rows.ndim == 1

@@ -1,4 +1,4 @@
-"""A run that is stepped."""
+"""Runs that are stepped."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 __all__ = ["Session", "Snapshot"]
 
 ALARMED = 3
-"""The exit code of a run that an alarm ended."""
+"""The exit code of a run that was ended by an alarm."""
 
 Done = tuple[str, tuple[Any, ...]]
-"""What was done to a session: the name of a method of the Rust side, and its arguments."""
+"""An action on a session: the name of a method of the Rust side, and its arguments."""
 
 
 @dataclass(frozen=True)
 class Beginning:
-    """What a session begins with."""
+    """The settings that a session begins with."""
 
     program: Program
     words: tuple[str, ...]
@@ -42,10 +42,11 @@ class Beginning:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A session as it was: `Session.snapshot` makes it, and any number of sessions go on from there.
+    """The state of a session, taken by `Session.snapshot`; any number of sessions can continue from it.
 
-    A run cannot be copied, so going on repeats everything that was done until then, which takes as long as it took. A snapshot can be pickled,
-    and goes on in other processes. The repeated run writes the files that its program writes once more, in the same places.
+    A run cannot be copied: to continue, everything that was done until then is repeated, which takes as long as it
+    took the first time. A snapshot can be pickled, and continued in other processes. The repeated run writes the
+    files of its program again, in the same places.
     """
 
     beginning: Beginning
@@ -55,15 +56,17 @@ class Snapshot:
     observed: bytes
 
     def resume(self) -> Session:
-        """A new session at the same place of the same run, on the thread that asks for it.
+        """Returns a new session at the same point of the same run, on the calling thread.
 
-        Raises `SessionError` where repeating the run gave another result: a file that the run reads has changed meanwhile.
+        Raises `SessionError` if repeating the run gives another result: a file that the run reads has changed since.
         """
         session = Session(self.beginning)
         session._repeat(self.done)
         if session.time != self.time or session.observe().tobytes() != self.observed:
             session.close()
-            raise SessionError(f"repeating the run up to {self.time:.3f} s gave another result: a file that the run reads has changed")
+            raise SessionError(
+                f"repeating the run up to {self.time:.3f} s gave another result: a file that the run reads has changed"
+            )
         return session
 
     def __repr__(self) -> str:
@@ -71,10 +74,11 @@ class Snapshot:
 
 
 class Session:
-    """A run that goes on as far as it is told, on the thread that began it: `Program.session` makes it.
+    """A run that is stepped by its caller, on the thread that began it; `Program.session` creates it.
 
-    It may be used in a `with` statement; at its end the run ends. An alarm that ends the run is raised as an `AlarmError`: by the step that met it,
-    and by every later call that acts on the run; its state can still be read.
+    It can be used in a `with` statement, at whose end the run ends. An alarm that ends the run is raised as an
+    `AlarmError`: by the step in which it occurs, and by every later call that acts on the run; the state can still be
+    read.
     """
 
     def __init__(self, beginning: Beginning) -> None:
@@ -82,7 +86,7 @@ class Session:
         self.columns = self._program.columns
         """The columns of the trace: time in s, line, motion, axes in deg, TCP in mm and deg."""
         self.watched = beginning.watch.names
-        """What else is observed."""
+        """The names of what else is observed."""
         self._names = {name: at for at, name in reversed(list(enumerate((*self.columns, *self.watched))))}
         self._numbers = np.full(len(self.columns) + len(self.watched), np.nan)
         with told:
@@ -90,7 +94,7 @@ class Session:
             if self.watched:
                 self._run.watch(list(beginning.watch.places))
             self._run.observe(self._numbers)
-        # Variables have their first values in the first cycle.
+        # Variables get their first values in the first cycle.
         for at, name in enumerate(self.watched):
             if name.startswith("global."):
                 self._numbers[len(self.columns) + at] = np.nan
@@ -105,15 +109,17 @@ class Session:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.close()
 
     def step(self, cycles: int = 1, *, alone: bool = False) -> NDArray[np.float64]:
-        """Goes on for so many control cycles, or to the end of the run; gives what is observed then: an array of its own, `columns` of the trace, then
-        what is `watched`. Once the run is over it stays as it is.
+        """Runs this many control cycles, or to the end of the run, and returns what is observed then: a new array
+        with the `columns` of the trace, then what is `watched`. Once the run is over, it no longer changes.
 
-        `alone`: nobody changes anything any more, so that a program that waits in vain ends the run. Raises `AlarmError` where an alarm ends the run,
-        or has ended it; `observe` gives what is observed then.
+        `alone`: nothing is changed from outside any more, so that a program that waits in vain ends the run. Raises
+        `AlarmError` if an alarm ends the run or has ended it; `observe` still returns what is observed.
         """
         if cycles < 0:
             raise RefusedError(f"a session cannot step back ({cycles} cycles): use resume() of an earlier snapshot()")
@@ -123,13 +129,13 @@ class Session:
         return self._numbers.copy()
 
     def observe(self) -> NDArray[np.float64]:
-        """What is observed now, an array of its own: `columns` of the trace, then what is `watched`."""
+        """Returns what is observed now, as a new array: `columns` of the trace, then what is `watched`."""
         with told:
             self._run.observe(self._numbers)
         return self._numbers.copy()
 
     def __getitem__(self, name: str) -> float:
-        """One of the numbers that are observed, by the name of its column or of what is watched."""
+        """Returns one of the observed numbers, by the name of its column or of what is watched."""
         at = self._names.get(name)
         if at is None:
             raise KeyError(f"{name!r} is not observed: expected one of {', '.join(self._names)}")
@@ -142,7 +148,7 @@ class Session:
 
     @property
     def is_closed(self) -> bool:
-        """Whether `close` ended it."""
+        """Whether the session was closed."""
         return self._closed
 
     @property
@@ -153,16 +159,17 @@ class Session:
 
     @property
     def alarms(self) -> tuple[Alarm, ...]:
-        """The alarms so far; that of one channel ends its program only."""
+        """The alarms so far; an alarm ends only the program of its channel."""
         with told:
             return alarms_of(json.loads(self._run.summary()))
 
     def order(self, order: str) -> None:
-        """Does what an event of a scenario does: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`."""
+        """Executes an order, as an event of a scenario does: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`,
+        `override = 50`."""
         self._do("order", order)
 
     def set(self, **signals: bool | float) -> None:
-        """Sets inputs, by what the cell calls them or as `di_5`, `ai_2`. Digital ones take truth values, 0 and 1."""
+        """Sets inputs, by their names in the cell or as `di_5`, `ai_2`. Digital inputs take truth values, 0 and 1."""
         for name, value in signals.items():
             kind, _, channel = name.rpartition("_")
             is_numbered = kind in ("di", "ai", "internal", "internal_do") and channel.isdigit()
@@ -176,20 +183,21 @@ class Session:
         self.observe()
 
     def global_value(self, name: str) -> Any:
-        """The value of a global variable: int, float, bool or str; lists for arrays; for structures dictionaries of the components that are set
-        (`{"x": 900.0, "y": -500.0}`), which `set_global` and `points` take; a `Literal` for what Python has no value for."""
+        """Returns the value of a global variable: int, float, bool or str; lists for arrays; for structures
+        dictionaries of the components that are set (`{"x": 900.0, "y": -500.0}`), which `set_global` and `points`
+        accept; a `Literal` for what Python has no value for."""
         literal = self.global_literal(name)
         variable = find(name, self._program.variables)
         return literal if variable is None else variable.value(literal)
 
     def global_literal(self, name: str) -> str:
-        """The value of a global variable, as a literal of ARL."""
+        """Returns the value of a global variable as a literal of ARL."""
         self._has_values()
         with told:
             return self._run.global_value(name)
 
     def set_global(self, name: str, value: Any) -> None:
-        """Gives a global variable a value; components that a dictionary leaves out keep theirs."""
+        """Sets a global variable; components that a dictionary leaves out keep their values."""
         self._has_values()
         with told:
             literal = _arl2rs.literal(json.dumps(plain(value, name)))
@@ -197,7 +205,7 @@ class Session:
         self.observe()
 
     def state(self) -> dict[str, Any]:
-        """The state of everything: channels, axes, TCP, inputs and outputs."""
+        """Returns the state of everything: channels, axes, TCP, inputs and outputs."""
         with told:
             state: dict[str, Any] = json.loads(self._run.state())["state"]
         return state
@@ -209,7 +217,7 @@ class Session:
         self._note("stop")
 
     def result(self) -> Result:
-        """What came of the run, or how far it is."""
+        """Returns the result of the run, or its result so far."""
         with told:
             self._said += self._run.take_said()
             names = (*self.columns, *self.watched)
@@ -220,15 +228,17 @@ class Session:
             return of_summary(self._run.summary(), self._said, self._run.report(), rows, names)
 
     def finish(self) -> Result:
-        """Goes on to the end of the run without further changes from outside; gives what came of it: `Result.check` raises an alarm."""
+        """Runs to the end without further changes from outside; returns the result, whose `check` raises an alarm."""
         self._go(self._run.go_on, 2**63, True)
         return self.result()
 
     def snapshot(self) -> Snapshot:
-        """The session as it is now, to go on from again and again: for a search of a tree, or learning that branches.
+        """Returns the current state of the session, to continue from any number of times: for tree search, or
+        learning with branches.
 
-        It holds what was done until now, and `Snapshot.resume` repeats that: see there for the cost. Raises `RefusedError` for a run that is not the
-        same every time: in real time, with connections, or with a `state_dir`.
+        It holds what was done until now, and `Snapshot.resume` repeats that: `Snapshot` describes the cost. Raises
+        `RefusedError` for a run that is not the same every time: in real time, with connections, or with a
+        `state_dir`.
         """
         if self._beginning.keeps_state:
             raise RefusedError("no snapshot of a run with a state_dir: it would begin with what it has written there")
@@ -239,7 +249,7 @@ class Session:
         return Snapshot(self._beginning, tuple(self._done), self.time, self.observe().tobytes())
 
     def close(self) -> None:
-        """Ends the run. What was closed stays so."""
+        """Ends the run. A closed session stays closed."""
         with told:
             self._run.close()
         self._closed = True
@@ -255,10 +265,12 @@ class Session:
 
     def _has_values(self) -> None:
         if self.time == 0:
-            raise RefusedError("global variables get their first values in the first cycle: step first, or give `globals` to the session")
+            raise RefusedError(
+                "global variables get their first values in the first cycle: step first, or give `globals` to the session"
+            )
 
     def _go(self, act: Callable[..., int | None], cycles: int, alone: bool, *more: Any) -> None:
-        """Goes on. Ctrl-C comes between cycles: those before it are gone."""
+        """Runs cycles. Ctrl-C takes effect between cycles: those before it have been executed."""
         was_over, before = self.is_over, self._run.gone
         try:
             with told:
@@ -270,13 +282,13 @@ class Session:
             self._note_cycles(self._run.gone - before, alone)
 
     def _alarm(self) -> AlarmError:
-        """That of the alarm that ended the run."""
+        """The exception for the alarm that ended the run."""
         with told:
             ending = ended_by(json.loads(self._run.summary()))
         return AlarmError(self.alarms[-1] if ending is None else ending)
 
     def _do(self, what: str, *arguments: str) -> None:
-        """Does something to a run that is not over."""
+        """Acts on a run that is not over."""
         if self.code == ALARMED:
             raise self._alarm()
         if self.code is not None:
@@ -289,16 +301,16 @@ class Session:
         self._note(what, *arguments)
 
     def _note_cycles(self, cycles: int, alone: bool) -> None:
-        """Cycles that follow each other are one thing that was done."""
+        """Notes cycles; consecutive cycles are one action."""
         what, arguments = self._done[-1] if self._done else ("", ())
         if what == "go_on" and arguments[1] == alone:
             cycles += self._done.pop()[1][0]
         self._note("go_on", cycles, alone)
 
     def _note(self, what: str, *arguments: Any) -> None:
-        """What is done again and again is kept once: an episode of an agent has many steps."""
+        """Notes an action. Equal actions share one object: an episode of an agent has many steps."""
         if self._done:
-            # The last one may still grow.
+            # The last action may still grow.
             self._done[-1] = self._known.setdefault(self._done[-1], self._done[-1])
         self._done.append((what, arguments))
 

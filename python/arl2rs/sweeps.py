@@ -1,4 +1,4 @@
-"""Many runs of a program, and the table of what came of them."""
+"""Many runs of a program, and the table of their results."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .program import given
 from .values import Parameters, as_json, of_python
 
 with warnings.catch_warnings():
-    # A notebook without ipywidgets has a bar of letters, which is no reason for a warning.
+    # A notebook without ipywidgets shows a progress bar of characters, which needs no warning.
     warnings.simplefilter("ignore", _tqdm.TqdmWarning)
     from tqdm.auto import tqdm
 
@@ -35,11 +35,11 @@ if TYPE_CHECKING:
 __all__ = ["Results", "Rows", "grid", "load_sweep", "sweep"]
 
 SAID_S = 30.0
-"""So often a sweep says how far it is where nobody sees a bar; s."""
+"""The interval between reports of a sweep's progress where no bar is visible, s."""
 
 
 class Frame(Protocol):
-    """A table with columns: a frame of pandas or polars."""
+    """A table with columns: a pandas or polars data frame."""
 
     @property
     def columns(self) -> Any: ...
@@ -50,7 +50,7 @@ Rows = Iterable[Parameters] | Frame
 
 
 def grid(values: Mapping[str, Iterable[Any]]) -> list[dict[str, Any]]:
-    """Every combination of the values of the parameters; the last parameter changes fastest.
+    """Returns every combination of the values of the parameters; the last parameter changes fastest.
 
     >>> grid({"global.pitch": [80, 100], "override": [50, 100]})[1]
     {'global.pitch': 80, 'override': 100}
@@ -59,14 +59,15 @@ def grid(values: Mapping[str, Iterable[Any]]) -> list[dict[str, Any]]:
 
 
 class Results(Sequence[dict[str, Any]]):
-    """What came of runs, a row each: `run`, `parameters`, `outcome`, `code`, `cycle_time` (s), `moving`, `standing` (s), `motions`, `way` (mm),
-    `alarms`, `output`, `collisions` where they were looked for, and `problem` where a run could not begin or was lost."""
+    """The results of runs, one row per run: `run`, `parameters`, `outcome`, `code`, `cycle_time` (s), `moving`,
+    `standing` (s), `motions`, `way` (mm), `alarms`, `output`, `collisions` if they were looked for, and `problem` if
+    a run could not begin or was lost."""
 
     def __init__(self, lines: Iterable[str], names: Sequence[Iterable[str]] = ()) -> None:
         self.lines = list(lines)
         """The rows as JSON, as `arl2rs sweep` writes them."""
         self._rows: list[dict[str, Any]] = [json.loads(line) for line in self.lines]
-        # Parameters come back with the names that they were given by.
+        # Parameters are returned under the names under which they were given.
         for row, own in zip(self._rows, names, strict=False):
             row["parameters"] = dict(zip(own, row["parameters"].values(), strict=True))
 
@@ -88,7 +89,7 @@ class Results(Sequence[dict[str, Any]]):
         return f"Results({len(self)} runs: {told})" if told else "Results(no runs)"
 
     def best(self, figure: Choice = "cycle_time") -> dict[str, Any]:
-        """The run that ended with the smallest value of a figure."""
+        """Returns the run with the smallest value of a figure, among those that reached their end."""
         ended = [row for row in self if row["outcome"] == "ended"]
         if not ended:
             why = [row.get("problem") or (row["alarms"] or [{"text": row["outcome"]}])[0]["text"] for row in self]
@@ -96,24 +97,25 @@ class Results(Sequence[dict[str, Any]]):
         return min(ended, key=lambda row: row[figure])
 
     def flat(self) -> list[dict[str, Any]]:
-        """The rows with a value for each column: parameters by their names, the first alarm, the number of collisions and the first one."""
+        """Returns the rows with a single value per column: parameters by name, the first alarm, the number of
+        collisions and the first one."""
         looked = any("collisions" in row for row in self)
         return [{**dict(_flat(row, looked)), "problem": row.get("problem")} for row in self]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A frame of pandas, which has to be installed."""
+        """Returns a pandas data frame. Needs pandas."""
         import pandas
 
         return pandas.DataFrame(self.flat())
 
     def to_polars(self) -> polars.DataFrame:
-        """A frame of polars, which has to be installed."""
+        """Returns a polars data frame. Needs polars."""
         import polars
 
         return polars.DataFrame(self.flat(), infer_schema_length=None)
 
     def plot(self, parameter: str, figure: Choice = "cycle_time") -> Figure:
-        """A picture of a figure over a parameter; runs that did not end are crosses at the bottom. matplotlib has to be installed."""
+        """Plots a figure over a parameter; runs that did not end are crosses at the bottom. Needs matplotlib."""
         from .plots import plot_sweep
 
         if not any(parameter in row["parameters"] for row in self):
@@ -144,7 +146,8 @@ def _flat(row: Mapping[str, Any], looked: bool) -> Iterator[tuple[str, Any]]:
 
 
 def load_sweep(file: StrPath) -> tuple[dict[str, Any], list[dict[str, Any]]]:
-    """The file of `arl2rs sweep`: the arguments of `sweep` except its rows, and the rows, with the names of Python (`scenario`, `max_time`)."""
+    """Reads a file of `arl2rs sweep`: returns the arguments of `sweep` except its rows, and the rows, with the Python
+    names (`scenario`, `max_time`)."""
     with told:
         settings, rows = _arl2rs.table(there(file, "the file of a sweep"))
     settings["scenario"] = settings.pop("io")
@@ -152,7 +155,7 @@ def load_sweep(file: StrPath) -> tuple[dict[str, Any], list[dict[str, Any]]]:
 
 
 def rows_of(rows: Rows) -> list[Parameters]:
-    """The rows of a table. What a frame leaves empty is left out."""
+    """The rows of a table, without the empty cells of a frame."""
     if hasattr(rows, "columns"):
         to_rows = getattr(rows, "to_dicts", None)
         told_rows: list[dict[str, Any]] = to_rows() if to_rows else rows.to_dict("records")  # type: ignore[union-attr]
@@ -163,7 +166,7 @@ def rows_of(rows: Rows) -> list[Parameters]:
 
 
 def _is_empty(value: Any) -> bool:
-    """None, or one of the many things that are not even themselves."""
+    """Whether a value is None, or one of those that are not equal to themselves."""
     try:
         return value is None or bool(value != value)
     except (TypeError, ValueError):
@@ -172,7 +175,7 @@ def _is_empty(value: Any) -> bool:
 
 
 def _whole(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """A column of whole numbers with gaps became one of floats: then they are whole again."""
+    """Makes the values of a column whole again that became floats because of gaps."""
     for name in rows[0] if rows else ():
         values = [row[name] for row in rows]
         there = [value for value in values if not _is_empty(value)]
@@ -201,19 +204,23 @@ def sweep(
     cache: bool = True,
     progress: bool | None = None,
 ) -> Results:
-    """Runs a program once for each row of parameters; gives what came of it, in the order of the rows.
+    """Runs a program once for each row of parameters, and returns the results in the order of the rows.
 
-    - `rows`: tables of parameters, as `grid` makes them, or a frame of pandas or polars: `global.NAME`, `robot.KEYS`, `cell.KEYS`,
-      `scenario.KEYS`, `robot`, `scenario`, `override`, `mode`, `seed`, `max_time`, `start_time`. The command's names are taken, too.
-    - `files`: what the program reads besides programs, data files and texts of its folder.
-    - `max_time`: after this many seconds of the robot's time a run ends (3600); `timeout`: after this many on the clock it is given up (600).
-    - `collisions`: whether each run looks for what its robots touch; with `clearance`, also for what comes closer than this many mm.
-    - `engine`: `local` makes the runs on `processes` of this computer (0: one for each core), `ray` on the nodes of a cluster of Ray
-      (`arl2rs.farm`). The results are the same to the last bit.
+    - `rows`: dictionaries of parameters, as `grid` makes them, or a pandas or polars data frame: `global.NAME`,
+      `robot.KEYS`, `cell.KEYS`, `scenario.KEYS`, `robot`, `scenario`, `override`, `mode`, `seed`, `max_time`,
+      `start_time`. The command's names are accepted, too.
+    - `files`: the files that the program reads besides programs, data files and texts of its folder.
+    - `max_time`: after this many seconds of the robot's time a run ends (3600); `timeout`: after this many on the
+      clock it is given up (600).
+    - `collisions`: whether each run is checked for contacts of its robots; with `clearance`, also for bodies that
+      come closer than this many mm.
+    - `engine`: `local` executes the runs on `processes` of this computer (0: one for each core), `ray` on the nodes
+      of a Ray cluster (`arl2rs.farm`). The results are the same to the last bit.
     - `cache`: whether known results of earlier sweeps are used, and new ones kept.
     - `progress`: whether progress is shown: by a bar on a terminal and in a notebook, else by a line now and then.
 
-    Raises `CompileError` or `RefusedError` before anything runs. A run that cannot begin, or is lost, has a row that says so.
+    Raises `CompileError` or `RefusedError` before anything runs. A run that cannot begin, or is lost, has a row that
+    says so.
     """
     table = rows_of(rows)
     texts = [as_json(row) for row in table]
@@ -238,7 +245,9 @@ def sweep(
         raise RefusedError(f"engine {engine!r}: expected 'local' or 'ray'")
     with (
         told,
-        notice(f"compiling {path.name} for {len(texts)} runs: this takes a minute or two the first time, and seconds after a change"),
+        notice(
+            f"compiling {path.name} for {len(texts)} runs: this takes a minute or two the first time, and seconds after a change"
+        ),
     ):
         bundle = _arl2rs.Bundle(settings, texts)
     lines: list[str] = []
@@ -258,7 +267,7 @@ def sweep(
 
 
 class _Progress:
-    """How far a sweep is: a bar where somebody looks, else a line now and then."""
+    """The progress of a sweep: a bar on a terminal or in a notebook, else a line now and then."""
 
     def __init__(self, total: int, shown: bool | None) -> None:
         self._total, self._came, self._last = total, 0, time.monotonic()
@@ -268,11 +277,13 @@ class _Progress:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self._bar.close()
 
     def came(self, count: int) -> None:
-        """So many runs are done."""
+        """Takes the number of finished runs."""
         self._bar.update(count - self._came)
         self._came = count
         if self._speaks and time.monotonic() - self._last > SAID_S:

@@ -1,4 +1,4 @@
-"""The motion of a run: a row a control cycle."""
+"""The motion of a run: one row per control cycle."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ __all__ = ["Trace"]
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """The set-points of the first robot while its program runs, a row a control cycle."""
+    """The set-points of the first robot while its program runs, one row per control cycle."""
 
     array: NDArray[np.float64]
-    """All of it: a row a cycle, a column for each of `columns`. Axes that the robot does not have are NaN."""
+    """The trace: a row for each cycle, a column for each of `columns`. Axes that the robot does not have are NaN."""
     columns: tuple[str, ...]
     """The columns of the command's trace, then what was watched."""
     files: Mapping[int, str] = field(default_factory=dict, repr=False)
@@ -32,7 +32,7 @@ class Trace:
         return len(self.array)
 
     def __getitem__(self, column: str) -> NDArray[np.float64]:
-        """A column by its name: `trace["j1"]`."""
+        """Returns a column by its name: `trace["j1"]`."""
         if column not in self.columns:
             raise KeyError(f"{column!r} is not a column: expected one of {', '.join(self.columns)}")
         return self.array[:, self.columns.index(column)]
@@ -44,28 +44,28 @@ class Trace:
 
     @property
     def line(self) -> NDArray[np.int64]:
-        """The line of the motion that is executed; 0: none."""
+        """The line of the motion being executed; 0: none."""
         return self["line"].astype(np.int64)
 
     @property
     def file(self) -> NDArray[np.object_]:
-        """The file that `line` is in, relative to the folder of the main file; empty where no motion is executed."""
+        """The file of `line`, relative to the folder of the main file; empty while no motion is executed."""
         motions, where = np.unique(self.motion, return_inverse=True)
         return np.array([self.files.get(int(motion), "") for motion in motions], dtype=object)[where]
 
     @property
     def motion(self) -> NDArray[np.int64]:
-        """Its running number; 0: none."""
+        """The running number of the motion being executed; 0: none."""
         return self["motion"].astype(np.int64)
 
     @cached_property
     def joints(self) -> NDArray[np.float64]:
-        """The robot's own axes, a column each, deg (mm where they are linear)."""
+        """The robot's own axes, one column each, deg (mm where they are linear)."""
         return self._there("j")
 
     @cached_property
     def external(self) -> NDArray[np.float64]:
-        """The external axes, a column each, deg (mm)."""
+        """The external axes, one column each, deg (mm)."""
         return self._there("ej")
 
     @property
@@ -76,12 +76,13 @@ class Trace:
 
     @property
     def watched(self) -> tuple[str, ...]:
-        """The columns of what else was watched."""
+        """The columns that were also watched."""
         return self.columns[self.columns.index("x") + 6 :]
 
     @cached_property
     def velocities(self) -> NDArray[np.float64]:
-        """The velocities of the robot's own axes between a cycle and the next, deg/s (mm/s); the last row is that before it."""
+        """The velocities of the robot's own axes from each cycle to the next, deg/s (mm/s); the last row repeats the
+        one before it."""
         return _rate(self.joints, self.t)
 
     @cached_property
@@ -92,7 +93,9 @@ class Trace:
     def _frame(self) -> dict[str, NDArray[Any]]:
         """The columns that the robot has, then the file; line and motion are whole numbers."""
         whole = {"line": self.line, "motion": self.motion}
-        there = (name for name in self.columns if name in self.watched or not (len(self) and np.isnan(self[name]).all()))
+        there = (
+            name for name in self.columns if name in self.watched or not (len(self) and np.isnan(self[name]).all())
+        )
         return {**{name: whole.get(name, self[name]) for name in there}, "file": self.file}
 
     def _there(self, kind: str) -> NDArray[np.float64]:
@@ -102,13 +105,13 @@ class Trace:
         return axes[:, ~np.isnan(axes).all(axis=0)] if len(axes) else axes[:, :0]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The same as a frame of pandas, which has to be installed."""
+        """Returns the trace as a pandas data frame. Needs pandas."""
         import pandas
 
         return pandas.DataFrame(self._frame())
 
     def to_polars(self) -> polars.DataFrame:
-        """The same as a frame of polars, which has to be installed."""
+        """Returns the trace as a polars data frame. Needs polars."""
         import polars
 
         return polars.DataFrame(self._frame())

@@ -1,4 +1,4 @@
-"""Values of Python as parameters: what becomes a literal of ARL, or a value in a settings file."""
+"""Python values as parameters, which become literals of ARL or values in a settings file."""
 
 from __future__ import annotations
 
@@ -22,38 +22,38 @@ Parameters = Mapping[str, Any]
 """Places and their values: `{"global.pitch": 80, "scenario.event.1.at": 2.5, "override": 50}`."""
 
 FrameLike = Sequence[float] | NDArray[np.float64] | Mapping[str, float] | None
-"""A frame: x, y, z in mm, a, b, c in deg, as six numbers or by their names, as `Session.global_value` gives poses; None: nothing between."""
+"""A frame: x, y, z in mm, a, b, c in deg, as six numbers or by name (see `Session.global_value`); None: identity."""
 
 COMMAND_NAMES = {"scenario": "io", "max_time": "max-time", "start_time": "start-time"}
-"""How the command calls what has another name in Python."""
+"""The command's names of parameters that have another name in Python."""
 PYTHON_NAMES = {theirs: ours for ours, theirs in COMMAND_NAMES.items()}
 
 
 def _renamed(name: str, names: Mapping[str, str]) -> str:
     first, point, rest = name.partition(".")
-    # `scenario.event.1.at` is a place in it; only a file's name has places.
+    # `scenario.event.1.at` is a place in the scenario; only the names of files are followed by places.
     return names.get(first, first) + point + rest if not point or first in ("scenario", "io") else name
 
 
 def of_command(name: str) -> str:
-    """The command's name of a parameter; that itself is taken, too."""
+    """The command's name of a parameter; the command's name itself is accepted, too."""
     return _renamed(name, COMMAND_NAMES)
 
 
 def of_python(name: str) -> str:
-    """The name of one of the command's parameters in Python."""
+    """The Python name of one of the command's parameters."""
     return _renamed(name, PYTHON_NAMES)
 
 
 @dataclass(frozen=True)
 class Literal:
-    """A literal of ARL as it is written, for what Python has no value for: `Literal("fine")`."""
+    """A literal of ARL as written, for values that Python does not have: `Literal("fine")`."""
 
     text: str
 
 
 def plain(value: Any, place: str = "the value") -> Any:
-    """A value as JSON has it; `place` is what it is for."""
+    """A value as JSON represents it; `place` names it in errors."""
     if isinstance(value, Literal):
         if not isinstance(value.text, str):
             raise RefusedError(f"{place}: a literal is a string, not {value.text!r}")
@@ -78,7 +78,7 @@ def plain(value: Any, place: str = "the value") -> Any:
 
 
 def as_json(parameters: Parameters) -> str:
-    """Parameters as the Rust side reads them, in their order."""
+    """Parameters in the form that the Rust side reads, in their order."""
     if not isinstance(parameters, Mapping):
         raise RefusedError(f"parameters are a dictionary of names and values, not {parameters!r}")
     named: dict[str, Any] = {}
@@ -88,7 +88,7 @@ def as_json(parameters: Parameters) -> str:
 
 
 def of_json(value: Any) -> Any:
-    """A value of ARL, as the Rust side tells it, for Python."""
+    """The Python value for a value of ARL as the Rust side reports it."""
     if isinstance(value, list):
         return [of_json(inner) for inner in value]
     if isinstance(value, dict):
@@ -98,8 +98,10 @@ def of_json(value: Any) -> Any:
     return value
 
 
-def gathered(globals: Parameters | None, points: Parameters | None, set: Parameters | None, **options: Any) -> dict[str, Any]:
-    """The parameters of a run, of the arguments that `Program.run` has."""
+def gathered(
+    globals: Parameters | None, points: Parameters | None, set: Parameters | None, **options: Any
+) -> dict[str, Any]:
+    """The parameters of a run, from the arguments of `Program.run`."""
     parameters: dict[str, Any] = {}
     for named in (globals, points):
         if named is not None and not isinstance(named, Mapping):

@@ -1,4 +1,4 @@
-"""What a program has that can be set, watched and asked for: global variables and signals."""
+"""What can be set, watched and read in a program: global variables and signals."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .values import of_json
 __all__ = ["Signal", "Variable", "Watch", "of_told"]
 
 MOST_COLUMNS = 10_000
-"""So many numbers of one variable can be watched."""
+"""The most numbers of one variable that can be watched."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Signal:
     signal: str
     """`di.5`"""
     name: str | None = None
-    """What the cell calls it."""
+    """The name of the signal in the cell."""
 
     def __str__(self) -> str:
         return self.name or self.signal
@@ -37,7 +37,7 @@ class Signal:
 
 @dataclass(frozen=True)
 class Variable:
-    """A global variable, as it is declared."""
+    """A global variable as declared."""
 
     name: str
     file: str
@@ -45,35 +45,41 @@ class Variable:
     line: int
     """From 1."""
     type: str
-    """Of the variable, or of the elements of an array: `pose`."""
+    """The type of the variable, or of the elements of an array: `pose`."""
     sizes: tuple[int, ...]
-    """Those of an array; empty for one value."""
+    """The sizes of an array; empty for a single value."""
     constant: bool
-    """Whether it is `const`, and cannot be set."""
+    """Whether the variable is `const` and cannot be set."""
     first: str | None
-    """Its first value as it is declared, ARL; None without one."""
+    """The initial value as declared in ARL; None without one."""
     numbers: tuple[str, ...]
-    """Where the numbers of a value are: `.x`; `('',)` for a number."""
+    """The places of the numbers in a value: `.x`; `('',)` for a number."""
 
     @property
     def is_point(self) -> bool:
-        """Whether it is a target, or an array of targets."""
+        """Whether the variable is a target or an array of targets."""
         return self.type.lower() in ("pose", "joint")
 
     def value(self, literal: str) -> Any:
-        """A literal of its type as a value: int, float, bool, str, lists for arrays, dictionaries for structures, `Literal` for what is left."""
+        """Converts a literal of the variable's type: int, float, bool, str, lists for arrays, dictionaries for
+        structures, `Literal` for the rest."""
         value = of_json(json.loads(_arl2rs.value(literal, self.type)))
         for size in reversed(self.sizes[1:]):
             value = _rows(value, size)
         return value
 
     def columns(self, name: str, part: str) -> list[tuple[str, str]]:
-        """The numbers of a part of it: what they are called, and the place that the Rust side knows, where arrays have one dimension."""
+        """The numbers of a part of the variable: their names, and their places on the Rust side, where arrays have
+        one dimension."""
         indices = re.match(r"(\[\d+\])*", part)
         taken = tuple(int(index) for index in re.findall(r"\d+", indices.group())) if indices else ()
         rest = part[indices.end() :] if indices else part
-        fits = len(taken) <= len(self.sizes) and all(index < size for index, size in zip(taken, self.sizes, strict=False))
-        numbers = [number for number in self.numbers if number == rest.lower() or (not rest and not number.startswith(".ej"))]
+        fits = len(taken) <= len(self.sizes) and all(
+            index < size for index, size in zip(taken, self.sizes, strict=False)
+        )
+        numbers = [
+            number for number in self.numbers if number == rest.lower() or (not rest and not number.startswith(".ej"))
+        ]
         numbers = numbers or [number for number in self.numbers if rest and number.startswith(f"{rest.lower()}.")]
         left = self.sizes[len(taken) :]
         if not fits or not numbers or (rest and left):
@@ -104,7 +110,7 @@ def _rows(values: Sequence[Any], size: int) -> list[list[Any]]:
 
 
 def of_told(told: Iterable[Mapping[str, Any]]) -> dict[str, Variable]:
-    """The variables that the Rust side tells, by the names that they are known by."""
+    """The variables that the Rust side reports, by their names."""
     variables = [Variable(**{**one, "sizes": tuple(one["sizes"]), "numbers": tuple(one["numbers"])}) for one in told]
     count = Counter(variable.name.lower() for variable in variables)
     several = (f"{PurePath(it.file).stem}::{it.name}" if count[it.name.lower()] > 1 else it.name for it in variables)
@@ -112,7 +118,7 @@ def of_told(told: Iterable[Mapping[str, Any]]) -> dict[str, Variable]:
 
 
 def find(name: str, variables: Mapping[str, Variable]) -> Variable | None:
-    """The variable of a name, whatever its case, with its file or without."""
+    """The variable with a name, ignoring case, with or without its file."""
     own = name.rpartition("::")[2].lower()
     for known, variable in variables.items():
         if known.lower() == name.lower() or (
@@ -127,18 +133,18 @@ class Watch:
     """What is observed after the row of a trace."""
 
     names: tuple[str, ...] = ()
-    """What the numbers are called."""
+    """The names of the numbers."""
     places: tuple[str, ...] = ()
-    """What the Rust side knows them by."""
+    """The names of the numbers on the Rust side."""
 
     @classmethod
     def of(cls, names: Sequence[str], variables: Mapping[str, Variable]) -> Watch:
-        """Signals stay; a global variable is all of its numbers."""
+        """Leaves signals as they are, and replaces a global variable by all of its numbers."""
         columns: list[tuple[str, str]] = []
         for name in names:
             path = name.removeprefix("global.")
             own = re.split(r"[.\[]", path, maxsplit=1)[0]
             variable = find(own, variables) if path != name else None
-            # The Rust side tells what is not there.
+            # The Rust side reports names that do not exist.
             columns += [(name, name)] if variable is None else variable.columns(own, path[len(own) :])
         return cls(tuple(label for label, _ in columns), tuple(place for _, place in columns))

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use arl2rs_cli::host::{self, Parameters, Row, RunResult, Settings, Spread, Sweep};
+use arl2rs_cli::host::{self, Parameters, Row, RunResult, Settings, Spread, Sweep, SweepSettings};
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -14,7 +14,7 @@ use serde::de::DeserializeOwned;
 use crate::problem::{Failed, Refused, of_host};
 use crate::{Given, LOOK_INTERVAL, interruptible};
 
-/// The file of a sweep: what is run, as a dictionary, and the parameters of each run, as JSON.
+/// The file of a sweep: the settings, as a dictionary, and the parameters of each run, as JSON.
 #[pyfunction]
 pub(crate) fn table(file: PathBuf) -> PyResult<(Given, Vec<String>)> {
     let Sweep { settings, rows } = host::table(&file).map_err(of_host)?;
@@ -22,7 +22,7 @@ pub(crate) fn table(file: PathBuf) -> PyResult<(Given, Vec<String>)> {
     Ok((settings.into(), rows?))
 }
 
-/// JSON of the Python side.
+/// Reads JSON of the Python side.
 pub(crate) fn read<T: DeserializeOwned>(text: &str) -> PyResult<T> {
     serde_json::from_str(text).map_err(|error| PyValueError::new_err(format!("{text}: {error}")))
 }
@@ -41,7 +41,7 @@ pub(crate) fn lost(outcome: &str, problem: String) -> PyResult<String> {
     written(&RunResult::lost(outcome, problem))
 }
 
-/// The results that are kept of a bundle on this computer.
+/// The kept results of a bundle on this computer.
 #[pyclass(frozen)]
 pub(crate) struct Kept {
     kept: Mutex<host::Kept>,
@@ -54,7 +54,7 @@ impl Kept {
         Ok(Self { kept: Mutex::new(host::kept(&bundle.bundle).map_err(of_host)?) })
     }
 
-    /// What came of the run of these words, as JSON.
+    /// The result of the run of these words, as JSON.
     fn find(&self, words: Vec<String>) -> PyResult<Option<String>> {
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.find(&words).map(written).transpose()
@@ -68,7 +68,7 @@ impl Kept {
     }
 }
 
-/// All that the runs of a sweep depend on but their parameters.
+/// All that the runs of a sweep depend on except their parameters.
 #[pyclass(frozen)]
 pub(crate) struct Bundle {
     bundle: host::Bundle,
@@ -77,7 +77,7 @@ pub(crate) struct Bundle {
 
 #[pymethods]
 impl Bundle {
-    /// Compiles the program where needed, and gathers what it reads.
+    /// Compiles the program if needed, and gathers what it reads.
     #[new]
     fn new(py: Python<'_>, given: Given, rows: Vec<String>) -> PyResult<Self> {
         let settings: Settings = given.into();
@@ -93,13 +93,13 @@ impl Bundle {
         self.bundle.key()
     }
 
-    /// The files: where in the bundle, and what is in them.
+    /// The files: their places in the bundle, and their contents.
     #[getter]
     fn files<'py>(&self, py: Python<'py>) -> Vec<(String, Bound<'py, PyBytes>)> {
         self.bundle.files.iter().map(|(place, bytes)| (place.clone(), PyBytes::new(py, bytes))).collect()
     }
 
-    /// In mm, where runs look for collisions.
+    /// In mm, if runs look for collisions.
     #[getter]
     fn clearance(&self) -> Option<f64> {
         self.bundle.clearance
@@ -110,7 +110,7 @@ impl Bundle {
         self.bundle.words(&parameters(row)?).map_err(Refused::new_err)
     }
 
-    /// The row of a run, as a sweep writes it, of its number, its parameters and its result.
+    /// The row of a run in the form of a sweep, from its number, its parameters and its result.
     fn row(&self, run: usize, parameters: &str, result: &str) -> PyResult<String> {
         let result = self.bundle.in_own_names(read(result)?);
         written(&Row { run, parameters: read(parameters)?, result })
@@ -142,13 +142,13 @@ pub(crate) fn sweep(
     };
     let ended = py.detach(|| {
         std::thread::scope(|scope| {
-            // The thread of Ctrl-C is this one: the runs are the business of another.
+            // This thread handles Ctrl-C: the runs are made on another one.
             let runs = scope.spawn(|| {
                 let mut row = |row: Row| match written(&row) {
                     Ok(text) => call(&take, &text),
                     Err(error) => fail(error),
                 };
-                let how = (processes, bundle.timeout, keeps);
+                let how = SweepSettings { processes, timeout: bundle.timeout, keeps };
                 let is_enough = || enough.load(Ordering::Relaxed);
                 host::sweep(&bundle.bundle, &rows, how, &is_enough, &mut row, &mut |text| call(&warn, text))
             });
@@ -170,7 +170,7 @@ pub(crate) fn sweep(
     }
 }
 
-/// A process that makes run after run of a bundle.
+/// A process that makes one run of a bundle after another.
 #[pyclass(frozen)]
 pub(crate) struct Worker {
     worker: Mutex<host::Worker>,
@@ -178,7 +178,7 @@ pub(crate) struct Worker {
 
 #[pymethods]
 impl Worker {
-    /// Of the files of a bundle; with a clearance it looks for collisions.
+    /// A worker with the files of a bundle; with a clearance it looks for collisions.
     #[new]
     fn new(files: Vec<(String, Vec<u8>)>, timeout: Option<f64>, clearance: Option<f64>) -> PyResult<Self> {
         let spread = Spread::of(files)?;
@@ -186,7 +186,7 @@ impl Worker {
         Ok(Self { worker: Mutex::new(worker) })
     }
 
-    /// Makes a run: what came of it, as JSON, and whether the same run gives it again.
+    /// Makes a run: its result, as JSON, and whether the same run gives it again.
     fn run(&self, py: Python<'_>, words: Vec<String>) -> PyResult<(String, bool)> {
         let ran = py.detach(|| {
             let interrupted = || Python::attach(|py| py.check_signals()).is_err();

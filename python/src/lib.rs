@@ -1,5 +1,4 @@
-//! The part of the package `arl2rs` that is Rust: what the command and the libraries of programs do, for its Python
-//! side.
+//! The Rust part of the package `arl2rs`: what the command and the libraries of programs do, for its Python side.
 
 mod farm;
 mod problem;
@@ -39,7 +38,7 @@ mod _arl2rs {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        // What an older package has compiled is compiled anew.
+        // What an older package has compiled is compiled again.
         if let Ok(file) = module.filename() {
             super::host::is_part_of(file.to_string().into());
         }
@@ -47,7 +46,7 @@ mod _arl2rs {
     }
 }
 
-/// What is run, of what Python says.
+/// What is run, as given by Python.
 #[derive(FromPyObject, IntoPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Given {
@@ -78,11 +77,11 @@ impl From<Given> for Settings {
     }
 }
 
-/// What there is to say of programs, a JSON object each.
+/// The diagnostics of programs, a JSON object each.
 #[pyfunction]
 fn check(py: Python<'_>, files: Vec<PathBuf>, given: Given, strict: bool, background: bool) -> PyResult<Vec<String>> {
     let settings = given.into();
-    interruptible(py, move || host::check(&files, &settings, (strict, background)))?.map_err(problem::of_host)
+    interruptible(py, move || host::check(&files, &settings, strict, background))?.map_err(problem::of_host)
 }
 
 /// The global variables of a program, a JSON object each.
@@ -93,14 +92,14 @@ fn variables(py: Python<'_>, given: Given) -> PyResult<Vec<String>> {
     all.iter().map(farm::written).collect()
 }
 
-/// The signals of a program's cell, each with its name there.
+/// The signals of a program's cell, each with its name in the cell.
 #[pyfunction]
 fn signals(given: Given) -> PyResult<Vec<(String, Option<String>)>> {
     let all = host::signals(&given.into()).map_err(problem::of_host)?;
     Ok(all.into_iter().map(|(signal, name)| (signal.to_string(), name)).collect())
 }
 
-/// A program that was given as text, in the cache as long as this lives.
+/// A program that was given as text; it stays in the cache as long as this object lives.
 #[pyclass(frozen)]
 struct Text {
     program: host::TextProgram,
@@ -108,7 +107,7 @@ struct Text {
 
 #[pymethods]
 impl Text {
-    /// Of its files, the main one first: names and texts.
+    /// Takes the files, the main one first: names and texts.
     #[new]
     fn new(py: Python<'_>, files: Vec<(String, String)>) -> PyResult<Self> {
         let program = interruptible(py, move || host::text_program(&files))?.map_err(problem::of_host)?;
@@ -122,7 +121,7 @@ impl Text {
     }
 }
 
-/// The words of parameters, which are JSON.
+/// The command-line words of parameters, which are JSON.
 #[pyfunction]
 fn words(parameters: &str) -> PyResult<Vec<String>> {
     farm::parameters(parameters)?.words().map_err(problem::Refused::new_err)
@@ -135,10 +134,11 @@ fn literal(value: &str) -> PyResult<String> {
     host::as_arl(&value).ok_or_else(|| problem::Refused::new_err("None is not a value of ARL"))
 }
 
-/// How often it is looked whether Ctrl-C was pressed, and whether something has ended.
+/// How often to check whether Ctrl-C was pressed, and whether something has ended.
 pub(crate) const LOOK_INTERVAL: Duration = Duration::from_millis(2);
 
-/// Does something long on a thread of its own, while this one hears Ctrl-C. What is given up is left to itself.
+/// Does something long on a thread of its own, while this thread handles Ctrl-C. Work that is given up is left to
+/// itself.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> T + Send + 'static,
@@ -151,7 +151,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     worker.join().map_err(|_| problem::Failed::new_err("a bug in arl2rs: standard error says where it panicked"))
 }
 
-/// Does what these words say, as the command does; gives its exit code.
+/// Executes these words, as the command does; returns its exit code.
 #[pyfunction]
 fn command(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| arl2rs_cli::command(words))

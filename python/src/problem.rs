@@ -1,4 +1,4 @@
-//! What goes wrong, as exceptions; the Python side makes them into those of the package.
+//! Errors as exceptions; the Python side turns them into those of the package.
 
 use arl_library::LoadError;
 use arl2rs_cli::host::HostError;
@@ -22,7 +22,7 @@ pub(crate) fn of_host(error: HostError) -> PyErr {
 pub(crate) fn of_library(error: LoadError) -> PyErr {
     match error {
         LoadError::Refused(text) => Refused::new_err(text),
-        // It cannot be loaded: no session was ever there.
+        // It cannot be loaded: there was never a session.
         other @ (LoadError::Open(_) | LoadError::NotOurs | LoadError::Version(_)) => Failed::new_err(other.to_string()),
         other => Gone::new_err(other.to_string()),
     }

@@ -1,4 +1,4 @@
-//! Robots: their axes, and the way from axes to poses and back.
+//! Robots: their axes, and the conversion from axes to poses and back.
 
 use arl_robot::Robot as Description;
 use arl_robot::frames::{Mount, Setting};
@@ -10,7 +10,7 @@ use pyo3::types::PyBytes;
 
 use crate::problem::Refused;
 
-/// How many numbers a pose has: x, y, z in mm, a, b, c in deg.
+/// The number of components of a pose: x, y, z in mm, a, b, c in deg.
 const COMPONENTS: usize = 6;
 
 /// Name, whether it is linear, lowest and highest position, speed, acceleration, jerk.
@@ -18,8 +18,8 @@ type AxisFacts = (String, bool, f64, f64, f64, f64, f64);
 /// The axes of each pose as the bytes of doubles, and why a pose has none.
 type Found<'py> = (Bound<'py, PyBytes>, Vec<Option<String>>);
 
-/// Between a pose and the flange: tool, workpiece and base (mm, deg), whether the tool is stationary, and whether the
-/// robot holds the workpiece.
+/// What is between a pose and the flange: tool, workpiece and base (mm, deg), whether the tool is stationary, and
+/// whether the robot holds the workpiece.
 #[derive(FromPyObject)]
 pub(crate) struct Frames([f64; COMPONENTS], [f64; COMPONENTS], [f64; COMPONENTS], bool, bool);
 
@@ -45,7 +45,7 @@ impl Robot {
         self.robot.own_axes()
     }
 
-    /// A row of axes, as kinematics take it.
+    /// A row of axes, in the form that kinematics take.
     fn axes(row: &[f64]) -> Axes {
         let mut axes = Axes::default();
         axes.iter_mut().zip(row).for_each(|(to, number)| *to = *number);
@@ -55,7 +55,7 @@ impl Robot {
 
 #[pymethods]
 impl Robot {
-    /// A built-in robot, or that of a file.
+    /// A built-in robot, or the robot of a file.
     #[new]
     fn new(name_or_path: &str) -> PyResult<Self> {
         let robot = Description::load(name_or_path).map_err(|error| Refused::new_err(error.to_string()))?;
@@ -82,7 +82,7 @@ impl Robot {
         self.robot.axes.iter().map(facts).collect()
     }
 
-    /// How many of them are the robot's own.
+    /// How many of these axes are the robot's own.
     #[getter]
     fn own_count(&self) -> usize {
         self.own().len()
@@ -112,9 +112,9 @@ impl Robot {
         Ok((bytes(py, &poses)?, cfgs))
     }
 
-    /// The axes that bring the TCP to rows of poses, each near a row of axes; those of a pose that is not reached are
-    /// not numbers, and it has the reason. `how`: `cfg`, `turn`, and whether each is near the one before that was
-    /// reached.
+    /// The axes that bring the TCP to rows of poses, each near a row of axes; for a pose that is not reached, the axes
+    /// are not numbers, and there is a reason. `how`: `cfg`, `turn`, and whether each pose is near the previous one
+    /// that was reached.
     fn inverse<'py>(
         &self,
         py: Python<'py>,
@@ -165,7 +165,7 @@ impl Robot {
     }
 }
 
-/// The names of the robots that are built in.
+/// The names of the built-in robots.
 #[pyfunction]
 pub(crate) fn robots() -> Vec<&'static str> {
     Description::builtin_names().collect()

@@ -14,7 +14,7 @@ use crate::problem::{Gone, Refused, of_host, of_library};
 use crate::value::{Place, of_literal};
 use crate::{Given, interruptible};
 
-/// So many cycles may go by before somebody looks whether Ctrl-C was pressed; some 50 ms.
+/// The most cycles that run before Ctrl-C is checked; some 50 ms.
 const CHUNK: u64 = 5_000;
 
 /// A compiled program in this process.
@@ -26,18 +26,18 @@ pub(crate) struct Library {
 
 #[pymethods]
 impl Library {
-    /// Compiles the program where needed, and loads it.
+    /// Compiles the program if needed, and loads it.
     #[new]
     fn new(py: Python<'_>, given: Given) -> PyResult<Self> {
         let settings: Settings = given.into();
         let compiled = interruptible(py, move || host::library(&settings))?.map_err(of_host)?;
-        // SAFETY: this is what the compiler has just made, or made before and nobody else may write.
+        // SAFETY: this is what the compiler has just made, or made before, and what no one else may write.
         let loaded = unsafe { Loaded::open(&compiled.path) }.map_err(of_library)?;
-        // Now that it is loaded, the program may be compiled anew: that is another file.
+        // Now that it is loaded, the program may be compiled again: that makes another file.
         Ok(Self { loaded, words: compiled.words })
     }
 
-    /// The words that all runs need.
+    /// The command-line words that all runs need.
     #[getter]
     fn words(&self) -> Vec<String> {
         self.words.clone()
@@ -59,15 +59,15 @@ impl Library {
     }
 }
 
-/// What is watched behind the row of a trace.
+/// What is watched after the row of a trace.
 enum Watched {
-    /// What the library itself looks at: which one of those.
+    /// What the library itself observes: its index there.
     ByLibrary(usize),
     /// A number in a structure or an array.
     Part(Place),
 }
 
-/// A run, and what is kept of it for who asks.
+/// A run, and what is kept of it for the caller.
 struct Going {
     run: Run,
     /// How many columns a row of the trace has.
@@ -76,12 +76,12 @@ struct Going {
     watched: Vec<Watched>,
     /// What the library observes.
     numbers: Vec<f64>,
-    /// Rows that nobody has taken yet, where something is watched besides.
+    /// Rows that were not taken yet, if something else is watched.
     rows: Vec<f64>,
 }
 
 impl Going {
-    /// Looks at these from now on.
+    /// Watches these from now on.
     fn watch(&mut self, names: &[String]) -> PyResult<()> {
         let (mut by_library, mut watched) = (Vec::new(), Vec::new());
         for name in names {
@@ -102,7 +102,7 @@ impl Going {
         Ok(())
     }
 
-    /// Fills in the row of the trace and what is watched; how many numbers there are.
+    /// Fills in the row of the trace and what is watched; returns how many numbers there are.
     fn observe(&mut self, into: &mut [f64]) -> usize {
         let by_library = self.watched.iter().filter(|it| matches!(it, Watched::ByLibrary(_))).count();
         self.numbers.resize(self.columns + by_library, f64::NAN);
@@ -127,7 +127,7 @@ impl Going {
         self.columns + self.watched.len()
     }
 
-    /// Goes on. Where something is watched in a traced run, its values stand behind each row.
+    /// Continues the run. If something is watched in a traced run, its values follow each row.
     fn go_on(&mut self, cycles: u64, alone: bool) -> Result<Option<u8>, LoadError> {
         if !self.traced || self.watched.is_empty() {
             return self.run.go_on(cycles, alone);
@@ -135,7 +135,7 @@ impl Going {
         let mut row = vec![f64::NAN; self.columns + self.watched.len()];
         for _ in 0..cycles.max(1) {
             let code = self.run.go_on(cycles.min(1), alone)?;
-            // One or none: none where no program runs.
+            // One row or none: none where no program runs.
             let traced = self.run.take_rows();
             if !traced.is_empty() {
                 self.observe(&mut row);
@@ -159,12 +159,12 @@ impl Going {
 pub(crate) struct Session {
     thread: ThreadId,
     going: Mutex<Option<Going>>,
-    /// As [`Session::gone`] tells it.
+    /// As returned by [`Session::gone`].
     gone: AtomicU64,
 }
 
 impl Session {
-    /// The run. Another thread is sent away, not kept waiting.
+    /// The run. Another thread is refused, not kept waiting.
     fn own(&self) -> PyResult<MutexGuard<'_, Option<Going>>> {
         let wrong = || Gone::new_err(LoadError::WrongThread.to_string());
         if thread::current().id() != self.thread {
@@ -173,7 +173,7 @@ impl Session {
         self.going.try_lock().map_err(|_| wrong())
     }
 
-    /// A text that every run has that is not broken.
+    /// A text that every run has unless it is broken.
     fn told(&self, tell: impl FnOnce(&mut Run) -> String) -> PyResult<String> {
         match self.with(|going| tell(&mut going.run))? {
             text if text.is_empty() => Err(of_library(LoadError::Broken)),
@@ -199,8 +199,8 @@ impl Session {
 
 #[pymethods]
 impl Session {
-    /// Goes on for so many cycles, or to the end of the run; its exit code then. Other threads of Python go on
-    /// meanwhile.
+    /// Continues for this many cycles, or to the end of the run; returns its exit code then. Other Python threads
+    /// continue meanwhile.
     fn go_on(&self, py: Python<'_>, cycles: u64, alone: bool) -> PyResult<Option<u8>> {
         let mut left = cycles;
         loop {
@@ -214,14 +214,15 @@ impl Session {
         }
     }
 
-    /// A few cycles, and what is observed after them into an array of doubles; the exit code where the run is over.
+    /// Runs a few cycles, and puts what is observed after them into an array of doubles; returns the exit code if the
+    /// run is over.
     fn step(&self, py: Python<'_>, cycles: u64, alone: bool, into: PyBuffer<f64>) -> PyResult<Option<u8>> {
         let code = if cycles > CHUNK { self.go_on(py, cycles, alone)? } else { self.chunk(cycles, alone)? };
         self.observe(py, into)?;
         Ok(code)
     }
 
-    /// What is observed, into an array of doubles; how many numbers there are.
+    /// Puts what is observed into an array of doubles; returns how many numbers there are.
     fn observe(&self, py: Python<'_>, into: PyBuffer<f64>) -> PyResult<usize> {
         let mut numbers = vec![f64::NAN; into.item_count()];
         let count = self.with(|going| going.observe(&mut numbers))?;
@@ -229,7 +230,7 @@ impl Session {
         Ok(count)
     }
 
-    /// Which signals, global variables and parts of them are observed behind the row of the trace.
+    /// Sets which signals, global variables and parts of them are observed after the row of the trace.
     fn watch(&self, names: Vec<String>) -> PyResult<()> {
         if names.iter().any(|name| name.contains('\n')) {
             return Err(Refused::new_err("a name cannot contain a line break"));
@@ -252,7 +253,7 @@ impl Session {
         self.tried(|run| run.set_global(name, literal))
     }
 
-    /// What was said since the last call, a JSON object a line.
+    /// What was reported since the last call, a JSON object a line.
     fn take_said(&self) -> PyResult<String> {
         self.with(|going| going.run.take_said())
     }
@@ -266,12 +267,12 @@ impl Session {
         })
     }
 
-    /// How everything stands, a JSON object.
+    /// The present state, a JSON object.
     fn state(&self) -> PyResult<String> {
         self.told(Run::state)
     }
 
-    /// What came of the run, or how far it is, a JSON object.
+    /// The result of the run, or how far it is, a JSON object.
     fn summary(&self) -> PyResult<String> {
         self.told(Run::summary)
     }
@@ -287,7 +288,7 @@ impl Session {
         self.with(|going| going.run.time())
     }
 
-    /// How many cycles of calls came back, of long calls in parts; those that were asked for behind the end of the run
+    /// How many cycles calls have completed, long calls in parts; cycles that were requested after the end of the run
     /// count, too.
     #[getter]
     fn gone(&self) -> u64 {

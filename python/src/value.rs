@@ -9,7 +9,7 @@ use serde_json::{Map, Number, Value};
 
 use crate::problem::Refused;
 
-/// The key of what JSON has no value for: the literal as it stands.
+/// The key of a value that JSON does not have: the literal as it is.
 const AS_IT_STANDS: &str = "arl";
 
 /// A step into a value: `.x`, `[2]`.
@@ -19,7 +19,7 @@ enum Step {
     Element(usize),
 }
 
-/// Where a number is in a global variable: `place[2].x`.
+/// The place of a number in a global variable: `place[2].x`.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Place {
     /// The variable.
@@ -28,7 +28,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// What `place[2].x` means.
+    /// Reads a place: `place[2].x`.
     pub(crate) fn parse(text: &str) -> PyResult<Self> {
         let wrong = || Refused::new_err(format!("`{text}` is not a global variable or a part of one, like place[2].x"));
         let end = text.find(['.', '[']).unwrap_or(text.len());
@@ -55,7 +55,7 @@ impl Place {
         self.steps.is_empty()
     }
 
-    /// The number there; truth values are 0 and 1, and what is not set is not a number.
+    /// The number at this place; truth values are 0 and 1, and a value that is not set is not a number.
     pub(crate) fn number(&self, value: &Value) -> f64 {
         let found = self.steps.iter().try_fold(value, |value, step| match step {
             Step::Component(name) => value.get(name),
@@ -70,7 +70,7 @@ impl Place {
 }
 
 /// A literal of a type as JSON: structures are objects whose names are in small letters, arrays are lists, and numbers
-/// of type double have a point. What JSON has no value for, like constants of enumerations, is `{"arl": ".."}`.
+/// of type double have a point. A value that JSON does not have, like a constant of an enumeration, is `{"arl": ".."}`.
 pub(crate) fn of_literal(literal: &str, ty: &str) -> PyResult<Value> {
     let mut names = Interner::default();
     let parsed = parse_expression(literal, &mut names, ParseOptions::default());

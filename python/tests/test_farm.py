@@ -120,5 +120,7 @@ try:
 except arl2rs.ArlError as problem:
     print(problem)
 """
-    said = subprocess.run([sys.executable, "-P", "-c", script], cwd=tmp_path, check=True, capture_output=True, text=True).stdout
+    said = subprocess.run(
+        [sys.executable, "-P", "-c", script], cwd=tmp_path, check=True, capture_output=True, text=True
+    ).stdout
     assert said.startswith("a node does not have this arl2rs: install the same version on all nodes of the cluster (")

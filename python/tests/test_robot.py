@@ -38,7 +38,9 @@ def test_the_pose_is_that_of_a_run():
     text = "tool grip = {{10, 20, 150, 0, 30, 0}, false}\nfunc void main()\n    movej j:{10, -80, 95, 5, 40, -20}, t:grip\nendfunc\n"
     result = arl2rs.run(source=text, robot="kr10-r1420")
     robot = arl2rs.Robot("kr10-r1420")
-    np.testing.assert_allclose(robot.forward(result.trace.joints[-1], tool=(10, 20, 150, 0, 30, 0)), result.trace.tcp[-1], atol=1e-6)
+    np.testing.assert_allclose(
+        robot.forward(result.trace.joints[-1], tool=(10, 20, 150, 0, 30, 0)), result.trace.tcp[-1], atol=1e-6
+    )
     tools = robot.forward(result.trace.joints, tool={"x": 10, "y": 20, "z": 150, "b": 30})
     # Rows before the motion have the flange.
     moves = result.trace.motion > 0
@@ -52,7 +54,9 @@ def test_frames_are_between_pose_and_flange():
     assert abs(robot.forward(axes, tool=[0, 0, 100, 0, 0, 0])[2] - flange[2]) > 10
     moved = robot.forward(axes, wobj=[100, 0, 0, 0, 0, 0])
     np.testing.assert_allclose(moved[:3], flange[:3] - [100, 0, 0], atol=1e-9)
-    np.testing.assert_allclose(robot.forward(axes, base=[0, 0, 500, 0, 0, 0])[:3], flange[:3] + np.array([0, 0, 500]), atol=1e-9)
+    np.testing.assert_allclose(
+        robot.forward(axes, base=[0, 0, 500, 0, 0, 0])[:3], flange[:3] + np.array([0, 0, 500]), atol=1e-9
+    )
     frames = {"tool": [5, 6, 150, 10, 20, 30], "wobj": [400, -50, 300, 15, 0, 0], "base": [10, 20, 30, 90, 0, 0]}
     np.testing.assert_allclose(robot.inverse(robot.forward(axes, **frames), near=axes, **frames), axes, atol=1e-9)
     # The robot holds the part to a tool that stands.
@@ -113,7 +117,11 @@ def test_a_robot_is_one_of_a_file(tmp_path):
     with pytest.raises(arl2rs.RefusedError, match=r"nowhere\.toml"):
         arl2rs.Robot(tmp_path / "nowhere.toml")
     file = tmp_path / "longer.toml"
-    file.write_text(subprocess.run([sys.executable, "-m", "arl2rs", "robots", "six-10"], capture_output=True, text=True, check=True).stdout)
+    file.write_text(
+        subprocess.run(
+            [sys.executable, "-m", "arl2rs", "robots", "six-10"], capture_output=True, text=True, check=True
+        ).stdout
+    )
     file.write_text(file.read_text().replace('name = "six-10"', 'name = "longer"'))
     longer, known = arl2rs.Robot(file), arl2rs.Robot("six-10")
     assert longer.name == "longer" and longer.axes == known.axes

@@ -106,7 +106,9 @@ def test_slips_in_names_of_arguments_are_told(short):
 
 def test_a_program_is_a_text(tmp_path):
     text = 'import "grip.arl"\nfunc void main()\n    grip::take()\n    print 3, offset[1].x\nendfunc\n'
-    beside = {"grip.arl": "func void take()\n    movej j:{0, -90, 90, 0, 90, 0}\n    movej j:{5, -90, 90, 0, 90, 0}\nendfunc\n"}
+    beside = {
+        "grip.arl": "func void take()\n    movej j:{0, -90, 90, 0, 90, 0}\n    movej j:{5, -90, 90, 0, 90, 0}\nendfunc\n"
+    }
     beside["program_data.arl"] = "pose offset[2] = {{x 1}, {x 2}}\n"
     program = arl2rs.compile(source=text, beside=beside)
     result = program.run()
@@ -147,7 +149,10 @@ def test_lines_have_their_file():
     result = arl2rs.run(source=text, beside=beside)
     assert [(row["file"], row["line"]) for row in result.report] == [("program.arl", 3), ("grip.arl", 2)]
     trace = result.trace
-    assert {(file, int(line)) for file, line in zip(trace.file, trace.line, strict=True)} >= {("program.arl", 3), ("grip.arl", 2)}
+    assert {(file, int(line)) for file, line in zip(trace.file, trace.line, strict=True)} >= {
+        ("program.arl", 3),
+        ("grip.arl", 2),
+    }
     assert set(trace.file[trace.motion == 0]) <= {""} and list(trace.to_pandas()["file"]) == list(trace.file)
 
 
@@ -161,7 +166,9 @@ def test_the_report_has_a_row_for_each_motion(program):
 def test_500_points_come_from_an_array():
     turn = np.linspace(0, 2 * np.pi, 500)
     fixed = np.ones_like(turn)
-    circle = np.column_stack([850 + 60 * np.cos(turn), 60 * np.sin(turn), 900 * fixed, 0 * fixed, 180 * fixed, 0 * fixed])
+    circle = np.column_stack(
+        [850 + 60 * np.cos(turn), 60 * np.sin(turn), 900 * fixed, 0 * fixed, 180 * fixed, 0 * fixed]
+    )
     text = "func void main()\n    movej j:{9, -90, 90, 0, 90, 0}\n    ptp p:weld[0]\n"
     text += "    for(int i=1;i<500;i++)\n        lin p:weld[i], vl:100mm/s, sl:1mm\n    endfor\nendfunc\n"
     program = arl2rs.compile(source=text, beside={"program_data.arl": arl2rs.points("weld", circle)})
@@ -200,7 +207,9 @@ def test_a_run_is_that_of_the_command_to_the_last_bit(program, example, tmp_path
     command += ["--trace", tmp_path / "t.csv", f"--report={tmp_path / 'r.jsonl'}", "--state-dir", tmp_path / "state"]
     ran = subprocess.run(command, cwd=example, check=True, capture_output=True, text=True)
     assert result.output == ran.stdout and result.ended and result.code == 0
-    assert [*result.report, *result.totals] == [json.loads(line) for line in (tmp_path / "r.jsonl").read_text().splitlines()]
+    assert [*result.report, *result.totals] == [
+        json.loads(line) for line in (tmp_path / "r.jsonl").read_text().splitlines()
+    ]
     written = np.genfromtxt(tmp_path / "t.csv", delimiter=",", names=True)
     assert len(written) == len(result.trace)
     for column in result.trace.columns:
@@ -215,7 +224,11 @@ def test_the_trace_has_views(program):
     assert trace.tcp.shape == trace.velocities.shape == (len(trace), 6)
     assert trace.t[1] == 0.001 and trace.line.max() == 56 and trace.motion.max() == 38
     assert 500 < trace.speed.max() < 5000
-    assert list(trace.to_pandas().columns) == list(trace.to_polars().columns) == [*(it for it in trace.columns if it[:2] != "ej"), "file"]
+    assert (
+        list(trace.to_pandas().columns)
+        == list(trace.to_polars().columns)
+        == [*(it for it in trace.columns if it[:2] != "ej"), "file"]
+    )
     assert trace.to_pandas()["line"].dtype == np.int64 and trace.to_pandas().notna().all().all()
     with pytest.raises(KeyError, match="nope"):
         trace["nope"]
@@ -295,7 +308,9 @@ def test_alarms_have_file_and_line(short):
 
 def test_the_alarm_that_ended_a_run_is_not_one_that_was_cleared(tmp_path):
     source = tmp_path / "twice.arl"
-    source.write_text("func void main()\n    waittime 0.1\n    if(getdi(1)) waittime getai(1) - 5\n    print 1 % getai(2)\nendfunc\n")
+    source.write_text(
+        "func void main()\n    waittime 0.1\n    if(getdi(1)) waittime getai(1) - 5\n    print 1 % getai(2)\nendfunc\n"
+    )
     scenario = tmp_path / "twice.toml"
     scenario.write_text(
         '[[event]]\nat = 0.5\npendant = "clear"\n[[event]]\nat = 0.6\ndi.1 = true\npendant = "reset"\n'
@@ -367,7 +382,14 @@ def test_a_picture_is_drawn(program, tmp_path):
 
 
 def test_the_command_is_there():
-    ran = subprocess.run([sys.executable, "-m", "arl2rs", "explain", "ARL0203"], capture_output=True, text=True, check=True)
+    ran = subprocess.run(
+        [sys.executable, "-m", "arl2rs", "explain", "ARL0203"], capture_output=True, text=True, check=True
+    )
     assert "ARL0203" in ran.stdout
-    assert subprocess.run([sys.executable, "-m", "arl2rs", "check", "none.arl"], check=False, capture_output=True).returncode == 1
+    assert (
+        subprocess.run(
+            [sys.executable, "-m", "arl2rs", "check", "none.arl"], check=False, capture_output=True
+        ).returncode
+        == 1
+    )
     assert subprocess.run([sys.executable, "-m", "arl2rs", "fly"], check=False, capture_output=True).returncode == 2

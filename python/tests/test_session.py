@@ -45,7 +45,9 @@ def test_steps_are_those_of_a_run(program):
             rows.append(session.step(7, alone=True))
         result = session.result()
     assert result.trace.array.tobytes() == whole.trace.array.tobytes() and result.messages == whole.messages
-    np.testing.assert_array_equal(np.array(rows[:-1])[:, : len(session.columns)], whole.trace.array[6::7][: len(rows) - 1])
+    np.testing.assert_array_equal(
+        np.array(rows[:-1])[:, : len(session.columns)], whole.trace.array[6::7][: len(rows) - 1]
+    )
 
 
 def test_results_may_be_asked_for_in_between(program):
@@ -113,7 +115,14 @@ def test_points_and_parts_are_watched(short):
     program = arl2rs.compile(short)
     with program.session(watch=["global.place", "global.row", "do.2", "global.place.x", "global.row[1]"]) as session:
         assert session.watched[:3] == ("global.place.x", "global.place.y", "global.place.z")
-        assert session.watched[8:] == ("global.row[0]", "global.row[1]", "global.row[2]", "do.2", "global.place.x", "global.row[1]")
+        assert session.watched[8:] == (
+            "global.row[0]",
+            "global.row[1]",
+            "global.row[2]",
+            "do.2",
+            "global.place.x",
+            "global.row[1]",
+        )
         assert np.isnan(session["global.place.x"])
         session.step()
         assert (session["global.place.x"], session["global.row[1]"], session["do.2"]) == (1, 2, 0)
@@ -166,7 +175,14 @@ def test_values_have_types(tmp_path):
         assert (value("n"), value("b"), value("s")) == (-3, True, 'a "b"')
         assert value("d") == 5.0 and type(value("d")) is float and type(value("n")) is int
         pose = value("p")
-        assert {name: pose[name] for name in "xyzabc"} == {"x": 900.0, "y": -0.5, "z": 400.0, "a": 0.0, "b": 180.0, "c": 0.0}
+        assert {name: pose[name] for name in "xyzabc"} == {
+            "x": 900.0,
+            "y": -0.5,
+            "z": 400.0,
+            "a": 0.0,
+            "b": 180.0,
+            "c": 0.0,
+        }
         assert type(pose["x"]) is float and pose["cfg"] == 0 and "ej1" not in pose
         assert [point["j2"] for point in value("j")] == [-90.0, 2.0]
         assert value("m") == [[1, 2, 3], [4, 5, 6]] and value("M") == value("m")
@@ -185,11 +201,22 @@ def test_values_have_types(tmp_path):
 def test_a_program_tells_what_it_has(program):
     assert list(program.points) == ["home", "feeder", "pallet"]
     feeder = program.points["feeder"]
-    assert (feeder.type, feeder.file, feeder.line, feeder.sizes, feeder.constant) == ("pose", "pick_and_place_data.arl", 3, (), False)
+    assert (feeder.type, feeder.file, feeder.line, feeder.sizes, feeder.constant) == (
+        "pose",
+        "pick_and_place_data.arl",
+        3,
+        (),
+        False,
+    )
     assert feeder.first == "{x 900, y -500, z 400, a 0, b 180, c 0}"
     assert feeder.value(feeder.first)["y"] == -500.0
     assert "pitch" in program.variables and program.variables["pitch"].type == "double"
-    assert str(program.signals[0]) == "di.1" and {signal.signal for signal in program.signals} >= {"di.64", "do.1", "ai.1", "ao.1"}
+    assert str(program.signals[0]) == "di.1" and {signal.signal for signal in program.signals} >= {
+        "di.64",
+        "do.1",
+        "ai.1",
+        "ao.1",
+    }
 
 
 def test_a_session_goes_on_from_a_snapshot(program):

@@ -24,7 +24,9 @@ def test_a_table_comes_back_in_its_order(example):
     frame = results.to_pandas()
     assert list(frame["global.pitch"]) == [80, 80, 2000, 2000] and list(frame["alarm_line"].dropna()) == [42, 42]
     assert results.to_polars()["outcome"].to_list() == ["ended", "ended", "alarm", "alarm"]
-    serial = arl2rs.sweep(example / "pick_and_place.arl", ROWS, scenario=example / "scenario.toml", processes=1, cache=False)
+    serial = arl2rs.sweep(
+        example / "pick_and_place.arl", ROWS, scenario=example / "scenario.toml", processes=1, cache=False
+    )
     assert serial.lines == results.lines
 
 
@@ -94,7 +96,9 @@ def test_what_cannot_begin_has_a_row(example):
     with pytest.raises(arl2rs.RefusedError, match="speed2"):
         results.plot("speed2")
     assert [row["outcome"] for row in results] == ["refused"] * 3
-    assert ["pich" in results[0]["problem"], "nobody" in results[1]["problem"], "speed" in results[2]["problem"]] == [True] * 3
+    assert ["pich" in results[0]["problem"], "nobody" in results[1]["problem"], "speed" in results[2]["problem"]] == [
+        True
+    ] * 3
 
 
 def test_a_slip_in_all_rows_is_refused_at_once(example):
@@ -128,7 +132,9 @@ def test_names_are_those_of_python_and_the_command_s_are_taken(example):
     with pytest.raises(arl2rs.RefusedError, match="max-time is given twice"):
         arl2rs.sweep(file, [{"max_time": 2, "max-time": 3}])
     program = arl2rs.compile(file, scenario=scenario)
-    runs = [program.run(set={place: 0.5}, max_time=2, trace=False) for place in ("scenario.event.1.at", "io.event.1.at")]
+    runs = [
+        program.run(set={place: 0.5}, max_time=2, trace=False) for place in ("scenario.event.1.at", "io.event.1.at")
+    ]
     assert runs[0] == runs[1]
     (example / "names.toml").write_text('program = "pick_and_place.arl"\n[[run]]\nio = "scenario.toml"\nmax-time = 2\n')
     _, rows = arl2rs.load_sweep(example / "names.toml")
@@ -144,7 +150,9 @@ sweeps.SAID_S = 0.0
 arl2rs.sweep("new.arl", [{"seed": 1}, {"seed": 2}], cache=False)
 """
     (tmp_path / "new.arl").write_text("func void main()\n    print rand()\nendfunc\n")
-    said = subprocess.run([sys.executable, "-P", "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True).stderr
+    said = subprocess.run(
+        [sys.executable, "-P", "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
+    ).stderr
     assert "arl2rs: compiling new.arl for 2 runs" in said and "arl2rs: 2 of 2 runs" in said
 
 

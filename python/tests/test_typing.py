@@ -9,7 +9,16 @@ HERE = Path(__file__).resolve().parent / "typing"
 
 
 def mypy(file, cache):
-    command = [sys.executable, "-P", "-m", "mypy", "--strict", "--no-error-summary", f"--cache-dir={cache}", str(HERE / file)]
+    command = [
+        sys.executable,
+        "-P",
+        "-m",
+        "mypy",
+        "--strict",
+        "--no-error-summary",
+        f"--cache-dir={cache}",
+        str(HERE / file),
+    ]
     return subprocess.run(command, capture_output=True, text=True, check=False, cwd=cache).stdout
 
 

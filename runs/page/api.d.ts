@@ -2,7 +2,7 @@
 // writes it anew.
 
 /**
- * All of a run but where the robots were.
+ * All of a run except the positions of the robots.
  */
 export type RunAnswer = { 
 /**
@@ -10,7 +10,7 @@ export type RunAnswer = {
  */
 name: string, channels: Array<PageChannel>, 
 /**
- * What the cell calls signals, by their names in files: `di.1`.
+ * The cell's names of signals, by their names in files: `di.1`.
  */
 names: { [key in string]: string }, sources: Array<SourceText>, 
 /**
@@ -22,7 +22,7 @@ keywords: Array<string>,
  */
 teaches: boolean, 
 /**
- * What of the recording could not be read, and why.
+ * What of the recording could not be read, and the reason.
  */
 trouble: string | null, 
 /**
@@ -30,16 +30,16 @@ trouble: string | null,
  */
 end: number, 
 /**
- * Counts the messages that were taken in.
+ * Counts the messages that were added.
  */
 version: number, 
 /**
- * Whether a program runs that adds to it.
+ * Whether a running program adds to it.
  */
 live: boolean, scene: Array<PageSceneUpdate>, controller: Array<Mode>, log: Array<Logged>, contacts: Array<PageContact>, motions: Array<PageMotion>, tracks: Array<PageTrack>, signals: Array<SignalChanges>, levels: Levels, };
 
 /**
- * What happened since the page asked last.
+ * What happened since the page's last request.
  */
 export type News = { 
 /**
@@ -47,11 +47,11 @@ export type News = {
  */
 end: number, 
 /**
- * Counts the messages that were taken in.
+ * Counts the messages that were added.
  */
 version: number, 
 /**
- * Whether a program runs that adds to it.
+ * Whether a running program adds to it.
  */
 live: boolean, scene: Array<PageSceneUpdate>, controller: Array<Mode>, log: Array<Logged>, contacts: Array<PageContact>, motions: Array<PageMotion>, tracks: Array<PageTrack>, signals: Array<SignalChanges>, levels: Levels, };
 
@@ -64,7 +64,7 @@ export type PageChannel = { program: string, robot: string,
  */
 tcp: string, axes: Array<PageAxis>, 
 /**
- * From the base on, and the flange at last.
+ * From the base on, with the flange last.
  */
 links: Array<PageLink>, 
 /**
@@ -78,7 +78,7 @@ carriers: Array<PageLink>, };
 export type PageAxis = { name: string, unit: string, min: number, max: number, };
 
 /**
- * A frame of a robot, by the frame that it is fixed to or moves against.
+ * A frame of a robot, relative to the frame that it is fixed to or moves against.
  */
 export type PageLink = { frame: string, parent: string, 
 /**
@@ -86,11 +86,11 @@ export type PageLink = { frame: string, parent: string,
  */
 origin: Array<number>, 
 /**
- * What it turns about, or moves along; empty: it does not move.
+ * The axis that it turns about, or moves along; empty: it does not move.
  */
 axis: Array<number>, linear: boolean, 
 /**
- * The name of the axis that moves it; empty: none does.
+ * The name of the axis that moves it; empty: none.
  */
 moved_by: string, };
 
@@ -100,7 +100,7 @@ moved_by: string, };
 export type SourceText = { name: string, text: string, };
 
 /**
- * A change of bodies: those that come or change, and the names of those that go.
+ * A change of bodies: those that appear or change, and the names of those that disappear.
  */
 export type PageSceneUpdate = { time: number, entities: Array<Entity>, gone: Array<string>, };
 
@@ -140,7 +140,7 @@ export type Logged = { time: number, level: LogLevel, text: string, name: string
 export type LogLevel = "alarm" | "warning" | "message";
 
 /**
- * Two bodies begin to touch, or come nearer than asked for: `distance` in mm, 0 where they touch.
+ * Two bodies begin to touch, or come nearer than the clearance: `distance` in mm, 0 where they touch.
  */
 export type PageContact = { time: number, file: string, line: number, one: string, other: string, distance: number, };
 
@@ -150,7 +150,7 @@ export type PageContact = { time: number, file: string, line: number, one: strin
 export type PageMotion = { channel: number, motion: number, file: string, line: number, kind: string, start: number, duration: number, way: number, programmed: number, reached: number, unit: string, blend: PageBlend | null, vel: [string, number] | null, acc: [string, number] | null, jerk: [string, number] | null, };
 
 /**
- * How much of a zone was asked for and used, in its unit, and why the robot stopped, where it did.
+ * How much of a zone was requested and used, in its unit, and why the robot stopped, if it did.
  */
 export type PageBlend = { asked: number, used: number, unit: string, why: string, };
 
@@ -159,12 +159,12 @@ export type PageBlend = { asked: number, used: number, unit: string, why: string
  */
 export type PageTrack = { 
 /**
- * The names of files that rows and lines have numbers of.
+ * The file names to which rows and lines refer by number.
  */
 files: Array<string>, rows: number, states: Array<[number, string]>, bases: Array<[number, [number, number, number, number, number, number, number]]>, lines: Array<PageLine>, };
 
 /**
- * How long the robot moved for a line, and stood in it, in s.
+ * How long the robot moved for a line, and was at rest in it, in s.
  */
 export type PageLine = { file: number, line: number, moving: number, standing: number, };
 
@@ -174,12 +174,12 @@ export type PageLine = { file: number, line: number, moving: number, standing: n
 export type SignalChanges = { signal: string, changes: Array<number>, };
 
 /**
- * All inputs and outputs as they are now: a digit for each digital one.
+ * The present inputs and outputs: a digit for each digital one.
  */
 export type Levels = { di: string, do: string, ai: Array<number>, ao: Array<number>, };
 
 /**
- * What differs: lines that took another time or way, and the rest in words.
+ * The differences: lines that took another time or path length, and the rest in words.
  */
 export type Differences = { 
 /**
@@ -188,7 +188,7 @@ export type Differences = {
 time: [number, number], said: Array<string>, lines: Array<LineDifference>, };
 
 /**
- * A line in both runs; absent: it did not run.
+ * A line in both runs; a time is absent where the line did not run.
  */
 export type LineDifference = { channel: number, file: string, line: number, 
 /**
@@ -196,20 +196,20 @@ export type LineDifference = { channel: number, file: string, line: number,
  */
 one: number | null, other: number | null, 
 /**
- * mm
+ * The lengths of the path of the TCP, in mm.
  */
 way: [number, number], };
 
 /**
- * What data files hold, for the page.
+ * The content of data files, for the page.
  */
 export type Points = { points: Array<Point>, frames: Array<Mounted>, 
 /**
- * How many steps can be taken back.
+ * How many steps can be undone.
  */
 undo: number, 
 /**
- * What cannot be read, and why.
+ * What cannot be read, and the reason.
  */
 troubles: Array<string>, };
 
@@ -218,7 +218,7 @@ troubles: Array<string>, };
  */
 export type Point = { file: string, type: string, name: string, values: { [key in string]: number }, 
 /**
- * Whether it has no others.
+ * Whether it has no other components.
  */
 plain: boolean, };
 
@@ -231,12 +231,12 @@ export type Mounted = { file: string, type: string, name: string,
  */
 angles: [number, number, number], placed: [number, number, number, number, number, number, number], 
 /**
- * Whether it is where such usually are not: a tool that stands, a workpiece that is held.
+ * Whether it is mounted in the less usual way: a stationary tool, a workpiece that the robot holds.
  */
 other: boolean, };
 
 /**
- * What is there.
+ * How a place is reached.
  */
 export type TaughtPose = { 
 /**
@@ -244,11 +244,11 @@ export type TaughtPose = {
  */
 components: [number, number, number, number, number, number], 
 /**
- * And in the world.
+ * The TCP in the world.
  */
 placed: [number, number, number, number, number, number, number], solutions: Array<Solution>, 
 /**
- * The one that is nearest, of those that there are.
+ * The nearest of the solutions that exist.
  */
 nearest: number | null, };
 
@@ -261,7 +261,7 @@ export type Solution = { cfg: number, axes: [number, number, number, number, num
  */
 clearance: number, 
 /**
- * Which one is near, if one is.
+ * Which kind of singular point is near, if one is.
  */
 near: string | null, };
 

@@ -1,10 +1,10 @@
-// Colours: those of the page, and what they tell of a path.
+// Colours of the page and of paths.
 
-/** Colours that people tell apart, also those who see some colours less. */
+/** Colours that are easy to distinguish, even with a colour vision deficiency. */
 const KINDS = ["#f0913a", "#4da3e0", "#5cc98b", "#c77dd8", "#f5c542", "#ff6f91", "#58c9c3", "#a3a86b"];
 
 /**
- * One of a few colours, for the number of something.
+ * One of a few colours, chosen by a number.
  * @param {number} number
  */
 export function kind(number) {
@@ -19,7 +19,7 @@ export function theme(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-/** From slow to fast: stops of a scale that also reads in grey. */
+/** Stops of a colour scale from slow to fast, which is also readable in grey. */
 const SCALE = [
   [0.23, 0.3, 0.75],
   [0.13, 0.57, 0.55],
@@ -28,7 +28,7 @@ const SCALE = [
 ];
 
 /**
- * A colour of the scale for a part of 1, as three parts of 1.
+ * A colour of the scale for a fraction, as three fractions of 1.
  * @param {number} part
  * @returns {number[]}
  */
@@ -38,11 +38,11 @@ export function scale(part) {
   return SCALE[low].map((value, channel) => value + (SCALE[low + 1][channel] - value) * (at - low));
 }
 
-/** The scale as a gradient of CSS. */
+/** The scale as a CSS gradient. */
 export const gradient = `linear-gradient(to right, ${SCALE.map((stop) => `rgb(${stop.map((value) => value * 255).join(" ")})`).join(", ")})`;
 
 /**
- * The three parts of 1 of `#rrggbb`.
+ * The components of `#rrggbb` as three fractions of 1.
  * @param {string} hex
  * @returns {number[]}
  */
@@ -51,7 +51,7 @@ export function parts(hex) {
 }
 
 /**
- * Parts of light, as surfaces and lines are drawn with, of parts of a colour as screens have it.
+ * Converts the components of an sRGB colour to linear light, in which surfaces and lines are drawn.
  * @param {number[]} color
  */
 export function light(color) {

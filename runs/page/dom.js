@@ -22,7 +22,7 @@ export function element(tag, properties = {}, ...children) {
  */
 
 /**
- * The element with this id, which the page has.
+ * The element with this id, which must exist in the page.
  * @param {string} id
  * @returns {Control}
  */
@@ -36,7 +36,7 @@ export function dialog(id) {
 }
 
 /**
- * A text that is written anew only where it is another one: reading it costs the browser nothing.
+ * Writes a text only if it differs: reading it costs the browser nothing.
  * @param {HTMLElement} of
  * @param {string} text
  */
@@ -45,7 +45,7 @@ export function write(of, text) {
 }
 
 /**
- * Seconds as people read them.
+ * Seconds in readable form.
  * @param {number} seconds
  */
 export function seconds(seconds) {

@@ -1,13 +1,13 @@
-// A program that runs: its news, the buttons of the pendant, its inputs.
+// A running program: its news, the buttons of the pendant, its inputs.
 
 import { byId, element, write } from "./dom.js";
 
-/** How often news are asked for, in ms. */
+/** The interval at which news are requested, in ms. */
 const NEWS_MS = 50;
-/** How far the moment that is shown is behind what is known, in s: then there is always something to go to. */
+/** How far the displayed moment lags behind the latest data, in s, so that there is always data ahead. */
 export const BEHIND_S = 0.06;
 
-/** The buttons, what they tell the program, and the states in which they do something. */
+/** The buttons, the orders that they send to the program, and the states in which they are active. */
 const BUTTONS = [
   ["Start", 'pendant = "start"', "Let the program and the robot go on", ["paused", "standstill"]],
   ["Pause", 'pendant = "pause"', "Stop on the path", ["running"]],
@@ -16,7 +16,7 @@ const BUTTONS = [
   ["Clear", 'pendant = "clear"', "Clear the alarm", ["alarm"]],
 ];
 
-/** Tells the program something; what cannot be is told. @param {string} order */
+/** Sends an order to the program; shows the error if it is refused. @param {string} order */
 export async function tell(order) {
   const answer = await fetch("/api/order", { method: "POST", body: order }).catch((problem) => ({
     ok: false,
@@ -31,22 +31,22 @@ export function trouble(text) {
   Object.assign(byId("trouble"), { hidden: text === "", textContent: text });
 }
 
-/** A button that is held says so that often, in ms: where nothing comes for a quarter of a second, the robot stops. */
+/** A held button repeats its order at this interval, in ms: without an order for a quarter of a second, the robot stops. */
 const HOLD_MS = 80;
 
 /**
  * A button that moves the robot as long as it is held, by pointer or by key.
  * @param {HTMLButtonElement} button @param {() => string | undefined} words what is moved, in the words of an order
- * @param {AbortSignal} signal when the button is there no more
+ * @param {AbortSignal} signal aborted when the button is removed
  */
 export function holds(button, words, signal) {
   /** @type {string | undefined} */
   let order;
-  /** @type {Promise<unknown>} what was said is said in its order, however slow an answer is */
+  /** @type {Promise<unknown>} keeps the orders in sequence, even if an answer is slow */
   let said = Promise.resolve();
   const say = () => {
     if (order === undefined) return;
-    // A button that nobody can see any more is not held, whoever has the finger where it was.
+    // A button that has been removed from the page is no longer held, even if the pointer is still down.
     if (!button.isConnected) return letGo();
     const now = order;
     said = said.then(() => tell(now)).then(() => setTimeout(say, HOLD_MS));
@@ -139,7 +139,7 @@ export class Live {
     setTimeout(() => this.ask(), this.lost ? 1000 : NEWS_MS);
   }
 
-  /** Which buttons do something now. */
+  /** Shows which buttons are active now. */
   show() {
     const states = this.run.robots.map((channel) => this.run.stateAt(channel.number, this.run.end));
     for (const { button, states: own } of this.buttons) {

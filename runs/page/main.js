@@ -27,7 +27,7 @@ const KEYS = [
   ["Wheel", "on the time scale: zoom; elsewhere with Ctrl"],
   ["Shift wheel", "scroll along the time line"],
 ];
-/** A step of the arrow keys in s: that of a recording's frames. */
+/** The step of the arrow keys in s: that of the frames of a recording. */
 const STEP_S = 0.02;
 
 export class Page {
@@ -58,7 +58,7 @@ export class Page {
     requestAnimationFrame((now) => this.frame(now));
   }
 
-  /** Follows a program that runs. */
+  /** Follows a running program. */
   goLive() {
     this.following = true;
     this.live = new Live(this.run, {
@@ -201,7 +201,7 @@ export class Page {
     Object.keys(COLORS).forEach((mode, at) => (does[String(at + 1)] = () => this.setMode(mode)));
     const act = does[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act) return;
-    // A button that has the focus is not pressed as well.
+    // A focused button is not pressed as well.
     if (event.key === " " && target.tagName === "BUTTON") target.blur();
     act();
     event.preventDefault();
@@ -280,13 +280,13 @@ export class Page {
     if (this.tab === "Differences") panel.replaceChildren(told);
   }
 
-  /** A picture of the screen. @param {number} now */
+  /** Draws a frame. @param {number} now */
   frame(now) {
     const passed = Math.min((now - this.last) / 1000, 0.25);
     this.last = now;
     if (this.following) {
       const wished = Math.max(this.end - BEHIND_S, 0);
-      // News come in jerks: time goes on evenly, and catches up where it fell behind.
+      // News arrive in bursts: time advances evenly, and catches up if it has fallen behind.
       const next = this.time + passed;
       this.time = Math.abs(wished - next) > 0.5 ? wished : Math.min(next + (wished - next) * 0.1, this.end);
       this.stale = true;

@@ -1,4 +1,4 @@
-// What is told beside the cell in words and numbers: lines, events, this moment, two runs beside each other.
+// Panels of text and numbers beside the cell: lines, events, this moment, two runs side by side.
 
 import { element, seconds, write } from "./dom.js";
 import { closest, ending } from "./path.js";
@@ -25,7 +25,7 @@ function short(number, digits = 1) {
   return Number(number.toFixed(digits)).toString();
 }
 
-/** What each line's motions took. @param {import('./run.js').Run} run @param {number} channel @param {(file: string, line: number) => void} chosen */
+/** The times of each line's motions. @param {import('./run.js').Run} run @param {number} channel @param {(file: string, line: number) => void} chosen */
 export function lines(run, channel, chosen) {
   const { files, lines } = run.track(channel);
   const rows = lines
@@ -56,7 +56,7 @@ export function events(run, seek) {
   return table(["s", ""], rows);
 }
 
-/** What differs between two runs. @param {import('./api.js').Differences} told what the server says of both @param {(file: string, line: number) => void} chosen */
+/** What differs between two runs. @param {import('./api.js').Differences} told what the server reports about both @param {(file: string, line: number) => void} chosen */
 export function differences(told, chosen) {
   /** @param {number | null} one @param {number | null} other @returns {[string, string]} */
   const change = (one, other) => {
@@ -72,7 +72,7 @@ export function differences(told, chosen) {
   return element("div", {}, ...said, table(["line", "this run s", "the other s", "by s"], rows));
 }
 
-/** The moment that is shown. */
+/** The displayed moment. */
 export class Now {
   /** @param {HTMLElement} holder */
   constructor(holder) {

@@ -1,9 +1,9 @@
-// The path of the TCP, coloured by what people ask of it.
+// The path of the TCP, coloured by a chosen quantity.
 
 import { LineMaterial, LineSegments2, LineSegmentsGeometry } from "./three.js";
 import { kind, light, parts, scale, theme } from "./colors.js";
 
-/** What the colour tells, by its name, in the order of the keys 1 to 4. */
+/** The meanings of the colour, by name, in the order of the keys 1 to 4. */
 export const COLORS = {
   speed: "speed",
   limit: "closest limit",
@@ -11,7 +11,7 @@ export const COLORS = {
   line: "line",
 };
 
-/** Which limit a motion comes closest to, and how much of it is used. @param {import('./run.js').Motion | undefined} motion */
+/** The limit that a motion comes closest to, and how much of it is used. @param {import('./run.js').Motion | undefined} motion */
 export function closest(motion) {
   const limits = { speed: motion?.vel, acceleration: motion?.acc, jerk: motion?.jerk };
   const known = Object.entries(limits).flatMap(([of, limit]) => (limit ? [{ of, axis: limit[0], percent: limit[1] }] : []));
@@ -28,7 +28,7 @@ export function ending(motion) {
 
 const ENDINGS = ["stops at the target", "zone as asked for", "smaller zone than asked for", "zone asked for, stops"];
 
-/** Colours of a path, and what they mean. */
+/** The colours of a path and their meaning. */
 export class Paint {
   /** @param {string} mode @param {import('./run.js').Run} run @param {import('./run.js').Channel} channel @param {number} fastest in mm/s */
   constructor(mode, run, channel, fastest) {
@@ -45,7 +45,7 @@ export class Paint {
     if (this.mode === "speed") return scale(this.fastest > 0 ? speed / this.fastest : 0);
     if (this.mode === "line") return this.kind(`line ${line}`);
     const found = this.of(motion);
-    // What a motion did is known when the run has ended.
+    // The report of a motion is known once the run has ended.
     if (!found) return this.quiet;
     if (this.mode === "blend") return this.kind(ending(found), ENDINGS);
     return this.kind(closest(found)?.axis ?? "none");
@@ -60,7 +60,7 @@ export class Paint {
 }
 
 /**
- * The path of some rows.
+ * The path through rows.
  * @param {import('./samples.js').Rows} rows
  * @param {Paint} paint
  * @param {{opacity: number}} look

@@ -1,4 +1,4 @@
-// Frames of robots, and the bodies that are fixed to them.
+// The frames of robots, and the bodies fixed to them.
 
 import {
   AxesHelper,
@@ -16,12 +16,12 @@ import {
   Vector3,
 } from "./three.js";
 
-/** Frames are drawn so long, in m. */
+/** The length at which frames are drawn, in m. */
 const AXES_M = 0.12;
-/** What stands for a tool: its radius in m, its colour. */
+/** The placeholder of a tool: its radius in m, its colour. */
 const TOOL_M = 0.008;
 const TOOL = [0.7, 0.72, 0.75, 1];
-/** What is another run's is seen through. */
+/** The colour of another run, which is drawn transparent. */
 const GHOST = new Color("#4da3e0");
 
 /** @typedef {ReturnType<Frames['arm']>} Arm */
@@ -30,7 +30,7 @@ const GHOST = new Color("#4da3e0");
 export class Frames {
   /**
    * @param {import("./run.js").Run} run @param {Group} world @param {boolean} ghost
-   * @param {import('./run.js').Channel[]} [channels] whose robots, where not all are
+   * @param {import('./run.js').Channel[]} [channels] the channels whose robots are meant, if not all
    */
   constructor(run, world, ghost, channels = run.robots) {
     this.run = run;
@@ -41,9 +41,9 @@ export class Frames {
     this.arms = channels.map((channel) => this.arm(channel));
     /** @type {Map<string, {of: import('./api.js').Entity, group: Group}>} */
     this.entities = new Map();
-    /** @type {Map<string, {form: string, group: Group}>} what was drawn last of each body, and how that was told */
+    /** @type {Map<string, {form: string, group: Group}>} the last drawing of each body, and the description it was made from */
     this.drawn = new Map();
-    /** @type {Map<number, import('three').BufferGeometry>} triangles that were fetched */
+    /** @type {Map<number, import('three').BufferGeometry>} the triangles fetched so far */
     this.meshes = new Map();
   }
 
@@ -57,7 +57,7 @@ export class Frames {
       return made;
     };
     const base = frame(channel.links[0].parent, this.world);
-    /** @param {import('./api.js').PageLink} link @param {Object3D} parent @param {number} moves which of the axes moves it */
+    /** @param {import('./api.js').PageLink} link @param {Object3D} parent @param {number} moves the index of the axis that moves it */
     const joint = (link, parent, moves) => {
       const [x, y, z, ...turned] = link.origin;
       const made = frame(link.frame, parent);
@@ -77,14 +77,14 @@ export class Frames {
     });
     const tcp = frame(channel.tcp, this.world);
     if (!this.ghost) tcp.add(new AxesHelper(AXES_M));
-    // What is between the flange and the TCP is not known, but that there is something.
+    // It is known that there is something between the flange and the TCP, but not what.
     const tool = new Mesh(new CylinderGeometry(TOOL_M, TOOL_M, 1, 12).rotateX(Math.PI / 2), this.material(TOOL));
     this.world.add(tool);
     return { channel, base, links, carriers, tcp, tool };
   }
 
   /**
-   * Puts a robot where it is.
+   * Moves a robot to its position.
    * @param {Arm} arm @param {number[]} axes in deg (mm) @param {number[]} base @param {number[]} tcp
    */
   pose(arm, axes, base, tcp) {
@@ -114,7 +114,7 @@ export class Frames {
     if (arm.tool.visible) arm.tool.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), along.divideScalar(length));
   }
 
-  /** Shows the bodies that are there, and no others. What comes again is drawn once. @param {Map<string, import('./api.js').Entity>} there */
+  /** Shows the bodies that exist, and no others. A body that reappears is not drawn again. @param {Map<string, import('./api.js').Entity>} there */
   show(there) {
     for (const [id, { of, group }] of this.entities) {
       if (there.get(id) === of) continue;
@@ -179,7 +179,7 @@ export class Frames {
   async mesh(model) {
     const answer = await fetch(`${this.run.address}/model/${model}`);
     const geometry = new STLLoader().parse(await answer.arrayBuffer());
-    // Files lie about normals, and about which side of a triangle is outside.
+    // Normals in files are unreliable, and so is which side of a triangle is the outside.
     geometry.computeVertexNormals();
     this.meshes.set(model, geometry);
     return geometry;
@@ -192,10 +192,10 @@ export class Frames {
     return new MeshStandardMaterial({ color, roughness: 0.55, metalness: 0.1, transparent: a < 1, opacity: a });
   }
 
-  /** Has some bodies stand out. @param {Set<string>} ids @param {string} color */
+  /** Highlights bodies. @param {Set<string>} ids @param {string} color */
   mark(ids, color) {
     for (const [id, { group }] of this.entities) {
-      // Links that people call the same have their number behind the name.
+      // Links of the same name have their number behind the name.
       const marked = ids.has(id) || (!id.startsWith("body/") && ids.has(id.replace(/\/\d+$/, "")));
       if (group.userData.marked === marked) continue;
       group.userData.marked = marked;

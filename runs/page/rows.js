@@ -1,20 +1,20 @@
-// The rows of the time line: each draws itself into its strip.
+// The rows of the timeline: each draws itself into its strip.
 
 import { rowAt } from "./samples.js";
 import { kind, theme } from "./colors.js";
 
 /**
- * What a row draws with: the canvas, where its strip is, and where times are on it.
+ * What a row needs for drawing: the canvas, the place of its strip, and the positions of times on it.
  * @typedef {{context: CanvasRenderingContext2D, x: (time: number) => number, from: number, to: number, left: number, right: number, top: number, height: number}} Strip
  * @typedef {{label: string, height: number, value?: (time: number) => string, draw: (strip: Strip) => void}} Row
  */
 
-/** Lines of programs have colours by their number; the same one has the same in all rows. @param {number} line */
+/** The colour of a program line, by its number: the same in all rows. @param {number} line */
 export function lineColor(line) {
   return kind((line * 5) % 8);
 }
 
-/** What robots execute when. @param {import('./run.js').Run} run @param {import('./run.js').Channel} channel @param {string} label @returns {Row} */
+/** Which motions robots execute when. @param {import('./run.js').Run} run @param {import('./run.js').Channel} channel @param {string} label @returns {Row} */
 export function motions(run, channel, label) {
   const starts = () => run.starts?.get(channel.number) ?? [];
   return {
@@ -31,7 +31,7 @@ export function motions(run, channel, label) {
       for (let at = Math.max(rowAt(starts(), from), 0); at < all.length && all[at].start <= to; at++) {
         const motion = all[at];
         const [begin, end] = [x(motion.start), x(motion.start + motion.duration)];
-        // What is narrower than a part of a pixel is not seen.
+        // What is narrower than a fraction of a pixel is not visible.
         if (end < drawn + 0.5) continue;
         drawn = end;
         context.fillStyle = lineColor(motion.line);
@@ -118,7 +118,7 @@ export function signal(run, lane) {
         }
         const before = level;
         level = lane.values[at];
-        // Many changes in a pixel are one line from top to bottom.
+        // Many changes within a pixel become one line from top to bottom.
         if (here - drawn < 0.4) continue;
         drawn = here;
         context.lineTo(here, y(before));
@@ -138,7 +138,7 @@ export function signal(run, lane) {
 }
 
 /**
- * A value over time, from rows that were fetched for this stretch.
+ * A value over time, from rows fetched for the visible interval.
  * @param {{label: string, height: number, color: string, range?: number[], rows: () => import('./samples.js').Rows | undefined, get: (rows: import('./samples.js').Rows, row: number) => number, value: (time: number) => string, holds: boolean, gaps?: boolean}} of
  * @returns {Row}
  */

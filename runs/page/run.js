@@ -1,9 +1,9 @@
-// A run: what the server tells of it, and what is asked of it at a time.
+// A run: the data that the server reports about it, and queries about a moment.
 
 import { Samples, rowAt } from "./samples.js";
 
 /**
- * A signal that changes: its name in files, what the cell calls it, and its times and values.
+ * A signal that changes: its name in files, its name in the cell, and its times and values.
  * @typedef {{signal: string, label: string, times: number[], values: number[]}} Lane
  * @typedef {import('./api.js').PageMotion} Motion
  * @typedef {import('./api.js').PageChannel & {number: number, samples: Samples}} Channel
@@ -43,7 +43,7 @@ export class Run {
     return new Run(number, await answer.json(), changed);
   }
 
-  /** Channels that have a robot. */
+  /** The channels that have a robot. */
   get robots() {
     return this.channels.filter((channel) => channel.links.length > 0);
   }
@@ -68,7 +68,7 @@ export class Run {
     return count;
   }
 
-  /** Motions that have ended, some of them told again since they had gone on. @param {Motion[]} motions */
+  /** Takes in motions that have ended; some are reported again because they had continued. @param {Motion[]} motions */
   takeMotions(motions) {
     let news = false;
     for (const motion of motions) {
@@ -94,7 +94,7 @@ export class Run {
     this.starts = new Map([...this.motions].map(([channel, all]) => [channel, all.map((motion) => motion.start)]));
   }
 
-  /** Asks for what happened since, and takes it in. */
+  /** Requests what has happened since, and takes it in. */
   async refresh() {
     const { scene, controller, log, contacts, motions, tracks } = this.told;
     const known = {
@@ -114,7 +114,7 @@ export class Run {
     /** @type {import('./api.js').News} */
     const news = await answer.json();
     const isNew = news.version !== this.told.version;
-    // The program has begun since: what runs on which robots is known only now.
+    // The program has begun since: only now is it known what runs on which robots.
     if (this.channels.length === 0 && isNew) return "begun";
     scene.push(...news.scene);
     controller.push(...news.controller);
@@ -138,10 +138,10 @@ export class Run {
     return this.told.tracks[channel - 1] ?? { files: [], states: [], bases: [], lines: [], rows: 0 };
   }
 
-  /** Where a robot's base is at a time. @param {number} channel @param {number} time */
+  /** The position of a robot's base at a time. @param {number} channel @param {number} time */
   baseAt(channel, time) {
     const { bases } = this.track(channel);
-    // Before the first motion nothing is known of it.
+    // Before the first motion it is unknown.
     let base = bases[0]?.[1] ?? [0, 0, 0, 0, 0, 0, 1];
     for (const [from, value] of bases) if (from <= time) base = value;
     return base;
@@ -159,7 +159,7 @@ export class Run {
     return this.motions.get(channel)?.[rowAt(this.starts.get(channel) ?? [], time + 1e-9)];
   }
 
-  /** The motions of a line of a file. Old recordings do not tell the files of motions. @param {number} channel @param {string} file @param {number} line */
+  /** The motions of a line of a file. Old recordings do not contain the files of motions. @param {number} channel @param {string} file @param {number} line */
   motionsOf(channel, file, line) {
     const name = (/** @type {string} */ path) => path.split(/[/\\]/).pop()?.toLowerCase() ?? "";
     const all = this.motions.get(channel) ?? [];
@@ -172,7 +172,7 @@ export class Run {
     return at < 0 ? 0 : lane.values[at];
   }
 
-  /** Inputs and outputs in the order in which people look for them: those with names first. @returns {Lane[]} */
+  /** Inputs and outputs in display order: those with names first. @returns {Lane[]} */
   get sortedLanes() {
     const order = ["di", "do", "ai", "ao"];
     /** @param {Lane} lane */

@@ -1,12 +1,12 @@
-// Where the robot of a channel was: pieces of a run as the server tells them.
+// The positions of a channel's robot: pieces of a run as the server reports them.
 
-/** The length of a piece in s: so much of the path is shown around a moment of a long run. */
+/** The length of a piece in s: the part of the path that is shown around a moment of a long run. */
 export const PIECE_S = 300;
-/** So many pieces are kept. */
+/** The number of pieces that are kept. */
 const PIECES = 6;
-/** What is farther apart in time was at rest between. */
+/** Between rows farther apart than this, in s, the robot was at rest. */
 const GAP_S = 0.06;
-/** How far rows are apart while a robot moves. */
+/** The interval between rows while a robot moves, in s. */
 const STEP_S = 0.004;
 
 /**
@@ -21,7 +21,7 @@ const STEP_S = 0.004;
 
 /**
  * @typedef {{count: number, width: number, times: Float64Array, axes: Float32Array, tcp: Float32Array, speed: Float32Array, pointers: Uint32Array, jumps: Uint8Array}} Rows
- * `jumps`: another tool took over since the row before: no motion led there.
+ * `jumps`: the tool has changed since the row before: no motion led there.
  * A moment: axes in deg (mm), TCP in mm and as a quaternion, speed in mm/s.
  * @typedef {{axes: number[], tcp: number[], speed: number, line: number, motionLine: number, motion: number, file: number, motionFile: number}} Moment
  */
@@ -56,7 +56,7 @@ export function decode(buffer) {
 }
 
 /**
- * The last row that is not later than a time; -1: there is none.
+ * The last row that is not later than a time; -1 if there is none.
  * @param {ArrayLike<number>} times
  * @param {number} time
  */
@@ -71,7 +71,7 @@ export function rowAt(times, time) {
 }
 
 /**
- * What is at a time, between the rows around it.
+ * The moment at a time, interpolated between the rows around it.
  * @param {Rows} rows
  * @param {number} time
  * @returns {Moment | undefined}
@@ -89,9 +89,9 @@ export function momentAt(rows, time) {
       const from = column[row * width + at];
       return from + (column[next * width + at] - from) * far;
     });
-  // Another tool is there at once.
+  // A change of tool takes effect at once.
   const far = rows.jumps[next] && part < 1 ? 0 : part;
-  // A row tells of the motion of the cycle before it.
+  // A row describes the motion of the cycle before it.
   const [line, motionLine, motion, files] = rows.pointers.subarray((part > 0 ? next : row) * 4);
   const program = rows.pointers.subarray(row * 4);
   return {
@@ -107,7 +107,7 @@ export function momentAt(rows, time) {
 }
 
 /**
- * Puts the shorter way from one quaternion to another into a place.
+ * Interpolates from one quaternion to another on the shorter arc, and writes the result into `tcp`.
  * @param {number[]} tcp @param {Float32Array} from @param {Float32Array} to @param {number} part
  */
 function turned(tcp, from, to, part) {
@@ -120,7 +120,7 @@ function turned(tcp, from, to, part) {
 
 /** The rows of a channel, fetched where they are needed. */
 export class Samples {
-  /** @param {string} address @param {() => void} arrived is called when something has come */
+  /** @param {string} address @param {() => void} arrived called when rows have arrived */
   constructor(address, arrived) {
     this.address = address;
     this.arrived = arrived;
@@ -136,7 +136,7 @@ export class Samples {
   }
 
   /**
-   * The piece around a time, as far as it has come; asks for it. A run that goes on is asked again, up to its end.
+   * The piece around a time, as far as it has arrived; requests what is missing. A run that goes on is requested again, up to its end.
    * @param {number} time @param {number} end
    * @returns {Rows | undefined}
    */
@@ -164,7 +164,7 @@ export class Samples {
       piece.rows = known ? joined(known, more) : more;
       piece.end = until;
     } catch {
-      // The next look asks again.
+      // The next access requests it again.
       await new Promise((done) => setTimeout(done, 500));
     }
     piece.asked = false;
@@ -179,7 +179,7 @@ export class Samples {
 }
 
 /**
- * Rows, and those that are later.
+ * Joins rows with later ones.
  * @param {Rows} known @param {Rows} more
  * @returns {Rows}
  */

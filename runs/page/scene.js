@@ -20,10 +20,10 @@ import { element } from "./dom.js";
 import { Paint, path } from "./path.js";
 import { Frames } from "./robot.js";
 
-/** A contact is shown for so long, in s. */
+/** How long a contact is shown, in s. */
 const CONTACT_S = 0.5;
 
-/** The names of a body in the scene, by what a contact calls it. @param {string} name @returns {string[]} */
+/** The names of a body in the scene, by its name in a contact. @param {string} name @returns {string[]} */
 function idsOf(name) {
   const of = /^(.*) of channel (\d+)$/.exec(name);
   return [`body/${name}`, of ? `channel_${of[2]}/${of[1]}` : name];
@@ -32,7 +32,7 @@ function idsOf(name) {
 export class CellScene {
   /**
    * @param {HTMLElement} holder @param {import('./run.js').Run[]} runs
-   * @throws where the browser has no WebGL
+   * @throws if the browser has no WebGL
    */
   constructor(holder, runs) {
     this.holder = holder;
@@ -46,7 +46,7 @@ export class CellScene {
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.addEventListener("change", () => (this.stale = true));
     this.stale = true;
-    /** Counts pictures that were drawn: what a test of frames a second asks for. */
+    /** Counts the frames drawn, for a test of the frame rate. */
     this.drawn = 0;
     const light = new DirectionalLight("#ffffff", 2.2);
     light.position.set(2, -3, 5);
@@ -85,7 +85,7 @@ export class CellScene {
     this.stale = true;
   }
 
-  /** Has the camera see all robots, bodies and paths. */
+  /** Moves the camera so that it sees all robots, bodies and paths. */
   fit() {
     const box = new Box3();
     for (const { all } of this.frames) box.expandByObject(all.get("world") ?? new Group());
@@ -102,7 +102,7 @@ export class CellScene {
 
   /**
    * Shows a moment.
-   * @param {number} time @param {string} mode what the colour of paths tells
+   * @param {number} time @param {string} mode the meaning of the colour of paths
    */
   show(time, mode) {
     let complete = true;
@@ -132,7 +132,7 @@ export class CellScene {
     const pieces = run.robots.map((channel) => ({ channel, rows: channel.samples.piece(time, run.end) }));
     const count = pieces.reduce((sum, { rows }) => sum + (rows?.count ?? 0), 0);
     const of = [mode, run.told.motions.length, ...pieces.map(({ rows }) => (rows ? `${rows.times[0]}` : ""))].join();
-    // A path that grows is drawn anew now and then only.
+    // A growing path is redrawn only now and then.
     const grown = count - shown.rows;
     if (of === shown.of && (grown === 0 || (run.live && grown < 25 + shown.rows / 50))) return;
     Object.assign(shown, { of, rows: count });
@@ -168,7 +168,7 @@ export class CellScene {
     legend.replaceChildren(...entries);
   }
 
-  /** Draws a picture where something has changed. */
+  /** Draws a frame if something has changed. */
   draw() {
     if (!this.stale) return;
     this.stale = false;

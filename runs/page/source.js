@@ -1,10 +1,10 @@
-// The texts of the program, with the line that runs, the line whose motion is executed, and what each line took.
+// The source of the program, with the line that runs, the line whose motion is executed, and the time each line took.
 
 import { element, write } from "./dom.js";
 
 const TOKEN = /\/\/.*|"(?:\\.|[^"\\])*"|\b\d[\w.]*|\$?[A-Za-z_]\w*|\s+|./gu;
 
-/** A line of code in its colours. @param {string} text @param {Set<string>} keywords */
+/** A line of code with syntax colours. @param {string} text @param {Set<string>} keywords */
 function colored(text, keywords) {
   return (text.match(TOKEN) ?? []).map((token) => {
     const kind = token.startsWith("//") ? "comment" : /^["\d]/.test(token) ? "literal" : keywords.has(token.toLowerCase()) ? "keyword" : "";
@@ -46,7 +46,7 @@ export class Source {
     return this.lines.get(name)?.[line - 1];
   }
 
-  /** What the lines of a channel took. @param {number} channel */
+  /** Shows the times that the lines of a channel took. @param {number} channel */
   times(channel) {
     if (this.version === this.run.told.version * 100 + channel) return;
     this.version = this.run.told.version * 100 + channel;
@@ -61,7 +61,7 @@ export class Source {
   }
 
   /**
-   * Marks where program and robot are.
+   * Marks the lines where the program and the robot are.
    * @param {{file: string, line: number} | undefined} program @param {{file: string, line: number} | undefined} motion
    */
   mark(program, motion) {

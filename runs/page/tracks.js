@@ -1,4 +1,4 @@
-// The time line: motions, events, signals and axes over time, to zoom, to scrub, to play along.
+// The timeline: motions, events, signals and axes over time, with zooming, scrubbing and playback.
 
 import { theme } from "./colors.js";
 import { element } from "./dom.js";
@@ -8,7 +8,7 @@ import { marks, motions, signal, strip } from "./rows.js";
 const GUTTER = 132;
 const AXIS_HEIGHT = 24;
 const FONT = "11px system-ui, sans-serif";
-/** No stretch is shorter than that, in s. */
+/** The shortest interval shown, in s. */
 const SHORTEST_S = 0.02;
 
 export class Tracks {
@@ -23,7 +23,7 @@ export class Tracks {
     this.tall = element("div", { className: "tall" });
     holder.replaceChildren(this.canvas, this.tall);
     this.context = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext("2d"));
-    // What stays as it is while time goes on: the rows, without the moment.
+    // What does not change as time advances: the rows, without the moment.
     this.still = /** @type {HTMLCanvasElement} */ (element("canvas"));
     this.stillContext = /** @type {CanvasRenderingContext2D} */ (this.still.getContext("2d"));
     this.channel = channel;
@@ -36,7 +36,7 @@ export class Tracks {
     this.height = holder.clientHeight;
     /** @type {import('./samples.js').Rows | undefined} */
     this.rows = undefined;
-    /** Whether the rows are to be drawn again, or only the moment. */
+    /** Whether the rows must be redrawn, or only the moment. */
     this.stale = true;
     this.moved = true;
     /** @type {import('./rows.js').Row[]} */
@@ -51,7 +51,7 @@ export class Tracks {
     return Math.max(...this.runs.map((run) => run.end), SHORTEST_S);
   }
 
-  /** Another robot, or signals that were not there before. @param {import('./run.js').Channel} [channel] */
+  /** Shows another robot, or signals that are new. @param {import('./run.js').Channel} [channel] */
   rebuild(channel = this.channel) {
     if (channel !== this.channel) this.rows = undefined;
     this.channel = channel;
@@ -112,7 +112,7 @@ export class Tracks {
     this.height = clientHeight;
     for (const canvas of [this.canvas, this.still]) Object.assign(canvas, { width: clientWidth * ratio, height: clientHeight * ratio });
     Object.assign(this.canvas.style, { width: `${clientWidth}px`, height: `${clientHeight}px` });
-    // The canvas stays where it is while what is below it scrolls.
+    // The canvas stays in place while the content below it scrolls.
     this.tall.style.marginTop = `${-clientHeight}px`;
     this.tall.style.height = `${this.contentHeight}px`;
     this.fetch();
@@ -129,7 +129,7 @@ export class Tracks {
     return this.from + ((x - GUTTER) / (this.width - GUTTER - 6)) * (this.to - this.from);
   }
 
-  /** Fetches what the strips draw, soon: a wheel turns quickly. */
+  /** Fetches the data of the strips after a short delay: a wheel turns quickly. */
   fetch() {
     clearTimeout(this.due);
     if (!this.channel) return;
@@ -138,12 +138,12 @@ export class Tracks {
       const { channel } = this;
       try {
         const rows = await channel.samples.window(this.from - margin, this.to + margin, this.width * 2);
-        // Another robot may have been chosen meanwhile.
+        // Another robot may have been chosen in the meantime.
         if (channel !== this.channel) return;
         this.rows = rows;
         this.stale = true;
       } catch {
-        // A server that is gone is told of elsewhere.
+        // A lost server is reported elsewhere.
       }
     }, 60);
   }
@@ -158,7 +158,7 @@ export class Tracks {
     this.stale = true;
   }
 
-  /** All of the run. */
+  /** Shows the whole run. */
   fit() {
     this.zoom(0, this.end);
   }
@@ -208,7 +208,7 @@ export class Tracks {
       }
     }
     if (this.runs[0].lanes.size !== this.lanes) this.rebuild();
-    // A moment that plays out of sight takes the stretch along.
+    // When playback leaves the visible interval, the interval follows.
     if (time !== this.time && (time > this.to || time < this.from)) {
       const length = this.to - this.from;
       this.zoom(time - length * 0.1, time + length * 0.9);
@@ -218,7 +218,7 @@ export class Tracks {
   }
 
   draw() {
-    // What has no size cannot be drawn.
+    // A canvas without a size cannot be drawn.
     if ((!this.stale && !this.moved) || !this.still.width || !this.still.height) return;
     if (this.stale) this.drawStill();
     this.stale = this.moved = false;
@@ -241,7 +241,7 @@ export class Tracks {
     if (here >= GUTTER) context.fillRect(here - 0.5, 0, 1, height);
   }
 
-  /** The rows that are not scrolled out of sight, and where. */
+  /** The visible rows and their positions. */
   *shown() {
     let top = AXIS_HEIGHT - this.holder.scrollTop;
     for (const row of this.list) {
@@ -282,7 +282,7 @@ export class Tracks {
     context.restore();
   }
 
-  /** The times above: ticks at round numbers. */
+  /** The time scale above: ticks at round numbers. */
   drawTimes() {
     const { stillContext: context, width } = this;
     context.fillStyle = theme("back");

@@ -1,4 +1,4 @@
-//! Doors for `fuzz/` to the files from anywhere that this crate reads, and that are not programs. Each panics where
+//! Entry points for `fuzz/`: the files of unknown origin, other than programs, that this crate reads. Each panics where
 //! something is wrong.
 
 use std::path::Path;
@@ -11,11 +11,11 @@ use crate::report::Summary;
 use crate::scenery::{self, stl};
 use crate::urdf;
 
-/// What our own topics are called; those of the channels have a number behind.
+/// The names of our own topics; those of the channels end in a number.
 const TOPICS: [&str; 8] =
     ["/arl/cell", "/scene", "/arl/controller", "/arl/io", "/arl/motions", "/arl/contacts", "/log", "/arl/channel_1"];
 
-/// A recording: what is read of it can be summed up.
+/// A recording: whatever can be read of it can be summed up.
 pub fn recording(bytes: &[u8]) {
     match playback::of(&mut &*bytes, bytes.len() as u64) {
         Ok(store) => sum_up(&store),
@@ -23,7 +23,7 @@ pub fn recording(bytes: &[u8]) {
     }
 }
 
-/// Messages of a recording, each a byte for its topic, a byte for its length, and so many bytes.
+/// Messages of a recording: each has a byte for its topic, a byte for its length, and that many bytes of data.
 pub fn messages(mut bytes: &[u8]) {
     let mut store = Store::default();
     let mut time = 0;
@@ -41,7 +41,7 @@ pub fn messages(mut bytes: &[u8]) {
 
 fn sum_up(store: &Store) {
     let summary = Summary::of(store);
-    // What pages are told are numbers: what is none becomes null.
+    // Pages are sent numbers only: a value that is not a number becomes null.
     assert!(!has_null(&serde_json::to_value(&summary).unwrap_or_default()), "{summary:?}");
     for track in &store.tracks {
         assert_eq!(track.axes.len(), track.width * track.times.len());
@@ -58,7 +58,7 @@ fn has_null(value: &Value) -> bool {
     }
 }
 
-/// A URDF: the robot file that it makes is one, and what it looks like has numbers.
+/// A URDF: the robot file made from it is valid, and the places of its shapes are finite.
 pub fn urdf(text: &str) {
     match urdf::robot_file(text, "arm.urdf") {
         Ok(made) => assert!(Robot::parse("arm.toml", &made).is_ok(), "{made}"),
@@ -72,7 +72,7 @@ pub fn urdf(text: &str) {
     }
 }
 
-/// An STL file: its corners are places, its triangles have corners, and viewers get the same.
+/// An STL file: its corners are finite, its triangles refer to its corners, and viewers get the same triangles.
 pub fn stl(bytes: &[u8]) {
     match stl::read(bytes) {
         Ok(read) => {

@@ -1,8 +1,8 @@
 //! What is made of a run: recordings, the view in the browser and the screen of the pendant, reports, plots, and what
 //! robots touch.
 //!
-//! A program says what it does, a line at a time ([`arl_wire`]); here is who hears it. Nothing here compiles or checks
-//! programs.
+//! A program reports what it does, a line at a time ([`arl_wire`]); this crate has the receivers of these lines.
+//! Nothing here compiles or checks programs.
 
 pub mod collide;
 #[cfg(any(test, feature = "fuzzing"))]

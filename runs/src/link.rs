@@ -1,4 +1,4 @@
-//! A program that is driven: what it says, line by line, and what it is told.
+//! A program that is driven: the lines that it sends, and the orders that it is given.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
@@ -7,13 +7,13 @@ use std::time::{Duration, Instant};
 
 use arl_wire::Line;
 
-/// How long a line of a program that has ended may still take: its streams may be open in a process of its own making.
+/// How long to wait for another line of a program that has ended: a process that it started may keep its streams open.
 const LAST_LINES: Duration = Duration::from_secs(1);
 
-/// A program that runs, and is told what to do by lines.
+/// A running program that takes orders, a line each.
 pub(crate) struct ProgramLink {
     child: Child,
-    /// Gone once the program was told to leave.
+    /// `None` once the program was told to leave.
     orders: Option<ChildStdin>,
     lines: Receiver<Line>,
 }
@@ -30,23 +30,23 @@ impl ProgramLink {
         Ok(Self { child, orders, lines })
     }
 
-    /// The next line that has come.
+    /// The next line that has arrived.
     pub(crate) fn line(&self) -> Option<Line> {
         self.lines.try_recv().ok()
     }
 
-    /// The same, but none any more from a moment on.
+    /// The next line that has arrived; `None` from `moment` on.
     pub(crate) fn line_before(&self, moment: Instant) -> Option<Line> {
-        // What is taken is heard.
+        // The time is checked first: a line that is taken is not lost.
         (Instant::now() < moment).then(|| self.line())?
     }
 
-    /// What a program that has ended said at last: all that was on its way.
+    /// The last lines of a program that has ended: all that were still on their way.
     pub(crate) fn last_lines(&self) -> impl Iterator<Item = Line> {
         std::iter::from_fn(|| self.lines.recv_timeout(LAST_LINES).ok())
     }
 
-    /// Tells the program something. One that has ended does not hear it, which shows by itself.
+    /// Sends the program an order. A program that has ended does not get it, which shows by itself.
     pub(crate) fn order(&mut self, order: &str) {
         if let Some(orders) = &mut self.orders {
             let _ = writeln!(orders, "{order}").and_then(|()| orders.flush());
@@ -68,7 +68,7 @@ impl ProgramLink {
 impl Drop for ProgramLink {
     fn drop(&mut self) {
         self.orders = None;
-        // As a rule it has ended. A robot never goes on without its pendant.
+        // As a rule the program has ended. A robot never continues without its pendant.
         if self.ended().is_none() {
             let _ = self.child.kill();
             let _ = self.child.wait();

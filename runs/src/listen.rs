@@ -1,6 +1,6 @@
-//! A run that is listened to: the program connects, and says a line at a time what happens, to all who want to know.
+//! Listening to a run: the program connects and reports what happens, a line at a time, to all subscribers.
 //!
-//! The program connects to the listener, not the other way round: so its own streams stay its own.
+//! The program connects to the listener, not the other way round, so the program's own streams stay its own.
 
 use std::error::Error;
 use std::io::{BufRead, BufReader};
@@ -12,95 +12,95 @@ use arl_terminal::port::{Port, Secret};
 use arl_terminal::show;
 use arl_wire::Line;
 
-/// How often a program says how everything stands to those who keep it, in s: as in every recording.
+/// The interval at which a program reports its state to subscribers that keep it, in s: the same as in every recording.
 pub const STATE_INTERVAL: &str = "0.004";
-/// The option of a program that tells where it is listened to.
+/// The option of a program that gives the address of its listener.
 pub const OPTION: &str = "--listener";
 
-/// Who wants to know what happens in a run.
-pub trait Hears {
-    /// Whether it wants to hear in each cycle where the robots are.
+/// A receiver of the lines of a run.
+pub trait Subscriber {
+    /// Whether it wants the positions of the robots in each cycle.
     fn wants_each_cycle(&self) -> bool {
         false
     }
 
-    /// Whether it wants to hear at the end what each motion did.
+    /// Whether it wants to know at the end what each motion did.
     fn wants_each_motion(&self) -> bool {
         false
     }
 
-    /// Takes in a line; gives what those behind it are to hear besides.
-    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>>;
+    /// Takes a line; returns further lines for the subscribers after this one.
+    fn receive(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>>;
 
-    /// Nothing more will come.
+    /// Called once no more lines will come.
     fn end(self: Box<Self>) -> Result<(), Box<dyn Error>> {
         Ok(())
     }
 
-    /// The program did not even begin, and has said why.
+    /// Called if the program did not even begin; it has reported the reason.
     fn nothing_began(self: Box<Self>) {}
 
-    /// What is told where it cannot go on: `the recording a.mcap is incomplete`.
+    /// The message for when it cannot continue: `the recording a.mcap is incomplete`.
     fn broken(&self) -> String;
 }
 
-/// A port for a program, and who hears it.
+/// A port for a program, and its subscribers.
 pub struct Listener {
     port: Port,
-    hearers: Vec<Box<dyn Hears>>,
+    subscribers: Vec<Box<dyn Subscriber>>,
 }
 
-/// How much of a run was heard.
+/// How much of a run was received.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Heard {
+pub enum Received {
     /// All of it.
     All,
-    /// All but what the run could not wait to say: it was in real time.
+    /// All but the lines that a run in real time could not wait to send.
     WithGaps,
-    /// Not its begin, or not its end; or something was not understood.
+    /// Its beginning or its end is missing, or a line was not understood.
     Broken,
 }
 
 impl Listener {
-    /// For those who want to hear, in this order; `None` where nobody does.
+    /// A listener for these subscribers, in this order; `None` if there are none.
     ///
     /// # Errors
     /// No port can be opened, or the system gives no random bytes.
-    pub fn of(hearers: Vec<Box<dyn Hears>>) -> Result<Option<Self>, Failure> {
-        if hearers.is_empty() {
+    pub fn of(subscribers: Vec<Box<dyn Subscriber>>) -> Result<Option<Self>, Failure> {
+        if subscribers.is_empty() {
             return Ok(None);
         }
-        Ok(Some(Self { port: Port::open(Secret::new()?)?, hearers }))
+        Ok(Some(Self { port: Port::open(Secret::new()?)?, subscribers }))
     }
 
-    /// Has the program say what happens.
+    /// Adds the options that make the program report to this listener.
     pub fn ask(&self, command: &mut Command) {
         self.port.ask(command, OPTION);
-        command.args(wishes(&self.hearers));
+        command.args(wishes(&self.subscribers));
     }
 
-    /// Hears the program until it has ended, whatever comes between.
+    /// Listens to the program until it has ended, whatever happens in between.
     ///
     /// # Errors
-    /// The program cannot be waited for, or its port is of no use.
-    pub fn hear(self, program: &mut Child) -> std::io::Result<(ExitStatus, Heard)> {
-        let Self { port, hearers } = self;
+    /// The program cannot be waited for, or its port cannot be used.
+    pub fn receive(self, program: &mut Child) -> std::io::Result<(ExitStatus, Received)> {
+        let Self { port, subscribers } = self;
         match port.accept(|| program.try_wait())? {
             Err(ended) => {
-                hearers.into_iter().for_each(Hears::nothing_began);
-                Ok((ended, Heard::Broken))
+                subscribers.into_iter().for_each(Subscriber::nothing_began);
+                Ok((ended, Received::Broken))
             }
             Ok(stream) => {
-                let heard = hear(stream, hearers);
-                Ok((program.wait()?, heard))
+                let received = receive(stream, subscribers);
+                Ok((program.wait()?, received))
             }
         }
     }
 }
 
-/// Passes on what comes until nothing comes any more. Who cannot go on is told of once; the program and the others go
-/// on.
-pub fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> Heard {
+/// Passes lines on until no more come. A subscriber that cannot continue is reported once; the program and the other
+/// subscribers continue.
+pub fn receive(stream: TcpStream, mut subscribers: Vec<Box<dyn Subscriber>>) -> Received {
     let mut stream = BufReader::new(stream);
     let mut bytes = Vec::new();
     let (mut begun, mut left_out, mut understood) = (false, None, true);
@@ -111,7 +111,7 @@ pub fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> Heard {
                 if let Line::Ended(count) = line {
                     left_out = Some(count);
                 }
-                pass_on(line, &mut hearers);
+                pass_on(line, &mut subscribers);
             }
             Err(error) => {
                 if std::mem::replace(&mut understood, false) {
@@ -121,15 +121,15 @@ pub fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) -> Heard {
         }
         bytes.clear();
     }
-    end(hearers, begun);
+    end(subscribers, begun);
     match left_out {
-        Some(0) if begun && understood => Heard::All,
-        Some(_) if begun && understood => Heard::WithGaps,
-        _ => Heard::Broken,
+        Some(0) if begun && understood => Received::All,
+        Some(_) if begun && understood => Received::WithGaps,
+        _ => Received::Broken,
     }
 }
 
-/// The words of an error, and of the causes that they do not name.
+/// The text of an error, and of the causes that it does not name.
 pub fn with_causes(error: &dyn Error) -> String {
     let mut words = error.to_string();
     let mut cause = error.source();
@@ -143,42 +143,42 @@ pub fn with_causes(error: &dyn Error) -> String {
     words
 }
 
-/// What a program is to say for those who hear it.
-pub fn wishes(hearers: &[Box<dyn Hears>]) -> impl Iterator<Item = &'static str> {
-    let each_cycle = hearers.iter().any(|hearer| hearer.wants_each_cycle()).then_some("--each-cycle");
-    let each_motion = hearers.iter().any(|hearer| hearer.wants_each_motion()).then_some("--each-motion");
+/// The options for what a program has to report to its subscribers.
+pub fn wishes(subscribers: &[Box<dyn Subscriber>]) -> impl Iterator<Item = &'static str> {
+    let each_cycle = subscribers.iter().any(|subscriber| subscriber.wants_each_cycle()).then_some("--each-cycle");
+    let each_motion = subscribers.iter().any(|subscriber| subscriber.wants_each_motion()).then_some("--each-motion");
     each_cycle.into_iter().chain(each_motion)
 }
 
-/// Nothing more will come. Who cannot end well is told of.
-pub fn end(mut hearers: Vec<Box<dyn Hears>>, begun: bool) {
+/// Ends the subscribers once no more lines will come. A subscriber that cannot end well is reported.
+pub fn end(mut subscribers: Vec<Box<dyn Subscriber>>, begun: bool) {
     if !begun {
-        return hearers.into_iter().for_each(Hears::nothing_began);
+        return subscribers.into_iter().for_each(Subscriber::nothing_began);
     }
     // The program may have ended without a word.
-    pass_on(Line::Ended(0), &mut hearers);
-    for hearer in hearers {
-        let broken = hearer.broken();
-        if let Err(error) = hearer.end() {
+    pass_on(Line::Ended(0), &mut subscribers);
+    for subscriber in subscribers {
+        let broken = subscriber.broken();
+        if let Err(error) = subscriber.end() {
             show::warning(&format!("{broken}: {}", with_causes(&*error)));
         }
     }
 }
 
-/// Has all hear a line. Who cannot go on is told of, and hears no more.
-pub fn pass_on(line: Line, hearers: &mut Vec<Box<dyn Hears>>) {
+/// Passes a line to all subscribers. A subscriber that cannot continue is reported, and gets no more lines.
+pub fn pass_on(line: Line, subscribers: &mut Vec<Box<dyn Subscriber>>) {
     let mut lines = vec![line];
-    hearers.retain_mut(|hearer| {
+    subscribers.retain_mut(|subscriber| {
         let mut more = Vec::new();
-        let heard = lines.iter().try_for_each(|line| {
-            more.extend(hearer.hear(line)?);
+        let received = lines.iter().try_for_each(|line| {
+            more.extend(subscriber.receive(line)?);
             Ok::<(), Box<dyn Error>>(())
         });
         lines.extend(more);
-        if let Err(error) = &heard {
-            show::warning(&format!("{}: {}", hearer.broken(), with_causes(&**error)));
+        if let Err(error) = &received {
+            show::warning(&format!("{}: {}", subscriber.broken(), with_causes(&**error)));
         }
-        heard.is_ok()
+        received.is_ok()
     });
 }
 

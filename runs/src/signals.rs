@@ -6,30 +6,30 @@ use std::rc::Rc;
 
 use mcap::McapResult;
 
-use crate::listen::Hears;
+use crate::listen::Subscriber;
 use crate::playback::{Signal, Store};
 use crate::plot::Lane;
-use crate::record::{Recorder, Schema, Sink};
+use crate::record::{Recorder, RunMessage, Sink};
 use crate::scenery::Scenery;
 use arl_wire::Line;
 
-/// Hears which signals change.
+/// Records the changes of signals.
 pub struct Signals {
     recorder: Recorder<Levels>,
     lanes: Rc<RefCell<Vec<Lane>>>,
 }
 
 impl Signals {
-    /// Together with what is there once the run has ended.
+    /// A recorder, and the lanes that are there once the run has ended.
     pub fn new() -> (Self, Rc<RefCell<Vec<Lane>>>) {
         let lanes = Rc::<RefCell<Vec<Lane>>>::default();
         (Self { recorder: Recorder::new(Levels::default(), &Scenery::default()), lanes: Rc::clone(&lanes) }, lanes)
     }
 }
 
-impl Hears for Signals {
-    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
-        self.recorder.hear(line)?;
+impl Subscriber for Signals {
+    fn receive(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+        self.recorder.receive(line)?;
         Ok(Vec::new())
     }
 
@@ -49,14 +49,14 @@ impl Hears for Signals {
     }
 }
 
-/// A store of levels and their names alone: where the robots were is in the trace.
+/// A store of levels and their names only: the positions of the robots are in the trace.
 #[derive(Default)]
 struct Levels(Store);
 
 impl Sink for Levels {
-    fn message(&mut self, topic: &str, schema: &'static Schema, time: u64, message: &[u8]) -> McapResult<()> {
-        match topic {
-            "/arl/cell" | "/arl/io" => self.0.message(topic, schema, time, message),
+    fn message(&mut self, time: u64, message: RunMessage) -> McapResult<()> {
+        match message {
+            RunMessage::Cell(_) | RunMessage::Io(_) => self.0.message(time, message),
             _ => Ok(()),
         }
     }

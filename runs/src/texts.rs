@@ -1,4 +1,4 @@
-//! The texts of a program, for who shows them.
+//! The texts of a program, for display.
 
 use arl_robot::regular_file;
 use std::path::PathBuf;
@@ -6,9 +6,9 @@ use std::path::PathBuf;
 /// A file of a program.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Text {
-    /// Its name without folders: so alarms and states call it.
+    /// Its name without folders, as in alarms and states.
     pub name: String,
-    /// What is in it.
+    /// Its content.
     pub text: String,
 }
 

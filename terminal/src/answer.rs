@@ -1,15 +1,15 @@
-//! What the command says on standard output.
+//! The output of the command on standard output.
 
 use crate::failure::Failure;
 use clap::ValueEnum;
 use std::io::{self, ErrorKind, Write};
 
-/// How something is told.
+/// The format of messages.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
 pub enum Format {
     /// For people, on standard error.
     Human,
-    /// One JSON object a line, on standard output.
+    /// One JSON object per line, on standard output.
     Json,
 }
 
@@ -24,16 +24,16 @@ pub enum ReportFormat {
     Html,
 }
 
-/// Writes text as it is. That nobody reads on is not a failure.
+/// Writes text unchanged. A closed reader is not a failure.
 ///
 /// # Errors
-/// It can be written no further, as on a full disk.
+/// Writing fails, as on a full disk.
 pub fn write(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
-/// Writes text that may have colours, without them where they are not wanted.
+/// Writes text that may have colours, without them if they are not wanted.
 ///
 /// # Errors
 /// As for [`write()`].
@@ -42,10 +42,10 @@ pub fn write_coloured(text: &str) -> Result<(), Failure> {
     written(out.write_all(text.as_bytes()).and_then(|()| out.flush()))
 }
 
-/// What became of writing to standard output.
+/// The result of writing to standard output.
 ///
 /// # Errors
-/// Writing failed, and not because nobody reads on.
+/// Writing failed, and not because the reader has closed the pipe.
 pub fn written(outcome: io::Result<()>) -> Result<(), Failure> {
     match outcome {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {

@@ -1,27 +1,27 @@
-//! How a tool ends when it does not go well.
+//! Failures of tools.
 
 use crate::exit::Exit;
 use crate::show;
 use std::path::Path;
 
-/// Why a tool gave up. What is to be said was not said yet, but for [`Failure::Shown`].
+/// The reason why a tool gave up. The message has not been shown yet, except for [`Failure::Shown`].
 #[derive(Debug)]
 pub enum Failure {
     /// The program has errors, and they were shown.
     Shown,
-    /// The command line asks for something that cannot be.
+    /// The command line requests something impossible.
     Usage(String),
-    /// Something around the compiler went wrong: a folder that cannot be written, cargo missing.
+    /// Something around the compiler failed: a folder cannot be written, or cargo is missing.
     Other(String),
 }
 
 impl Failure {
-    /// A file or folder that the command itself could not use: `doing` is `read`, `write` and so on.
+    /// The failure of a file or folder that the command itself could not use: `doing` is `read`, `write` and so on.
     pub fn io(doing: &str, path: &Path, error: &std::io::Error) -> Self {
         Self::Other(format!("cannot {doing} {}: {error}", path.display()))
     }
 
-    /// Says it, and gives the exit code.
+    /// Shows the message, and returns the exit code.
     pub fn report(self) -> Exit {
         match self {
             Failure::Shown => Exit::FAILURE,

@@ -1,5 +1,5 @@
-//! How the tools of arl2rs say what they have to say, and end: errors and warnings, answers, exit codes, Ctrl-C, and
-//! the ports and folders that belong to one run alone.
+//! Terminal output and exit of the arl2rs tools: errors and warnings, answers, exit codes, Ctrl-C, and the ports and
+//! folders that belong to a single run.
 
 pub mod answer;
 pub mod exit;

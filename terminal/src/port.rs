@@ -1,4 +1,4 @@
-//! A port of this computer for one run, and the secret that tells the run from whoever else connects to it.
+//! A port of this computer for one run, and the secret that distinguishes the run from other clients.
 //!
 //! The other side is `arl-rt/src/command/connection.rs`.
 
@@ -10,17 +10,17 @@ use std::time::Duration;
 
 use crate::failure::Failure;
 
-/// The variable of the environment that hands the secret over: other users see command lines, but no environments.
+/// The environment variable that passes the secret: other users can see command lines, but not environments.
 const SECRET: &str = "ARL2RS_SECRET";
-/// How many random bytes a word of the secret has.
+/// The number of random bytes in a word of the secret.
 const BYTES: usize = 16;
-/// How often it is looked whether the program has connected, or has ended before it did.
+/// The interval of checks whether the program has connected, or has ended before that.
 const LOOK_INTERVAL: Duration = Duration::from_millis(2);
-/// So many connections may be open that have not said who they are, then the first one has to go; and so many are taken
-/// in at a time.
+/// The most open connections that are not yet identified, before the first one is closed; and the most connections
+/// accepted at a time.
 const MOST_UNKNOWN: usize = 128;
 
-/// What a run says when it connects, and what it is answered.
+/// The word that a run sends when it connects, and the answer to it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Secret {
     said: String,
@@ -28,10 +28,10 @@ pub struct Secret {
 }
 
 impl Secret {
-    /// Another one.
+    /// A new secret.
     ///
     /// # Errors
-    /// The system gives no random numbers.
+    /// The system provides no random numbers.
     pub fn new() -> std::result::Result<Self, Failure> {
         let word = || -> std::result::Result<String, Failure> {
             let mut bytes = [0; BYTES];
@@ -47,15 +47,15 @@ impl Secret {
         Ok(Self { said: word()?, answer: word()? })
     }
 
-    /// Hands it over to a program that will connect.
+    /// Passes the secret to a program that will connect.
     pub fn hand_over(&self, command: &mut Command) {
         command.env(SECRET, format!("{}:{}", self.said, self.answer));
     }
 
-    /// Connects as a program does that it was handed over to.
+    /// Connects like a program to which the secret was passed.
     ///
     /// # Errors
-    /// Nobody is at the address, or who is there does not know the secret.
+    /// Nothing listens at the address, or the listener does not know the secret.
     pub fn connect(&self, address: &str) -> Result<TcpStream> {
         let mut stream = TcpStream::connect(address)?;
         stream.write_all(format!("{}\n", self.said).as_bytes())?;
@@ -68,7 +68,7 @@ impl Secret {
     }
 }
 
-/// What a run connects to.
+/// A port to which a run connects.
 #[derive(Debug)]
 pub struct Port {
     listener: TcpListener,
@@ -77,10 +77,10 @@ pub struct Port {
 }
 
 impl Port {
-    /// Another one, of this computer, for a run that knows this secret.
+    /// Opens a new port of this computer for a run that knows this secret.
     ///
     /// # Errors
-    /// There are none left.
+    /// No ports are left.
     pub fn open(secret: Secret) -> std::result::Result<Self, Failure> {
         let opened = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).and_then(|listener| {
             listener.set_nonblocking(true)?;
@@ -89,26 +89,26 @@ impl Port {
         opened.map_err(|error| Failure::Usage(format!("cannot open a port on 127.0.0.1: {error}")))
     }
 
-    /// Where it is.
+    /// The address of the port.
     pub fn address(&self) -> String {
         self.address.to_string()
     }
 
-    /// Has a program connect, which this option of its own tells where.
+    /// Lets a program connect; the program gets the address through this option.
     pub fn ask(&self, command: &mut Command, option: &str) {
         self.secret.hand_over(command);
         command.arg(option).arg(self.address());
     }
 
-    /// The connection of the run, or how it ended without one. Whoever else connects is not heard. There is none behind
-    /// it.
+    /// The connection of the run, or how the run ended without one. Other clients are ignored. No further connection is
+    /// accepted.
     ///
     /// # Errors
-    /// The port is of no use any more, or `ended` says so.
+    /// The port is no longer usable, or `ended` fails.
     pub fn accept<E>(self, mut ended: impl FnMut() -> Result<Option<E>>) -> Result<std::result::Result<TcpStream, E>> {
         let mut unknown = Vec::new();
         loop {
-            // Asked first: a connection that was made before the end is there to be accepted then.
+            // Called first: a connection made before the end can then be accepted.
             let ended = ended()?;
             if let Some(mut stream) = self.look(&mut unknown)? {
                 stream.set_nonblocking(false)?;
@@ -122,8 +122,8 @@ impl Port {
         }
     }
 
-    /// The connection that has said the word, among those that are there and those that wait. Those that have said
-    /// another one are closed.
+    /// The connection that has sent the word, among the open and the waiting ones. Connections that have sent another
+    /// word are closed.
     fn look(&self, unknown: &mut Vec<Unknown>) -> Result<Option<TcpStream>> {
         let word = format!("{}\n", self.secret.said).into_bytes();
         let mut at = 0;
@@ -134,19 +134,19 @@ impl Port {
                 Says::TheWord => return Ok(Some(unknown.remove(at).stream)),
             }
         }
-        // Not all that wait: somebody may connect again and again, and faster.
+        // Not all that wait: a client may connect again and again, and faster.
         for _ in 0..MOST_UNKNOWN {
             let stream = match self.listener.accept() {
                 Ok((stream, _)) => stream,
                 Err(error) if error.kind() == ErrorKind::WouldBlock => break,
-                // Who has left again is nobody.
+                // A client that has disconnected again is ignored.
                 Err(error) if error.kind() == ErrorKind::ConnectionAborted => continue,
                 Err(error) => return Err(error),
             };
             stream.set_nonblocking(true)?;
             let mut one = Unknown { stream, said: Vec::new() };
             match one.says(&word) {
-                // Only who was asked before has to go.
+                // Only connections that were checked before are closed.
                 Says::Nothing => {
                     if unknown.len() >= MOST_UNKNOWN {
                         unknown.remove(0);
@@ -161,24 +161,24 @@ impl Port {
     }
 }
 
-/// A connection that has not said yet who it is.
+/// A connection that is not yet identified.
 struct Unknown {
     stream: TcpStream,
     said: Vec<u8>,
 }
 
-/// What a connection has said.
+/// What a connection has sent.
 enum Says {
-    /// Not enough.
+    /// Not enough bytes.
     Nothing,
-    /// Something else, or it is gone.
+    /// Something else, or the connection is closed.
     Another,
     TheWord,
 }
 
 impl Unknown {
     fn says(&mut self, word: &[u8]) -> Says {
-        // Not a byte more than the word: what comes behind it is for who hears the run.
+        // Not a byte more than the word: the bytes after it are for the reader of the run.
         let mut rest = vec![0; word.len() - self.said.len()];
         match self.stream.read(&mut rest) {
             Ok(0) => return Says::Another,
@@ -186,7 +186,7 @@ impl Unknown {
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => {}
             Err(_) => return Says::Another,
         }
-        // A part is not judged: who learned that it is wrong could guess the word byte by byte.
+        // An incomplete word is not judged: a client that learned that it is wrong could guess the word byte by byte.
         match self.said.as_slice() {
             said if said.len() < word.len() => Says::Nothing,
             said if said == word => Says::TheWord,
@@ -211,7 +211,7 @@ mod tests {
         let secret = Secret::new().expect("random numbers");
         let port = Port::open(secret.clone()).expect("a port");
         let address = port.address();
-        // One says nothing, one something else, one leaves at once, and some are many.
+        // One sends nothing, one something else, one disconnects at once, and one client opens many connections.
         let silent: Vec<TcpStream> = (0..100).map(|_| TcpStream::connect(&address).expect("a port")).collect();
         let mut stranger = TcpStream::connect(&address).expect("a port");
         stranger.write_all(b"{\"hello\":{\"channels\":[]}}\n").expect("it is open");
@@ -224,7 +224,7 @@ mod tests {
         assert_eq!(std::io::read_to_string(stream).expect("a text"), "{\"ended\":0}\n");
         run.join().expect("no panic");
         let mut left = Vec::new();
-        // It was closed, and told nothing.
+        // It was closed without an answer.
         assert!(stranger.read_to_end(&mut left).is_err() || left.is_empty());
         drop(silent);
     }

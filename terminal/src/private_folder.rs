@@ -1,20 +1,20 @@
-//! Folders in the system's folder for files that go. Any user can write there: so each is a new one, which nobody else
-//! gets into.
+//! Folders in the system's folder for temporary files. Any user can write there: so each folder is a new one,
+//! inaccessible to other users.
 
 use std::fs::DirBuilder;
 use std::io::{ErrorKind, Result};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A folder that goes with its owner.
+/// A folder that is removed when dropped.
 #[derive(Debug)]
 pub struct PrivateFolder(PathBuf);
 
 impl PrivateFolder {
-    /// Another one, whose name begins like this; the numbers of the process and of the folder follow.
+    /// Creates a new folder whose name begins with `prefix`, followed by the numbers of the process and of the folder.
     ///
     /// # Errors
-    /// None can be made there.
+    /// The folder cannot be created.
     pub fn new(prefix: &str) -> Result<Self> {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         let mut make = DirBuilder::new();
@@ -24,14 +24,14 @@ impl PrivateFolder {
             let number = NEXT.fetch_add(1, Ordering::Relaxed);
             let path = std::env::temp_dir().join(format!("{prefix}{}-{number}", std::process::id()));
             match make.create(&path) {
-                // It is of somebody else, or of a process of the same number that has ended.
+                // It belongs to another user, or to a process with the same number that has ended.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
                 made => return made.map(|()| Self(path)),
             }
         }
     }
 
-    /// Where it is.
+    /// The path of the folder.
     pub fn path(&self) -> &Path {
         &self.0
     }
@@ -39,7 +39,7 @@ impl PrivateFolder {
 
 impl Drop for PrivateFolder {
     fn drop(&mut self) {
-        // What stays there the system takes away.
+        // The system removes what is left.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
@@ -51,7 +51,7 @@ mod tests {
     #[test]
     fn nobody_else_gets_into_a_new_folder() {
         let prefix = "arl2rs-private-test-";
-        // Somebody has made the next ones, one of them as a link.
+        // The next folders already exist, one of them as a link.
         let taken = |number: u64| std::env::temp_dir().join(format!("{prefix}{}-{number}", std::process::id()));
         let first = PrivateFolder::new(prefix).expect("a folder");
         let name = first.path().display().to_string();

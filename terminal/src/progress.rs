@@ -1,14 +1,14 @@
-//! A sign of life on the terminal where something takes long.
+//! A progress indicator on the terminal for long operations.
 
 use crate::show;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
 
-/// A turning sign with words beside it; gone when dropped. Nothing at all where nobody looks.
+/// A spinner with a text; removed when dropped. Nothing is shown unless standard error is a terminal.
 pub struct Progress(Option<ProgressBar>);
 
 impl Progress {
-    /// Shows it.
+    /// Shows the spinner.
     pub fn start(words: &str) -> Self {
         if !show::is_watched() {
             return Self(None);
@@ -21,7 +21,7 @@ impl Progress {
         Self(Some(bar))
     }
 
-    /// Changes the words.
+    /// Changes the text.
     pub fn say(&self, words: &str) {
         if let Some(bar) = &self.0 {
             bar.set_message(words.to_string());

@@ -1,17 +1,17 @@
-//! The alarms, as `transpiler/docs/alarms.md` lists them.
+//! The alarms listed in `transpiler/docs/alarms.md`.
 
 const PAGE: &str = include_str!("../docs/alarms.md");
 
-/// An alarm of the list.
+/// An alarm from the list.
 #[derive(Clone, Copy, Debug)]
 pub struct Alarm {
     /// Its number.
     pub number: &'static str,
-    /// What it is, in a few words.
+    /// A short description.
     pub title: &'static str,
-    /// What leads to it.
+    /// The cause.
     cause: &'static str,
-    /// What to do.
+    /// The remedy.
     remedy: &'static str,
 }
 
@@ -25,7 +25,7 @@ pub fn all() -> impl Iterator<Item = Alarm> {
 }
 
 impl Alarm {
-    /// Its page, in Markdown.
+    /// The alarm's page, in Markdown.
     pub fn page(&self) -> String {
         let Self { number, title, cause, remedy } = self;
         format!("# Alarm {number}: {title}\n\n{cause}\n\n## What to do\n\n{remedy}\n")

@@ -1,4 +1,4 @@
-//! The door for build scripts: ARL programs become modules of a Rust crate.
+//! The front end for build scripts: turns ARL programs into modules of a Rust crate.
 
 use crate::compile::{Compiled, compile_program, on_large_stack};
 use crate::diagnostics::{Diagnostic, Severity};
@@ -24,8 +24,9 @@ use std::path::{Path, PathBuf};
 /// }
 /// ```
 ///
-/// Paths count from the folder of Cargo.toml. cargo runs the script again when a file changes that was read or looked
-/// for; a file is written only when its content changes. Mistakes in the programs end the build with their places.
+/// Paths are relative to the folder of Cargo.toml. cargo runs the script again when a file that was read or looked for
+/// changes; an output file is written only when its content changes. Errors in the programs fail the build and are
+/// shown with their positions.
 #[derive(Clone, Debug, Default)]
 #[must_use = "nothing happens before `compile`"]
 pub struct Build {
@@ -37,62 +38,63 @@ pub struct Build {
 }
 
 impl Build {
-    /// Without programs yet.
+    /// A build without programs.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a program: the file that has `main`. It becomes `NAME.rs` in `OUT_DIR`.
+    /// Adds a program, given by the file that has `main`. It becomes `NAME.rs` in `OUT_DIR`.
     pub fn program(self, main: impl Into<PathBuf>) -> Self {
         let main = main.into();
         self.program_as(name(&main), main)
     }
 
-    /// Adds a program under a name of its own: `name` instead of the file's.
+    /// Adds a program that is called `name` instead of being called after its file.
     pub fn program_as(mut self, name: impl Into<String>, main: impl Into<PathBuf>) -> Self {
         self.programs.push((name.into(), main.into()));
         self
     }
 
-    /// The kind of robot that the programs are for; six-axis if absent.
+    /// Sets the kind of robot that the programs are for; six-axis by default.
     pub fn family(mut self, family: Family) -> Self {
         self.options.family = family;
         self
     }
 
-    /// Warns also where more is accepted than the controller would take.
+    /// Also warns where the compiler accepts what the controller would not.
     pub fn strict(mut self, strict: bool) -> Self {
         self.options.strict = strict;
         self
     }
 
-    /// The folder that `/home/ae/script/` in an import means; each program's own folder if absent.
+    /// Sets the folder that `/home/ae/script/` stands for in an import; each program's own folder by default.
     pub fn script_dir(mut self, folder: impl Into<PathBuf>) -> Self {
         self.options.script_dir = Some(folder.into());
         self
     }
 
-    /// Mistakes in ARL become `compile_error!` in the emitted file instead of errors of the build script, together with
-    /// what the program was when it was last right: so editors keep their knowledge of the rest of the crate.
+    /// Turns errors in ARL into `compile_error!` in the emitted file instead of errors of the build script. The file
+    /// then also contains the last correct version of the program, so that editors still understand the rest of the
+    /// crate.
     pub fn errors_in_code(mut self, yes: bool) -> Self {
         self.errors_in_code = yes;
         self
     }
 
-    /// Whether cargo shows warnings; it does if this is never called.
+    /// Sets whether cargo shows warnings; it does by default.
     pub fn warnings(mut self, show: bool) -> Self {
         self.silent = !show;
         self
     }
 
-    /// Also writes the emitted files into this folder, to be read or committed.
+    /// Also writes the emitted files to this folder, to be read or committed.
     pub fn copy_to(mut self, folder: impl Into<PathBuf>) -> Self {
         self.copies = Some(folder.into());
         self
     }
 
-    /// Compiles everything. What cargo needs to know goes to standard output: files to watch, warnings, errors. cargo
-    /// ends the build after the script where there was an error.
+    /// Compiles everything. Prints what cargo needs to know: files to watch, warnings, errors. If there was an error,
+    /// cargo ends the build after the script.
     pub fn compile(self) {
         #[expect(clippy::disallowed_methods, reason = "cargo says so where the files go")]
         let out = std::env::var_os("OUT_DIR").map(PathBuf::from);
@@ -105,8 +107,8 @@ impl Build {
         }
     }
 
-    /// Compiles into a folder, for whoever is not a build script of cargo's; the lines are what [`Build::compile`]
-    /// tells cargo: `cargo::rerun-if-changed=..`, `cargo::warning=..`, `cargo::error=..`.
+    /// Compiles into a folder, for callers that are not cargo build scripts. Returns the lines that [`Build::compile`]
+    /// prints for cargo: `cargo::rerun-if-changed=..`, `cargo::warning=..`, `cargo::error=..`.
     pub fn compile_into(&self, out: &Path) -> Vec<String> {
         on_large_stack(|| self.lines(out, &FileSystem))
     }
@@ -148,7 +150,7 @@ impl Build {
         all
     }
 
-    /// Writes what one program became, and says what cargo shows.
+    /// Writes the output of one program and returns the lines for cargo.
     fn output(&self, compiled: &Compiled, name: &str, out: &Path) -> Vec<String> {
         let files = compiled.shown_files();
         let said = |diagnostic: &Diagnostic| plain(diagnostic, &files);
@@ -186,7 +188,7 @@ impl Build {
     }
 }
 
-/// A text as a raw string: rustc shows the line of a mistake, in which escapes could not be read.
+/// A text as a raw string: rustc shows the line of an error, and escapes in it would be unreadable.
 fn raw(text: &str) -> String {
     let text = text.replace('\r', "");
     let mut hashes = "#".to_owned();
@@ -196,7 +198,7 @@ fn raw(text: &str) -> String {
     format!("r{hashes}\"{text}\"{hashes}")
 }
 
-/// What a crate without a good version of the program can still be checked with.
+/// The code with which a crate can be checked as long as there is no correct version of the program.
 const NOTHING_YET: &str = "\
 /// The program has errors.
 pub struct Globals {}
@@ -222,8 +224,8 @@ fn name(main: &Path) -> String {
     main.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// The path to watch. A file that does not exist is always "changed" for cargo, so its folder is watched instead; but
-/// not where cargo itself writes below it.
+/// The path to watch. cargo considers a file that does not exist always changed, so its folder is watched instead,
+/// unless cargo itself writes below that folder.
 #[expect(clippy::disallowed_methods, reason = "this is a door")]
 fn watchable(path: &Path, out: &Path) -> PathBuf {
     if path.exists() {
@@ -287,7 +289,7 @@ mod tests {
         let robot = folder.0.join("robot");
         let watched: Vec<String> =
             lines.iter().filter_map(|line| line.strip_prefix("cargo::rerun-if-changed=").map(Into::into)).collect();
-        // m_data.arl is not there: its folder tells when it comes.
+        // m_data.arl does not exist: its folder is watched, so that its creation is noticed.
         let expected = [robot.clone(), main, robot.join("a_data.arl"), robot.join("m.arl"), PathBuf::from("build.rs")];
         assert_eq!(watched, expected.map(|path| path.display().to_string()));
         assert!(lines.iter().any(|line| line.starts_with("cargo::warning=") && line.contains("a.arl:3:")), "{lines:?}");

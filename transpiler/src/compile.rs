@@ -1,4 +1,4 @@
-//! What every door does: one program checked, and turned into Rust when it is right.
+//! The work common to all front ends: checks one program and, if it is correct, turns it into Rust.
 
 use crate::diagnostics::{Diagnostic, FileId, Files, Severity};
 use crate::effects::facts::{self, FactScope};
@@ -11,14 +11,14 @@ use std::cell::RefCell;
 use std::panic::AssertUnwindSafe;
 use std::path::{Path, PathBuf};
 
-/// A program on the way from text to Rust.
+/// A program between text and Rust.
 #[derive(Debug)]
 pub struct Compiled {
-    /// The folder of the main file: what the names in `files` count from.
+    /// The folder of the main file, to which the names in `files` are relative.
     pub folder: PathBuf,
-    /// What the check found out.
+    /// The result of the check.
     pub checked: Checked,
-    /// The Rust, where there was no error.
+    /// The Rust code, if there was no error.
     pub rust: Option<String>,
 }
 
@@ -28,12 +28,12 @@ impl Compiled {
         self.checked.diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// The files that were read or looked for, as paths from the working directory.
+    /// The files that were read or looked for, as paths relative to the working directory.
     pub fn read(&self) -> impl Iterator<Item = PathBuf> + '_ {
         self.checked.read.iter().map(|path| self.folder.join(path))
     }
 
-    /// The files under names that count from the working directory, as messages show them.
+    /// The files with names relative to the working directory, as messages show them.
     pub fn shown_files(&self) -> Files {
         shown_files(&self.checked.files, &self.folder)
     }
@@ -47,7 +47,7 @@ fn shown_files(files: &Files, folder: &Path) -> Files {
     shown
 }
 
-/// Sources whose relative paths count from a folder.
+/// Sources whose relative paths start at a folder.
 struct Below<'a> {
     folder: &'a Path,
     sources: &'a dyn Sources,
@@ -59,10 +59,10 @@ impl Sources for Below<'_> {
     }
 }
 
-/// Checks the program whose main file is `main`. What is emitted does not depend on the folder it lies in.
+/// Checks the program whose main file is `main`. The emitted code does not depend on the folder of that file.
 ///
 /// # Errors
-/// The place and text of a panic inside the compiler.
+/// The position and text of a panic inside the compiler.
 pub fn check_program(main: &Path, sources: &dyn Sources, options: &CheckOptions) -> Result<Compiled, Bug> {
     let folder = main.parent().map(Path::to_path_buf).unwrap_or_default();
     let name = main.file_name().map_or_else(|| main.to_path_buf(), PathBuf::from);
@@ -70,10 +70,10 @@ pub fn check_program(main: &Path, sources: &dyn Sources, options: &CheckOptions)
     Ok(Compiled { folder, checked, rust: None })
 }
 
-/// Checks a program and emits it where it is right.
+/// Checks a program and emits it if it is correct.
 ///
 /// # Errors
-/// The place and text of a panic inside the compiler.
+/// The position and text of a panic inside the compiler.
 pub fn compile_program(
     main: &Path,
     sources: &dyn Sources,
@@ -107,14 +107,14 @@ pub fn spliced_types(program: &Program, count: usize) -> Vec<Option<Type>> {
     types
 }
 
-/// Whether there are global variables in Rust, too: constants with a known value are written where they are used. A
-/// program with such variables and without `main` has `Globals::init`.
+/// Whether the Rust code has global variables, too: constants with a known value are written out where they are used. A
+/// program with global variables and without `main` has `Globals::init`.
 pub fn has_variables(program: &Program) -> bool {
     program.globals.iter().any(|global| global.value.is_none())
 }
 
-/// Whether an interrupt, timer or trigger that the function of this name or a first value of a variable declares, or a
-/// function that they call, uses global variables in its condition or action.
+/// Whether global variables are used in the condition or action of an interrupt, timer or trigger that is declared by
+/// the function of this name, by the initial value of a variable, or by a function that they call.
 pub fn events_use_globals(program: &Program, function: &str) -> bool {
     let ranges = Ranges::default();
     let outside = FactScope { program, func: None, ranges: &ranges };
@@ -147,9 +147,9 @@ pub fn events_use_globals(program: &Program, function: &str) -> bool {
 /// A panic inside the compiler.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Bug {
-    /// What the panic said.
+    /// The panic message.
     pub message: String,
-    /// `file:line` in the compiler's source, where it is known.
+    /// `file:line` in the compiler's source, if known.
     pub place: Option<String>,
 }
 
@@ -169,8 +169,8 @@ thread_local! {
     static LAST_PANIC: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// Makes panics silent and remembers where they happened, so that a [`Bug`] can say it. For programs of our own only:
-/// it changes the hook of the whole process.
+/// Silences panics and remembers where they happened, so that a [`Bug`] can report it. Only for our own programs: it
+/// changes the panic hook of the whole process.
 pub fn remember_panics() {
     std::panic::set_hook(Box::new(|info| {
         let place = info.location().map(|at| format!("{}:{}", at.file(), at.line()));
@@ -181,7 +181,7 @@ pub fn remember_panics() {
 /// Runs a part of the compiler; a panic in it becomes a [`Bug`].
 ///
 /// # Errors
-/// The place and text of the panic.
+/// The position and text of the panic.
 pub fn guard<T>(work: impl FnOnce() -> T) -> Result<T, Bug> {
     LAST_PANIC.with(|last| last.take());
     std::panic::catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
@@ -191,11 +191,11 @@ pub fn guard<T>(work: impl FnOnce() -> T) -> Result<T, Bug> {
     })
 }
 
-/// Stack for the compiler, in bytes: enough for the deepest nesting that ARL allows, also without optimisation and on
-/// systems that give programs little.
+/// Stack size for the compiler, in bytes: enough for the deepest nesting that ARL allows, also without optimisation and
+/// on systems that give programs a small stack.
 const STACK: usize = 64 << 20;
 
-/// Runs a part of the compiler where there is stack enough for the deepest nesting that ARL allows.
+/// Runs a part of the compiler on a stack that is large enough for the deepest nesting that ARL allows.
 pub fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     let work = std::sync::Mutex::new(Some(work));
     let run = || work.lock().ok().and_then(|mut work| work.take()).map(|work| work());
@@ -206,12 +206,12 @@ pub fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     match done {
         Some(Ok(Some(done))) => done,
         Some(Err(panic)) => std::panic::resume_unwind(panic),
-        // No thread to be had: this one has to do. Nobody took the work, so it is there.
+        // The thread could not be started, so the work has not been taken yet and runs on this thread.
         _ => run().unwrap_or_else(|| std::process::abort()),
     }
 }
 
-/// The name that a file has in messages.
+/// The name of a file as messages show it.
 pub fn shown_name(files: &Files, file: FileId) -> &str {
     files.get(file).map_or("?", |file| file.name.as_str())
 }

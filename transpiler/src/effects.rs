@@ -1,4 +1,4 @@
-//! What functions and loops do: wait, fail, need the context, see global variables, call themselves.
+//! What functions and loops do: wait, fail, need the context, use global variables, call themselves.
 
 pub(crate) mod captures;
 pub(crate) mod facts;
@@ -15,7 +15,8 @@ use crate::hir::{Effects, FuncId, Program};
 use facts::Facts;
 use graph::components;
 
-/// For each function, whether a call of it moves the program pointer: something built in that looks at it is used.
+/// For each function, whether calling it moves the program pointer, because it uses a built-in that looks at the
+/// pointer.
 pub(crate) fn pointer_movers(program: &Program) -> Vec<bool> {
     let direct: Vec<Facts> = program.funcs.iter().map(|func| facts::of_function(program, func)).collect();
     let calls = calls(&direct);
@@ -32,7 +33,7 @@ pub(crate) fn pointer_movers(program: &Program) -> Vec<bool> {
     moves
 }
 
-/// For each function, whether `main`, the first value of a variable or an event needs it.
+/// For each function, whether it is needed by `main`, by the initial value of a variable or by an event.
 pub(crate) fn reached(program: &Program) -> Vec<bool> {
     let direct: Vec<Facts> = program.funcs.iter().map(|func| facts::of_function(program, func)).collect();
     let calls: Vec<Vec<usize>> = direct
@@ -62,7 +63,7 @@ fn calls(direct: &[Facts]) -> Vec<Vec<usize>> {
     direct.iter().map(|facts| facts.calls.iter().map(|FuncId(callee)| *callee as usize).collect()).collect()
 }
 
-/// Fills in the effects of all functions and the findings about their loops.
+/// Fills in the effects of all functions and the information about their loops.
 pub fn infer(program: &mut Program) {
     growth::mark(program);
     for func in &mut program.funcs {

@@ -1,12 +1,13 @@
 //! The checked program: names resolved, types known, conversions explicit, arguments bound, constants folded.
 //!
 //! Invariants that the emitter relies on:
-//! - every `Expr::ty` is what the value has; operands of an operator have the type that the operator works on
+//! - every `Expr::ty` is the type of the value; operands of an operator have the type that the operator works on
 //!   (shifts: the left operand's type and an `int` count), so an implicit conversion is always a `Convert` node;
-//! - `Assign` and `AssignOp` values have the type of their place; call arguments the type of their parameter;
+//! - values of `Assign` and `AssignOp` have the type of their place, call arguments the type of their parameter;
 //! - conditions are `bool`;
-//! - indices are `int`, as many as the array has dimensions; constant ones are in range;
-//! - a built-in's arguments stand in source order, each parameter's presence is respected, defaults are filled in.
+//! - indices are `int`, one for each dimension of the array; constant ones are in range;
+//! - the arguments of a built-in are in source order, the presence of each parameter is respected, defaults are filled
+//!   in.
 
 use arl_lang::ast::{BinaryOp, Step, UnaryOp};
 use arl_lang::catalog::{Base, Entry, Enum, Family, Space, Struct, SystemVariable};
@@ -33,10 +34,10 @@ pub struct LocalId(pub u32);
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct LabelId(pub u32);
 
-/// Most dimensions an array may have.
+/// The maximum number of dimensions of an array.
 pub const MAX_DIMS: usize = 8;
 
-/// A type: a base type, or an array of one. Small, since every expression has one.
+/// A type: a base type or an array of one. Kept small because every expression has one.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Type {
     /// The type of a scalar or of the elements.
@@ -45,7 +46,7 @@ pub struct Type {
     shape: u16,
 }
 
-/// The sizes of all array shapes that any program of this process has had. Equal shapes have one number.
+/// The sizes of all array shapes used by any program in this process. Equal shapes share one number.
 static SHAPES: RwLock<Vec<&'static [u16]>> = RwLock::new(Vec::new());
 
 impl Type {
@@ -54,7 +55,7 @@ impl Type {
         Self { base, shape: 0 }
     }
 
-    /// An array type; `None` beyond [`MAX_DIMS`] dimensions, sizes beyond 65535, or more than 65534 different shapes.
+    /// An array type; `None` beyond [`MAX_DIMS`] dimensions, sizes beyond 65535, or more than 65535 different shapes.
     pub fn array(base: Base, dims: &[u32]) -> Option<Self> {
         if dims.is_empty() {
             return Some(Self::scalar(base));
@@ -81,12 +82,12 @@ impl Type {
         shapes.get(self.shape as usize - 1).copied().unwrap_or(&[])
     }
 
-    /// Whether it is an array.
+    /// Whether the type is an array.
     pub const fn is_array(&self) -> bool {
         self.shape != 0
     }
 
-    /// How many elements it has: 1 for a scalar.
+    /// The number of elements; 1 for a scalar.
     #[expect(clippy::len_without_is_empty, reason = "no type is without elements")]
     pub fn len(&self) -> usize {
         self.dims().iter().map(|size| *size as usize).product()
@@ -103,11 +104,11 @@ impl Type {
 pub struct Program {
     /// The name of the main module.
     pub name: String,
-    /// The robot family it was checked for.
+    /// The robot family that the program was checked for.
     pub family: Family,
     /// The modules; the main module is the first.
     pub modules: Vec<Module>,
-    /// All global variables, in the order in which they get their first values.
+    /// All global variables, in the order in which they are initialised.
     pub globals: Vec<Global>,
     /// All functions.
     pub funcs: Vec<Func>,
@@ -120,11 +121,11 @@ pub struct Program {
 pub struct Module {
     /// The file name without `.arl`, folded: a Rust identifier unless it is a Rust keyword.
     pub name: String,
-    /// The file as it is shown to users.
+    /// The file name as shown to users.
     pub file: String,
     /// The text.
     pub source: String,
-    /// Whether it is a `_data.arl` file, whose literal values are read again at load.
+    /// Whether the module is a `_data.arl` file, whose literal values are read again on load.
     pub data: bool,
 }
 
@@ -139,7 +140,7 @@ pub struct Global {
     pub ty: Type,
     /// Whether it is `const`.
     pub constant: bool,
-    /// Whether some statement writes it.
+    /// Whether any statement writes it.
     pub mutated: bool,
     /// The value of a `const` scalar whose initialiser is constant.
     pub value: Option<Value>,
@@ -147,7 +148,7 @@ pub struct Global {
     pub init: Option<Expr>,
     /// For variables of a data module: whether the initialiser is made of literals only, so that it can be re-taught.
     pub teachable: bool,
-    /// The name in its declaration.
+    /// The position of the name in its declaration.
     pub span: Span,
 }
 
@@ -172,16 +173,16 @@ pub struct Func {
     pub span: Span,
     /// The `endfunc` line.
     pub end: Span,
-    /// What a call does; filled in by the effects pass.
+    /// What a call may do; filled in by the effects pass.
     pub effects: Effects,
-    /// Whether a `goto` is in it.
+    /// Whether the function contains a `goto`.
     pub has_goto: bool,
 }
 
 /// What calling a function may do.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct Effects {
-    /// It may give the cycle back: emitted as `async fn`.
+    /// It may yield the cycle: emitted as `async fn`.
     pub waits: bool,
     /// It may end in an alarm, `exit` or `restart`: emitted with a `Done<T>` result.
     pub fails: bool,
@@ -189,9 +190,9 @@ pub struct Effects {
     pub context: bool,
     /// It reads or writes global variables.
     pub globals: bool,
-    /// It changes what others may see: it does not only look and compute.
+    /// It changes something visible outside the function: it does not only look and compute.
     pub changes: bool,
-    /// It may call itself, directly or not: calls to an `async` one are boxed.
+    /// It may call itself, directly or indirectly: calls to an `async` one are boxed.
     pub recursive: bool,
 }
 
@@ -210,9 +211,9 @@ pub struct Local {
     pub mutated: bool,
     /// Whether it is read anywhere.
     pub read: bool,
-    /// Whether an event that the function declares sees it change; filled in by the effects pass.
+    /// Whether an event that the function declares can see it change; filled in by the effects pass.
     pub shared: bool,
-    /// The name in its declaration.
+    /// The position of the name in its declaration.
     pub span: Span,
 }
 
@@ -221,7 +222,7 @@ pub struct Local {
 pub struct GotoLabel {
     /// The name, folded.
     pub name: String,
-    /// Where it stands.
+    /// The position of the label.
     pub span: Span,
     /// Whether a `goto` names it.
     pub used: bool,
@@ -235,18 +236,18 @@ pub type Block = Vec<Stmt>;
 pub struct Stmt {
     /// What it does.
     pub kind: StmtKind,
-    /// Where it stands.
+    /// The position of the statement.
     pub span: Span,
 }
 
 /// The kinds of statements.
 #[derive(Debug)]
 pub enum StmtKind {
-    /// A declaration; without initialiser the variable gets its start value each time.
+    /// A declaration; without an initialiser the variable gets its default value each time.
     Let(LocalId, Option<Expr>),
     /// An expression for its effect: assignments, calls, instructions.
     Eval(Expr),
-    /// `if`, `elseif`s, `else`. A compact `if` is the same.
+    /// `if`, `elseif`s, `else`. A compact `if` is represented in the same way.
     If(Vec<(Expr, Block)>, Option<Block>),
     /// `while`
     While(Expr, Block, LoopInfo),
@@ -256,11 +257,11 @@ pub enum StmtKind {
     Loop(Block, LoopInfo),
     /// `for`
     For(Box<For>),
-    /// `switch`; a switch whose subject matches nothing goes to the arm without value, wherever that stands.
+    /// `switch`; if no case matches the subject, control goes to the arm without a value, wherever it stands.
     Switch(Expr, Vec<Arm>),
     /// `break`: leaves the innermost loop (never a switch).
     Break,
-    /// `continue`: next round of the innermost loop.
+    /// `continue`: goes to the next round of the innermost loop.
     Continue,
     /// `goto`
     Goto(LabelId),
@@ -270,14 +271,14 @@ pub enum StmtKind {
     Return(Option<Expr>),
 }
 
-/// What the effects pass found out about a loop.
+/// What the effects pass has found out about a loop.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct LoopInfo {
-    /// Whether a round may pass without waiting, so that the loop has to give the cycle back by itself.
+    /// Whether a round may pass without waiting, so that the loop itself has to yield the cycle.
     pub spends: bool,
-    /// What a round counts when the loop spends: itself and all rounds of the counted loops inside.
+    /// As how many rounds one round counts if `spends` is set: itself and all rounds of the counted loops inside.
     pub rounds: i32,
-    /// Where they are counted then.
+    /// Where the rounds are counted if `spends` is set.
     pub counting: Counting,
     /// The number of the loop in its function.
     pub number: u32,
@@ -289,7 +290,7 @@ impl LoopInfo {
         self.spends && self.counting == Counting::InContext
     }
 
-    /// Whether the loop spends rounds that it counts in a variable of its own.
+    /// Whether the loop counts the rounds that it spends in a variable of its own.
     pub(crate) fn counts_alone(self) -> bool {
         self.spends && self.counting == Counting::Alone
     }
@@ -298,29 +299,29 @@ impl LoopInfo {
 /// Where the rounds of a loop are counted.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub enum Counting {
-    /// In the context, or not at all: something inside counts there, too, or gives the cycle back.
+    /// In the context, or not at all: something inside the loop also counts there or yields the cycle.
     #[default]
     InContext,
     /// In a variable of its own: nothing inside counts in the context.
     Alone,
-    /// All at once behind the loop: it climbs in equal steps to a constant, so they are few and can be calculated. It
-    /// does not give the cycle back in between.
+    /// All at once after the loop: the loop variable rises in equal steps to a constant, so the rounds are few and
+    /// their number can be calculated. The loop does not yield the cycle in between.
     Behind,
-    /// Likewise, for a `while` that this variable takes to its end.
+    /// As `Behind`, for a `while` that ends when this variable reaches its limit.
     Walking(Walk),
-    /// Nowhere: the rounds of a `for` are few. Those of loops in it are counted behind them, and there the cycle is
-    /// given back.
+    /// Nowhere: the `for` has few rounds. The rounds of loops inside it are counted after those loops, and that is
+    /// where the cycle is yielded.
     Inside,
 }
 
 impl Counting {
-    /// Whether they are counted behind the loop.
+    /// Whether the rounds are counted after the loop.
     pub(crate) fn is_behind(self) -> bool {
         matches!(self, Self::Behind | Self::Walking(_))
     }
 }
 
-/// A variable that goes on in equal steps, one in each round of a loop.
+/// A variable that changes in equal steps, one in each round of a loop.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Walk {
     /// The variable.
@@ -342,7 +343,7 @@ pub struct For {
     pub body: Block,
     /// What the effects pass found out.
     pub info: LoopInfo,
-    /// Whether an event may see a variable of the head change; filled in by the effects pass.
+    /// Whether an event may see a variable of the loop header change; filled in by the effects pass.
     pub shared: bool,
 }
 
@@ -353,7 +354,7 @@ pub struct Arm {
     pub value: Option<Value>,
     /// The statements.
     pub body: Block,
-    /// The line of the case.
+    /// The position of the case line.
     pub span: Span,
 }
 
@@ -362,9 +363,9 @@ pub struct Arm {
 pub struct Expr {
     /// The type of its value.
     pub ty: Type,
-    /// What it is.
+    /// The kind of expression.
     pub kind: ExprKind,
-    /// Where it stands.
+    /// The position of the expression.
     pub span: Span,
 }
 
@@ -387,9 +388,9 @@ pub enum ExprKind {
     Binary(BinaryOp, Box<(Expr, Expr)>),
     /// `place = value`; the value of the expression is the new value.
     Assign(Box<(Place, Expr)>),
-    /// `place op= value`; the value has the place's type, but for shifts (an int) and `pose *= frame`.
+    /// `place op= value`; the value has the type of the place, except for shifts (an int) and `pose *= frame`.
     AssignOp(BinaryOp, Box<(Place, Expr)>),
-    /// A sum of strings that is kept, and could be longer than a string may be.
+    /// A concatenation of strings whose result is kept and could exceed the maximum length of a string.
     Grown(Box<Expr>),
     /// `++`, `--`
     Step(Step, Box<Place>),
@@ -397,10 +398,10 @@ pub enum ExprKind {
     Call(FuncId, Vec<Expr>),
     /// A built-in function or instruction.
     Builtin(Box<Builtin>),
-    /// A structure from braces: one value per component, `None` keeps the start value; an empty list is all start
-    /// values.
+    /// A structure from braces: one value per component, where `None` keeps the default; an empty list means all
+    /// defaults.
     Struct(Struct, Vec<Option<Expr>>),
-    /// An array from braces, flat; elements that are missing at the end have start values.
+    /// An array from braces, flattened; elements missing at the end have their default values.
     Array(Vec<Expr>),
     /// A Rust value spliced in by the macro.
     Splice(u32),
@@ -409,7 +410,7 @@ pub enum ExprKind {
 /// A bound use of a built-in.
 #[derive(Debug)]
 pub struct Builtin {
-    /// The catalog's entry, the overload that was chosen.
+    /// The chosen overload in the catalog.
     pub entry: &'static Entry,
     /// The arguments in source order (defaults last).
     pub args: Vec<Bound>,
@@ -422,19 +423,19 @@ impl Builtin {
     }
 }
 
-/// An argument and the parameter that it is for.
+/// An argument and its parameter.
 #[derive(Debug)]
 pub struct Bound {
     /// Index into the entry's parameters.
     pub param: usize,
-    /// What is passed.
+    /// The value or place that is passed.
     pub value: Passed,
 }
 
 /// What is passed to a parameter.
 #[derive(Debug)]
 pub enum Passed {
-    /// A value (also conditions and actions, which are evaluated again and again).
+    /// A value (also conditions and actions, which are evaluated repeatedly).
     Value(Expr),
     /// A variable that is written.
     Out(Place),
@@ -447,9 +448,9 @@ pub struct Place {
     pub root: Root,
     /// Components and elements, outermost first.
     pub path: Vec<Projection>,
-    /// The type of what the path leads to.
+    /// The type of the component or element at the end of the path.
     pub ty: Type,
-    /// Where it stands.
+    /// The position of the place.
     pub span: Span,
 }
 

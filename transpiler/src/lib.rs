@@ -1,7 +1,7 @@
 //! Checks robot programs in ARL and turns them into Rust.
 //!
-//! The core does no file or process work: sources come in through [`Sources`], text and diagnostics go out. The doors
-//! (the command, `build.rs`, the macro) read files and show what the core has to say.
+//! The core does no file or process work: it takes sources through [`Sources`] and returns text and diagnostics. The
+//! front ends, called doors here (the command, `build.rs`, the macro), read files and show the results.
 
 #[cfg(feature = "tools")]
 pub mod alarms;
@@ -34,61 +34,61 @@ pub trait Sources {
     /// The bytes of the file at `path`.
     ///
     /// # Errors
-    /// [`SourceError::Missing`] where there is no such file, [`SourceError::Unreadable`] with the reason otherwise.
+    /// [`SourceError::Missing`] if there is no such file, otherwise [`SourceError::Unreadable`] with the reason.
     fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError>;
 }
 
-/// Why a source could not be read.
+/// The reason why a source could not be read.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum SourceError {
     /// There is no such file.
     Missing,
-    /// There is one, but it cannot be read.
+    /// The file exists but cannot be read.
     Unreadable(String),
 }
 
-/// How to check.
+/// Options of a check.
 #[derive(Clone, Debug, Default)]
 pub struct CheckOptions {
     /// The kind of robot.
     pub family: Family,
-    /// Warn where more is accepted than the controller would take.
+    /// Warn where the compiler accepts what the controller would not.
     pub strict: bool,
-    /// The folder that `/home/ae/script/` in an import means; the main file's folder if absent.
+    /// The folder that `/home/ae/script/` stands for in an import; the main file's folder if absent.
     pub script_dir: Option<std::path::PathBuf>,
     /// The program is for a background channel, which has no robot.
     pub background: bool,
-    /// A file without `main` is fine: it is checked as a module.
+    /// A file without `main` is accepted: it is checked as a module.
     pub library: bool,
-    /// Record what every name means, for editors. The program that comes out is not for the emitter: its effects are
-    /// not looked at.
+    /// Record what every name means, for editors. The resulting program must not be emitted: its effects are not
+    /// inferred.
     pub index: bool,
-    /// The robot, where it is known: targets that it can never reach are warned of.
+    /// The robot, if known: targets that it can never reach cause a warning.
     #[cfg(feature = "tools")]
     pub robot: Option<arl_robot::Robot>,
-    /// The cell, where it is known: channels, lines and bytes that it does not have are errors.
+    /// The cell, if known: channels, lines and bytes that it does not have are errors.
     #[cfg(feature = "tools")]
     pub cell: Option<arl_robot::outline::Outline>,
 }
 
-/// What came out of a check.
+/// The result of a check.
 #[derive(Debug)]
 pub struct Checked {
     /// The program, unless there was an error.
     pub program: Option<hir::Program>,
-    /// Errors and warnings, by file and place.
+    /// Errors and warnings, by file and position.
     pub diagnostics: Vec<Diagnostic>,
     /// The files that were read.
     pub files: Files,
-    /// What every name means, where [`CheckOptions::index`] asks for it.
+    /// What every name means, if [`CheckOptions::index`] is set.
     pub index: Option<index::Index>,
-    /// The syntax trees, kept only to be freed with the rest: a command that ends anyway need not wait for it.
+    /// The syntax trees, kept only so that a command that is about to exit need not wait for them to be freed.
     _syntax: check::Syntax,
-    /// The paths of the files that were read, in the order of `files`, and those that were looked for in vain.
+    /// The paths of the files that were read, in the order of `files`, and of those that were not found.
     pub read: Vec<std::path::PathBuf>,
 }
 
-/// What only the emitter needs, to be freed when there is time.
+/// Data that only the emitter needs, to be freed when there is time.
 #[cfg(feature = "tools")]
 #[derive(Debug)]
 pub struct Unneeded {
@@ -97,19 +97,19 @@ pub struct Unneeded {
 }
 
 impl Checked {
-    /// Takes out what only the emitter needs, to be freed when there is time.
+    /// Takes out the data that only the emitter needs, to be freed when there is time.
     #[cfg(feature = "tools")]
     pub fn take_program(&mut self) -> Unneeded {
         Unneeded { _program: self.program.take(), _syntax: std::mem::take(&mut self._syntax) }
     }
 
-    /// Whether the program is refused.
+    /// Whether there are errors.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 }
 
-/// The examples of the README run.
+/// Runs the examples of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,12 +1,13 @@
-//! Finds the name that was probably meant, without spending too much on it.
+//! Finds the name that was probably meant, at a limited cost.
 
 pub(crate) use arl_lang::near::nearest;
 
-/// How many names a check compares with wrong ones, all in all. Whoever has so many mistakes needs no hints for the
-/// last.
+/// The number of comparisons with wrong names in one check. A program with that many errors needs no hints for the last
+/// ones.
 const COMPARISONS: usize = 1 << 20;
 
-/// What a check may still spend on looking for names that were meant, so that its cost grows with the program only.
+/// How many comparisons a check may still make to find the names that were meant. The cost of a check thus grows only
+/// with the size of the program.
 #[derive(Debug)]
 pub(crate) struct Hints {
     left: usize,
@@ -19,7 +20,7 @@ impl Default for Hints {
 }
 
 impl Hints {
-    /// The nearest of so many candidates, which are gathered only where there is something left to spend.
+    /// The nearest of `count` candidates, which are collected only if the budget allows it.
     pub(crate) fn nearest<'a, I: Iterator<Item = &'a str>>(
         &mut self,
         name: &str,

@@ -1,5 +1,5 @@
-//! What operators do: the types that they take, to which they bring their operands, what they give, and the values that
-//! they compute. The checker asks here, and the debugger.
+//! What operators do: the types that they accept and convert their operands to, their result types, and the values that
+//! they compute. Used by the checker and the debugger.
 
 use crate::hir::Value;
 use arl_lang::ast::{BinaryOp, UnaryOp};
@@ -10,32 +10,32 @@ use arl_lang::catalog::{Base, Enum, Struct};
 pub enum Literal {
     /// Nothing special.
     None,
-    /// Binary or hexadecimal: 32 bits without a sign of their own.
+    /// Binary or hexadecimal: 32 bits without a sign.
     Pattern,
-    /// `~` of a pattern: as wide as the place wants it.
+    /// `~` of a pattern: as wide as its context requires.
     Complement,
-    /// Decimal, 2^31 or more: for a uint only.
+    /// Decimal, 2^31 or more: only for a uint.
     Wide,
 }
 
-/// An operand, which is not an array.
+/// An operand that is not an array.
 #[derive(Clone, Copy, Debug)]
 pub struct Operand<'a> {
     /// Its type.
     pub base: Base,
-    /// Its value, where it is a constant.
+    /// The value, if the operand is constant.
     pub constant: Option<&'a Value>,
     /// How the constant was written.
     pub literal: Literal,
 }
 
 impl<'a> Operand<'a> {
-    /// Enumerations count as int where an operator meets them.
+    /// Treats an enumeration as an int, as operators do.
     fn as_number(self) -> Self {
         if matches!(self.base, Base::Enum(_)) { Self { base: Base::Int, ..self } } else { self }
     }
 
-    /// The constant as a value of a type, where it has one there.
+    /// The constant as a value of a type, if the type can represent it.
     fn fitting(self, to: Base) -> Option<Value> {
         fit(self.constant?, self.literal, to)
     }
@@ -44,11 +44,11 @@ impl<'a> Operand<'a> {
 /// What an operator does with two operands.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Operation {
-    /// The type that the left operand is brought to.
+    /// The type that the left operand is converted to.
     pub left: Base,
-    /// The type that the right operand is brought to.
+    /// The type that the right operand is converted to.
     pub right: Base,
-    /// The type of what comes out.
+    /// The type of the result.
     pub result: Base,
 }
 
@@ -58,16 +58,16 @@ impl Operation {
     }
 }
 
-/// Why there is no value, in the words of the alarm that it is at run time.
+/// The reason why there is no value, worded like the alarm at run time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum OperatorAlarm {
     /// Division by zero.
     DivideByZero,
-    /// A shift by this, where 0 to `most` is possible.
+    /// A shift by `count`, where 0 to `most` is possible.
     ShiftCount {
-        /// By how much it should be.
+        /// The requested shift.
         count: i64,
-        /// One less than the type has bits.
+        /// One less than the number of bits of the type.
         most: u32,
     },
 }
@@ -84,7 +84,7 @@ impl std::fmt::Display for OperatorAlarm {
     }
 }
 
-/// What an operator does with these operands; `None`: it does not take them.
+/// What an operator does with these operands; `None` if it does not accept them.
 pub fn binary(op: BinaryOp, left: Operand<'_>, right: Operand<'_>) -> Option<Operation> {
     match op {
         BinaryOp::And | BinaryOp::Or => {
@@ -117,7 +117,7 @@ pub fn binary(op: BinaryOp, left: Operand<'_>, right: Operand<'_>) -> Option<Ope
     }
 }
 
-/// What an operator makes of two structures.
+/// The type of an operation on two structures.
 fn of_structures(op: BinaryOp, left: Struct, right: Struct) -> Option<Struct> {
     match (op, left, right) {
         (BinaryOp::Add | BinaryOp::Subtract, Struct::Joint, Struct::Joint) => Some(Struct::Joint),
@@ -130,12 +130,12 @@ fn of_structures(op: BinaryOp, left: Struct, right: Struct) -> Option<Struct> {
 fn shift(left: Operand<'_>, right: Operand<'_>) -> Option<Operation> {
     let has_bits = |base| matches!(base, Base::Int | Base::Uint | Base::Byte);
     (has_bits(left.base) && has_bits(right.base)).then_some(())?;
-    // A uint that is not a constant counts as it is: the result has the type of the left operand anyway.
+    // A uint that is not constant stays as it is: the result has the type of the left operand anyway.
     let count = if right.base == Base::Uint && right.constant.is_none() { Base::Uint } else { Base::Int };
     Some(Operation { left: left.base, right: count, result: left.base })
 }
 
-/// The type that both numbers are brought to; `None` where they do not mix.
+/// The type that both numbers are converted to; `None` if they cannot be mixed.
 fn common(left: Operand<'_>, right: Operand<'_>) -> Option<Base> {
     let (a, b) = (left.base, right.base);
     let number = |base| matches!(base, Base::Byte | Base::Int | Base::Uint | Base::Double);
@@ -148,7 +148,7 @@ fn common(left: Operand<'_>, right: Operand<'_>) -> Option<Base> {
     if a == Base::Double || b == Base::Double {
         return Some(Base::Double);
     }
-    // A constant takes the type of the other operand where it fits; of two constants the int gives way.
+    // A constant takes the type of the other operand if it fits; of two constants the int is converted.
     let gives_way = |constant: Operand<'_>, other: Operand<'_>| {
         if other.constant.is_some() && constant.base != Base::Int {
             return None;
@@ -165,13 +165,13 @@ fn common(left: Operand<'_>, right: Operand<'_>) -> Option<Base> {
     }
 }
 
-/// The type that the operand is brought to, and that of what comes out; `None`: the operator does not take it.
+/// The type that the operand is converted to and the type of the result; `None` if the operator does not accept it.
 pub fn unary(op: UnaryOp, operand: Operand<'_>) -> Option<[Base; 2]> {
     let base = operand.as_number().base;
     match (op, base) {
         (UnaryOp::Not, _) => conversion(operand.base, Base::Bool).map(|_| [Base::Bool; 2]),
         (UnaryOp::Negate, Base::Byte) => Some([Base::Int; 2]),
-        // 2147483648 alone is beyond int, but its negative is not.
+        // 2147483648 alone is out of range for int, but its negative is not.
         (UnaryOp::Negate, Base::Uint) => {
             let is_least = operand.literal == Literal::Wide && operand.constant == Some(&Value::Uint(0x8000_0000));
             is_least.then_some([Base::Uint, Base::Int])
@@ -187,13 +187,13 @@ pub fn unary(op: UnaryOp, operand: Operand<'_>) -> Option<[Base; 2]> {
 pub enum Conversion {
     /// Nothing to do.
     Same,
-    /// The manual's Table 2-1.
+    /// By Table 2-1 of the manual.
     Implicit,
     /// Beyond the manual.
     Extended,
 }
 
-/// Whether values of one type convert to another by themselves.
+/// The implicit conversion between two types, if there is one.
 pub fn conversion(from: Base, to: Base) -> Option<Conversion> {
     if from == to {
         return Some(Conversion::Same);
@@ -210,7 +210,7 @@ pub fn conversion(from: Base, to: Base) -> Option<Conversion> {
     }
 }
 
-/// The constant as a value of another type, where it has one there.
+/// The constant as a value of another type, if that type can represent it.
 pub fn fit(value: &Value, literal: Literal, to: Base) -> Option<Value> {
     if value.base() == to {
         return Some(value.clone());
@@ -239,7 +239,7 @@ pub fn fit(value: &Value, literal: Literal, to: Base) -> Option<Value> {
     }
 }
 
-/// Which numbers an integer type holds, in words; empty for other types.
+/// The range of an integer type, in words; empty for other types.
 pub fn range(to: Base) -> &'static str {
     match to {
         Base::Byte => "a byte holds 0 to 255",
@@ -264,12 +264,12 @@ fn enum_constant(id: Enum, number: i64) -> Option<Value> {
     id.def().constants.get(index as usize).map(|_| Value::Enum(id, index))
 }
 
-/// The bits of a type that can be shifted.
+/// The number of bits of a type that can be shifted.
 pub const fn width(base: Base) -> u32 {
     if matches!(base, Base::Byte) { 8 } else { 32 }
 }
 
-/// A value, and whether its type has no room for what it would be without bounds.
+/// A value, and whether it overflowed its type.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Computed {
     /// The value.
@@ -292,11 +292,11 @@ impl Computed {
     }
 }
 
-/// The value of `left op right`, both of the types that [`binary`] brings them to; `None` where the operator has none
-/// for them.
+/// The value of `left op right`, whose operands have the types that [`binary`] converts them to; `None` if the operator
+/// is not defined for them.
 ///
 /// # Errors
-/// It is an alarm at run time.
+/// The alarm that the operation raises at run time.
 pub fn compute(op: BinaryOp, left: &Value, right: &Value) -> Result<Option<Computed>, OperatorAlarm> {
     Ok(match (left, right) {
         (Value::Bool(a), Value::Bool(b)) => of_bools(op, *a, *b).map(|value| Value::Bool(value).into()),
@@ -305,7 +305,7 @@ pub fn compute(op: BinaryOp, left: &Value, right: &Value) -> Result<Option<Compu
             BinaryOp::Add => Some(Value::String(format!("{a}{b}").into()).into()),
             _ => compare(op, a.as_bytes().cmp(b.as_bytes())).map(|value| Value::Bool(value).into()),
         },
-        // The count of a shift need not be of the same type.
+        // The count of a shift may have another type.
         (Value::Int(_) | Value::Uint(_) | Value::Byte(_), _) => match (integer(left), integer(right)) {
             (Some(a), Some(b)) => of_integers(op, left.base(), a, b)?,
             _ => None,
@@ -314,7 +314,8 @@ pub fn compute(op: BinaryOp, left: &Value, right: &Value) -> Result<Option<Compu
     })
 }
 
-/// The value of `op operand`, of the type that [`unary`] brings it to; `None` where the operator has none for it.
+/// The value of `op operand`, whose operand has the type that [`unary`] converts it to; `None` if the operator is not
+/// defined for it.
 pub fn compute_unary(op: UnaryOp, operand: &Value) -> Option<Computed> {
     match (op, operand) {
         (UnaryOp::Negate, Value::Int(value)) => Some(Computed::integer(Base::Int, -i64::from(*value))),
@@ -340,7 +341,7 @@ fn of_integers(op: BinaryOp, base: Base, left: i64, right: i64) -> Result<Option
         BinaryOp::ShiftLeft | BinaryOp::ShiftRight if !(0..=i64::from(most)).contains(&right) => {
             return Err(OperatorAlarm::ShiftCount { count: right, most });
         }
-        // Bits that are shifted out are meant to go.
+        // Losing the bits that are shifted out is intended.
         BinaryOp::ShiftLeft => return Ok(Some(lowest_bits(base, left << right).into())),
         BinaryOp::ShiftRight => return Ok(Some(lowest_bits(base, left >> right).into())),
         BinaryOp::BitAnd => left & right,
@@ -352,7 +353,7 @@ fn of_integers(op: BinaryOp, base: Base, left: i64, right: i64) -> Result<Option
     Ok(Some(Computed::integer(base, exact)))
 }
 
-/// The lowest bits of a number as a value of the type.
+/// The lowest bits of a number, as a value of the type.
 fn lowest_bits(base: Base, exact: i64) -> Value {
     match base {
         Base::Byte => Value::Byte(exact as u8),
@@ -410,7 +411,7 @@ mod tests {
         Operand { base: value.base(), constant: is_constant.then_some(value), literal: Literal::None }
     }
 
-    /// The value of variables with these values.
+    /// The result of an operator on variables with these values.
     fn of_variables(op: BinaryOp, left: &Value, right: &Value) -> Option<Result<Value, OperatorAlarm>> {
         let operation = binary(op, operand(left, false), operand(right, false))?;
         let left = fit(left, Literal::None, operation.left)?;

@@ -1,11 +1,11 @@
-//! Sources from the file system. Only regular files are read: a named pipe may never be written, and a device never
-//! end.
+//! Sources from the file system. Only regular files are read: a named pipe may never be written to, and a device may
+//! never end.
 
 use crate::{SourceError, Sources};
 use std::io::ErrorKind;
 use std::path::Path;
 
-/// Reads sources from the file system; relative paths count from the working directory.
+/// Reads sources from the file system; relative paths start at the working directory.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FileSystem;
 
@@ -25,11 +25,11 @@ impl Sources for FileSystem {
     }
 }
 
-/// Writes a file unless it already has this content, so that its time changes only with it; makes its folder. Says
-/// whether it wrote.
+/// Writes a file unless it already has this content, so that its modification time changes only with the content.
+/// Creates the folder if necessary. Returns whether the file was written.
 ///
 /// # Errors
-/// It cannot be written.
+/// The file cannot be written.
 #[expect(clippy::disallowed_methods, reason = "this is where the doors write files")]
 pub fn write_if_changed(path: &Path, content: &[u8]) -> std::io::Result<bool> {
     if std::fs::read(path).is_ok_and(|old| old == content) {

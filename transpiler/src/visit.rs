@@ -2,7 +2,7 @@
 
 use crate::hir::{Expr, ExprKind, Passed, Place, Projection, Stmt, StmtKind};
 
-/// Calls `see` for every expression in a statement, inner statements included; each before its parts.
+/// Calls `see` for every expression in a statement, including inner statements; each expression comes before its parts.
 pub(crate) fn exprs_in_stmt<'a, F: FnMut(&'a Expr)>(stmt: &'a Stmt, see: &mut F) {
     match &stmt.kind {
         StmtKind::Let(_, init) => init.iter().for_each(|init| exprs(init, see)),

@@ -1,6 +1,6 @@
-//! What a program says of its run, an object of JSON a line: to a screen that drives it, or to a recorder. `arl-rt`
-//! writes the lines by hand, as a cycle has no time for more; a test of the command holds that both have the same keys,
-//! but for what is inside a program.
+//! The messages of a program about its run, one JSON object per line: to a screen that drives it, or to a recorder.
+//! `arl-rt` writes the lines by hand, as a cycle has no time for more; a test of the command checks that both have the
+//! same keys, except for those of `Inside`.
 //!
 //! ```
 //! let line: arl_wire::Line = serde_json::from_str(r#"{"warning":"the battery is low"}"#)?;
@@ -16,53 +16,54 @@ use arl_robot::kinematics::{self, Frame};
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// A line of the program; the last three are not the program's, but of who listens to it. `arl-rt` documents them in
-/// its module `live`.
+/// A line of the program; the last three do not come from the program, but from the listener. `arl-rt` documents the
+/// lines in its module `live`.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 #[serde(rename_all = "snake_case")]
 pub enum Line {
-    /// The first line: what runs on which robots.
+    /// The first line: the programs and their robots.
     Hello(Hello),
-    /// How everything stands, again and again.
+    /// The current state, sent repeatedly.
     State(State),
-    /// Where the robots are, in each cycle, where that is asked for.
+    /// The positions of the robots, in each cycle, if requested.
     Cycle(Cycle),
-    /// What is inside the program of a channel, while that is asked for.
+    /// The functions and variables of a channel's program, while requested.
     Inside(Inside),
-    /// What the program printed.
+    /// A message that the program printed.
     Message(Message),
-    /// What is not an alarm but worth a word.
+    /// A warning: not an alarm, but worth reporting.
     Warning(String),
-    /// What stopped a program.
+    /// An alarm, which stopped a program.
     Alarm(Alarm),
     /// An order that could not be carried out, and why.
     Refused(Refused),
-    /// What a motion did, or a channel: an object of the report.
+    /// The report of a motion or a channel.
     Report(Report),
-    /// Nothing more comes; so often something was left out.
+    /// The last line, with how often something was left out.
     Ended(u64),
-    /// A body that a robot takes along came, was taken or put down: said by who watches them.
+    /// A body that a robot can take appeared, was taken or put down: reported by the listener that monitors bodies.
     #[serde(skip)]
     Placing(Placing),
-    /// What came too near to each other: not the program says it, but who watches where robots are.
+    /// Objects that came too near to each other: reported not by the program, but by the listener that monitors the
+    /// robots' positions.
     #[serde(skip)]
     Contact(Contact),
-    /// What came on the standard error.
+    /// Output of the program on standard error.
     #[serde(skip)]
     Other(String),
 }
 
-/// What runs on which robots.
+/// The programs and their robots.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 #[serde(default)]
 pub struct Hello {
     /// The channels, in their order.
     pub channels: Vec<Runs>,
-    /// What signals are called, by how files write them: `di.1`.
+    /// The names of signals, by their notation in files: `di.1`.
     pub names: BTreeMap<String, String>,
 }
 
-/// What one channel runs.
+/// The program and the robot of one channel.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Runs {
     /// The main file of its program.
@@ -74,7 +75,7 @@ pub struct Runs {
     /// The joints of its own axes, from the base on.
     #[serde(default)]
     pub links: Vec<LinkJoint>,
-    /// The flange in the last link.
+    /// The flange in the frame of the last link.
     #[serde(default)]
     pub flange: Placed,
     /// Its shape.
@@ -83,7 +84,7 @@ pub struct Runs {
 }
 
 impl Runs {
-    /// Which of its axes an external one is, and what is known of it.
+    /// The index of an external axis among all axes, and its data.
     pub fn external(&self, number: usize) -> Option<(usize, &Axis)> {
         let at = self.links.len() + number;
         self.axes.get(at).map(|axis| (at, axis))
@@ -102,26 +103,26 @@ impl Runs {
     }
 }
 
-/// A capsule that belongs to a link, from 1, or to the base, 0: its ends in the frame of that, and its radius, in mm.
+/// A capsule that belongs to a link, from 1, or to the base, 0: its ends in that frame, and its radius, in mm.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct Limb {
-    /// What people call it.
+    /// The name.
     pub name: String,
-    /// The link, from 1; 0: the base.
+    /// The link, from 1; 0 is the base.
     pub link: usize,
     /// The ends of its axis, in mm, in the frame of the link.
     pub ends: [[f64; 3]; 2],
-    /// mm
+    /// The radius, in mm.
     pub radius: f64,
 }
 
-/// What people call a link of so many, 0 is the base: as the capsule in its place.
+/// The name of a link among `of` links, 0 is the base: that of its capsule.
 pub fn name_of_link(link: usize, of: usize, limbs: &[Limb]) -> &str {
     let found = if link + 1 >= of { limbs.last() } else { limbs.iter().rfind(|limb| limb.link <= link) };
     found.map_or("the robot", |limb| &limb.name)
 }
 
-/// Where the robots are.
+/// The positions of the robots.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Cycle {
     /// Controller time in s.
@@ -149,20 +150,20 @@ impl State {
     }
 }
 
-/// Whether an input or output, of those that are told in a row, has a level.
+/// Whether an input or output of these rows has a level.
 fn has([di, dout]: [&str; 2], (signal, wanted): (Signal, bool)) -> bool {
     let levels = if signal.kind == SignalKind::DigitalInput { di } else { dout };
     (levels.as_bytes().get(signal.channel as usize - 1) == Some(&b'1')) == wanted
 }
 
-/// Where the robot of a channel is.
+/// The position of the robot of a channel.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Moves {
-    /// The file of the motion that is executed, or was last.
+    /// The file of the current or last motion.
     pub file: String,
-    /// From 1; 0: nothing has moved yet.
+    /// The line of the current or last motion, from 1; 0 if nothing has moved yet.
     pub line: u32,
-    /// x, y, z in mm, a, b, c in deg, in the world, once something has moved.
+    /// The robot's base in the world: x, y, z in mm, a, b, c in deg; set once something has moved.
     pub base: Vec<f64>,
     /// deg, mm
     pub axes: Vec<f64>,
@@ -171,14 +172,14 @@ pub struct Moves {
 /// x, y, z in mm, and a quaternion x, y, z, w.
 pub type Placed = [f64; 7];
 
-/// A joint that moves a link against the one before, or against the base.
+/// A joint that moves a link relative to the previous one, or to the base.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct LinkJoint {
-    /// The link's frame in the one before while the axis is at 0.
+    /// The link's frame in the previous one while the axis is at 0.
     pub origin: Placed,
-    /// What it turns about, or moves along, in the link's frame.
+    /// The axis about which it turns, or along which it moves, in the link's frame.
     pub axis: [f64; 3],
-    /// Whether it moves along its axis.
+    /// Whether the joint moves along its axis.
     pub linear: bool,
 }
 
@@ -190,13 +191,13 @@ impl LinkJoint {
     }
 }
 
-/// The frame that is written so.
+/// The frame with this notation.
 pub fn placed([x, y, z, i, j, k, w]: &Placed) -> Frame {
     let turned = UnitQuaternion::from_quaternion(Quaternion::new(*w, *i, *j, *k));
     Frame::from_parts(Translation3::new(*x, *y, *z), turned)
 }
 
-/// How a frame is written.
+/// The notation of a frame.
 pub fn written(frame: &Frame) -> Placed {
     let ([x, y, z], [i, j, k, w]): ([f64; 3], [f64; 4]) =
         (frame.translation.vector.into(), frame.rotation.coords.into());
@@ -223,14 +224,14 @@ impl Axis {
     }
 }
 
-/// How everything stands.
+/// The current state.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct State {
     /// Controller time in s.
     pub time: f64,
     /// `AUTO`, `MANUAL`, `MANUFAST`
     pub mode: String,
-    /// %
+    /// The speed override, in %.
     #[serde(rename = "override")]
     pub speed_override: f64,
     /// The channels, in their order.
@@ -246,30 +247,30 @@ pub struct State {
     pub ao: Vec<f64>,
 }
 
-/// How one channel stands.
+/// The state of one channel.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Channel {
     /// `running`, `paused`, `ended`, `alarm` and so on.
     pub state: String,
-    /// The file that the program is in.
+    /// The file in which the program is.
     pub file: String,
-    /// The line that the program is in.
+    /// The line on which the program is.
     pub line: usize,
-    /// The file of the motion that is executed, or was last.
+    /// The file of the current or last motion.
     pub motion_file: String,
-    /// 0: nothing has moved yet.
+    /// The line of the current or last motion; 0 if nothing has moved yet.
     pub motion_line: usize,
-    /// The running number of the motion executed in the last cycle; 0: none.
+    /// The running number of the motion executed in the last cycle; 0 if none.
     #[serde(default)]
     pub motion: u64,
     /// deg, mm
     pub axes: Vec<f64>,
     /// x, y, z in mm, a, b, c in deg, in the world.
     pub tcp: Vec<f64>,
-    /// The robot's base, as the TCP.
+    /// The robot's base, given like the TCP.
     #[serde(default)]
     pub base: Vec<f64>,
-    /// The workpiece, as the TCP.
+    /// The workpiece, given like the TCP.
     #[serde(default)]
     pub workpiece: Vec<f64>,
 }
@@ -291,7 +292,7 @@ pub struct Inside {
 }
 
 impl Inside {
-    /// In how many lines its variables are shown: one for each, and one for each file.
+    /// The number of lines that show its variables: one for each, and one for each file.
     pub fn variable_lines(&self) -> usize {
         let of_files = self.files.iter().map(|file| 1 + file.variables.len() + file.handles.len());
         self.variables.len() + self.handles.len() + of_files.sum::<usize>()
@@ -303,9 +304,9 @@ impl Inside {
 pub struct Function {
     /// Its name.
     pub name: String,
-    /// The file that it is in.
+    /// The file in which it is.
     pub file: String,
-    /// The line that it is in.
+    /// The line on which it is.
     pub line: usize,
 }
 
@@ -330,84 +331,84 @@ pub struct Globals {
     pub handles: Vec<Variable>,
 }
 
-/// A line of the report (docs/seeing-a-run.md): times in s, ways in mm.
+/// A line of the report (docs/seeing-a-run.md): times in s, distances in mm.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 #[serde(untagged)]
 pub enum Report {
-    /// What a motion did.
+    /// The report of a motion.
     Motion(Box<MotionReport>),
-    /// What a channel did in all.
+    /// The overall report of a channel.
     Channel(ChannelReport),
-    /// How late cycles began, in real time.
+    /// The delays of cycles, in real time.
     Clock {
         /// The figures.
         clock: ClockReport,
     },
 }
 
-/// What a motion did.
+/// The report of a motion.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct MotionReport {
     /// From 1.
     pub channel: u32,
     /// Its running number.
     pub motion: u64,
-    /// The file that it is of.
+    /// The file of the motion.
     pub file: String,
     /// From 1.
     pub line: u32,
     /// The instruction: `lin`.
     pub kind: String,
-    /// Of `programmed` and `reached`: `mm/s`, `deg/s` or `%`.
+    /// The unit of `programmed` and `reached`: `mm/s`, `deg/s` or `%`.
     pub unit: String,
-    /// The speed that was asked for, in its unit.
+    /// The programmed speed, in its unit.
     pub programmed: f64,
     /// The highest speed along the path, in its unit.
     pub reached: f64,
-    /// When it began, in s.
+    /// The start time, in s.
     pub start: f64,
-    /// How long it was executed, in s.
+    /// The time of execution, in s.
     pub duration: f64,
-    /// How far the TCP went, in mm.
+    /// The distance travelled by the TCP, in mm.
     pub way: f64,
-    /// The zone at its end, where one was asked for.
+    /// The zone at its end, if one was programmed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub blend: Option<BlendReport>,
-    /// Where it slowed down beside a singular point.
+    /// Where it slowed down near a singular point.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slowed: Option<SlowedReport>,
-    /// The limits that it came nearest to.
+    /// The limits to which it came nearest.
     pub closest: ClosestReport,
 }
 
-/// A zone: what was asked for and what was used, in its unit.
+/// A zone: the programmed and the used size, in its unit.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct BlendReport {
     /// `mm`, `deg` or `%`.
     pub unit: String,
-    /// What the program asks for.
+    /// The programmed size.
     pub asked: f64,
-    /// What was used.
+    /// The used size.
     pub used: f64,
-    /// Why that is less.
+    /// The reason why the used size is smaller.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,
 }
 
-/// Where an axis lets a motion go slowly only, beside a singular point.
+/// Where an axis limits a motion to a low speed, near a singular point.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct SlowedReport {
     /// The axis.
     pub axis: String,
-    /// How far along the motion, 0 to 1.
+    /// The part of the motion, 0 to 1.
     pub along: f64,
-    /// The speed that it lets it have.
+    /// The speed to which the axis limits the motion.
     pub speed: f64,
     /// The unit of the speed.
     pub unit: String,
 }
 
-/// The limits of each kind that a motion came nearest to.
+/// The limit of each kind to which a motion came nearest.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 #[serde(default)]
 pub struct ClosestReport {
@@ -425,50 +426,50 @@ pub struct ClosestReport {
 /// A limit, and how much of it was used.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct Closest {
-    /// Whose it is: `j1`, `tcp`.
+    /// The owner of the limit: `j1`, `tcp`.
     pub of: String,
-    /// %
+    /// The used part of the limit, in %.
     pub percent: f64,
 }
 
-/// What a channel did in all.
+/// The overall report of a channel.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct ChannelReport {
     /// From 1.
     pub channel: u32,
-    /// Until its program had ended, in s.
+    /// The time until its program had ended, in s.
     pub cycle_time: f64,
-    /// How long its robot moved, in s.
+    /// The time during which its robot moved, in s.
     pub moving: f64,
-    /// How long it stood, in s.
+    /// The time during which it was at rest, in s.
     pub standing: f64,
-    /// How many motions began.
+    /// The number of motions that began.
     pub motions: u64,
 }
 
-/// How late cycles began.
+/// The delays of cycles.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct ClockReport {
-    /// How many there were.
+    /// The number of cycles.
     pub cycles: u64,
-    /// How many of them began late.
+    /// The number of cycles that began late.
     pub late: u64,
-    /// How many were lost.
+    /// The number of cycles that were lost.
     pub lost: u64,
-    /// How many messages of robots were missing.
+    /// The number of missing messages of robots.
     pub missing: u64,
     /// The longest delay, in s.
     pub longest: f64,
-    /// So many s, and how many cycles began within them.
+    /// The delay in s, and the number of cycles that began within it.
     pub histogram: Vec<(f64, u64)>,
 }
 
-/// What the program printed.
+/// A message that the program printed.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct Message {
     /// Controller time in s.
     pub time: f64,
-    /// `channel 1`, as a sentence calls it.
+    /// The name of the channel in a sentence: `channel 1`.
     #[serde(default)]
     pub channel: String,
     /// Whether it goes to the pendant.
@@ -477,23 +478,23 @@ pub struct Message {
     /// Whether it goes to the console.
     #[serde(default)]
     pub console: bool,
-    /// What was printed.
+    /// The printed text.
     pub text: String,
 }
 
-/// What stopped a program.
+/// An alarm, which stopped a program.
 #[derive(Clone, PartialEq, Serialize, Deserialize, Debug)]
 pub struct Alarm {
     /// Its number.
     #[serde(default)]
     pub number: u32,
-    /// The file of the line that it is of.
+    /// The file of its line.
     #[serde(default)]
     pub file: String,
-    /// From 1; 0: no line is to blame.
+    /// The line, from 1; 0 if it does not concern a line.
     #[serde(default)]
     pub line: u32,
-    /// What it says, with its number and its place.
+    /// The message, with its number and its place.
     pub text: String,
 }
 
@@ -506,25 +507,25 @@ pub struct Refused {
     pub why: String,
 }
 
-/// Where a body of the cell is from now on.
+/// The new position of a body of the cell.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Placing {
-    /// Which body of the cell.
+    /// The index of the body in the cell.
     pub body: usize,
-    /// `None`: it is not there.
+    /// The position; `None` if the body is not there.
     pub place: Option<Place>,
 }
 
-/// Where a body is.
+/// The position of a body.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Place {
-    /// The channel, from 0, whose robot holds it; `None`: it stands in the world.
+    /// The channel, from 0, of the robot that holds it; `None` if it is in the world.
     pub held_by: Option<usize>,
     /// Its frame in the flange or in the world, in mm.
     pub at: Frame,
 }
 
-/// Two bodies that touch for the first time, or come nearer to each other than asked for.
+/// Two bodies that touch for the first time, or come nearer to each other than requested.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Contact {
     /// Controller time in s.
@@ -537,7 +538,7 @@ pub struct Contact {
     pub one: String,
     /// The other one.
     pub other: String,
-    /// mm; 0: they touch.
+    /// Their distance in mm; 0 if they touch.
     pub distance: f64,
 }
 
@@ -553,7 +554,7 @@ impl fmt::Display for Contact {
     }
 }
 
-/// The examples of the README run.
+/// Runs the examples of the README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

@@ -1,4 +1,4 @@
-//! The notation in which the tables of this folder are written.
+//! The notation of the tables in this folder.
 //!
 //! An entry reads like its ARL prototype, followed by a block with the manual's section, the runtime's path, the
 //! effect and further marks, and an example:
@@ -12,7 +12,7 @@
 //! ```
 //!
 //! Types: a name takes what converts to it, `{name}` exactly that type, `{a, b}` exactly one of them, `[name]` an array
-//! of it, `any` everything but handles. The marks in brackets are the methods of [`Param`] below, the marks behind the
+//! of it, `any` everything but handles. The marks in brackets are the methods of [`Param`] below, the marks after the
 //! path those of [`Entry`].
 
 use super::entry::{Access, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, SystemVariable, Takes};
@@ -67,7 +67,7 @@ macro_rules! base {
     (@handle $id:ident) => { $crate::catalog::Base::Handle($crate::catalog::Handle::$id) };
 }
 
-/// What a parameter takes.
+/// The type that a parameter takes.
 macro_rules! param_type {
     (any) => { $crate::catalog::ParamType::Any };
     ([$base:ident]) => { $crate::catalog::ParamType::Array(base!($base)) };
@@ -171,13 +171,13 @@ pub(super) const fn lower<const N: usize>(name: &str) -> [u8; N] {
     folded
 }
 
-/// The text of doc comments without the blank in front.
+/// The text of doc comments without blanks around it.
 const fn trimmed(text: &'static str) -> &'static str {
     text.trim_ascii()
 }
 
 impl Param {
-    /// A required parameter that may stand without its label.
+    /// A required parameter that may be given without its label.
     pub(super) const fn declare(name: &'static str, rust: &'static str, ty: ParamType, doc: &'static str) -> Self {
         Self {
             name,
@@ -224,11 +224,11 @@ setters! { Param:
     out() { mode = Mode::Out }
     /// An expression that is evaluated again and again.
     condition() { mode = Mode::Condition }
-    /// An expression that is evaluated when an event comes.
+    /// An expression that is evaluated when an event occurs.
     action() { mode = Mode::Action }
     /// May be missing.
     optional() { presence = Presence::Optional }
-    /// May be missing; then this ARL text stands in.
+    /// May be missing; this ARL text then takes its place.
     otherwise(text: &'static str) { presence = Presence::Default(text) }
     /// May be given this many times.
     repeat(min: u8, max: u8) { presence = Presence::Repeat { min, max } }
@@ -246,17 +246,17 @@ setters! { Param:
     at_least(low: f64) { range = Some(Range::AtLeast(low)) }
     /// The greatest constant.
     at_most(high: f64) { range = Some(Range::AtMost(high)) }
-    /// A bare number far below what is usual is most often meant in another unit.
+    /// A bare number far below the usual values is most often meant in another unit.
     doubted() { doubted = true }
-    /// Not 9e+09, which stands for what is not set.
+    /// Not 9e+09, which means "not set".
     set() { set = true }
     /// The name of a system variable that can be saved.
     keeps() { keeps = true }
-    /// A number of parts of the array beside it, of so many bits each.
+    /// The number of items in the array passed with it, of this many bits each.
     counts(bits: u32) { counts = Some(bits) }
-    /// The first place that is meant, or the last one, of this space.
+    /// The first or the last addressed place of this space.
     addresses(space: Space) { addresses = Some(space) }
-    /// How many places are meant; so many of it are one place.
+    /// How much is addressed; this many units make one place.
     extent(per_place: u32) { relation = Some(Relation::Extent(per_place)) }
     /// The value that the addressed place gets.
     content() { relation = Some(Relation::Content) }
@@ -273,7 +273,7 @@ setters! { Param:
 }
 
 impl Entry {
-    /// An entry without parameters and result that works, does not fail and may run in the background.
+    /// A pure entry without parameters or result, which does not fail and may run in the background.
     pub(super) const fn declare(kind: Kind, name: &'static str, doc: &'static str) -> Self {
         Self {
             name,
@@ -316,7 +316,7 @@ setters! { Entry:
     acts() { effect = Effect::Acts }
     /// Plans motion; not in the background.
     plans(motion: Motion) { effect = Effect::Plans, background = false, motion = Some(motion) }
-    /// Takes its time; motion goes on.
+    /// Takes its time; motion continues.
     lasts() { effect = Effect::Lasts }
     /// Waits until all earlier motion has ended.
     waits() { effect = Effect::Waits }
@@ -332,11 +332,11 @@ setters! { Entry:
     connects() { connects = true }
     /// Waits for the disk.
     uses_disk() { uses_disk = true }
-    /// Writes points of a program while that runs.
+    /// Writes points of a program while the program runs.
     teaches() { teaches = true }
-    /// Stops the robot until the program lets it go on.
+    /// Stops the robot until the program lets it continue.
     halts() { halts = true }
-    /// Only looks at what is there.
+    /// Only reads, changes nothing.
     looks() { looks = true }
     /// An alarm is possible.
     fails() { fails = true }
@@ -381,7 +381,7 @@ setters! { SystemVariable:
     place(section: &'static str, example: &'static str) { section = section, example = example }
     /// Goes back to its default at each program reset.
     reset() { restore = Restore::Reset }
-    /// Goes back to what was saved last at start-up.
+    /// Goes back to the last saved value at start-up.
     saved() { restore = Restore::Saved }
     /// Keeps every change.
     permanent() { restore = Restore::Permanent }
@@ -391,9 +391,9 @@ setters! { SystemVariable:
     readonly() { access = Access::ReadOnly }
     /// The least and greatest value.
     range(low: f64, high: f64) { takes = Takes::Range(low, high) }
-    /// What it is to motion.
+    /// Its role for motion.
     role(role: Role) { role = Some(role) }
-    /// What its elements are called, without their number.
+    /// The names of its elements, without their number.
     elements(name: &'static str) { elements = Some(name) }
     /// The texts that it takes.
     words(words: &'static [&'static str]) { takes = Takes::Words(words) }
@@ -402,7 +402,7 @@ setters! { SystemVariable:
 }
 
 impl Component {
-    /// A component that values by position reach.
+    /// A component that can be set by position.
     pub(super) const fn declare(name: &'static str, ty: Base, start: Start, doc: &'static str) -> Self {
         Self { name, aliases: &[], ty, start, range: None, doc, by_position: true }
     }

@@ -59,20 +59,20 @@ pub enum Mode {
     Out,
     /// An expression that is evaluated again and again: `waituntil`, `when:`.
     Condition,
-    /// An expression that is evaluated when an event comes: `do:`.
+    /// An expression that is evaluated when an event occurs: `do:`.
     Action,
 }
 
-/// Whether a parameter must be there.
+/// Whether a parameter must be given.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Presence {
     /// Once.
     Required,
     /// At most once; the runtime gets an `Option` (functions) or does not get the call (instructions).
     Optional,
-    /// At most once; this ARL text stands in where it is missing.
+    /// At most once; this ARL text takes its place where it is missing.
     Default(&'static str),
-    /// Any number of times, in order (`print`'s values); the number is the least count.
+    /// Several times, in order (`print`'s values).
     Repeat {
         /// The least number of values.
         min: u8,
@@ -94,29 +94,29 @@ pub struct Param {
     pub ty: ParamType,
     /// How it is passed.
     pub mode: Mode,
-    /// Whether it must be there.
+    /// Whether it must be given.
     pub presence: Presence,
-    /// Whether it may stand without its label.
+    /// Whether it may be given without its label.
     pub bare: bool,
-    /// The family whose robots have it, where the others do not.
+    /// The only family whose robots have it, where not all do.
     pub family: Option<Family>,
     /// Units that may follow a number here; the value itself is in the first one.
     pub units: &'static [Unit],
     /// The constants that make sense; others are an error where known.
     pub range: Option<Range>,
-    /// Whether a bare number far below what is usual is most often meant in another unit.
+    /// Whether a bare number far below the usual values is most often meant in another unit.
     pub doubted: bool,
-    /// Whether 9e+09, which stands for what is not set, is an error where known.
+    /// Whether 9e+09, which means "not set", is an error where known.
     pub set: bool,
     /// Whether it names a system variable that can be saved; other constants are an error.
     pub keeps: bool,
-    /// How many bits each of what it counts takes in the array that is given beside it.
+    /// The number of bits of each counted item in the array that is passed with it.
     pub counts: Option<u32>,
-    /// What it addresses; the first parameter of a call that addresses something says what the call is about.
+    /// What it addresses; the first parameter of a call that addresses something determines what the call is about.
     pub addresses: Option<Space>,
     /// How it is related to the parameter that addresses something.
     pub relation: Option<Relation>,
-    /// What a connection accepts; held against constants where the cell is known.
+    /// What a connection accepts; constants are checked against it where the cell is known.
     pub accepts: Option<Accepted>,
     /// Whether it is a time for which the call waits.
     pub delays: bool,
@@ -133,7 +133,7 @@ impl Param {
     }
 }
 
-/// A built-in instruction or function. Overloads of a name stand one after the other.
+/// A built-in instruction or function. Overloads of a name follow each other.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Entry {
     /// Its name in the manual's spelling.
@@ -158,21 +158,21 @@ pub struct Entry {
     pub background: bool,
     /// How the compiler translates its use.
     pub form: Form,
-    /// Which motion it plans; there is one where the effect is [`Effect::Plans`].
+    /// Which motion it plans; present where the effect is [`Effect::Plans`].
     pub motion: Option<Motion>,
     /// How it shifts the pose `p`, where it does.
     pub shift: Option<PoseShift>,
-    /// What it changes of what motion depends on.
+    /// Which of the things that motion depends on it changes.
     pub changes: Option<Role>,
     /// Whether it opens a connection.
     pub connects: bool,
     /// Whether it waits for the disk.
     pub uses_disk: bool,
-    /// Whether it writes points of a program while that runs.
+    /// Whether it writes points of a program while the program runs.
     pub teaches: bool,
-    /// Whether it stops the robot until the program lets it go on.
+    /// Whether it stops the robot until the program lets it continue.
     pub halts: bool,
-    /// Whether it changes nothing although it takes the context: it only looks at what is there.
+    /// Whether it changes nothing although it takes the context: it only reads.
     pub looks: bool,
     /// The runtime's function, below `arl_rt`: `math::sqrt`.
     pub path: &'static str,
@@ -185,7 +185,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// What a call is about: what its first parameter that addresses something addresses.
+    /// What a call is about: the space of its first parameter that addresses something.
     pub fn space(&self) -> Option<Space> {
         self.params.iter().find_map(|param| param.addresses)
     }
@@ -213,7 +213,7 @@ pub enum Restore {
     Startup,
 }
 
-/// What a system variable takes of the values that its type has.
+/// Which of the values of its type a system variable accepts.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Takes {
     /// All of them.
@@ -231,7 +231,7 @@ pub struct SystemVariable {
     pub name: &'static str,
     /// Other spellings that are accepted.
     pub aliases: &'static [&'static str],
-    /// The default name of its elements, without the number behind it: `tool` for `$tool0`, `$tool1` and so on.
+    /// The default name of its elements, without the number after it: `tool` for `$tool0`, `$tool1` and so on.
     pub elements: Option<&'static str>,
     /// The type of the elements.
     pub ty: Base,
@@ -239,13 +239,13 @@ pub struct SystemVariable {
     pub dims: &'static [u32],
     /// Who may write it.
     pub access: Access,
-    /// What it takes; anything else is an alarm.
+    /// What it accepts; anything else is an alarm.
     pub takes: Takes,
     /// When it goes back to its default.
     pub restore: Restore,
     /// Its default, as ARL text.
     pub default: &'static str,
-    /// What it is to motion.
+    /// Its role for motion.
     pub role: Option<Role>,
     /// The field of the runtime's system variables (`cx.system().field`).
     pub field: &'static str,

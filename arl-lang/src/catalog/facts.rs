@@ -1,23 +1,23 @@
-//! Facts about entries that checks and translation go by: what a parameter addresses, what a motion does, which forms
-//! are not plain calls. Nothing outside the catalog knows a built-in by its name.
+//! Facts about entries that checks and translation depend on: what a parameter addresses, what a motion does, which
+//! forms are not plain calls. Nothing outside the catalog knows a built-in by its name.
 
 use std::fmt;
 
-/// The numbers that make sense somewhere.
+/// A range of numbers that make sense.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Range {
     /// From the least to the greatest.
     Within(f64, f64),
-    /// Those above this one.
+    /// Numbers above this one.
     Above(f64),
-    /// This one and those above it.
+    /// This number and those above it.
     AtLeast(f64),
-    /// This one and those below it.
+    /// This number and those below it.
     AtMost(f64),
 }
 
 impl Range {
-    /// Whether a number is one of them.
+    /// Whether a number is in the range.
     pub fn holds(self, number: f64) -> bool {
         match self {
             Self::Within(low, high) => (low..=high).contains(&number),
@@ -29,7 +29,7 @@ impl Range {
 }
 
 impl fmt::Display for Range {
-    /// As the end of "must be".
+    /// Completes "must be".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Within(low, high) => write!(f, "from {low} to {high}"),
@@ -69,23 +69,23 @@ pub enum Space {
     SerialLine,
 }
 
-/// How a parameter is related to the one before it that addresses something.
+/// How a parameter is related to an earlier one that addresses something.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Relation {
-    /// It says how much is addressed; so many of it make one of the addressed places.
+    /// It gives how much is addressed; this many units make one addressed place.
     Extent(u32),
     /// It is the value that the addressed place gets.
     Content,
 }
 
-/// The whole numbers that a connection accepts. The others are an alarm at run time.
+/// The whole numbers that a connection accepts. All others are an alarm at run time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Accepted {
     /// All from the least to the greatest.
     Range(i32, i32),
     /// All from the least to the greatest, and a third one.
     RangeOr(i32, i32, i32),
-    /// These.
+    /// Exactly these.
     OneOf(&'static [i32]),
 }
 
@@ -101,7 +101,7 @@ impl Accepted {
 }
 
 impl fmt::Display for Accepted {
-    /// As the end of "it is".
+    /// Completes "it is".
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Range(low, i32::MAX) => write!(f, "{low} or more"),
@@ -141,7 +141,7 @@ pub enum Motion {
     Joint,
     /// `ptp`: the axes go to a pose.
     PointToPoint,
-    /// `jump`: the axes go to a pose by way of a height.
+    /// `jump`: the axes go to a pose via a height.
     Jump,
     /// `lin`: the TCP goes on a straight line to a pose.
     Line,
@@ -172,18 +172,18 @@ pub enum PoseShift {
     Tool,
 }
 
-/// What a system variable is to motion, or what an instruction changes of it.
+/// The role of a system variable for motion, or what an instruction changes there.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Role {
-    /// Stands between a pose and the flange beside tool and workpiece, or makes parts of a pose count no more.
+    /// Lies between a pose and the flange besides tool and workpiece, or makes parts of a pose no longer count.
     Frame,
-    /// Whether targets are reached in the configuration that they say.
+    /// Whether targets are reached in the configuration that they state.
     ConfigurationCheck,
     /// Whether lines may pass near the wrist singularity.
     WristPassage,
     /// How the tool turns on arcs.
     ArcOrientation,
-    /// Leads lines away from their targets.
+    /// Diverts lines from their targets.
     Compensation,
     /// The tool of motions that give none.
     DefaultTool,

@@ -60,7 +60,7 @@ const RENAMED: &[(&str, &str)] = &[
 
 type Names<T> = HashMap<&'static str, T, BuildHasherDefault<NameHasher>>;
 
-/// What a map from folded names is made of.
+/// The built-ins, with maps from their folded names.
 struct Index {
     entries: Vec<Entry>,
     functions: Names<Range<usize>>,
@@ -151,7 +151,7 @@ fn folded(name: &'static str) -> &'static str {
     name
 }
 
-/// Looks a name up that may have any case, without allocating. No built-in name is longer than the buffer.
+/// Looks up a name of any case, without allocating. No built-in name is longer than the buffer.
 fn find<T: Clone>(names: &Names<T>, name: &str) -> Option<T> {
     let mut buffer = [0; 32];
     let bytes = buffer.get_mut(..name.len())?;
@@ -164,17 +164,17 @@ fn group(names: &Names<Range<usize>>, name: &str) -> &'static [Entry] {
     find(names, name).and_then(|range| INDEX.entries.get(range)).unwrap_or(&[])
 }
 
-/// All functions and instructions, sorted by name; overloads stand one after the other.
+/// All functions and instructions, sorted by name; overloads follow each other.
 pub fn all_entries() -> &'static [Entry] {
     &INDEX.entries
 }
 
-/// The overloads of a function; empty where there is none of that name.
+/// The overloads of a function; empty if there is no function of that name.
 pub fn functions(name: &str) -> &'static [Entry] {
     group(&INDEX.functions, name)
 }
 
-/// The instruction of that name; empty where there is none.
+/// The instruction of that name; empty if there is none.
 pub fn instructions(name: &str) -> &'static [Entry] {
     group(&INDEX.instructions, name)
 }
@@ -216,7 +216,7 @@ pub fn constant(name: &str) -> Option<&'static Constant> {
     find(&INDEX.constants, name)
 }
 
-/// The enumeration that has a constant of that name, and its number there. No name stands in two enumerations.
+/// The enumeration that has a constant of that name, and its number there. No name is in two enumerations.
 pub fn enum_constant(name: &str) -> Option<(Enum, u16)> {
     find(&INDEX.enum_constants, name)
 }
@@ -233,17 +233,17 @@ pub fn reserved(name: &str) -> bool {
     crate::is_reserved(name)
 }
 
-/// What is right in place of an old or misprinted name, which may be given with or without `$`.
+/// The right name in place of an old or misprinted one, which may be given with or without `$`.
 pub fn renamed(name: &str) -> Option<&'static str> {
     find(&INDEX.renamed, name.trim_start_matches('$'))
 }
 
-/// The instruction that an event behind a motion is short for (manual 7.1).
+/// The instruction that an event after a motion is short for (manual 7.1).
 pub fn trigger() -> Option<&'static Entry> {
     instructions("trigger").first()
 }
 
-/// Those of the aliases that are spellings of older and later editions of the language; the others are this one's own.
+/// The aliases that are spellings of older and later editions of the language; the others are this edition's own.
 pub(super) const OTHER_EDITIONS: &[&str] =
     &["startweavelin", "startweavespa", "DETECT_SOCK_CLOSE", "ERR_SOCK_CLOSED", "mu_name"];
 

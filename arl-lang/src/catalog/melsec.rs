@@ -3,7 +3,7 @@
 use super::declare::{base, entries, folded, kind, param_type};
 use super::facts::{Accepted, Space};
 
-/// Bytes of a D register; of an odd number the last register's low byte alone.
+/// Bytes of a D register; with an odd number of bytes, only the low byte of the last register counts.
 const BYTES: u32 = 2;
 /// The bytes that one request carries.
 const LENGTH: Accepted = Accepted::Range(0, 1920);

@@ -87,8 +87,8 @@ pub fn entry(entry: &Entry) -> String {
     text
 }
 
-/// The signature, with what robots of a family have, or with everything: a prototype for a function, the format line
-/// for an instruction.
+/// The signature, with the parameters of one robot family or with all of them: a prototype for a function, the format
+/// line for an instruction.
 pub fn signature(entry: &Entry, family: Option<Family>) -> String {
     let params = || entry.params.iter().filter(|param| family.is_none_or(|family| param.is_of(family)));
     match entry.kind {
@@ -125,7 +125,7 @@ pub fn parameter(entry: &Entry, param: &Param) -> String {
     text
 }
 
-/// A parameter of a function as its prototype has it: `double x`, in brackets where it may be missing.
+/// A parameter of a function as in its prototype: `double x`, in brackets where it may be missing.
 pub fn prototype(param: &Param) -> String {
     let mark = if param.mode == Mode::Out { "&" } else { "" };
     let plain = format!("{} {mark}{}", type_name(param), param.name);
@@ -304,7 +304,7 @@ pub fn system_variable(variable: &SystemVariable) -> String {
     text
 }
 
-/// What a system variable takes; nothing where it takes all.
+/// What a system variable accepts; empty where it accepts every value.
 fn taken(takes: Takes) -> String {
     match takes {
         Takes::All => String::new(),

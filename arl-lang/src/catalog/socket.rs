@@ -1,4 +1,4 @@
-//! 5.6.1: sockets. Each call tries once and says whether it is done; `waituntil` repeats it.
+//! 5.6.1: sockets. Each call tries once and returns whether it is done; `waituntil` repeats it.
 
 use super::declare::{base, entries, folded, kind, param_type};
 use super::facts::Accepted;

@@ -272,7 +272,7 @@ impl Struct {
         Struct::Tcpforce,
     ];
 
-    /// The definition for a robot family; `joint`, `jvel` and `slip` differ. `control`, which SCARA robots alone have,
+    /// The definition for a robot family; `joint`, `jvel` and `slip` differ. `control`, which only SCARA robots have,
     /// has its family in its definition.
     pub fn def(self, family: Family) -> &'static StructDef {
         match (self, family) {

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::*;
 
-/// Every name of the manual's index but the basic types and the words of the grammar.
+/// Every name of the manual's index except the basic types and the words of the grammar.
 const INDEX: &str = "\
     accset ccir cir clock compen controlmode endcompen endweave exit frame interrupt joint jvel lin movej \
     num_base parity pause pos pose print printto ptp restart scan slip speed startcompen startmove startweave \

@@ -1,4 +1,4 @@
-//! 5.10 and 7.2: how far the motion is that is being executed. A blend belongs to the motion that it leads into.
+//! 5.10 and 7.2: how far the motion being executed has come. A blend belongs to the motion that it leads into.
 
 use super::declare::{base, entries, folded, kind, param_type};
 use crate::ast::Unit;

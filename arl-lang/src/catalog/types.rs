@@ -1,4 +1,4 @@
-//! The types that ARL knows by itself.
+//! The built-in types of ARL.
 
 use super::facts::Range;
 
@@ -33,7 +33,7 @@ pub enum Base {
     Struct(Struct),
     /// An enumeration.
     Enum(Enum),
-    /// A handle: a clock, a socket, a device. Handles are not copied and know no operators.
+    /// A handle: a clock, a socket, a device. Handles are not copied and have no operators.
     Handle(Handle),
 }
 
@@ -88,13 +88,13 @@ pub enum Handle {
     MelsecDev,
 }
 
-/// What a component is that was not set.
+/// The value of a component that was not set.
 pub const UNSET: f64 = 9e9;
 
-/// What a component is before anything was assigned.
+/// The value of a component before anything is assigned.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Start {
-    /// [`UNSET`]: keeps what was.
+    /// [`UNSET`]: keeps the previous value.
     Unset,
     /// 0, false, "", an enumeration's first constant, a structure of start values.
     Zero,
@@ -113,11 +113,12 @@ pub struct Component {
     pub ty: Base,
     /// Its start value.
     pub start: Start,
-    /// The numbers that make sense in it, beside 9e+09 where that is its start value; others are warned of where known.
+    /// The numbers that make sense in it, besides 9e+09 where that is its start value; others cause a warning where
+    /// known.
     pub range: Option<Range>,
     /// What it means, with its unit.
     pub doc: &'static str,
-    /// Whether a value by position may reach it; `jdis` of slip is set by name only.
+    /// Whether it can be set by position; `jdis` of slip is set by name only.
     pub by_position: bool,
 }
 
@@ -145,7 +146,7 @@ pub struct StructDef {
 /// A constant of an enumeration.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct EnumConst {
-    /// Its name in the manual's spelling; it prints so.
+    /// Its name in the manual's spelling, which is also how it prints.
     pub name: &'static str,
     /// Other spellings that are accepted (`T1` for `MANUAL`).
     pub aliases: &'static [&'static str],

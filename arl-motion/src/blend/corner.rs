@@ -1,8 +1,8 @@
-//! Blending zones: a curve that leaves one motion before its target and joins the next one behind its start.
+//! Blends: a curve that leaves one motion before its target and joins the next one behind its start.
 //!
-//! The curve meets both motions with position, direction and curvature, and depends on the geometry of the zone alone,
-//! never on a speed. It is a polynomial of the fifth degree: in the TCP's position and orientation where both motions
-//! lead the same TCP, else in the axes. Only then is it timed.
+//! The curve meets both motions in position, direction and curvature, and depends on the geometry of the zone alone,
+//! not on speeds. It is a polynomial of the fifth degree: of the TCP's position and orientation where both motions lead
+//! the same TCP, else of the axes. It is timed only afterwards.
 
 use nalgebra::{SVector, Vector3};
 
@@ -29,49 +29,49 @@ use crate::plan::path_check::{check_gentle_path, check_path};
 use arl_robot::kinematics::Rates;
 use arl_robot::robot::{Axis, ROBOT_AXES, Robot};
 
-/// Length of the tangents at the ends of a blend, in lengths of the zone. With 2 the blend of two straight lines that
+/// Length of the tangents at the ends of a blend, in lengths of the zone. With 2, the blend of two straight lines that
 /// are left and joined at the same distance accelerates along the bisector alone.
 const TANGENT_PER_ZONE: f64 = 2.0;
-/// How often a zone is halved before it is given up: where its blend would leave an axis's range or the reach.
+/// How often a zone is halved before it is given up where its blend would leave an axis's range or the reach.
 const ZONE_HALVINGS: u32 = 4;
-/// Parts of a blend between which it is looked at; and of one that hardly bends.
+/// Number of parts of a blend between which it is checked; and the number for a gentle blend.
 const PARTS_OF_BLEND: u32 = 48;
 const PARTS_OF_GENTLE_BLEND: u32 = 4;
-/// A blend that takes less than this part of the time of a stop with constant limits saves time with a law, too, where
+/// A blend that takes less than this share of the time of a stop with constant limits also saves time with a law, where
 /// these limits say enough about the motions.
 const SURELY_FASTER_SHARE: f64 = 0.95;
-/// So many smaller zones are looked at where one is slower than a stop. Few of them save time: what a zone wins falls
-/// faster with its size than what it loses.
+/// Number of smaller zones that are tried where one is slower than a stop. Few of them save time: the gain of a zone
+/// falls faster with its size than its loss does.
 const MOST_SLOWER_ZONES: u32 = 2;
-/// The cosine of the smallest angle between two directions that are taken for one.
+/// The cosine of the smallest angle at which two directions count as different.
 const STRAIGHT_BACK: f64 = 1.0 - 1e-9;
-/// Where nothing changes its speed or direction by a larger part than this, a blend hardly bends.
+/// A blend is gentle where nothing changes its speed or direction by a larger share than this.
 const GENTLE_CHANGE: f64 = 0.1;
 
-/// The way between two motions.
+/// The curve between two motions.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Blend {
-    /// The part of the first motion after which it is left.
+    /// The share of the first motion after which it is left.
     pub(crate) leave: f64,
-    /// The part of the second motion at which it is joined.
+    /// The share of the second motion at which it is joined.
     pub(crate) join: f64,
     pub(crate) curve: Curve,
-    /// The curve's parameter over the time that is nominal for it, both from 0 to 1.
+    /// The curve's parameter over its nominal time, both from 0 to 1.
     pub(crate) parametrization: Parametrization,
     /// The nominal time in s.
     pub(crate) time: f64,
     pub(crate) blend_limits: BlendLimits,
-    /// Whether it may take longer than a stop between the motions, as constant limits tell.
+    /// Whether it may take longer than a stop between the motions, according to constant limits.
     pub(crate) may_lose_time: bool,
-    /// Whether it takes all that was asked for, or halves of both motions in a dense chain: not less, for want of a way
-    /// or of time.
+    /// Whether it takes all that was requested, or halves of both motions in a dense chain, and was not reduced for
+    /// lack of a path or of time.
     pub(crate) is_whole: bool,
-    /// Why it takes less than was asked for, where it does.
+    /// Reason why it takes less than was requested, where it does.
     pub(crate) less: Option<NoBlend>,
 }
 
-/// The blend that the first motion's zone asks for, or of a smaller zone where there is no way or it `is_slower` than a
-/// stop. Else what is wrong with the smallest zone that was tried.
+/// Finds the blend that the first motion's zone requests, or one with a smaller zone where there is no path or the
+/// blend `is_slower` than a stop. Otherwise returns the reason for the smallest zone that was tried.
 pub(crate) fn blend(
     robot: &Robot,
     from: &Motion,
@@ -96,7 +96,7 @@ pub(crate) fn blend(
             Err(other) => why = other,
         }
     }
-    // Where the robot's axes stand still for a moment, that looks like many things.
+    // Where the robot's axes stand still for a moment, the reason found may be misleading.
     Err(if why == NoBlend::Slower {
         why
     } else if turns_back(from, to) {
@@ -108,7 +108,7 @@ pub(crate) fn blend(
     })
 }
 
-/// Whether a motion leaves the TCP and the tool where they are.
+/// Whether a motion moves neither the TCP nor the tool.
 fn moves_external_axes_alone(motion: &Motion) -> bool {
     matches!(motion.curve, Curve::Tool(_)) && !motion.moves_tool()
 }
@@ -131,8 +131,8 @@ fn turns_back(from: &Motion, to: &Motion) -> bool {
     product(&coming, &going) < -STRAIGHT_BACK * (product(&coming, &coming) * product(&going, &going)).sqrt()
 }
 
-/// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is
-/// taken.
+/// The blend from one motion to another with the given curvatures in the middle of the motions. Curvature is only
+/// possible where a whole half is taken.
 pub(crate) fn curved_blend(robot: &Robot, from: &Motion, to: &Motion, curvatures: [MidCurvature; 2]) -> Option<Blend> {
     let (leaving, joining) = parts(robot, from, to)?;
     let [start, end] = &curvatures;
@@ -146,30 +146,30 @@ pub(crate) fn curved_blend(robot: &Robot, from: &Motion, to: &Motion, curvatures
 
 #[cfg(test)]
 thread_local! {
-    /// How many blends this thread has looked for.
+    /// Number of blends that this thread has sought.
     pub(crate) static FOUND_HERE: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
 }
 
-/// Two motions and the parts of them that a blend takes.
+/// Two motions and the shares of them that a blend takes.
 struct Corner<'a> {
     robot: &'a Robot,
     from: &'a Motion,
     to: &'a Motion,
     leaving: f64,
     joining: f64,
-    /// How the motions are bent at the ends of the blend.
+    /// The curvatures of the motions at the ends of the blend.
     curvatures: [MidCurvature; 2],
 }
 
 impl Corner<'_> {
-    /// The parameters at which the motions are left and joined, and how long the tangents are there.
+    /// The parameters at which the motions are left and joined, and the lengths of the tangents there.
     fn ends(&self) -> [(f64, f64); 2] {
         let [leaving, joining] = self.met();
         [(1.0 - self.leaving, leaving.speed), (self.joining, joining.speed)]
     }
 
-    /// How the motions are met: as is given, at the parts that are taken, or at a speed that leaves blends of lines no
-    /// other acceleration than across.
+    /// How the motions are met: as given, scaled to the shares that are taken, or at a speed at which blends of lines
+    /// accelerate only across the path.
     fn met(&self) -> [CornerEnd; 2] {
         match self.from.corner {
             Some(GivenCorner { leaving, joining }) => [leaving.taking(self.leaving), joining.taking(self.joining)],
@@ -200,7 +200,7 @@ impl Corner<'_> {
                 let timed = if is_gentle_blend {
                     Parametrization::gently(|order, at| curve.path.track.derivative(order, at), start, end)
                 } else if self.swings() {
-                    // What is laid over a motion does not go evenly: it is met best by a parameter that does.
+                    // A motion with an overlay is not even: an even parameter meets it best.
                     None
                 } else {
                     Parametrization::along(|order, at| curve.path.track.derivative(order, at), start, end)
@@ -223,17 +223,18 @@ impl Corner<'_> {
                 let to = met(to, join, slope_to, end, &joined)?;
                 let curve = Quintic::between(&from, &to);
                 let gentle = self.from.corner.is_none() && turns_gently(&curve);
-                let (parametrization, time) = self.time_axes((&curve, gentle), [start_rate, end_rate]);
-                self.look_at_axes((&curve, gentle), &parametrization, &mut constraints, &pace)?;
+                let (parametrization, time) = self.time_axes(&curve, gentle, [start_rate, end_rate]);
+                self.look_at_axes(&curve, gentle, &parametrization, &mut constraints, &pace)?;
                 (Curve::Axes(curve), parametrization, time)
             }
         };
-        // Where it stands still for a moment it has no speed.
+        // A curve that stands still for a moment has no speed.
         let (blend_limits, may_lose_time) = self.blend_limits(&constraints, time).ok_or(NoBlend::Reversal)?;
         Ok(Blend { leave, join, curve, parametrization, time, blend_limits, may_lose_time, is_whole: true, less: None })
     }
 
-    /// How fast it may be crossed, evenly where it hardly bends, and whether it may take longer than a stop.
+    /// The limits within which the blend may be crossed, constant where it is gentle, and whether it may take longer
+    /// than a stop.
     fn blend_limits(&self, constraints: &Constraints, time: f64) -> Option<(BlendLimits, bool)> {
         let places = constraints.by_place();
         if places.is_empty() {
@@ -254,7 +255,7 @@ impl Corner<'_> {
         Some((limits, with_blend > SURELY_FASTER_SHARE * with_stop))
     }
 
-    /// Whether something is laid over a motion.
+    /// Whether a motion has an overlay.
     fn swings(&self) -> bool {
         self.from.laid.is_some() || self.to.laid.is_some()
     }
@@ -300,8 +301,7 @@ impl Corner<'_> {
         }
     }
 
-    /// Collects the limits of a path of the TCP that hardly bends; returns whether a few places are enough to know
-    /// them.
+    /// Collects the limits of a gentle path of the TCP; returns whether a few places are enough to know them.
     fn glance_at_tool(
         &self,
         curve: &ToolCurve,
@@ -329,7 +329,7 @@ impl Corner<'_> {
         true
     }
 
-    /// Collects the limits of any path of the TCP, if it can be gone.
+    /// Collects the limits of any path of the TCP, if it can be executed.
     fn walk_tool(
         &self,
         curve: &ToolCurve,
@@ -367,9 +367,9 @@ impl Corner<'_> {
         there.is_some_and(|there| end.iter().zip(&there.axes).all(|(a, b)| (a - b).abs() <= 0.01))
     }
 
-    /// Times a way of the axes from one rate of its parameter to another. Where it is gentle, what the axes do together
-    /// goes smoothly: each counts by how fast it is beside its highest speed.
-    fn time_axes(&self, (curve, gentle): (&Quintic<ALL>, bool), rates: [f64; 2]) -> (Parametrization, f64) {
+    /// Times a path of the axes from one rate of its parameter to another. Where the path is gentle, the combined speed
+    /// of the axes changes smoothly: each axis counts by its speed relative to its highest speed.
+    fn time_axes(&self, curve: &Quintic<ALL>, gentle: bool, rates: [f64; 2]) -> (Parametrization, f64) {
         let slowness = slowness(self.robot);
         let derivative = |order: usize, at: f64| SVector::from(curve.derivative(order, at)).component_mul(&slowness);
         let [start, end] = &self.curvatures;
@@ -380,7 +380,7 @@ impl Corner<'_> {
         });
         let timed = if gentle { Parametrization::gently(derivative, start, end) } else { None };
         timed.unwrap_or_else(|| {
-            // Where the curve is met with an acceleration, its parameter makes up for that: the motions are even.
+            // Where the curve is met with an acceleration, its parameter compensates for that: the motions are even.
             let [left, joined] = self.met().map(|met| -met.acc / met.speed);
             let within = |time: f64| {
                 let end = |(at, rate, surge): (f64, f64, f64), made_up: f64| {
@@ -391,15 +391,16 @@ impl Corner<'_> {
                 (Parametrization::between([end(first, left), end(last, joined)]), time)
             };
             let mean = within(2.0 / (rates[0] + rates[1]));
-            // In less time it goes forwards all along.
+            // In less time, the parameter always increases.
             if rises(&mean.0) { mean } else { within(1.0 / rates[0].max(rates[1])) }
         })
     }
 
-    /// Collects the limits of a path of the axes, if it leaves no range.
+    /// Collects the limits of a path of the axes, if no axis leaves its range.
     fn look_at_axes(
         &self,
-        (curve, gentle): (&Quintic<ALL>, bool),
+        curve: &Quintic<ALL>,
+        gentle: bool,
         parametrization: &Parametrization,
         constraints: &mut Constraints,
         pace: &PathLimits,
@@ -426,12 +427,12 @@ impl Corner<'_> {
             let [first, ..] = &derivatives;
             if pace.manual {
                 constraints.manual_place(&joints, first, &self.to.rig.carried);
-                // Half of it is gone with what the first motion carries.
+                // Half of the path belongs to what the first motion carries.
                 if self.from.rig.carried != self.to.rig.carried {
                     constraints.manual_place(&joints, first, &self.from.rig.carried);
                 }
             }
-            // Between two motions of the same TCP that one's limits hold, though it goes by the axes.
+            // Between two motions of the same TCP, the limits of the TCP hold, although the axes are led.
             if pace.tcp.is_finite() && self.from.rig.carried == self.to.rig.carried {
                 constraints.cap_place(&joints, first, &self.to.rig.carried, pace.tcp);
                 constraints.moving(&by_differences(tcp, share, 1.0), pace);
@@ -444,7 +445,7 @@ impl Corner<'_> {
     }
 }
 
-/// Whether a curve's parameter goes forwards all along.
+/// Whether a curve's parameter increases everywhere.
 fn rises(parametrization: &Parametrization) -> bool {
     shares::<{ PARTS_OF_BLEND as usize + 1 }>().iter().all(|share| parametrization.derivative(1, *share) > 0.0)
 }
@@ -454,25 +455,26 @@ fn shares<const N: usize>() -> [f64; N] {
     std::array::from_fn(|index| index as f64 / (N - 1) as f64)
 }
 
-/// Whether speeds and directions hardly change on the way.
+/// Whether speeds and directions hardly change along the curve.
 fn is_gentle(curve: &ToolCurve) -> bool {
     let Track::Poly(track) = &curve.path.track else { return false };
-    // A turn by so little is little, however it changes.
+    // A turn by so little counts as little, however it changes.
     const TURN: f64 = 0.01;
     is_gentle_way(track, 0.0) && is_gentle_way(&curve.path.turning, TURN) && is_gentle_way(&curve.external, 0.0)
 }
 
-/// The same for a way of the axes.
+/// Whether speeds and directions hardly change along a path of the axes.
 fn turns_gently(curve: &Quintic<ALL>) -> bool {
     changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| curve.derivative(order, at))), 0.0)
 }
 
-/// The same for one way; changes up to `little` are little.
+/// Whether speeds and directions hardly change along one path; changes up to `little` count as little.
 fn is_gentle_way<const N: usize>(way: &PacedQuintic<N>, little: f64) -> bool {
     changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| way.derivative(order, at))), little)
 }
 
-/// Whether first derivatives, at the two ends, hardly differ, and second ones are small beside them or `little`.
+/// Whether the first derivatives at the two ends hardly differ, and the second ones are small compared with them or
+/// with `little`.
 fn changes_little<const N: usize>([[start, end], seconds]: [[[f64; N]; 2]; 2], little: f64) -> bool {
     let size = |values: [f64; N]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
     let mut change = end;
@@ -488,7 +490,7 @@ fn along(track: &Track, at: f64, rate: f64) -> [f64; 2] {
     speed_and_acc(&track.derivative(1, at), &track.derivative(2, at), rate)
 }
 
-/// The speed and the acceleration along a path, from its derivatives by a parameter that goes at a rate.
+/// The speed and the acceleration along a path, from its derivatives by a parameter that changes at a rate.
 fn speed_and_acc<const N: usize>(first: &SVector<f64, N>, second: &SVector<f64, N>, rate: f64) -> [f64; 2] {
     let length = first.norm();
     [length * rate, if length > 0.0 { first.dot(second) / length * rate * rate } else { 0.0 }]
@@ -499,7 +501,7 @@ pub(crate) fn common_pace(from: &Motion, to: &Motion) -> PathLimits {
     let faster = |of: fn(&PathLimits) -> f64| of(&from.pace).max(of(&to.pace));
     let reached = |of: fn(&Motion) -> f64| {
         let speed = |motion: &Motion| match motion.curve {
-            // With what is laid over it the TCP goes faster than the path.
+            // With an overlay the TCP is faster than along the path alone.
             Curve::Tool(_) if motion.laid.is_some() => motion.fastest(),
             Curve::Tool(_) => of(motion) * motion.rate,
             Curve::Axes(_) => f64::INFINITY,
@@ -518,7 +520,7 @@ pub(crate) fn common_pace(from: &Motion, to: &Motion) -> PathLimits {
     }
 }
 
-/// A knot that is bent as well, by a parameter that goes 1 by `slope`.
+/// A knot with added curvature, by a parameter that is scaled by `slope`.
 fn scaled<const N: usize>(mut knot: Knot<N>, slope: f64, curvature: &[f64; N]) -> Knot<N> {
     for value in &mut knot.first {
         *value *= slope;
@@ -554,7 +556,7 @@ fn rising<const N: usize>(mut knot: Knot<N>, met: &CornerEnd) -> Knot<N> {
 
 /// The joints within a motion, followed from its nearer end.
 fn joints_at(robot: &Robot, motion: &Motion, at: f64) -> Option<Joints> {
-    /// Deg (mm) that an axis goes in a step at most.
+    /// Largest distance in deg (mm) that an axis moves in a step.
     const STEP: f64 = 5.0;
     const MOST: f64 = 63.0;
     let Curve::Tool(tool) = &motion.curve else { return Some(motion.curve.joints(&robot.kinematics, at, &motion.end)) };
@@ -575,8 +577,8 @@ fn out_of_range<'a>(robot: &'a Robot, joints: &Joints) -> Option<&'a Axis> {
     robot.axes.iter().zip(values).find(|(axis, value)| !(axis.min..=axis.max).contains(value)).map(|(axis, _)| axis)
 }
 
-/// The share of the nominal time at which the curve's parameter is `at`: by Newton's steps, halving where they lead
-/// away.
+/// The share of the nominal time at which the curve's parameter is `at`: by Newton's method, with bisection where that
+/// leads away.
 fn inverse(parametrization: &Parametrization, at: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     let mut share = at;
@@ -597,8 +599,8 @@ fn inverse(parametrization: &Parametrization, at: f64) -> f64 {
     share
 }
 
-/// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all
-/// of its acceleration.
+/// Collects the limits of the TCP, the tool's rotation and the external axes at a place; for a TCP that is `swinging`,
+/// those of its whole acceleration.
 fn collect(place: &CurvePoint, curve: &ToolCurve, swinging: bool, constraints: &mut Constraints, pace: &PathLimits) {
     let moving = place.vectors([1, 2, 3].map(|order| curve.path.track.derivative(order, place.at)));
     if swinging {

@@ -1,14 +1,15 @@
 //! Curvature where two blends meet in the middle of a motion.
 //!
-//! Blends that take whole halves of short motions leave nothing straight between them. Were every motion straight in
-//! its middle all the same, then a circle of short lines would be a path whose curvature falls to zero and rises again
-//! on each of them, and jerk would allow but a small part of the speed. So the middle gets about the curvature that the
-//! corners at both ends have on average: on a circle, the circle's. Where one corner is much sharper than the other, or
-//! bends the other way, it gets little or none, so that the path does not swing out.
+//! Blends that take whole halves of short motions leave nothing straight between them. If every motion were
+//! nevertheless straight in its middle, a circle of short lines would become a path whose curvature falls to zero and
+//! rises again on each of them, and the jerk limit would permit only a small part of the speed. So the middle gets
+//! about the mean curvature of the corners at both ends: on a circle, that of the circle. Where one corner is much
+//! sharper than the other, or bends the other way, the middle gets little curvature or none, so that the path does not
+//! swing out.
 //!
-//! Motions of the axes are as fast as the slowest axis lets them be: what all axes do together is slower or faster with
-//! every direction, along a dense chain all the time. So their speed is given a change in the middle as well, or it
-//! would swing within each blend. The path does not depend on that.
+//! Motions of the axes are as fast as the slowest axis permits: along a dense chain, the combined speed of all axes
+//! changes with every direction, all the time. So these motions also get a change of speed in the middle, or their
+//! speed would swing within each blend. The path does not depend on that.
 
 use nalgebra::{SVector, Vector3};
 
@@ -19,30 +20,30 @@ use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 use arl_robot::robot::{EXTERNAL_AXES, Robot};
 
-/// Up to about so large a difference between the directions of motions, as part of their length, the two corners' mean
-/// is taken as it is.
+/// Up to about this difference between the directions of motions, as a share of their length, the mean of both corners
+/// is used unchanged.
 const GENTLE_DIFFERENCE: f64 = 0.1;
-/// A turn by so little, in rad or parts of the motion, is none.
+/// Up to this amount, in rad or shares of the motion, a turn is ignored.
 const NO_TURN: f64 = 1e-9;
-/// A motion that is so many times as long as a neighbour is bent less.
+/// A motion that is longer than a neighbour by more than this factor is curved less.
 const LONG_MOTION_FACTOR: f64 = 2.0;
 
-/// How a motion is bent in its middle: second derivatives by its parameter.
+/// The curvature of a motion in its middle: second derivatives by its parameter.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct MidCurvature {
     /// Of the TCP's position, in mm.
     pub(crate) position: Vector3<f64>,
-    /// Of the tool's turning in rad, about axes of the base.
+    /// Of the tool's rotation in rad, about axes of the base.
     pub(crate) turning: Vector3<f64>,
-    /// Of all axes, where the motion is one of the axes; else of the external ones.
+    /// Of all axes, where the motion is an axis motion; else of the external ones.
     pub(crate) axes: [f64; ALL],
-    /// How its speed changes at its nominal pace, where the motion is one of the axes: per s, of which an axis at its
-    /// highest speed has 1 per s.
+    /// The change of its speed at its nominal pace, where the motion is an axis motion: per s, where an axis at its
+    /// highest speed counts as 1 per s.
     pub(crate) surge: f64,
 }
 
 impl MidCurvature {
-    /// Straight.
+    /// No curvature.
     pub(crate) const NONE: Self = Self {
         position: Vector3::new(0.0, 0.0, 0.0),
         turning: Vector3::new(0.0, 0.0, 0.0),
@@ -50,18 +51,19 @@ impl MidCurvature {
         surge: 0.0,
     };
 
-    /// Of the external axes.
+    /// The second derivatives of the external axes.
     pub(crate) fn external(&self) -> [f64; EXTERNAL_AXES] {
         Joints::of(&self.axes).external
     }
 }
 
-/// How something changes over a length of the way, for a motion and for its neighbours.
+/// How something changes with the length of the path, for a motion and for its neighbours.
 type Changes<const N: usize> = [SVector<f64, N>; 3];
 
-/// How `here` is bent between two motions; `None` where the blends at its ends do not meet, or lead different things.
+/// The curvature of `here` between two motions; `None` where the blends at its ends do not meet, or the motions lead
+/// different things.
 pub(crate) fn mid_curvature(robot: &Robot, before: &Motion, here: &Motion, after: &Motion) -> Option<MidCurvature> {
-    // What is laid over a motion keeps its own shape.
+    // A motion with an overlay keeps its own shape.
     if [before, here, after].iter().any(|motion| motion.laid.is_some()) {
         return None;
     }
@@ -116,7 +118,7 @@ pub(crate) fn mid_curvature(robot: &Robot, before: &Motion, here: &Motion, after
     Some(curvature)
 }
 
-/// How far three motions go.
+/// The lengths of three motions.
 struct Lengths([f64; 3]);
 
 impl Lengths {
@@ -124,13 +126,14 @@ impl Lengths {
         lengths.iter().all(|length| *length > 1e-9).then_some(Self(lengths))
     }
 
-    /// The second derivative of something by the middle motion's parameter, from the first ones by each motion's own.
+    /// The second derivative of something by the middle motion's parameter, from first derivatives by each motion's
+    /// own.
     fn curvature<const N: usize>(&self, rates: &Changes<N>) -> SVector<f64, N> {
         let ([first, second], scale) = self.corners(rates);
         self.limited(&first, &second, scale)
     }
 
-    /// The same for things that have nothing to do with each other.
+    /// The second derivative for components that are independent of each other.
     fn curvature_of_each<const N: usize>(&self, rates: &Changes<N>) -> SVector<f64, N> {
         let ([first, second], scale) = self.corners(rates);
         SVector::from_fn(|index, _| {
@@ -139,7 +142,7 @@ impl Lengths {
         })
     }
 
-    /// The change of speed by length at both ends, and the speed of the middle motion.
+    /// The change of the derivative by length at both ends, and the derivative of the middle motion.
     fn corners<const N: usize>(&self, rates: &Changes<N>) -> ([SVector<f64, N>; 2], f64) {
         let ([before, here, after], [a, b, c]) = (self.0, rates);
         let (a, b, c) = (a / before, b / here, c / after);
@@ -147,8 +150,8 @@ impl Lengths {
         (corners, b.norm())
     }
 
-    /// The mean of two changes of a speed `scale`, nearer to the smaller one the sharper they are, and none where they
-    /// bend apart; by the middle motion's parameter.
+    /// The mean of two changes of a speed `scale`, closer to the smaller one the sharper they are, and little or none
+    /// where they bend in opposite directions; by the middle motion's parameter.
     fn limited<const N: usize>(
         &self,
         first: &SVector<f64, N>,

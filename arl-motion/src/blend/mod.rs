@@ -1,4 +1,4 @@
-//! Blending: how much of two motions a blend takes, its curve, and the limits to pass it with.
+//! Blending: how much of two motions a blend takes, its curve, and the limits within which it is passed.
 
 pub(crate) mod blend_limits;
 pub(crate) mod corner;

@@ -1,42 +1,42 @@
-//! Why two motions that should be blended are not.
+//! Reasons why two motions that should be blended are not.
 
 use std::fmt;
 
 use crate::command::error::PlanError;
 
-/// Why the robot stops at a target that should be rounded off.
+/// The reason why the robot stops at a target that should be rounded off.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 #[non_exhaustive]
 pub enum NoBlend {
     /// The next motion came too late.
     Late,
-    /// The zone leaves nothing to round off: it is too small beside one of the motions, or another blend has taken all
-    /// of that.
+    /// The zone leaves nothing to round off: it is too small compared with one of the motions, or another blend has
+    /// taken all of that motion.
     NothingLeft,
-    /// The next motion goes back along the way that the robot came, so that there is nothing to round off.
+    /// The next motion goes back along the path that the robot came on, so that there is nothing to round off.
     Reversal,
-    /// One of the two motions moves external axes alone, while the TCP stands.
+    /// One of the two motions moves external axes alone, while the TCP does not move.
     ExternalAlone,
     /// Any blend would take longer than the stop.
     Slower,
-    /// Beside the target an axis would leave its range, however small the zone.
+    /// Near the target an axis would leave its range, however small the zone.
     AxisLimit {
-        /// Its name.
+        /// Name of the axis.
         axis: String,
     },
-    /// Beside the target the robot would leave its reach, however small the zone.
+    /// Near the target the robot would leave its reach, however small the zone.
     Unreachable,
-    /// Beside the target is a singular point, however small the zone.
+    /// There is a singular point near the target, however small the zone.
     Singular {
-        /// The axis that would have to turn infinitely fast, where one does.
+        /// The axis that would have to turn infinitely fast, where there is one.
         axis: Option<String>,
     },
-    /// Beside the target the robot would come to another configuration than the next motion has.
+    /// Near the target the robot would arrive in another configuration than that of the next motion.
     Configuration,
 }
 
 impl NoBlend {
-    /// What is wrong beside a target, from what is wrong with the way there.
+    /// Converts the error of a path near a target.
     pub(crate) fn of_way(error: PlanError) -> Self {
         match error {
             PlanError::AxisLimit { axis, .. } => NoBlend::AxisLimit { axis },

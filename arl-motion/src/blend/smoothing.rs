@@ -1,9 +1,9 @@
-//! Chains of lines whose corners are so flat that the whole of both halves can be rounded off without leaving them
+//! Chains of lines whose corners are so flat that both halves can be rounded off completely without leaving the lines
 //! noticeably.
 //!
-//! A dense chain stands for a smooth path. Where its zones took less than half of each line, the curvature would rise
-//! and fall once a line, and jerk would allow but a small part of the speed. So the size of a zone says nothing there:
-//! a curve that stays that close to the programmed lines is on them.
+//! A dense chain stands for a smooth path. If its zones took less than half of each line, the curvature would rise and
+//! fall once per line, and the jerk limit would permit only a small part of the speed. So the size of a zone means
+//! nothing there: a curve that stays that close to the programmed lines counts as lying on them.
 
 use nalgebra::SVector;
 
@@ -12,18 +12,19 @@ use crate::geometry::track::Track;
 use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 
-/// How far such a curve leaves the lines at most, in mm (the TCP and linear external axes) and in deg (the tool and
-/// turning ones).
+/// The largest distance of such a curve from the lines, in mm (TCP and linear external axes) and in deg (tool and
+/// rotary external axes).
 const MOST_OFF: f64 = 0.001;
 /// A curve with curvature in the middle of lines (see [`crate::blend::mid_curvature`]) leaves a corner by no more than
-/// this part of its zone times the change of direction, in rad: lines of unequal lengths come that near, as a test of
-/// random chains holds.
+/// this share of its zone times the change of direction, in rad: lines of unequal lengths come close to it, as a test
+/// of random chains shows.
 const OFF_PER_TURN: f64 = 0.405;
-/// Lines of which one is more times as long as the other, or with speeds that differ by a larger part, are not a chain.
+/// Lines of which one is longer than the other by more than this factor, or whose speeds differ by more than this
+/// share, do not form a chain.
 const MOST_TIMES_AS_LONG: f64 = 4.0;
 const LARGEST_DIFFERENCE_OF_SPEEDS: f64 = 0.01;
 
-/// Whether the corner between two motions is one of such a chain.
+/// Whether the corner between two motions belongs to such a chain.
 pub(crate) fn is_smooth(from: &Motion, to: &Motion) -> bool {
     let plain = |motion: &Motion| motion.laid.is_none() && motion.timed.is_none() && motion.corner.is_none();
     let (Curve::Tool(a), Curve::Tool(b)) = (&from.curve, &to.curve) else { return false };
@@ -41,7 +42,7 @@ pub(crate) fn is_smooth(from: &Motion, to: &Motion) -> bool {
         return false;
     }
     let zone = LARGEST_ZONE * shorter;
-    // Derivatives by the parameter of each line become those by its length.
+    // Derivatives by the parameter of each line become derivatives by its length.
     let off = |first: SVector<f64, 3>, second: SVector<f64, 3>| {
         OFF_PER_TURN * zone * (second / to.length - first / from.length).norm()
     };

@@ -1,4 +1,4 @@
-//! How much of a motion a blending zone takes.
+//! The share of a motion that a blending zone takes.
 
 use nalgebra::Vector3;
 
@@ -12,36 +12,36 @@ use arl_robot::robot::Robot;
 /// What a zone is measured by.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Measure {
-    /// Part of the motion.
+    /// Share of the motion.
     Share,
-    /// Way of the TCP in mm.
+    /// Distance of the TCP along its path, in mm.
     Tcp,
-    /// Turning of the tool in deg.
+    /// Rotation of the tool in deg.
     Ori,
-    /// The own axis that goes farthest, in deg (mm).
+    /// The own axis that moves farthest, in deg (mm).
     Joint,
-    /// The turning external axis that goes farthest, in deg.
+    /// The rotary external axis that moves farthest, in deg.
     Turning,
-    /// The linear external axis that goes farthest, in mm.
+    /// The linear external axis that moves farthest, in mm.
     Linear,
 }
 
-/// The zone at the end of a motion: what was asked for, and what the blend took of it.
+/// The zone at the end of a motion: what was requested, and what the blend took of it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Rounding {
-    /// The size that was asked for.
+    /// The requested size.
     pub asked: f64,
-    /// The size that was used, at most the asked one; 0 where the robot stops at the target.
+    /// The used size, at most the requested one; 0 where the robot stops at the target.
     pub used: f64,
     /// `%` of the largest zone, `mm`, or `deg`.
     pub unit: &'static str,
 }
 
-/// The zone of a motion that is left at the share `leave`; `None` where none was asked for.
+/// The zone of a motion that is left at the share `leave`; `None` where none was requested.
 pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rounding> {
     let (measure, size, asked) = leaving(robot, motion)?;
-    // In a dense chain more may be rounded off: that stays on the path but for a thousandth of a millimetre.
+    // In a dense chain more may be rounded off: the path changes by no more than a thousandth of a millimetre.
     let part = (1.0 - leave).min(asked);
     let leave = 1.0 - part;
     Some(match (measure, &motion.curve) {
@@ -59,17 +59,17 @@ pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rou
     })
 }
 
-/// The smallest part of a motion that a blend can take.
+/// The smallest share of a motion that a blend can take.
 const LEAST_ZONE: f64 = 1e-6;
 
-/// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked
-/// for. In a dense chain they are whole halves, whatever the zone.
+/// The shares that a blend takes from the end of one motion and from the start of the next; `None` where no blend is
+/// requested. In a dense chain they are whole halves, whatever the zone.
 pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
     let asked = asked_parts(robot, from, to)?;
     Some(if is_smooth(from, to) { (LARGEST_ZONE, LARGEST_ZONE) } else { asked })
 }
 
-/// The parts that the zone asks for, or that are given.
+/// The shares that the zone requests, or that are given.
 pub(crate) fn asked_parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
     if let Some(given) = &from.corner {
         return Some(given.parts());
@@ -80,21 +80,21 @@ pub(crate) fn asked_parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(
         _ if measure == Measure::Share => leaving,
         _ if measure == Measure::Tcp && matches!(to.curve, Curve::Axes(_)) => tcp_part(robot, to, size, 0.0),
         Some(extent) => size / extent,
-        // It does not move that way: it is entered for as long as the other one is left.
+        // The motion does not move in this measure: the blend takes as much time of it as of the other one.
         None => time(from, leaving) / time(to, 1.0),
     };
-    // What the next motion is left by is no longer there to be entered.
+    // The part in which the next motion is left is no longer available for entering it.
     let free = to.corner.map_or(LARGEST_ZONE, |given| (1.0 - given.leaving.part).min(LARGEST_ZONE));
     let entering = entering.min(free);
     (entering > LEAST_ZONE).then_some((leaving, entering))
 }
 
-/// Whether the end of a motion shall be rounded off.
+/// Whether the end of a motion is to be rounded off.
 pub(crate) fn asks(robot: &Robot, motion: &Motion) -> bool {
     motion.corner.is_some() || leaving(robot, motion).is_some()
 }
 
-/// What the zone of a motion is measured by, how large it is, and which part of the motion it takes.
+/// What the zone of a motion is measured by, its size, and the share of the motion that it takes.
 fn leaving(robot: &Robot, motion: &Motion) -> Option<(Measure, f64, f64)> {
     let zone = &motion.zone;
     if !is_unset(zone.percent) && zone.percent >= 0.0 {
@@ -119,7 +119,7 @@ fn leaving(robot: &Robot, motion: &Motion) -> Option<(Measure, f64, f64)> {
     found.min_by(|(_, _, a), (_, _, b)| a.total_cmp(b))
 }
 
-/// How far a motion goes in a measure; `None` where it does not.
+/// The extent of a motion in a measure; `None` where it does not move in it.
 fn extent(robot: &Robot, motion: &Motion, measure: Measure) -> Option<f64> {
     let is_tool = matches!(motion.curve, Curve::Tool(_));
     let external = |linear: bool| {
@@ -141,12 +141,12 @@ fn extent(robot: &Robot, motion: &Motion, measure: Measure) -> Option<f64> {
     (extent > 1e-9).then_some(extent)
 }
 
-/// The part of an axis motion, from its end at `of`, on which the TCP is within `distance` mm of that end.
+/// The share of an axis motion, from its end at `of`, on which the TCP is within `distance` mm of that end.
 fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
     let tcp = |at: f64| tcp_place(robot, motion, at);
     let end = tcp(of);
     let far = |part: f64| (tcp((of - part).abs()) - end).norm() > distance;
-    // The first place, seen from the end, where the TCP is too far.
+    // The first place, going away from the end, where the TCP is too far.
     const STEPS: u32 = 32;
     let place = |step: u32| LARGEST_ZONE * f64::from(step) / f64::from(STEPS);
     let Some(step) = (1..=STEPS).find(|step| far(place(*step))) else { return LARGEST_ZONE };
@@ -158,7 +158,7 @@ fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
     near
 }
 
-/// Where the TCP is on its path at a share of an axis motion, in mm.
+/// The position of the TCP on its path at a share of an axis motion, in mm.
 fn tcp_place(robot: &Robot, motion: &Motion, at: f64) -> Vector3<f64> {
     let joints: Joints = motion.curve.joints(&robot.kinematics, at, &motion.start);
     motion.rig.carried.way_at(&robot.kinematics.forward(&joints.axes)).translation.vector

@@ -1,11 +1,11 @@
-//! Whether the numbers of a command are numbers that motion can be planned with. What belongs to the way itself
-//! (targets, speeds, ranges) is checked where it is planned.
+//! Checks whether motion can be planned with the values of a command. What belongs to the path itself (targets, speeds,
+//! ranges) is checked where it is planned.
 
 use super::{Command, Compensation, Gate, PlanError, Settings, Target, Weave};
 use arl_robot::frames::Carried;
 use arl_robot::kinematics::Frame;
 
-/// The numbers that something can be, and how they are called.
+/// A range of values, with its description.
 #[derive(Clone, Copy)]
 struct Range {
     low: f64,
@@ -13,20 +13,20 @@ struct Range {
     expected: &'static str,
 }
 
-/// A number that has to be in a range, and what it is.
+/// A quantity with its value and its range.
 type Ranged = (&'static str, f64, Range);
 
 const POSITIVE: Range = Range { low: f64::MIN_POSITIVE, high: f64::MAX, expected: "a finite number above 0" };
 const NOT_NEGATIVE: Range = Range { low: 0.0, high: f64::MAX, expected: "a finite number, 0 or more" };
 const FINITE: Range = Range { low: -f64::MAX, high: f64::MAX, expected: "a finite number" };
-/// An infinite one, too, where that means that nothing is limited.
+/// Includes infinite values, where these mean that nothing is limited.
 const NUMBER: Range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, expected: "a number" };
 const HALF_TURN: Range = Range { low: 0.0, high: 180.0, expected: "0 to 180" };
 
-/// Whether a command can be planned with such numbers.
+/// Checks whether a command can be planned with its values.
 ///
 /// # Errors
-/// The first one that is none, or out of its range.
+/// The first value that is not a number, or is outside its range.
 pub(crate) fn check(command: &Command, settings: &Settings) -> Result<(), PlanError> {
     all_within(&[
         ("the acceleration in percent", settings.acc_percent, NUMBER),
@@ -74,7 +74,7 @@ fn check_compensation(compensation: &Compensation) -> Result<(), PlanError> {
     compensation.all().try_for_each(|by| within(("the compensation in mm (deg)", by, FINITE)))
 }
 
-/// The workpiece frame that a target is seen in.
+/// The workpiece frame of a target.
 fn wobj(target: &Target) -> Option<&Frame> {
     match target {
         Target::Joints(_) => None,

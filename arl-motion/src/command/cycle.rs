@@ -1,4 +1,4 @@
-//! How long a cycle is.
+//! Length of a cycle.
 
 use std::fmt;
 use std::time::Duration;
@@ -24,15 +24,15 @@ pub struct Cycle {
 impl Cycle {
     /// 1 ms.
     pub const MS: Cycle = Cycle { period: 0.001 };
-    /// The shortest one.
+    /// The shortest cycle.
     pub const SHORTEST: Duration = Duration::from_micros(Rate::SHORTEST as u64);
-    /// The longest one.
+    /// The longest cycle.
     pub const LONGEST: Duration = Duration::from_micros(Rate::LONGEST as u64);
 
     /// A cycle of this length.
     ///
     /// # Errors
-    /// It is shorter than [`Cycle::SHORTEST`] or longer than [`Cycle::LONGEST`].
+    /// The length is shorter than [`Cycle::SHORTEST`] or longer than [`Cycle::LONGEST`].
     pub fn new(length: Duration) -> Result<Self, CycleError> {
         if (Self::SHORTEST..=Self::LONGEST).contains(&length) {
             Ok(Self { period: length.as_secs_f64() })
@@ -46,7 +46,7 @@ impl Cycle {
         self.period
     }
 
-    /// The same as a duration.
+    /// The length as a duration.
     pub fn length(self) -> Duration {
         Duration::from_secs_f64(self.period)
     }
@@ -59,11 +59,11 @@ impl From<Rate> for Cycle {
     }
 }
 
-/// No cycle is so short, or so long.
+/// A length that is too short or too long for a cycle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct CycleError {
-    /// The length that was asked for.
+    /// The requested length.
     pub length: Duration,
 }
 

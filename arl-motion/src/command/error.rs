@@ -1,38 +1,38 @@
-//! Why a motion cannot be planned.
+//! Errors of planning.
 
 use std::fmt;
 
 use arl_robot::kinematics::CONFIGURATIONS;
 
-/// Why a motion cannot be planned.
+/// The reason why a motion cannot be planned.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum PlanError {
     /// An axis would leave its range.
     AxisLimit {
-        /// The axis's name.
+        /// Name of the axis.
         axis: String,
         /// The farthest position it would take, in deg (mm).
         value: f64,
-        /// Its range.
+        /// The lower end of its range.
         min: f64,
-        /// Its range.
+        /// The upper end of its range.
         max: f64,
-        /// Where on the path it leaves its range, 0 to 1; 1 is the target.
+        /// Where on the path the axis leaves its range, 0 to 1; 1 is the target.
         along: f64,
     },
     /// The arm does not reach the pose.
     Unreachable {
-        /// How far it falls short, in mm; 0 where not the distance but the configuration does not fit.
+        /// Distance beyond the reach, in mm; 0 where the configuration is the reason, not the distance.
         beyond: f64,
         /// Where on the path, 0 to 1; 1 is the target.
         along: f64,
     },
     /// The pose tilts the flange, which a SCARA robot cannot do.
     Tilted {
-        /// By how much, in deg.
+        /// Tilt, in deg.
         by: f64,
-        /// Where on the path it begins to, 0 to 1; 1 is the target.
+        /// Where on the path the tilt begins, 0 to 1; 1 is the target.
         along: f64,
     },
     /// The line passes a singular point, where axes would have to turn infinitely fast.
@@ -49,97 +49,97 @@ pub enum PlanError {
         /// Where on the path, 0 to 1.
         along: f64,
     },
-    /// The weave or the compensation changes so much over so short a way that it cannot be followed.
+    /// The weave or the compensation changes too much over too short a distance to be followed.
     TooDense {
         /// Where on the path, 0 to 1.
         along: f64,
     },
-    /// The path turns back over too short a way for the robot to follow it without a stop.
+    /// The path turns back over too short a distance for the robot to follow it without a stop.
     TooSharp {
-        /// Where, as part of the path.
+        /// Where on the path, 0 to 1.
         along: f64,
     },
-    /// Start, point on the way and target do not make a circle: two of them are the same, or all lie on a line.
+    /// Start, via point and target do not define a circle: two of them are the same, or all are on a line.
     NoCircle,
-    /// The angle of a circle is beyond what is sensible.
+    /// The angle of a circle is too large.
     Circles {
         /// The angle in deg.
         angle: f64,
-        /// The most that is possible, in deg.
+        /// The largest possible angle, in deg.
         most: f64,
     },
-    /// A gate begins or ends above the height that it must not pass.
+    /// A gate begins or ends above its highest permitted position.
     AboveLimit {
         /// The height of the higher end, in mm.
         height: f64,
-        /// The height that must not be passed, in mm.
+        /// The highest permitted position, in mm.
         highest: f64,
     },
-    /// A circle through targets of its neighbours, without a neighbour of its kind.
+    /// A circle through the targets of its neighbours has no neighbour of its kind.
     LoneCircle,
-    /// A motion turned out not to be possible only when the one behind it was known, or none followed.
+    /// An earlier motion turned out to be impossible once the one behind it was known, or none followed.
     Earlier {
-        /// Its program line.
+        /// Program line of the earlier motion.
         line: u32,
-        /// What is wrong with it.
+        /// The reason.
         error: Box<PlanError>,
     },
     /// The robot has no such configuration.
     NoSuchCfg {
-        /// What was asked for.
+        /// The requested configuration.
         cfg: u8,
     },
     /// The robot cannot move so fast.
     Duration {
-        /// The duration asked for, in s.
+        /// The requested duration, in s.
         wanted: f64,
-        /// The shortest that its limits allow, in s.
+        /// The shortest duration that its limits allow, in s.
         least: f64,
     },
-    /// The override of programmed speeds is not above zero, or no number.
+    /// The override of programmed speeds is not above zero, or not a number.
     NoOverride {
         /// The override in percent.
         percent: f64,
     },
-    /// The highest speed of the TCP is not above zero, or no number.
+    /// The highest speed of the TCP is not above zero, or not a number.
     NoHighestSpeed {
         /// The speed in mm/s.
         value: f64,
     },
-    /// A speed or a duration is not above zero, or no number; or a duration is beyond all measure.
+    /// A speed or a duration is not above zero, or not a number; or a duration is far too long.
     NoSpeed {
-        /// What is meant, with its unit.
+        /// The quantity, with its unit.
         what: &'static str,
         /// Its value.
         value: f64,
     },
-    /// A component of the target, of a frame, or of where the robot stands is not a number.
+    /// A component of the target, of a frame, or of the robot's position is not a number.
     NotANumber,
-    /// A number of the command or of the settings is none, or is out of the range that it has.
+    /// A value of the command or of the settings is not a number, or is outside its range.
     OutOfRange {
-        /// What is meant, with its unit.
+        /// The quantity, with its unit.
         what: &'static str,
         /// Its value.
         value: f64,
-        /// What it can be, in words.
+        /// The permitted values, in words.
         expected: &'static str,
     },
-    /// The tool points along the path, so that nothing is beside it.
+    /// The tool points along the path, so that there is no direction to its side.
     ToolAlongPath,
-    /// The robot holds the workpiece, so that the world turns against it.
+    /// The robot holds the workpiece, so that the world turns relative to it.
     WorldTurns,
-    /// What is ahead takes more cycles than are looked at.
+    /// The motion ahead takes more cycles than are examined.
     TooLong {
-        /// So many.
+        /// The limit of cycles.
         most: usize,
     },
-    /// This kind of motion is not there for this robot.
+    /// This robot does not support this kind of motion.
     NotForThisRobot,
-    /// The robot stands in another configuration, or another turn of an axis, than where it was stopped.
+    /// The robot is in another configuration, or another turn of an axis, than where it was stopped.
     NoWayBack,
-    /// The look-ahead is full: ask [`crate::queue::Queue::has_room`] first.
+    /// The look-ahead is full: check [`crate::queue::Queue::has_room`] first.
     Full,
-    /// The robot is stopping to drop its motions; where the next one starts is not known yet.
+    /// The robot is stopping to drop its motions; the start of the next one is not known yet.
     Stopping,
 }
 

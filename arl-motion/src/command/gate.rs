@@ -1,21 +1,21 @@
-//! The form of a gate: how a motion rises, goes over and sinks.
+//! The form of a gate: how a motion rises, moves across and sinks.
 
 /// The form of a gate.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Gate {
-    /// How far it rises straight up at least, in mm, 0 or more.
+    /// The least distance by which it rises straight up, in mm, 0 or more.
     pub rise: f64,
-    /// How far it sinks straight down at least, in mm, 0 or more.
+    /// The least distance by which it sinks straight down, in mm, 0 or more.
     pub sink: f64,
-    /// The height of the TCP in the robot's base that it does not pass, in mm; `None`: the robot's own limit.
+    /// The highest permitted position of the TCP in the robot's base, in mm; `None`: the robot's own limit.
     pub highest: Option<f64>,
     /// How it rises.
     pub rising: Lift,
     /// How it sinks.
     pub falling: Lift,
-    /// Whether it goes on to the next motion without reaching its target.
+    /// Whether it continues to the next motion without reaching its target.
     pub smooth: bool,
-    /// How much of it is done.
+    /// Which part of it is executed.
     pub part: GatePart,
 }
 
@@ -26,7 +26,7 @@ impl Gate {
     }
 }
 
-/// How much of a gate is done: all of it, or the way to where its target is looked at from above, and the rest.
+/// The executed part of a gate: all of it, or the motion to above its target, where it is looked at, or the rest.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum GatePart {
     /// From its start to its target.
@@ -34,11 +34,11 @@ pub enum GatePart {
     Whole,
     /// From its start to straight above its target, where it stops.
     Above,
-    /// From there to its target: the rest of the gate before, with which it is one motion in records.
+    /// From there to its target: the rest of the gate before, which forms one motion with it in records.
     Rest,
 }
 
-/// How fast a gate rises or sinks; what is `None` is as on the way over.
+/// Speed and acceleration of a gate's rising or sinking; `None` values are those of the motion across.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Lift {
     /// Percent of the axis's speed, above 0.

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES, Robot};
 
-/// The value of a component that was not set: a motion keeps it as it is.
+/// The value of a component that was not set: a motion keeps such a component unchanged.
 pub const UNSET: f64 = 9e9;
 
 /// Whether a component was not set.
@@ -12,11 +12,11 @@ pub fn is_unset(value: f64) -> bool {
     (UNSET..f64::INFINITY).contains(&value)
 }
 
-/// How many values [`Joints`] hold.
+/// Number of values in [`Joints`].
 pub(crate) const ALL: usize = ROBOT_AXES + EXTERNAL_AXES;
 
-/// The s that each axis takes for 1 deg (mm) at its highest speed, in the order of [`Joints::all`]; 0 for those that a
-/// robot does not have.
+/// The time in s that each axis takes for 1 deg (mm) at its highest speed, in the order of [`Joints::all`]; 0 for axes
+/// that a robot does not have.
 pub(crate) fn slowness(robot: &Robot) -> SVector<f64, ALL> {
     let mut joints = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
     let own = joints.axes.iter_mut().zip(robot.own_axes());
@@ -40,7 +40,7 @@ impl Joints {
     /// All at 0.
     pub(crate) const ZERO: Joints = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
 
-    /// Where the robot's file says it starts.
+    /// The start position of the robot's file.
     pub fn home(robot: &Robot) -> Self {
         let mut joints = Self { axes: [0.0; ROBOT_AXES], external: [UNSET; EXTERNAL_AXES] };
         let own = robot.own_axes().len();
@@ -53,18 +53,18 @@ impl Joints {
         joints
     }
 
-    /// Whether all of them are numbers.
+    /// Whether all values are finite.
     pub(crate) fn is_finite(&self) -> bool {
         self.axes.iter().chain(&self.external).all(|value| value.is_finite())
     }
 
-    /// Whether every axis is within so many deg (mm) of another place.
+    /// Whether every axis is within `tolerance` deg (mm) of another position.
     pub fn is_at(&self, other: &Self, tolerance: f64) -> bool {
         let near = |(a, b): (&f64, &f64)| (a - b).abs() <= tolerance;
         self.axes.iter().zip(&other.axes).all(near) && self.external.iter().zip(&other.external).all(near)
     }
 
-    /// These positions, with what is unset taken from `start`, and what the robot does not have as in `start`.
+    /// These positions, with unset values and axes that the robot does not have taken from `start`.
     pub(crate) fn completed(&self, start: &Joints, robot: &Robot) -> Self {
         let mut joints = *start;
         fill(&mut joints.axes, &self.axes, robot.own_axes().len());

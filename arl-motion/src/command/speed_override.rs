@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The speed override: how much of its speed a robot uses, 0 to 100 %. At 0 it comes to rest on its path.
+/// The speed override: the share of its speed that a robot uses, 0 to 100 %. At 0 the robot comes to rest on its path.
 ///
 /// ```
 /// use arl_motion::Override;
@@ -21,15 +21,15 @@ impl Override {
     /// 0 %: no motion.
     pub const ZERO: Override = Override(0.0);
 
-    /// So many percent.
+    /// An override of `percent` percent.
     ///
     /// # Errors
-    /// It is not a number from 0 to 100.
+    /// `percent` is not a number from 0 to 100.
     pub fn from_percent(percent: f64) -> Result<Self, OverrideError> {
         if (0.0..=100.0).contains(&percent) { Ok(Self(percent)) } else { Err(OverrideError { percent }) }
     }
 
-    /// It in percent.
+    /// The override in percent.
     pub const fn percent(self) -> f64 {
         self.0
     }
@@ -44,17 +44,17 @@ impl Default for Override {
 impl TryFrom<f64> for Override {
     type Error = OverrideError;
 
-    /// As [`Override::from_percent`].
+    /// See [`Override::from_percent`].
     fn try_from(percent: f64) -> Result<Self, OverrideError> {
         Self::from_percent(percent)
     }
 }
 
-/// It is not an override.
+/// A value that is not a valid override.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct OverrideError {
-    /// What was asked for, in percent.
+    /// The requested value, in percent.
     pub percent: f64,
 }
 

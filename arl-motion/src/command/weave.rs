@@ -1,45 +1,45 @@
-//! What a weave is asked to be.
+//! Weaves as requested.
 
 use nalgebra::Vector3;
 
 /// The figure of a weave.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum WeaveShape {
-    /// From side to side: evenly swinging or, with dwells, straight with stays at the sides and in the middle.
+    /// From side to side: evenly swinging or, with dwells, straight with dwells at the sides and in the middle.
     Simple,
     /// Up the two sides of a V and back.
     VShape,
-    /// Up one side of a V, across, and down the other one.
+    /// Up one side of a V, across, and down the other.
     Triangle,
-    /// Round an ellipse, half as long along the path as `radius` says and half as wide as `amplitude` says.
+    /// Around an ellipse, with `radius` as half its length along the path and `amplitude` as half its width.
     Ellipse,
-    /// Along an eight that lies across the path, its loops `radius` to each side along the path.
+    /// Along a figure of eight across the path, with loops of `radius` to each side along the path.
     Eight,
 }
 
-/// A weave: a figure that is laid over the paths of the TCP again and again.
+/// A weave: a figure that is laid over the paths of the TCP repeatedly.
 ///
-/// Its frame has x along the path, y to the left, and z away from what the tool points at.
+/// Its frame has x along the path, y to the left, and z away from where the tool points.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Weave {
     /// The figure.
     pub shape: WeaveShape,
-    /// Figures per s, stays not counted; above 0.
+    /// Figures per s, not counting dwells; above 0.
     pub frequency: f64,
     /// The largest distance from the path in mm, 0 or more.
     pub amplitude: f64,
-    /// Stays at the left side, at the right side, and in the middle each time that it is passed, in s, 0 or more.
+    /// Dwells at the left side, at the right side, and in the middle each time that it is passed, in s, 0 or more.
     pub dwells: [f64; 3],
-    /// The angle between the sides of the V and of the triangle, deg, 0 to 180.
+    /// The angle between the sides of the V and of the triangle, in deg, 0 to 180.
     pub angle: f64,
-    /// Half the length of ellipse and eight along the path, in mm, 0 or more.
+    /// Half the length of the ellipse and of the eight along the path, in mm, 0 or more.
     pub radius: f64,
-    /// How far the figure is turned about an axis of its frame, as a rotation vector in rad.
+    /// The rotation of the figure about an axis of its frame, as a rotation vector in rad.
     pub turned: Vector3<f64>,
 }
 
 impl Weave {
-    /// The time that a figure takes with its stays, in s.
+    /// The time of a figure including its dwells, in s.
     pub fn period(&self) -> f64 {
         let [left, right, middle] = self.dwells;
         let stays = match self.shape {

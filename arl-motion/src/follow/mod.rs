@@ -1,5 +1,5 @@
-//! Following the path: segments in a row, what limits the speed along them, and the governor, which chooses it each
-//! cycle.
+//! Following the path: segments in a row, what limits the speed along them, and the governor, which chooses the speed
+//! in each cycle.
 
 pub(crate) mod governor;
 pub(crate) mod remaining;

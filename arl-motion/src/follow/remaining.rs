@@ -1,27 +1,27 @@
-//! How long the robot still takes to the end of a motion at full speed: what the governor will do, foreseen segment by
-//! segment.
+//! How long the robot still takes to the end of a motion at full speed: a prediction of what the governor will do,
+//! segment by segment.
 //!
-//! It takes no acceleration over from one segment to the next, which the governor does where it can; so what is
-//! foreseen is a little more than what it will take.
+//! The prediction carries no acceleration over from one segment to the next, which the governor does where it can; so
+//! the predicted time is a little longer than the actual one.
 
 use crate::limits::profile::{Change, Limits};
 use crate::limits::search::{self, Enough};
 
-/// A stretch of the way ahead with constant limits, in s of nominal time.
+/// A stretch of the path ahead with constant limits, in s of nominal time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leg {
     pub(crate) length: f64,
     pub(crate) limits: Limits,
 }
 
-/// So many legs are looked at.
+/// Maximum number of legs that are examined.
 pub(crate) const MOST_LEGS: usize = 24;
-/// How near to a speed is near enough, as a part of it; and to a way, in s of nominal time.
+/// Relative tolerance of a speed, and tolerance of a distance, in s of nominal time.
 const SPEED_TOLERANCE: f64 = 1e-9;
 const WAY_TOLERANCE_S: f64 = 1e-10;
 
-/// How long a robot takes over legs, in s, that goes at the speed `vel` with the acceleration `acc` where they begin,
-/// and at `exit` at most where they end.
+/// How long a robot takes over the legs, in s, that starts with the speed `vel` and the acceleration `acc` and ends
+/// with at most the speed `exit`.
 pub(crate) fn time_over(legs: &[Leg], exit: f64, mut vel: f64, mut acc: f64) -> f64 {
     let mut exits = [exit; MOST_LEGS];
     let legs = legs.get(..MOST_LEGS.min(legs.len())).unwrap_or_default();
@@ -86,7 +86,7 @@ mod tests {
     fn a_slow_leg_behind_makes_the_one_before_brake() {
         let (quick, slow) = (Limits { vel: 1.0, acc: 4.0, jerk: 40.0 }, Limits { vel: 0.5, acc: 4.0, jerk: 40.0 });
         let legs = [Leg { length: 2.0, limits: quick }, Leg { length: 1.0, limits: slow }];
-        // Braking from 1 to 0.5: 0.225 s at 0.75 on the average.
+        // Braking from 1 to 0.5: 0.225 s at 0.75 on average.
         let braking = Change::new(1.0, 0.0, 0.5, &quick).duration();
         let first = time_over(&legs[..1], 0.5, 1.0, 0.0);
         assert!((first - (2.0 - 0.75 * braking + braking)).abs() < 1e-6);

@@ -1,4 +1,4 @@
-//! A part of a motion, or half of a blend, as the path has them in a row.
+//! Parts of motions and halves of blends, the elements of the path.
 
 use std::ops::Range;
 
@@ -19,20 +19,20 @@ use arl_robot::frames::{Carried, Rig};
 use arl_robot::kinematics::Kinematics;
 use arl_robot::robot::{ROBOT_AXES, Robot};
 
-/// Parts of half a blend.
+/// Number of parts of half a blend.
 const PARTS_OF_HALF: usize = blend_limits::PARTS / 2;
 
-/// mm or deg that may be between two segments that meet.
+/// Largest gap in mm or deg between two segments that meet.
 const LARGEST_GAP: f64 = 1e-3;
 
-/// How far beside a singular point rates are looked for, as shares of the segment.
+/// Distances from a singular point at which rates are sought, as shares of the segment.
 const SHARES_BESIDE_SINGULAR: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.05];
 
 /// Three derivatives of all axes.
 type Rates = [[f64; ALL]; 3];
 
-/// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
-/// that motions and blends meet with the same speed.
+/// A part of the path. Its parameter is the time, in s, that it takes at its full speed, so that motions and blends
+/// meet at the same speed.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Segment {
     pub(crate) number: u64,
@@ -42,35 +42,35 @@ pub(crate) struct Segment {
     /// The parameters of the curve at the start and at the end.
     pub(crate) from: f64,
     to: f64,
-    /// How the curve's parameter goes with the share of the nominal time, where it does not go evenly.
+    /// The curve's parameter over the share of the nominal time, where the parameter does not change evenly.
     pub(crate) parametrization: Option<Parametrization>,
     /// The nominal time in s.
     pub(crate) time: f64,
-    /// In s of nominal time; the speed is the lowest, acceleration and jerk are those outside of the end zones.
+    /// Limits in s of nominal time; the speed is the lowest one, acceleration and jerk are those outside the end zones.
     pub(crate) limits: Limits,
-    /// The speeds of its parts, which take the same nominal time each, where they are not all the same.
+    /// Speeds of its parts, which take the same nominal time each; `None` where all are the same.
     speeds: Option<[f64; PARTS_OF_HALF]>,
     /// Where it has other limits of acceleration and jerk.
     arm: Option<Arm>,
-    /// Whether the robot has to stand still at the end.
+    /// Whether the robot has to come to rest at the end.
     pub(crate) stops: bool,
     /// Whether the motion ends here.
     pub(crate) ends: bool,
     /// How long the whole motion takes, in s, where the segment is all of it, from rest to rest.
     duration: Option<f64>,
-    /// Where the motion ends, exactly, if it is not blended with the next one.
+    /// Exact end of the motion, for a motion that is not blended with the next one.
     target: Joints,
-    /// Shares of the motion's way that are done at the start and at the end.
+    /// Shares of the motion's path that are done at the start and at the end.
     pub(crate) shares: [f64; 2],
-    /// The share of the motion itself at which a blend leaves it.
+    /// Share of the motion itself at which a blend leaves it.
     pub(crate) leave: f64,
-    /// Why the blend takes less than was asked for, where it is one that does.
+    /// Reason why a blend takes less than was requested, where it does.
     pub(crate) less: Option<NoBlend>,
     /// The length of the motion in mm.
     pub(crate) length: f64,
-    /// The programmed speeds, where it is known what limits each of its places.
+    /// Programmed speeds, where it is known what limits each place of the segment.
     pub(crate) pace: Option<PathLimits>,
-    /// Whether each place has limits of its own even while the robot goes on.
+    /// Whether each place has limits of its own even while the robot does not stop.
     pub(crate) is_free: bool,
 }
 
@@ -85,28 +85,28 @@ struct Arm {
 /// A tool that is led along a path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LedTool {
-    /// Where the TCP is, in mm.
+    /// Position of the TCP, in mm.
     pub(crate) at: Vector3<f64>,
-    /// The orientation, where that is led, too; in passages of the wrist singularity it gives way.
+    /// Orientation, where it is led, too; in passages of the wrist singularity it may deviate.
     pub(crate) rotation: Option<UnitQuaternion<f64>>,
     /// What the robot carries.
     pub(crate) carried: Carried,
 }
 
-/// How fast what speeds are programmed of goes on a path, without what is laid over the path.
+/// Speeds along a path, in the quantities in which speeds are programmed, without overlays.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct PlainSpeed {
-    /// The TCP in mm/s and the tool's turning in deg/s; 0 where the axes are led.
+    /// Speed of the TCP in mm/s and of the tool's rotation in deg/s; 0 where the axes are led.
     pub(crate) tcp: f64,
     pub(crate) turning: f64,
-    /// The external axes, and where the axes are led all, in deg/s (mm/s).
+    /// Speeds of the external axes, or of all axes where the axes are led, in deg/s (mm/s).
     pub(crate) axes: [f64; ALL],
 }
 
 impl Segment {
     /// A part of a motion.
     pub(crate) fn part(motion: &Motion, limits: Limits, number: u64, from: f64, to: f64) -> Self {
-        // One s of nominal time at full speed.
+        // 1 s of nominal time at full speed.
         let rate = motion.rate;
         let scaled = Limits { vel: limits.vel / rate, acc: limits.acc / rate, jerk: limits.jerk / rate };
         Self {
@@ -134,14 +134,14 @@ impl Segment {
         }
     }
 
-    /// Whether another one goes the same way within the same limits.
+    /// Whether another segment has the same path and the same limits.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         let number = self.number;
         *self == Self { number, ..other.clone() }
     }
 
     /// One half of a blend: the first belongs to the motion that is left, the second to the one that is joined.
-    pub(crate) fn half(blend: &Blend, (before, after): (&Motion, &Motion), number: u64, first: bool) -> Self {
+    pub(crate) fn half(blend: &Blend, before: &Motion, after: &Motion, number: u64, first: bool) -> Self {
         let motion = if first { before } else { after };
 
         let BlendLimits { speeds, acc, jerk, end_zones } = &blend.blend_limits;
@@ -172,7 +172,7 @@ impl Segment {
             ends: first && motion.ends,
             duration: None,
             target: motion.end,
-            // All of the blend counts as the motion that is joined: see `PathBuffer::current`.
+            // The whole blend counts as part of the motion that it leads into: see `PathBuffer::current`.
             leave: blend.leave,
             less: blend.less.clone(),
             shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] }
@@ -183,7 +183,7 @@ impl Segment {
         }
     }
 
-    /// The same, with an acceleration that takes at least `time` s to rise.
+    /// The segment with an acceleration that takes at least `time` s to rise.
     pub(crate) fn rising_in(self, time: f64) -> Self {
         let rising = |arm: Arm| {
             let Limits { acc, jerk, .. } = Limits { vel: 0.0, acc: arm.acc, jerk: arm.jerk }.rising_in(time);
@@ -192,7 +192,7 @@ impl Segment {
         Self { limits: self.limits.rising_in(time), arm: self.arm.map(rising), ..self }
     }
 
-    /// The same, where the robot does not begin or end it at rest.
+    /// The segment where the robot does not begin or end it at rest.
     pub(crate) fn flowing(self) -> Self {
         Self { duration: None, ..self }
     }
@@ -210,7 +210,7 @@ impl Segment {
         })
     }
 
-    /// Limits that hold all along.
+    /// Limits that hold on the whole segment.
     fn lowest_limits(&self) -> Limits {
         let lowest = |arm: &Arm| Limits {
             acc: self.limits.acc.min(arm.acc),
@@ -220,7 +220,7 @@ impl Segment {
         self.arm.as_ref().map_or(self.limits, lowest)
     }
 
-    /// How long it takes in s from `at` s of nominal time on, at its full speed.
+    /// How long it takes, in s, from `at` s of nominal time on, at its full speed.
     pub(crate) fn time_from(&self, at: f64) -> f64 {
         let mut end = 0.0;
         let left = |cell: Cell| {
@@ -235,19 +235,18 @@ impl Segment {
         if self.stops && at >= self.time { self.target } else { self.joints_on(kinematics, at, near) }
     }
 
-    /// The same, but for the end of a motion as its curve has it.
+    /// The joints after `at` s of nominal time, with the end of a motion as its curve has it.
     pub(crate) fn joints_on(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
         self.curve.joints(kinematics, self.place(at), near)
     }
 
-    /// Whether all axes go in proportion, with the same limits everywhere.
+    /// Whether all axes move in proportion, with the same limits everywhere.
     pub(crate) fn is_even(&self) -> bool {
         self.parametrization.is_none() && matches!(self.curve, Curve::Axes(_))
     }
 
-    /// The tool whose path is limited, after `at` s of nominal time, where the joints are `joints`. `None` where it is
-    /// the axes that are led, but for blends between motions that lead the TCP, and where it is not known what limits
-    /// it.
+    /// The tool whose path is limited, after `at` s of nominal time, where the joints are `joints`. `None` where the
+    /// axes are led, except for blends between motions that lead the TCP, and where it is not known what limits it.
     pub(crate) fn tool(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<LedTool> {
         let pace = self.pace?;
         match &self.curve {
@@ -262,20 +261,20 @@ impl Segment {
         }
     }
 
-    /// Where the TCP is, in mm, where the axes are led.
+    /// The position of the TCP, in mm, where the axes are led.
     fn tcp_by_axes(&self, kinematics: &Kinematics, joints: &Joints) -> Vector3<f64> {
         self.rig.carried.way_at(&kinematics.forward(&joints.axes)).translation.vector
     }
 
-    /// Three derivatives of the TCP's position in mm where the axes are led, after `at` s of nominal time, by
-    /// differences.
+    /// The first three derivatives of the TCP's position in mm, where the axes are led, after `at` s of nominal time,
+    /// by differences.
     fn moving_by_axes(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> [Vector3<f64>; 3] {
         let tcp = |at: f64| self.tcp_by_axes(kinematics, &self.joints_on(kinematics, at, near));
         by_differences(tcp, at, self.time)
     }
 
-    /// Whether the next segment begins where this one ends: the flange's position where both lead the tool, all axes
-    /// where both lead these.
+    /// Whether the next segment begins where this one ends: compares the flange's position where both lead the tool,
+    /// all axes where both lead the axes.
     pub(crate) fn meets(&self, next: &Self) -> bool {
         let (end, start) = (self.place(self.time), next.place(0.0));
         match (&self.curve, &next.curve) {
@@ -295,8 +294,8 @@ impl Segment {
         self.parametrization.as_ref().map_or(place, |parametrization| parametrization.at(place))
     }
 
-    /// How fast a part of a motion is gone after `at` s of nominal time, so many of which go by per s. `None`: it is
-    /// half of a blend.
+    /// The speeds of a part of a motion after `at` s of nominal time, where `vel` s of nominal time pass per s. `None`
+    /// for half of a blend.
     pub(crate) fn plain_speed(&self, at: f64, vel: f64) -> Option<PlainSpeed> {
         if self.parametrization.is_some() {
             return None;
@@ -333,19 +332,19 @@ impl Segment {
         &self.target
     }
 
-    /// The parts between which the derivatives of its curve jump, one where they do not.
+    /// The number of parts between which the derivatives of its curve jump; 1 where they do not.
     pub(crate) fn parts(&self) -> u32 {
         let jumps = self.parametrization.as_ref().is_some_and(Parametrization::has_parts) || self.curve.is_paced();
         if jumps { self.bends() } else { 1 }
     }
 
-    /// The parts over which its curve may change its direction or its pace, one where it does neither.
+    /// The number of parts over which its curve may change its direction or its pace; 1 where it changes neither.
     pub(crate) fn bends(&self) -> u32 {
         let bends = self.parametrization.is_some() || self.curve.is_paced();
         if bends { ((self.to - self.from) * Parametrization::PARTS as f64).ceil() as u32 } else { 1 }
     }
 
-    /// Where derivatives jump within it and at its end, in s of nominal time from its start.
+    /// Where derivatives jump, within it and at its end, in s of nominal time from its start.
     pub(crate) fn jumps(&self) -> impl Iterator<Item = f64> {
         let all = if self.parts() > 1 { Parametrization::PARTS } else { 0 };
         let shares = (0..all).map(|part| part as f64 / Parametrization::PARTS as f64);
@@ -353,8 +352,8 @@ impl Segment {
         inside.map(|share| (share - self.from) / (self.to - self.from) * self.time).chain([self.time])
     }
 
-    /// Places beside singular points that a look along it must not miss, in s of nominal time from its start. What is
-    /// laid down by a parametrization of its own has none.
+    /// Places near singular points that a check along the segment must not miss, in s of nominal time from its start. A
+    /// segment with a parametrization of its own has none.
     pub(crate) fn close_places(&self) -> impl Iterator<Item = f64> {
         let curve = if let Curve::Tool(curve) = &self.curve { Some(curve) } else { None };
         let places = curve.filter(|_| self.parametrization.is_none()).into_iter().flat_map(|curve| &curve.close_places);
@@ -362,7 +361,7 @@ impl Segment {
         inside.map(|share| (share - self.from) / (self.to - self.from) * self.time)
     }
 
-    /// Whether derivatives of its curve jump within `near` s of nominal time beside a place.
+    /// Whether derivatives of its curve jump within `near` s of nominal time of a place.
     pub(crate) fn jumps_beside(&self, at: f64, near: f64) -> bool {
         let width = (self.to - self.from) / self.time;
         let share = self.from + at * width;
@@ -371,19 +370,20 @@ impl Segment {
         (self.parts() > 1 && is_near((share * parts).round() / parts)) || self.borders().any(is_near)
     }
 
-    /// Where passages through a singularity begin and end. What is laid down by a parametrization of its own has none.
+    /// Where passages through a singularity begin and end. A segment with a parametrization of its own has none.
     fn borders(&self) -> impl Iterator<Item = f64> {
         let curve = if let Curve::Tool(curve) = &self.curve { Some(curve) } else { None };
         curve.into_iter().flat_map(|curve| curve.borders())
     }
 
     /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`, for a robot that goes on,
-    /// or for one that stops and whose acceleration takes `rise` s to rise at least. Returns how these change with it:
-    /// three derivatives; `None` where nothing but constant limits holds, and at a singular point.
+    /// or for one that stops and whose acceleration takes at least `rise` s to rise. Returns the first three
+    /// derivatives of the joints by the nominal time; `None` where only constant limits hold, and at a singular point.
     pub(crate) fn limit(
         &self,
         robot: &Robot,
-        (at, joints): (f64, &Joints),
+        at: f64,
+        joints: &Joints,
         rise: Option<f64>,
         constraints: &mut Constraints,
     ) -> Option<Rates> {
@@ -432,8 +432,8 @@ impl Segment {
         Some((place, place.rates(self.curve.rates(kinematics, place.at, joints)?)))
     }
 
-    /// The place after `at` s of nominal time with the rates there; of a singular point that beside it, towards the
-    /// middle, as the axes go on evenly. `None` where all that is beside it is singular, too.
+    /// The place after `at` s of nominal time with the rates there; at a singular point, those of a place beside it,
+    /// towards the middle, as if the axes continued evenly. `None` where all places beside it are singular, too.
     fn regular(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<(f64, CurvePoint, Joints, Rates)> {
         let look = |at: f64, joints: Joints| {
             let (place, rates) = self.place_with_rates(kinematics, at, &joints)?;
@@ -447,8 +447,8 @@ impl Segment {
         look(at, *joints).or_else(|| SHARES_BESIDE_SINGULAR.iter().find_map(beside))
     }
 
-    /// How all axes change after `at` s of nominal time, where they are at `joints`: two derivatives by it. `None` at a
-    /// singular point.
+    /// The first two derivatives of all axes by the nominal time, after `at` s of it, where the axes are at `joints`.
+    /// `None` at a singular point.
     pub(crate) fn rates(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<[[f64; ALL]; 2]> {
         let (.., [first, second, _]) = self.place_with_rates(kinematics, at, joints)?;
         Some([first, second])
@@ -466,22 +466,22 @@ impl Segment {
     }
 }
 
-/// Whether it is known what limits each place of a motion: not where it weaves.
+/// Whether it is known what limits each place of a motion: not where it has an overlay.
 fn is_known(motion: &Motion) -> bool {
     motion.laid.is_none()
 }
 
-/// Whether every place of a motion has limits of its own: unless its duration is given or it weaves, which wants an
-/// even speed.
+/// Whether every place of a motion has limits of its own: not where its duration is given or it has an overlay, which
+/// requires an even speed.
 pub(crate) fn is_free(motion: &Motion) -> bool {
     motion.timed.is_none() && is_known(motion)
 }
 
-/// The next lower speed of a fine grid, on which the full speed lies: so that stretches of almost the same speed can be
-/// taken as one.
+/// The next lower speed of a fine grid that contains the full speed, so that stretches of almost the same speed can be
+/// merged.
 fn on_grid(vel: f64) -> f64 {
     const STEP: f64 = 1.003;
-    // What rounding takes from a speed must not cost it a step.
+    // A speed must not lose a step due to rounding.
     let steps = (vel.ln() / STEP.ln() + 1e-6).floor();
     if steps.is_finite() { STEP.powf(steps) } else { vel }
 }

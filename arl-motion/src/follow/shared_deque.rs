@@ -1,16 +1,16 @@
-//! A double-ended queue that is copied quickly: what copies have in common is there once.
+//! A double-ended queue that is copied quickly: copies share what they have in common.
 //!
-//! Invariant: all chunks but the last one are full, and none is empty; of the first one `gone` elements do not count
-//! any more, fewer than it has.
+//! Invariant: all chunks but the last one are full, and none is empty. The first `gone` elements of the first chunk,
+//! fewer than it has, no longer count.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// How many elements a chunk has: copying the queue copies one pointer for as many; the first change after that copies
-/// as many.
+/// Number of elements in a chunk: copying the queue copies one pointer per chunk; the first change after that copies
+/// the elements of one chunk.
 const CHUNK: usize = 32;
 
-/// Shared elements, one behind the other.
+/// Shared elements, in order.
 #[derive(Debug)]
 pub(crate) struct SharedDeque<T> {
     chunks: VecDeque<Arc<Vec<Arc<T>>>>,
@@ -56,12 +56,12 @@ impl<T> SharedDeque<T> {
         self.range(0, self.len)
     }
 
-    /// So many elements from an index on.
+    /// `count` elements from the index `from` on.
     pub(crate) fn range(&self, from: usize, count: usize) -> impl DoubleEndedIterator<Item = &Arc<T>> + Clone {
         (from..from + count).filter_map(|index| self.get(index))
     }
 
-    /// How many of the first elements are those of another one, too.
+    /// The number of first elements that this queue shares with another one.
     pub(crate) fn shared_with(&self, other: &Self) -> usize {
         let common = |index: &usize| match (self.get(*index), other.get(*index)) {
             (Some(own), Some(other)) => Arc::ptr_eq(own, other),
@@ -69,7 +69,7 @@ impl<T> SharedDeque<T> {
         };
         let chunks = self.chunks.iter().zip(&other.chunks);
         let chunks = chunks.map(|(own, other)| Arc::ptr_eq(own, other)).take_while(|same| *same).count();
-        // Where not as many are gone, equal chunks say nothing.
+        // Where the numbers of gone elements differ, equal chunks prove nothing.
         let known = if self.gone == other.gone { (chunks * CHUNK).saturating_sub(self.gone).min(self.len) } else { 0 };
         known + (known..self.len.max(known)).take_while(common).count()
     }
@@ -113,7 +113,7 @@ impl<T> SharedDeque<T> {
         Some(element)
     }
 
-    /// Keeps no more than the first elements.
+    /// Keeps at most the first `count` elements.
     pub(crate) fn truncate(&mut self, count: usize) {
         while self.len > count {
             self.pop_back();

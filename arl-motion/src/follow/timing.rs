@@ -1,12 +1,12 @@
 //! What limits the speed along the path ahead, as the governor sees it: stretches of constant acceleration and jerk,
-//! each cut into cells of constant speed. Lengths are s of nominal time.
+//! each divided into cells of constant speed. Lengths are in s of nominal time.
 
 use std::collections::VecDeque;
 
 use crate::limits::profile::{ALIKE_FACTOR, Limits, State};
 use crate::limits::search::{self, Enough};
 
-/// A part of a stretch on which one speed is allowed.
+/// A part of a stretch with one permitted speed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Cell {
     pub(crate) length: f64,
@@ -19,25 +19,26 @@ pub(crate) struct Stretch {
     pub(crate) cells: VecDeque<Cell>,
     pub(crate) acc: f64,
     pub(crate) jerk: f64,
-    /// The highest speed, without acceleration, from which everything behind the start of the stretch can be kept.
+    /// The highest speed at the start, without acceleration, from which everything behind the start of the stretch can
+    /// be kept.
     pub(crate) entry: f64,
-    /// Whether the robot has to stand still at the end.
+    /// Whether the robot has to come to rest at the end.
     pub(crate) stops: bool,
-    /// Whether `entry` has been found since the stretch was changed last.
+    /// Whether `entry` has been found since the last change of the stretch.
     known: bool,
 }
 
-/// How near to the highest speed of entry is near enough, as a part of it.
+/// Relative tolerance of the highest entry speed.
 const ENTRY_SPEED_TOLERANCE: f64 = 1e-14;
 
-/// The same where it only has to be known about how long braking takes.
+/// Tolerance of the entry speed where braking only has to be known approximately.
 const BRAKING_TOLERANCE: Enough = Enough { value: 1e-3, excess: 1e-3 };
 
 /// All stretches from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Timing {
     pub(crate) stretches: VecDeque<Stretch>,
-    /// The length of all cells.
+    /// Length of all cells.
     length: f64,
 }
 
@@ -47,7 +48,7 @@ impl Stretch {
         Self { cells: VecDeque::from([cell]), acc, jerk, entry: 0.0, stops: false, known: false }
     }
 
-    /// Whether a cell is enough like the others to join them.
+    /// Whether a cell is sufficiently like the others to join them.
     fn takes(&self, cell: &Cell) -> bool {
         let alike = |a: f64, b: f64| a <= b * ALIKE_FACTOR && b <= a * ALIKE_FACTOR;
         alike(self.acc, cell.limits.acc) && alike(self.jerk, cell.limits.jerk)
@@ -59,9 +60,9 @@ impl Stretch {
         (self.acc, self.jerk) = (lowest(|limits| limits.acc), lowest(|limits| limits.jerk));
     }
 
-    /// Joins the last cells whose speeds are the same, but for `open` at the end.
+    /// Merges the last cells where speeds are the same, except for `open` cells at the end.
     fn settle(&mut self, open: usize) {
-        /// More than are new.
+        /// An upper bound of the number of new cells.
         const NEW: usize = 80;
         let count = self.cells.len();
         for at in (1..count.saturating_sub(open)).rev().take(NEW) {
@@ -69,7 +70,7 @@ impl Stretch {
                 return;
             };
             let (a, b) = (before.limits, cell.limits);
-            // Neither may lose speed: the robot may count on both already.
+            // Neither cell may lose speed: the robot may depend on both already.
             if a.vel.to_bits() == b.vel.to_bits() {
                 let limits = Limits { vel: a.vel, acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) };
                 if let Some(place) = self.cells.get_mut(at - 1) {
@@ -80,7 +81,7 @@ impl Stretch {
         }
     }
 
-    /// Acceleration and jerk, with no limit of the speed.
+    /// Acceleration and jerk, with no speed limit.
     pub(crate) fn limits(&self) -> Limits {
         Limits { vel: f64::INFINITY, acc: self.acc, jerk: self.jerk }
     }
@@ -90,7 +91,8 @@ impl Stretch {
         self.highest_speed(0.0, exit, margin, cycle)
     }
 
-    /// The highest speed, without acceleration, so far behind its start, where `exit` is that at its end.
+    /// The highest speed, without acceleration, at `from` behind its start, where `exit` is the highest speed at its
+    /// end.
     fn highest_speed(&self, from: f64, exit: f64, margin: f64, cycle: f64) -> f64 {
         let limits = Limits { vel: 0.0, acc: self.acc * margin, jerk: self.jerk * margin };
         let mut way = -from;
@@ -106,7 +108,7 @@ impl Stretch {
             // It is entered in the middle of a cycle, and braking begins with the next one.
             let needed = |vel: f64| limits.slowing(vel, speed) + 2.0 * cycle * vel;
             if speed >= highest || needed(highest) <= way {
-                // Nothing farther away than a stop from here matters.
+                // Nothing beyond the stopping distance from here matters.
                 if way > stop {
                     break;
                 }
@@ -121,7 +123,7 @@ impl Stretch {
 }
 
 impl Timing {
-    /// Appends a cell, at whose end the robot has to stand still if `stops`; it joins the last stretch if it `may`.
+    /// Appends a cell; with `stops`, the robot has to come to rest at its end. It joins the last stretch if it `may`.
     pub(crate) fn push(&mut self, cell: Cell, stops: bool, may: bool) {
         self.length += cell.length;
         match self.stretches.back_mut() {
@@ -136,7 +138,7 @@ impl Timing {
         }
     }
 
-    /// Takes the last cell away; returns whether its stretch began with it.
+    /// Removes the last cell; returns whether its stretch began with it.
     pub(crate) fn pop(&mut self) -> bool {
         let Some(last) = self.stretches.back_mut() else { return false };
         let popped = last.cells.pop_back();
@@ -152,7 +154,7 @@ impl Timing {
         began
     }
 
-    /// Joins cells whose speeds are the same, but for the last ones, `open` in all, which may still be taken away.
+    /// Merges cells whose speeds are the same, except for the last `open` ones of all, which may still be removed.
     pub(crate) fn settle(&mut self, open: usize) {
         // The last of them may have begun a stretch of their own.
         let mut open = open;
@@ -166,13 +168,13 @@ impl Timing {
         }
     }
 
-    /// Finds the speeds at which stretches may be entered, from the last one backwards. `margin` is the part of the
-    /// limits that is counted on, `cycle` the length of a cycle in s.
+    /// Finds the speeds at which stretches may be entered, from the last one backwards. `margin` is the share of the
+    /// limits that may be used, `cycle` the length of a cycle in s.
     pub(crate) fn find_entries(&mut self, margin: f64, cycle: f64) {
         let (mut exit, mut changed) = (0.0, true);
-        // Nobody asks for that of the first one.
+        // The entry speed of the first stretch is not needed.
         for stretch in self.stretches.iter_mut().skip(1).rev() {
-            // What ends like before is entered like before.
+            // A stretch with the same exit speed as before has the same entry speed.
             if stretch.known && !changed {
                 return;
             }
@@ -183,13 +185,14 @@ impl Timing {
         }
     }
 
-    /// The speed at which the next stretch may be entered; `None` where that one may still change otherwise.
+    /// The speed at which the next stretch may be entered; `None` where that stretch may still change for another
+    /// reason.
     pub(crate) fn next_entry(&self) -> Option<f64> {
         if self.stretches.len() > 2 { self.stretches.get(1).map(|stretch| stretch.entry) } else { None }
     }
 
-    /// The highest speed, without acceleration, at a place, as a state has it, from which everything behind it can be
-    /// kept. `margin` and `cycle` as in [`Self::find_entries`], which comes first.
+    /// The highest speed, without acceleration, at a place, given as in a state, from which everything behind it can be
+    /// kept. `margin` and `cycle` are as in [`Self::find_entries`], which has to be called first.
     pub(crate) fn highest_speed(&self, at: f64, margin: f64, cycle: f64) -> f64 {
         let mut start = 0.0;
         let nexts = self.stretches.iter().skip(1).map(|next| next.entry).chain([0.0]);
@@ -203,7 +206,7 @@ impl Timing {
         0.0
     }
 
-    /// Whether a place, as a state has it, is on the first stretch.
+    /// Whether a place, given as in a state, is on the first stretch.
     pub(crate) fn is_on_first(&self, at: f64) -> bool {
         let mut end = 0.0;
         self.stretches.front().is_some_and(|first| {
@@ -214,7 +217,7 @@ impl Timing {
         })
     }
 
-    /// Leaves behind what the robot has passed; returns whether it stands at a stop.
+    /// Leaves behind what the robot has passed; returns whether it is at rest at a stop.
     pub(crate) fn pass(&mut self, state: &mut State) -> bool {
         while let Some(first) = self.stretches.front_mut() {
             let Some(cell) = first.cells.front().copied() else {
@@ -249,7 +252,7 @@ impl Timing {
         self.length = self.stretches.iter().flat_map(|stretch| &stretch.cells).map(|cell| cell.length).sum();
     }
 
-    /// The way in s to the next stop.
+    /// The distance to the next stop, in s.
     pub(crate) fn to_stop(&self) -> f64 {
         let mut end = 0.0;
         for stretch in &self.stretches {
@@ -261,8 +264,8 @@ impl Timing {
         end
     }
 
-    /// The way in s, up to `open` s before the end of everything, on which the robot may have to brake if it has to
-    /// come to rest there, however fast it may be before.
+    /// The distance in s, up to `open` s before the end of the path, over which the robot may have to brake if it has
+    /// to come to rest there, however fast it may be before.
     pub(crate) fn braking(&self, open: f64) -> f64 {
         let (mut open, mut needed, mut exit) = (open, 0.0, 0.0);
         for stretch in self.stretches.iter().rev() {
@@ -275,7 +278,7 @@ impl Timing {
             if way <= 0.0 {
                 continue;
             }
-            // It may just be speeding up.
+            // The robot may just be speeding up.
             let fading = fastest * stretch.acc / stretch.jerk;
             let slowing = |vel: f64| stretch.limits().slowing(vel, exit) + fading;
             if slowing(fastest) <= way {
@@ -291,7 +294,7 @@ impl Timing {
         needed
     }
 
-    /// The way in s to the end of everything.
+    /// The distance in s to the end of the path.
     pub(crate) fn length(&self) -> f64 {
         self.length
     }

@@ -6,7 +6,7 @@ use crate::geometry::track::Arc;
 
 /// Points closer than this, in mm, are the same.
 const SAME_POINT_MM: f64 = 1e-6;
-/// Three points whose angle has a smaller sine lie on a line.
+/// Three points whose angle has a smaller sine than this are on a line.
 const COLLINEAR_SINE: f64 = 1e-9;
 
 /// A circle with a sense of rotation.
@@ -14,11 +14,11 @@ const COLLINEAR_SINE: f64 = 1e-9;
 pub(crate) struct Circle {
     /// In mm.
     centre: Vector3<f64>,
-    /// A unit vector, about which it is gone along.
+    /// A unit vector, about which the circle is traversed.
     normal: Vector3<f64>,
 }
 
-/// The circle through three points (mm) in their order; `None` where two are the same or all lie on a line.
+/// The circle through three points (mm) in their order; `None` where two are the same or all are on a line.
 pub(crate) fn circle_through([start, via, end]: &[Vector3<f64>; 3]) -> Option<Circle> {
     let (to_via, to_end, rest) = (via - start, end - start, end - via);
     let lengths = [to_via.norm(), to_end.norm(), rest.norm()];
@@ -30,14 +30,14 @@ pub(crate) fn circle_through([start, via, end]: &[Vector3<f64>; 3]) -> Option<Ci
     if normal.norm() < COLLINEAR_SINE * a * b {
         return None;
     }
-    // The centre of the circumscribed circle, seen from the start.
+    // The centre of the circumscribed circle, relative to the start.
     let to_centre = (normal.cross(&to_via) * b * b + to_end.cross(&normal) * a * a) / (2.0 * normal.norm_squared());
     // With this normal the second point always comes before the third.
     Some(Circle { centre: start + to_centre, normal: normal.normalize() })
 }
 
 impl Circle {
-    /// The way on it from one of its points to another (mm).
+    /// The arc from one of its points to another (mm).
     pub(crate) fn arc(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> Arc {
         let across = from - self.centre;
         let along = self.normal.cross(&across);
@@ -48,7 +48,7 @@ impl Circle {
     }
 }
 
-/// The arc from the first of three points (mm) over the second to the third; `None` where they make no circle.
+/// The arc from the first of three points (mm) over the second to the third; `None` where they define no circle.
 pub(crate) fn arc_through(points: &[Vector3<f64>; 3]) -> Option<Arc> {
     let [start, _, end] = points;
     Some(circle_through(points)?.arc(start, end))

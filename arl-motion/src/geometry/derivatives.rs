@@ -1,13 +1,13 @@
-//! A place on a curve whose parameter moves with another one.
+//! Places on a curve whose parameter is a function of another parameter.
 
 use nalgebra::Vector3;
 
 use crate::geometry::parametrization::Parametrization;
 
-/// A step for differences, as part of the whole.
+/// The step for differences, as a share of the whole.
 const DIFFERENCE_STEP: f64 = 1e-3;
 
-/// A place on the curve: its parameter, and how that changes with the share of the nominal time.
+/// A place on the curve: its parameter with derivatives by the share of the nominal time.
 #[derive(Clone, Copy)]
 pub(crate) struct CurvePoint {
     pub(crate) at: f64,
@@ -22,13 +22,13 @@ impl CurvePoint {
         Self { at: parametrization.at(share), first, second, third }
     }
 
-    /// By a parameter of which `width` is the derivative of the one before.
+    /// The place by a parameter whose derivative of the previous one is `width`.
     pub(crate) fn scaled(self, width: f64) -> Self {
         let Self { at, first, second, third } = self;
         Self { at, first: first * width, second: second * width * width, third: third * width * width * width }
     }
 
-    /// Derivatives by the curve's parameter become derivatives by the share of the time.
+    /// Converts derivatives by the curve's parameter into derivatives by the share of the time.
     pub(crate) fn rates<const N: usize>(&self, [p1, p2, p3]: [[f64; N]; 3]) -> [[f64; N]; 3] {
         let Self { first: a, second: b, third: c, .. } = *self;
         let mut out = [[0.0; N]; 3];
@@ -47,17 +47,17 @@ impl CurvePoint {
     }
 }
 
-/// The part of the second difference of a way in steps that lies along the first of them; no number where that is none.
+/// The component of the second difference of consecutive steps along the first step; NaN where the first step is zero.
 pub(crate) fn second_difference_along([first, second]: [&Vector3<f64>; 2]) -> f64 {
     (second - first).dot(first) / first.norm()
 }
 
-/// The part of the third difference of a way in steps that lies along it; no number where the middle step is none.
+/// The component of the third difference of consecutive steps along the path; NaN where the middle step is zero.
 pub(crate) fn third_difference_along([first, second, third]: [&Vector3<f64>; 3]) -> f64 {
     (third - 2.0 * second + first).dot(second) / second.norm()
 }
 
-/// Three derivatives of a point's place, in mm, by what `of` takes, from 0 to `end`: by differences.
+/// The first three derivatives of a point's position, in mm, by the argument of `of`, from 0 to `end`: by differences.
 pub(crate) fn by_differences(of: impl Fn(f64) -> Vector3<f64>, at: f64, end: f64) -> [Vector3<f64>; 3] {
     let step = DIFFERENCE_STEP * end;
     let at = at.clamp(2.0 * step, end - 2.0 * step);

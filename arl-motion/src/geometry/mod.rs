@@ -1,4 +1,4 @@
-//! Curves: lines, circles and splines, and how a parameter goes along them.
+//! Curves: lines, circles and splines, and how a parameter moves along them.
 
 pub(crate) mod arc;
 pub(crate) mod derivatives;

@@ -1,12 +1,12 @@
-//! Polynomials that are gone along at a pace of their own.
+//! Polynomials that are followed at a pace of their own.
 
 use std::sync::Arc;
 
 use crate::geometry::parametrization::Parametrization;
 use crate::geometry::quintic::{Knot, Quintic};
 
-/// Values along a path: a polynomial of the way's parameter or, where it has a pace of its own, of the parametrization
-/// that the parameter stands for.
+/// Values along a path: a polynomial of the path's parameter or, where it has a pace of its own, of the parametrization
+/// as a function of that parameter.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct PacedQuintic<const N: usize> {
     poly: Quintic<N>,
@@ -53,7 +53,7 @@ impl<const N: usize> PacedQuintic<N> {
         Knot { value: self.at(at), first: self.derivative(1, at), second: self.derivative(2, at) }
     }
 
-    /// Whether it goes evenly.
+    /// Whether it changes evenly.
     pub(crate) fn is_even(&self) -> bool {
         self.pace.is_none() && self.poly.is_even()
     }

@@ -1,5 +1,5 @@
-//! How the parameter of a blend goes with time: so that the TCP's speed changes smoothly from that of the one motion to
-//! that of the other, whatever the shape of the blend.
+//! The parameter of a blend as a function of time, such that the TCP's speed changes smoothly from that of one motion
+//! to that of the other, whatever the shape of the blend.
 
 use std::sync::Arc;
 
@@ -7,11 +7,11 @@ use nalgebra::SVector;
 
 use crate::geometry::quintic::{Knot, Quintic};
 
-/// Parts of the time, each with a polynomial of its own.
+/// Number of parts of the time, each with a polynomial of its own.
 const PARTS: usize = 16;
-/// Places of a part at which the way is summed up.
+/// Number of places of a part at which the path length is summed up.
 const PLACES_OF_PART: usize = 8;
-/// The part of the time over which the speed changes at either end.
+/// Share of the time over which the speed changes at either end.
 const EASING_SHARE: f64 = 5.0 / 16.0;
 
 /// The parameter of a curve over the share of the nominal time, both from 0 to 1.
@@ -24,7 +24,7 @@ pub(crate) enum Parametrization {
 }
 
 impl Parametrization {
-    /// Parts between which the third derivative jumps, all of the same length.
+    /// Number of parts between which the third derivative jumps, all of the same length.
     pub(crate) const PARTS: usize = PARTS;
 
     /// Whether its third derivative jumps between parts.
@@ -32,14 +32,14 @@ impl Parametrization {
         matches!(self, Self::Many(_))
     }
 
-    /// From one rate of the parameter to another, smoothly, each with its change.
+    /// A smooth change from one rate of the parameter to another, each with its derivative.
     pub(crate) fn between([start, end]: [[f64; 2]; 2]) -> Self {
         let knot = |value: f64, [first, second]: [f64; 2]| Knot { value: [value], first: [first], second: [second] };
         Self::One(Quintic::between(&knot(0.0, start), &knot(1.0, end)))
     }
 
-    /// As [`Parametrization::along`], for a way that hardly bends and hardly changes its speed: of its first and second
-    /// derivatives.
+    /// Like [`Parametrization::along`], for a path that hardly bends and hardly changes its speed, from the path's
+    /// first and second derivatives.
     pub(crate) fn gently<const N: usize>(
         derivative: impl Fn(usize, f64) -> SVector<f64, N>,
         start: [f64; 2],
@@ -48,7 +48,7 @@ impl Parametrization {
         if start[0] <= 0.0 || end[0] <= 0.0 {
             return None;
         }
-        // Gauss's rule with three places.
+        // Gauss's rule with three points.
         let speed = |at: f64| derivative(1, at).norm();
         let length =
             (5.0 * (speed(0.112_701_665_379_258_3) + speed(0.887_298_334_620_741_7)) + 8.0 * speed(0.5)) / 18.0;
@@ -63,9 +63,9 @@ impl Parametrization {
         Some((Self::One(whole), time))
     }
 
-    /// Along the path with these derivatives, with a speed in mm/s that goes smoothly from that of `start` to that of
-    /// `end`, and so do their accelerations, in mm/s2; with the nominal time in s. `None` where the path or the speed
-    /// stands still or turns back somewhere.
+    /// A parametrization along the path with these derivatives, with a speed in mm/s that changes smoothly from that of
+    /// `start` to that of `end`, as do the accelerations, in mm/s2; with the nominal time in s. `None` where the path
+    /// or the speed stands still or reverses somewhere.
     pub(crate) fn along<const N: usize>(
         derivative: impl Fn(usize, f64) -> SVector<f64, N>,
         [start, start_acc]: [f64; 2],
@@ -73,7 +73,7 @@ impl Parametrization {
     ) -> Option<(Self, f64)> {
         const STEPS: usize = PARTS * PLACES_OF_PART;
         let speed = |at: f64| derivative(1, at).norm();
-        // The way up to each place, by Simpson's rule.
+        // The path length up to each place, by Simpson's rule.
         let mut ways = [0.0; STEPS + 1];
         let step = 1.0 / STEPS as f64;
         let mut sum = 0.0;
@@ -87,7 +87,7 @@ impl Parametrization {
         if slowest < 0.25 * sum || start <= 0.0 || end <= 0.0 {
             return None;
         }
-        // The speed over the share of the time is a polynomial of the third degree; its integral is the way.
+        // The speed over the share of the time is a polynomial of the third degree; its integral is the path length.
         let time = time_along(sum, [start, start_acc], [end, end_acc])?;
         let (rise, fall) = (time * start_acc, time * end_acc);
         let wanted = |x: f64| {
@@ -103,7 +103,7 @@ impl Parametrization {
             let by_acc = x * x * (rise * (0.5 - x * (2.0 / 3.0 - x / 4.0)) - fall * x * (1.0 / 3.0 - x / 4.0));
             let way = time * (start * x + (end - start) * eased + by_acc);
             let mut at = parameter(&ways, way);
-            // The table is a first guess.
+            // The table provides a first guess.
             for _ in 0..3 {
                 let base = (at / step).floor().clamp(0.0, (STEPS - 1) as f64);
                 let from = base * step;
@@ -122,8 +122,9 @@ impl Parametrization {
         Some((along, time))
     }
 
-    /// Along a path that is so long per unit of the parameter, and changes so, at every place: with a speed that goes
-    /// smoothly from `start` over `middle` to `end`, per s; with the nominal time in s. All of it is above zero.
+    /// A parametrization along a path for which `gait` gives the length per unit of the parameter and its derivative at
+    /// every place, with a speed that changes smoothly from `start` over `middle` to `end`, per s; with the nominal
+    /// time in s. All values are above zero.
     pub(crate) fn eased(gait: impl Fn(f64) -> [f64; 2], [start, middle, end]: [f64; 3]) -> (Self, f64) {
         const STEPS: usize = 4 * PARTS;
         let length = |at: f64| gait(at)[0];
@@ -156,7 +157,7 @@ impl Parametrization {
             let (way, speed, change) = speed(share);
             let way = way * time;
             let mut at = parameter(&ways, way);
-            // The table is a first guess.
+            // The table provides a first guess.
             for _ in 0..3 {
                 let base = (at / step).floor().clamp(0.0, (STEPS - 1) as f64);
                 let known = ways.get(base as usize).copied().unwrap_or(0.0);
@@ -172,7 +173,7 @@ impl Parametrization {
         (along, time)
     }
 
-    /// From the value and its first two derivatives at the ends of the parts.
+    /// Creates a parametrization from the value and its first two derivatives at the ends of the parts.
     fn of(at: impl Fn(f64) -> [f64; 3]) -> Self {
         let width = 1.0 / PARTS as f64;
         let knot = |index: usize| {
@@ -182,7 +183,7 @@ impl Parametrization {
         Self::Many(Arc::new(std::array::from_fn(|index| Quintic::between(&knot(index), &knot(index + 1)))))
     }
 
-    /// The part that `share` is in, where in it, and how many there are.
+    /// The part that contains `share`, the place in it, and the number of parts.
     fn part(&self, share: f64) -> (&Quintic<1>, f64, f64) {
         match self {
             Parametrization::One(whole) => (whole, share.clamp(0.0, 1.0), 1.0),
@@ -210,14 +211,15 @@ impl Parametrization {
     }
 }
 
-/// The time in s for a way in mm from one speed and acceleration, in mm/s and mm/s2, smoothly to others.
+/// The time in s for a distance in mm with a smooth change from one speed and acceleration, in mm/s and mm/s2, to
+/// others.
 fn time_along(way: f64, [start, start_acc]: [f64; 2], [end, end_acc]: [f64; 2]) -> Option<f64> {
     let (mean, gain) = (f64::midpoint(start, end), (start_acc - end_acc) / 12.0);
     let inside = mean * mean + 4.0 * gain * way;
     (inside >= 0.0).then(|| 2.0 * way / (mean + inside.sqrt())).filter(|time| time.is_finite())
 }
 
-/// The parameter at which the table of ways has reached `way`.
+/// The parameter at which the table of path lengths has reached `way`.
 fn parameter(ways: &[f64], way: f64) -> f64 {
     let after = ways.partition_point(|known| *known < way).clamp(1, ways.len() - 1);
     let (Some(low), Some(high)) = (ways.get(after - 1), ways.get(after)) else { return 0.0 };
@@ -270,7 +272,7 @@ mod tests {
             let along = (second * rate * rate + first * change).dot(&first) / first.norm();
             assert!((along - acc).abs() < 1e-9, "{along}");
         }
-        // Whatever the parts, the way comes out.
+        // Whatever the parts, the path length is exact.
         assert!((parametrization.at(1.0) - 1.0).abs() < 1e-9);
     }
 

@@ -1,6 +1,6 @@
-//! Polynomials of the fifth degree: straight ways, blends, splines.
+//! Polynomials of the fifth degree: straight paths, blends, splines.
 
-/// What the powers get by the first, second and third derivative.
+/// Factors of the powers in the first, second and third derivative.
 const FACTORS: [[f64; 6]; 3] =
     [[0.0, 1.0, 2.0, 3.0, 4.0, 5.0], [0.0, 0.0, 2.0, 6.0, 12.0, 20.0], [0.0, 0.0, 0.0, 6.0, 24.0, 60.0]];
 
@@ -17,7 +17,7 @@ pub(crate) struct Knot<const N: usize> {
 }
 
 impl<const N: usize> Quintic<N> {
-    /// Evenly from `start` at 0 by `travel` per unit.
+    /// An even change from `start` at 0 by `travel` per unit.
     pub(crate) fn even(start: [f64; N], travel: [f64; N]) -> Self {
         let zero = [0.0; N];
         Self([start, travel, zero, zero, zero, zero])
@@ -70,7 +70,7 @@ impl<const N: usize> Quintic<N> {
         Knot { value: self.at(at), first: self.derivative(1, at), second: self.derivative(2, at) }
     }
 
-    /// Whether it goes evenly.
+    /// Whether it changes evenly.
     pub(crate) fn is_even(&self) -> bool {
         self.0.iter().skip(2).all(|power| power.iter().all(|value| *value == 0.0))
     }

@@ -1,10 +1,10 @@
-//! Rotation vectors that change along a path, and the speed of rotation that they mean.
+//! Rotation vectors that change along a path, and the speed of rotation that follows from them.
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Terms of the power series below: enough for every rotation vector up to two turns.
+/// Number of terms of the power series below: enough for every rotation vector up to two turns.
 const SERIES_TERMS: u32 = 24;
-/// Terms that are enough up to this square of the angle.
+/// Number of terms that are enough up to this square of the angle.
 const SMALL_ANGLE_TERMS: u32 = 4;
 const SMALL_ANGLE_SQUARED: f64 = 1e-3;
 
@@ -31,7 +31,7 @@ fn factors(vector: &Vector3<f64>) -> [[f64; 3]; 2] {
 }
 
 /// The speed of rotation, in rad per unit, of a rotation vector (rad) whose first three derivatives are given, with its
-/// first two derivatives. The rotation that the vector stands for is followed by nothing and preceded by a fixed one.
+/// first two derivatives. The rotation of the vector is preceded by a fixed one and followed by none.
 pub(crate) fn speeds(vector: &Vector3<f64>, derivatives: &[Vector3<f64>; 3]) -> [Vector3<f64>; 3] {
     let [d1, d2, d3] = derivatives;
     let (s1, s2) = (2.0 * vector.dot(d1), 2.0 * (d1.norm_squared() + vector.dot(d2)));
@@ -48,7 +48,7 @@ pub(crate) fn speeds(vector: &Vector3<f64>, derivatives: &[Vector3<f64>; 3]) -> 
 }
 
 /// The first two derivatives of a rotation vector (rad, below a whole turn) that turns with a speed of rotation and its
-/// derivative: the opposite of [`speeds`].
+/// derivative: the inverse of [`speeds`].
 pub(crate) fn of_speeds(vector: &Vector3<f64>, [speed, change]: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
     let [[a, ..], [b, ..]] = factors(vector);
     let across = vector.cross_matrix();

@@ -1,10 +1,10 @@
-//! Smooth ways through points.
+//! Smooth paths through points.
 //!
-//! At each inner point the way has the direction and the curvature of the parabola through the point and its
-//! neighbours, over the lengths of the chords; between them it is a polynomial of the fifth degree, at the ends one
-//! that goes on like a parabola. So a segment depends on no more than two points before it and one behind it, points on
-//! a line make a line, and what is planned already never changes. The tool's rotation and the external axes follow the
-//! same rule.
+//! At each inner point the path has the direction and the curvature of the parabola through the point and its
+//! neighbours, over the lengths of the chords. Between inner points it is a polynomial of the fifth degree, which at
+//! the ends of the spline continues like a parabola. So a segment depends on at most two points before it and one
+//! behind it, points on a line make a line, and what is planned already never changes. The tool's rotation and the
+//! external axes follow the same rule.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::geometry::track::Track;
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::EXTERNAL_AXES;
 
-/// Where the TCP and the external axes are at a point of the way.
+/// The TCP and the external axes at a point of the path.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct SplinePoint {
     /// In the base, translation in mm.
@@ -28,7 +28,7 @@ pub(crate) struct SplinePoint {
     pub(crate) external: [f64; EXTERNAL_AXES],
 }
 
-/// How the way passes an inner point: derivatives by the length of the chords, in mm.
+/// How the path passes an inner point: derivatives by the length of the chords, in mm.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Passing {
     moved: [Vector3<f64>; 2],
@@ -39,20 +39,20 @@ pub(crate) struct Passing {
     pub(crate) speed: f64,
 }
 
-/// The cosine of the angle, 150 deg, from which on chords turn back: a way through such a point would almost stop
-/// there, and its tangent would be shorter than `LEAST_SHARE_OF_CHORD`.
+/// The cosine of the angle, 150 deg, from which chords count as turning back: a path through such a point would almost
+/// stop there, and its tangent would be shorter than `LEAST_SHARE_OF_CHORD`.
 const TURN_BACK_COSINE: f64 = -0.866_025_404;
 
-/// Where the way is nearly reversed its parameter slows down to this part of the length of the chords, not to nothing.
+/// Where the path is nearly reversed, its parameter slows down to this share of the length of the chords, not to zero.
 const LEAST_SHARE_OF_CHORD: f64 = 0.25;
 
 impl SplinePoint {
-    /// The length of the chord to another place in mm.
+    /// The length of the chord to another point in mm.
     pub(crate) fn chord(&self, to: &SplinePoint) -> f64 {
         (to.tcp.translation.vector - self.tcp.translation.vector).norm()
     }
 
-    /// Whether the way from here over a point to another one turns back at that point.
+    /// Whether the path from here over a point to another one turns back at that point.
     pub(crate) fn turns_back(&self, over: &SplinePoint, to: &SplinePoint) -> bool {
         let place = |place: &SplinePoint| place.tcp.translation.vector;
         let (first, second) = (place(over) - place(self), place(to) - place(over));
@@ -69,7 +69,7 @@ impl SplinePoint {
 }
 
 impl Passing {
-    /// Through `here`, from `before` to `after`; all three apart from each other.
+    /// The passing of `here`, from `before` to `after`; all three are at different places.
     pub(crate) fn through([before, here, after]: [&SplinePoint; 3], speed: f64) -> Self {
         let (h0, h1) = (before.chord(here), here.chord(after));
         let moved = |from: &SplinePoint, to: &SplinePoint| to.tcp.translation.vector - from.tcp.translation.vector;
@@ -82,15 +82,15 @@ impl Passing {
     }
 }
 
-/// First and second derivative in the middle of three points, which are `way0` and `way1` apart over the lengths `h0`
-/// and `h1`.
+/// The first and second derivative in the middle of three points, which are `way0` and `way1` apart over the lengths
+/// `h0` and `h1`.
 fn parabola<const N: usize>(h0: f64, way0: SVector<f64, N>, h1: f64, way1: SVector<f64, N>) -> [SVector<f64, N>; 2] {
     let (slope0, slope1) = (way0 / h0, way1 / h1);
     [(slope0 * h1 + slope1 * h0) / (h0 + h1), (slope1 - slope0) * (2.0 / (h0 + h1))]
 }
 
-/// The curve from one point to the next, passing its ends as said, or ending there; with the nominal time in s that it
-/// takes at `speed` mm/s, and the external axes along it.
+/// The curve from one point to the next, with the given passing at its ends, or none where the spline ends there; with
+/// the external axes along it, and the nominal time in s that it takes at `speed` mm/s.
 pub(crate) fn segment(
     [from, to]: [&SplinePoint; 2],
     [start, end]: [Option<&Passing>; 2],
@@ -127,7 +127,7 @@ pub(crate) fn segment(
     (path, PacedQuintic::paced(external, pace), time)
 }
 
-/// From `start` by `way`; where an end's derivatives are not given, it goes on as a parabola.
+/// A polynomial from `start` by `way`; where the derivatives at an end are not given, it continues as a parabola there.
 fn polynomial<const N: usize>(
     start: SVector<f64, N>,
     way: SVector<f64, N>,
@@ -149,7 +149,7 @@ fn polynomial<const N: usize>(
     Quintic::between(&knot(start, from), &knot(start + way, to))
 }
 
-/// How long the way is per unit of the parameter, in mm, and how that changes; never much shorter than
+/// The length of the path per unit of the parameter, in mm, and its derivative; never much shorter than
 /// `LEAST_SHARE_OF_CHORD` of the chord.
 fn gait(moved: &Quintic<3>, chord: f64, at: f64) -> [f64; 2] {
     let (first, second) = (Vector3::from(moved.derivative(1, at)), Vector3::from(moved.derivative(2, at)));

@@ -1,4 +1,4 @@
-//! The plain path of the TCP: where it goes, and how the tool turns meanwhile.
+//! The plain path of the TCP: its position and the rotation of the tool.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -6,14 +6,14 @@ use crate::geometry::paced_quintic::PacedQuintic;
 use crate::geometry::rotation;
 use crate::geometry::track::Track;
 
-/// The path of the TCP without what is laid over it.
+/// The path of the TCP without overlays.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct TcpPath {
     /// The position of the TCP.
     pub(crate) track: Track,
     /// The orientation to which `turning` is added.
     pub(crate) base: UnitQuaternion<f64>,
-    /// A rotation vector in rad, about the axes of what the path is seen from.
+    /// A rotation vector in rad, about the axes of what the path is relative to.
     pub(crate) turning: PacedQuintic<3>,
 }
 
@@ -23,7 +23,7 @@ impl TcpPath {
         UnitQuaternion::from_scaled_axis(Vector3::from(self.turning.at(at))) * self.base
     }
 
-    /// How the orientation changes at `at`: its speed of rotation in rad per unit, and two derivatives of that.
+    /// How the orientation changes at `at`: the speed of rotation in rad per unit, and its first two derivatives.
     pub(crate) fn rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
         if self.turning.is_even() {
             return [Vector3::from(self.turning.derivative(1, at)), Vector3::zeros(), Vector3::zeros()];

@@ -1,11 +1,11 @@
-//! Where a point goes: by polynomials or along a circle, with its derivatives and its length.
+//! The positions of a point: by polynomials or along a circle, with derivatives and length.
 
 use nalgebra::Vector3;
 
 use crate::geometry::paced_quintic::PacedQuintic;
 use crate::geometry::quintic::Quintic;
 
-/// Where a point goes.
+/// The path of a point.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Track {
     /// By polynomials, in mm.
@@ -56,7 +56,7 @@ impl Track {
         }
     }
 
-    /// How its direction turns, in rad per unit about an axis of the base; `None` where it does not turn evenly.
+    /// The rotation of its direction, in rad per unit about an axis of the base; `None` where it does not turn evenly.
     pub(crate) fn even_turning(&self) -> Option<Vector3<f64>> {
         match self {
             Track::Poly(poly) => poly.is_even().then(Vector3::zeros),
@@ -69,7 +69,7 @@ impl Track {
         match self {
             Track::Poly(poly) if poly.is_even() => self.derivative(1, 0.0).norm(),
             Track::Arc(arc) => arc.along.norm() * arc.sweep.abs(),
-            // Gauss's rule with five places, on eight parts.
+            // Gauss's rule with five points, on eight parts.
             Track::Poly(_) => {
                 const PLACES: [(f64, f64); 5] = [
                     (0.0, 0.568_888_888_888_888_9),

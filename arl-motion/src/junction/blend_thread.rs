@@ -1,8 +1,9 @@
-//! Finds junctions beside the cycle, on a thread of its own.
+//! Finds junctions in parallel with the cycle, on a thread of its own.
 //!
-//! When a motion is laid is decided by the cycle alone, whatever the thread has done until then. A junction that it has
-//! found by then is there; one that it is finding is waited for; else the cycle finds it. All three give the same, so a
-//! run does not depend on the thread. In real time the motion waits instead until the thread is ready.
+//! When a motion is laid is decided by the cycle alone, whatever the thread has done until then. A junction that the
+//! thread has found by then is used; one that it is finding is waited for; otherwise the cycle finds it. All three give
+//! the same result, so a run does not depend on the thread. In real time the motion waits instead until the thread is
+//! ready.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,7 +17,7 @@ use crate::junction::{Before, Junction, MotionPair};
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
-/// So many junctions are looked for, or have been, at the most; those beyond are found when they are needed.
+/// Maximum number of junctions that are waiting, being found or finished; those beyond are found when they are needed.
 const MOST_JUNCTIONS: usize = 1024;
 
 /// A junction that is being found.
@@ -26,16 +27,16 @@ pub(crate) struct Prepared(Arc<Preparation>);
 #[derive(Debug, Default)]
 struct Preparation {
     junction: OnceLock<Junction>,
-    /// Whether the thread has given it up, or never had it.
+    /// Whether the thread has given up the search, or never had it.
     is_left: AtomicBool,
 }
 
-/// How a motion will be joined by the one before it when it is left.
+/// What is known about the junction before a motion.
 #[derive(Debug)]
 pub(crate) enum Joining {
-    /// As it lies on the path.
+    /// The junction as it lies on the path.
     Known(Before),
-    /// As this junction, which comes first, leaves it.
+    /// What this junction, which comes first, passes on.
     Behind(Prepared),
 }
 
@@ -45,11 +46,11 @@ struct Task {
     from: Arc<Motion>,
     to: Arc<Motion>,
     result: Prepared,
-    /// What the thread has forgotten for it.
+    /// A junction that the thread has forgotten in exchange.
     forgotten: Option<Prepared>,
 }
 
-/// The thread; it begins with the first junction.
+/// The thread; it starts with the first junction.
 #[derive(Debug, Default)]
 pub(crate) struct BlendThread {
     channels: Option<Channels>,
@@ -58,19 +59,19 @@ pub(crate) struct BlendThread {
 #[derive(Debug)]
 struct Channels {
     tasks: SyncSender<Task>,
-    /// Those that are done come back: memory is given back where it was taken.
+    /// Finished tasks come back, so that memory is freed where it was allocated.
     done: Receiver<Task>,
 }
 
 impl Clone for BlendThread {
-    /// Another one, with a thread of its own.
+    /// Creates another thread handle, with a thread of its own.
     fn clone(&self) -> Self {
         Self::default()
     }
 }
 
 impl BlendThread {
-    /// Begins to look for a junction.
+    /// Starts the search for a junction.
     pub(crate) fn prepare(&mut self, robot: &Arc<Robot>, joining: Joining, [from, to]: [&Arc<Motion>; 2]) -> Prepared {
         let result = Prepared::default();
         let (from, to) = (Arc::clone(from), Arc::clone(to));
@@ -83,7 +84,7 @@ impl BlendThread {
             channels.tasks.try_send(task).is_ok()
         });
         if !is_sent {
-            // It is found when it is needed.
+            // The junction is found when it is needed.
             result.leave();
         }
         result
@@ -92,7 +93,7 @@ impl BlendThread {
 
 #[cfg(test)]
 impl BlendThread {
-    /// One whose thread never does anything.
+    /// A thread handle whose thread never does anything.
     pub(crate) fn stuck() -> Self {
         let (tasks, asked) = sync_channel(MOST_JUNCTIONS);
         let (_, done) = sync_channel(0);
@@ -102,7 +103,7 @@ impl BlendThread {
 }
 
 impl From<Junction> for Prepared {
-    /// What has been found already.
+    /// A junction that is already found.
     fn from(junction: Junction) -> Self {
         Self(Arc::new(Preparation { junction: junction.into(), is_left: false.into() }))
     }
@@ -115,12 +116,12 @@ impl Prepared {
         self.0.junction.wait();
     }
 
-    /// Whether nobody has to wait for the thread.
+    /// Whether there is no need to wait for the thread.
     pub(crate) fn is_ready(&self) -> bool {
         self.junction().is_some() || self.0.is_left.load(Ordering::Acquire)
     }
 
-    /// What has been found.
+    /// The junction, if it has been found.
     pub(crate) fn junction(&self) -> Option<&Junction> {
         self.0.junction.get()
     }
@@ -129,13 +130,13 @@ impl Prepared {
         self.0.is_left.store(true, Ordering::Release);
     }
 
-    /// What has been found, or is found now from what is known to be.
+    /// The junction that has been found, or that is found now for `pair`.
     pub(crate) fn take(&self, robot: &Robot, pair: impl FnOnce() -> MotionPair) -> &Junction {
         self.0.junction.get_or_init(|| Junction::find(robot, pair()))
     }
 }
 
-/// Starts the thread; it ends when nobody can ask it any more.
+/// Starts the thread; it ends when no more tasks can be sent to it.
 fn begin() -> Option<Channels> {
     let (tasks, asked) = sync_channel::<Task>(MOST_JUNCTIONS);
     let (does, done) = sync_channel(MOST_JUNCTIONS);
@@ -143,7 +144,7 @@ fn begin() -> Option<Channels> {
         let mut memory = JunctionMemory::default();
         for mut task in asked {
             task.run(&mut memory);
-            // Where it is full, the task just ends here.
+            // Where the channel is full, the task is simply dropped here.
             let _ = does.try_send(task);
         }
     };
@@ -159,7 +160,7 @@ impl Task {
             };
             MotionPair { before, from: Arc::clone(&self.from), to: Arc::clone(&self.to) }
         };
-        // What goes wrong here goes wrong in the cycle again, where somebody hears of it.
+        // A panic here happens again in the cycle, where it is noticed.
         let find = || self.result.0.junction.get_or_init(|| memory.recall(&self.robot, pair()));
         match catch_unwind(AssertUnwindSafe(find)) {
             Ok(_) => self.forgotten = memory.remember(&self.robot, &self.result),

@@ -1,4 +1,4 @@
-//! Whether a blend saves time: beside the fastest motion with it, the fastest with a stop at the target.
+//! Whether a blend saves time: compares the fastest motion with it and the fastest motion with a stop at the target.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
@@ -18,24 +18,24 @@ use crate::time_optimal::law_solver_thread::fastest_duration;
 use crate::time_optimal::solver::BoundaryState;
 use arl_robot::robot::Robot;
 
-/// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart,
-/// and may take a little longer than two motions alone.
+/// Time in s that a blend has to save. The law that leads along a whole chain is found at places that are farther
+/// apart, and may take a little longer than the laws of two motions alone.
 const LEAST_GAIN_S: f64 = 0.001;
-/// Where two motions take longer than this, in s, one blend more or less is nothing beside it, and less than laws of
-/// that length differ.
+/// Where two motions take longer than this, in s, one blend hardly matters, and matters less than the differences
+/// between laws of that length.
 const LONGEST_PAIR_S: f64 = 10.0;
 
-/// Constant limits say too little where a motion takes more than so many times as long with them as with those of one
-/// of its ends. Motions that are shorter than so many mm, of which there may be very many, hardly change from end to
+/// Constant limits are not accurate enough where a motion takes longer with them than with those of one of its ends by
+/// more than this factor. Motions shorter than this, in mm, of which there may be very many, hardly change from end to
 /// end.
 const UNEVEN_FACTOR: f64 = 2.0;
 const SHORT_MOTION_MM: f64 = 1.0;
 
-/// So many durations are remembered in a thread, for programs that do the same again and again.
+/// Number of durations that are remembered per thread, for programs that repeat the same motions.
 const MOST_KNOWN: usize = 10_000;
 
 thread_local! {
-    /// What was found before, by the fingerprint of what it was found from.
+    /// Durations found before, by the fingerprint of what they were found from.
     static KNOWN: RefCell<HashMap<u128, Option<f64>>> = RefCell::default();
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct Stopping<'a> {
     robot: &'a Robot,
     from: &'a Motion,
     to: &'a Motion,
-    /// Whether constant limits say too little about how long they take.
+    /// Whether constant limits are not accurate enough for how long they take.
     uneven: OnceCell<bool>,
     /// How long they take with the stop, from rest to rest, in s; `None` where that is too long, or no laws lead.
     time: OnceCell<Option<f64>>,
@@ -55,8 +55,8 @@ impl<'a> Stopping<'a> {
         Self { robot, from, to, uneven: OnceCell::new(), time: OnceCell::new() }
     }
 
-    /// Whether laws have to tell whether a blend saves time: where the governor's constant limits let it seem possible
-    /// that it does not, or say too little about how long the motions take.
+    /// Whether laws have to decide whether a blend saves time: where the governor's constant limits leave it possible
+    /// that it does not, or are not accurate enough for how long the motions take.
     pub(crate) fn doubts(&self, blend: &Blend) -> bool {
         let motions = [self.from, self.to];
         motions.iter().all(|motion| is_free(motion)) && (blend.may_lose_time || self.is_uneven())
@@ -66,7 +66,7 @@ impl<'a> Stopping<'a> {
         *self.uneven.get_or_init(|| [self.from, self.to].iter().any(|motion| is_uneven(self.robot, motion)))
     }
 
-    /// Whether the two motions take longer with the blend, however they are led.
+    /// Whether the two motions take longer with the blend, whatever leads them.
     pub(crate) fn is_faster_than(&self, blend: &Blend) -> bool {
         if !self.doubts(blend) {
             return false;
@@ -86,17 +86,16 @@ impl<'a> Stopping<'a> {
     }
 
     fn time_with(&self, blend: &Blend) -> Option<f64> {
-        let motions = (self.from, self.to);
         let mut cut = Segment::part(self.from, self.from.limits?, 0, 0.0, blend.leave);
         cut.stops = false;
-        let halves = [true, false].map(|first| Segment::half(blend, motions, 0, first));
+        let halves = [true, false].map(|first| Segment::half(blend, self.from, self.to, 0, first));
         let rest = Segment::part(self.to, self.to.limits?, 0, blend.join, 1.0);
         fastest_along(self.robot, [cut].into_iter().chain(halves).chain([rest]), &self.from.start)
     }
 }
 
-/// Whether constant limits say too little about how long a motion takes: those of its slowest place make it much slower
-/// than those of one of its ends would. So it is beside a singular point.
+/// Whether constant limits are not accurate enough for how long a motion takes: those of its slowest place make it much
+/// slower than those of one of its ends would, as near a singular point.
 fn is_uneven(robot: &Robot, motion: &Motion) -> bool {
     let (Curve::Tool(curve), Some(limits)) = (&motion.curve, motion.limits) else { return false };
     if motion.length < SHORT_MOTION_MM {
@@ -119,23 +118,22 @@ fn is_uneven(robot: &Robot, motion: &Motion) -> bool {
 
 #[cfg(test)]
 thread_local! {
-    /// How many laws this thread has asked for.
+    /// Number of laws that this thread has requested.
     pub(crate) static ASKED_HERE: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
 }
 
-/// How long the fastest motion along segments takes, from rest to rest, in s; `None` where there is none that is known.
+/// How long the fastest motion along segments takes, from rest to rest, in s; `None` where no such motion is known.
 fn fastest_along(robot: &Robot, segments: impl IntoIterator<Item = Segment>, start: &Joints) -> Option<f64> {
     #[cfg(test)]
     ASKED_HERE.with(|count| count.set(count.get() + 1));
     let mut way = SharedDeque::default();
-    let mut end = 0.0;
     for segment in segments.into_iter().filter(|segment| segment.time > 0.0) {
-        end += segment.time;
         way.push_back(Arc::new(segment));
     }
-    let part = Part { from: 0, count: way.len(), segments: way };
-    let sampler = ConstraintSampler::new(&Arc::new(robot.clone()), part, 0.0, (end, true), (0.0, start));
-    // Where there is too much to be seen, it would end before.
+    let part = Part::whole(way);
+    let end = part.end;
+    let sampler = ConstraintSampler::new(&Arc::new(robot.clone()), part, 0.0, start);
+    // Where there is too much to look at, the law would end earlier.
     let prospect =
         sampler.look(end, 1.0, BoundaryState::REST, BoundaryState::REST).filter(|prospect| prospect.end >= end)?;
     let key = key(&prospect.way, BoundaryState::REST, None);

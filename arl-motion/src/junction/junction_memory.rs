@@ -1,6 +1,6 @@
-//! Junctions that were found before, for programs that do the same again and again.
+//! Junctions that were found before, for programs that repeat the same motions.
 //!
-//! A junction is a function of its meeting, so one that is remembered is the one that would be found.
+//! A junction is a function of its pair of motions, so a remembered one is the one that would be found.
 
 use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -11,7 +11,7 @@ use crate::junction::{Junction, MotionPair};
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
-/// How many are remembered.
+/// Number of junctions that are remembered.
 const MOST_JUNCTIONS: usize = 128;
 
 /// The last junctions that were found.
@@ -22,14 +22,14 @@ pub(crate) struct JunctionMemory {
 
 #[derive(Debug)]
 struct Remembered {
-    /// Meetings that are the same have the same.
+    /// Equal pairs have equal fingerprints.
     fingerprint: u64,
     robot: Arc<Robot>,
     prepared: Prepared,
 }
 
 impl JunctionMemory {
-    /// The junction of a meeting, which is found if none is known.
+    /// The junction of a pair, which is found if it is not remembered.
     pub(crate) fn recall(&self, robot: &Arc<Robot>, pair: MotionPair) -> Junction {
         let fingerprint = fingerprint(&pair);
         let mut alike = self.known.iter().filter(|known| known.fingerprint == fingerprint && known.robot == *robot);
@@ -40,7 +40,7 @@ impl JunctionMemory {
         }
     }
 
-    /// Remembers what was found; returns what is forgotten for that.
+    /// Remembers a junction that was found; returns one that is forgotten in exchange.
     pub(crate) fn remember(&mut self, robot: &Arc<Robot>, prepared: &Prepared) -> Option<Prepared> {
         let junction = prepared.junction()?;
         let fingerprint = fingerprint(&junction.pair);
@@ -58,13 +58,13 @@ impl JunctionMemory {
     }
 }
 
-/// Of where the motions of a meeting start and end.
+/// The fingerprint of where the motions of a pair start and end.
 fn fingerprint(pair: &MotionPair) -> u64 {
     let MotionPair { from, to, .. } = pair;
     let mut hasher = DefaultHasher::new();
     let mut note = |motion: &Motion| {
         for joints in [&motion.start, &motion.end] {
-            // A zero is the same with either sign.
+            // Zero is the same with either sign.
             joints.axes.iter().chain(&joints.external).for_each(|axis| (axis + 0.0).to_bits().hash(&mut hasher));
         }
     };
@@ -83,7 +83,7 @@ mod tests {
     use crate::plan::planner::plan;
     use crate::tests::{axes, command};
 
-    /// Two motions of the axes with a zone between them, planned anew, the second one at a share of the speed.
+    /// Two motions of the axes with a zone between them, planned again, the second one at a share of the speed.
     fn pair(robot: &Robot, percent: f64) -> MotionPair {
         let [start, corner, end] = [
             [0.0, -90.0, 90.0, 0.0, 45.0, 0.0],
@@ -132,7 +132,7 @@ mod tests {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
         let mut memory = JunctionMemory::default();
         for index in 0..MOST_JUNCTIONS + 2 {
-            // The same one again takes no place.
+            // The same pair again takes no space.
             let percent = if index == 1 { 10.0 } else { 10.0 + index as f64 / 4.0 };
             let pair = pair(&robot, percent);
             memory.remember(&robot, &Prepared::from(memory.recall(&robot, pair)));

@@ -1,5 +1,5 @@
-//! Where two motions meet: the blend between them, and the bend where it meets the blend before it. All of it is a
-//! function of the motions alone, so that it is the same whoever finds it, and when.
+//! Where two motions meet: the blend between them, and the curvature where it meets the blend before it. All of this is
+//! a function of the motions alone, so that it is the same no matter where and when it is found.
 
 pub(crate) mod blend_thread;
 pub(crate) mod gain;
@@ -16,7 +16,7 @@ use crate::plan::lay_overlay::joined;
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
-/// The motion before, where a blend leads from there that may be bent at its end, and how it is bent where that blend
+/// The motion before, where a blend leads from it whose end may be curved, and the motion's curvature where that blend
 /// begins.
 pub(crate) type Before = Option<(Arc<Motion>, MidCurvature)>;
 
@@ -28,16 +28,16 @@ pub(crate) struct MotionPair {
     pub(crate) to: Arc<Motion>,
 }
 
-/// What there is to know of a place where two motions meet.
+/// Everything about a place where two motions meet.
 #[derive(Debug)]
 pub(crate) struct Junction {
     pair: MotionPair,
     curved: Option<CurvedBlends>,
-    /// Only looked for where nothing is bent.
+    /// Only sought where nothing is curved.
     blended: Option<Result<Blended, NoBlend>>,
 }
 
-/// A blend that meets the one before it in the middle of a motion, which is bent there.
+/// A blend that meets the one before it in the middle of a motion, which is curved there.
 #[derive(Clone, Debug)]
 pub(crate) struct CurvedBlends {
     pub(crate) curvature: MidCurvature,
@@ -51,13 +51,13 @@ pub(crate) struct Blended {
     pub(crate) from: Arc<Motion>,
     pub(crate) to: Arc<Motion>,
     pub(crate) blend: Blend,
-    /// The part of the first motion behind which it would have to be another one for the blend.
+    /// The share of the first motion behind which that motion would have to be another one for the blend.
     pub(crate) until: f64,
 }
 
 impl Blended {
-    /// What it leaves to the next one: a smaller blend than was asked for stays as it is. One that is bent would begin
-    /// elsewhere.
+    /// What it passes on to the next junction: a blend smaller than requested stays as it is, since a curved one would
+    /// begin elsewhere.
     pub(crate) fn leaves(&self) -> Before {
         self.blend.is_whole.then(|| (Arc::clone(&self.from), MidCurvature::NONE))
     }
@@ -66,16 +66,16 @@ impl Blended {
 /// Whether two motions take longer with a blend than with a stop.
 type IsSlower<'a> = &'a dyn Fn(&Stopping, &Blend) -> bool;
 
-/// As the fastest laws tell.
+/// According to the fastest laws.
 const BY_LAWS: IsSlower = &|stopping: &Stopping, blend: &Blend| stopping.is_faster_than(blend);
 
 impl Junction {
-    /// Finds it.
+    /// Finds the junction.
     pub(crate) fn find(robot: &Robot, pair: MotionPair) -> Self {
         Self::find_by(robot, pair, BY_LAWS)
     }
 
-    /// Finds it where that takes no time laws, which take long to find.
+    /// Finds the junction if that requires no time laws, which take long to find.
     pub(crate) fn find_quickly(robot: &Robot, pair: MotionPair) -> Option<Self> {
         let is_doubtful = Cell::new(false);
         let doubts = |stopping: &Stopping, blend: &Blend| {
@@ -94,7 +94,7 @@ impl Junction {
         Self { pair, curved, blended }
     }
 
-    /// The same of a meeting that is the same.
+    /// The junction for an equal pair of motions.
     fn of(&self, pair: MotionPair) -> Self {
         let own = |motion: &Arc<Motion>| {
             let pairs = [(&self.pair.from, &pair.from), (&self.pair.to, &pair.to)];
@@ -107,7 +107,7 @@ impl Junction {
         Self { curved: self.curved.clone(), blended, pair }
     }
 
-    /// What it leaves to the next one, if it is laid as it was found.
+    /// What it passes on to the next junction, if it is laid as found.
     pub(crate) fn leaves(&self) -> Before {
         match (&self.curved, &self.blended) {
             (Some(curved), _) => Some((Arc::clone(&self.pair.from), curved.curvature)),
@@ -116,18 +116,21 @@ impl Junction {
         }
     }
 
-    /// Whether it is of these motions.
+    /// Whether it belongs to these motions.
     fn is_of(&self, from: &Arc<Motion>, to: &Arc<Motion>) -> bool {
         Arc::ptr_eq(&self.pair.from, from) && Arc::ptr_eq(&self.pair.to, to)
     }
 }
 
-/// A bend between two motions, behind one that is bent like `start` where the blend begins; found already, or now.
+/// The curved blends between two motions, where the blend before begins with the curvature `start`: those already
+/// found, or found now.
 pub(crate) fn curved(
     robot: &Robot,
     known: Option<&Junction>,
-    (before, start): (&Arc<Motion>, MidCurvature),
-    (from, to): (&Arc<Motion>, &Arc<Motion>),
+    before: &Arc<Motion>,
+    start: MidCurvature,
+    from: &Arc<Motion>,
+    to: &Arc<Motion>,
 ) -> Option<CurvedBlends> {
     let known = known.filter(|known| {
         let same =
@@ -140,7 +143,7 @@ pub(crate) fn curved(
     }
 }
 
-/// The blend that two motions ask for, where nothing is bent; found already, or now.
+/// The blend that two motions request, where nothing is curved: the one already found, or found now.
 pub(crate) fn blended(
     robot: &Robot,
     known: Option<&Junction>,
@@ -161,14 +164,14 @@ fn find_curved(
     let curvature = mid_curvature(robot, before, from, to).filter(|curvature| *curvature != MidCurvature::NONE)?;
     let first = curved_blend(robot, before, from, [start, curvature])?;
     let second = curved_blend(robot, from, to, [curvature, MidCurvature::NONE])?;
-    // Without the bend it may still save time.
+    // Without the curvature, the blend may still save time.
     if is_slower(&Stopping::new(robot, from, to), &second) {
         return None;
     }
     Some(CurvedBlends { curvature, blends: [first, second] })
 }
 
-/// A weave goes on through the blend.
+/// Finds a blend. A weave continues through it.
 fn find_blended(robot: &Robot, [from, to]: [&Arc<Motion>; 2], is_slower: IsSlower) -> Result<Blended, NoBlend> {
     let fades_from = from.laid.as_ref().map_or(1.0, |laid| laid.fades_from());
     let going_on = joined(robot, from, to).filter(|(from, to)| from.goes() && to.goes());

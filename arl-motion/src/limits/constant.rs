@@ -2,11 +2,11 @@
 
 use crate::limits::profile::Limits;
 
-/// One quantity at one place of the path: its derivatives by the path parameter, and how fast it may change in time.
+/// One quantity at one place of the path: its derivatives by the path parameter, and its limits in time.
 ///
 /// A parameter that moves with speed v, acceleration a and jerk j moves the quantity with speed `first` v, acceleration
-/// `first` a + `second` v2, and jerk `first` j + 3 `second` v a + `third` v3. What works with constant limits of the
-/// parameter takes magnitudes of the derivatives.
+/// `first` a + `second` v2, and jerk `first` j + 3 `second` v a + `third` v3. Functions for constant limits of the
+/// parameter use the magnitudes of the derivatives.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Constraint {
     pub(crate) first: f64,
@@ -18,23 +18,23 @@ pub(crate) struct Constraint {
 }
 
 impl Constraint {
-    /// A quantity that changes evenly, by `by` in all.
+    /// A quantity that changes evenly, by `by` in total.
     pub(crate) fn even(by: f64, vel: f64, acc: f64, jerk: f64) -> Self {
         Self { first: by.abs(), second: 0.0, third: 0.0, vel, acc, jerk }
     }
 
-    /// With the magnitudes of the derivatives.
+    /// The constraint with the magnitudes of the derivatives.
     pub(crate) fn size(self) -> Self {
         Self { first: self.first.abs(), second: self.second.abs(), third: self.third.abs(), ..self }
     }
 }
 
-/// Shares of the highest speed, and then of the highest acceleration, among which the quickest limits are looked for.
-/// At the full share of either nothing may be left for the rest; at the others something always is.
+/// Shares of the highest speed, and then of the highest acceleration, among which the quickest limits are sought. At
+/// the full share of either, nothing may be left for the rest; at the other shares something always is.
 const SPEED_SHARES: [f64; 9] = [1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3];
 const ACC_SHARES: [f64; 5] = [1.0, 0.9, 0.75, 0.6, 0.4];
 
-/// The highest speed at which no bound is broken, where there is no acceleration.
+/// The highest speed that keeps all bounds without acceleration.
 pub(crate) fn highest_speed(constraints: &[Constraint]) -> f64 {
     lowest(constraints.iter().flat_map(|constraint| {
         [
@@ -45,7 +45,7 @@ pub(crate) fn highest_speed(constraints: &[Constraint]) -> f64 {
     }))
 }
 
-/// Limits under which the path from 0 to 1 is done soon and no bound is broken, whatever moves within them.
+/// Limits under which the path from 0 to 1 is completed soon and every motion keeps all bounds.
 pub(crate) fn quickest(constraints: &[Constraint]) -> Limits {
     let vel = highest_speed(constraints);
     if let Some(limits) = hardly_curved(constraints, vel) {
@@ -78,10 +78,10 @@ pub(crate) fn quickest(constraints: &[Constraint]) -> Limits {
     best.map_or(Limits { vel: 1.0, acc: 1.0, jerk: 1.0 }, |(_, limits)| limits)
 }
 
-/// How much of the acceleration and of the jerk that are there at rest is as good as all.
+/// Share of the acceleration and of the jerk available at rest that is as good as all of it.
 const AS_GOOD_SHARE: f64 = 0.98;
 
-/// The limits of a path on which hardly anything is lost to its curvature at the speed `vel`.
+/// The limits of a path that loses hardly anything to its curvature at the speed `vel`.
 fn hardly_curved(constraints: &[Constraint], vel: f64) -> Option<Limits> {
     let mut rest = Limits { vel, acc: 1e12, jerk: 1e12 };
     let mut moving = rest;
@@ -95,7 +95,7 @@ fn hardly_curved(constraints: &[Constraint], vel: f64) -> Option<Limits> {
         rest.jerk = rest.jerk.min(constraint.jerk / constraint.first);
         moving.jerk = moving.jerk.min((constraint.jerk - 3.0 * curve * moving.acc - twist) / constraint.first);
     }
-    // What does not move at first may yet be curved.
+    // What does not move at first may still be curved.
     let still = constraints.iter().filter(|constraint| constraint.first <= 0.0);
     let met = |constraint: &Constraint| {
         let (curve, twist) = (constraint.second * vel, constraint.third * vel * vel * vel);
@@ -106,14 +106,14 @@ fn hardly_curved(constraints: &[Constraint], vel: f64) -> Option<Limits> {
     good.then_some(moving)
 }
 
-/// Shares of the highest speed, fastest first, of which the first is taken that leaves enough to stop with.
+/// Shares of the highest speed, fastest first; the first one that leaves enough to stop with is used.
 const PASSING_SHARES: [f64; 8] = [1.0, 0.98, 0.96, 0.94, 0.92, 0.88, 0.8, 0.6];
-/// Shares of the acceleration that is left at that speed, among which the one is taken that gets up to it soonest.
+/// Shares of the acceleration that is left at that speed; the one that reaches the speed soonest is used.
 const PASSING_ACC_SHARES: [f64; 9] = [0.95, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1];
-/// How much of the acceleration and of the jerk that are there at rest must be left at speed.
+/// Least share of the acceleration and of the jerk available at rest that must be left at speed.
 const LEAST_SHARE_LEFT: f64 = 0.08;
 
-/// Limits for passing through without stopping, no faster than `fastest`, under which no bound is broken.
+/// Limits for passing through without stopping, no faster than `fastest`, that keep all bounds.
 pub(crate) fn passing(constraints: &[Constraint], fastest: f64) -> Limits {
     let vel = highest_speed(constraints);
     let acc_at = |vel: f64| {
@@ -126,8 +126,7 @@ pub(crate) fn passing(constraints: &[Constraint], fastest: f64) -> Limits {
         }))
     };
     let (acc_at_rest, jerk_at_rest) = (acc_at(0.0), jerk_at(0.0, 0.0));
-    // At half the speed something is left of both in any case, if no more than what the jerk leaves of the
-    // acceleration.
+    // At half the speed, some of both is left in any case, with no more acceleration than the jerk permits.
     let half = (vel * 0.5).min(fastest);
     let by_jerk = |constraint: &Constraint| {
         (constraint.jerk - constraint.third * half * half * half) / (3.0 * constraint.second * half)
@@ -157,14 +156,14 @@ pub(crate) fn passing(constraints: &[Constraint], fastest: f64) -> Limits {
     found
 }
 
-/// The lowest of the values that are numbers and finite; a very high one where there is none.
+/// The lowest of the finite values; a very high value where there is none.
 fn lowest(values: impl Iterator<Item = f64>) -> f64 {
     values.filter(|value| value.is_finite()).fold(1e12, f64::min)
 }
 
 #[cfg(test)]
 impl Constraint {
-    /// Any, over orders of magnitude.
+    /// A random constraint, over orders of magnitude.
     pub(crate) fn random(random: &mut arl_robot::kinematics::random::Random) -> Self {
         let mut some = |low: f64, high: f64| 10.0_f64.powf(random.between(low, high));
         Self {
@@ -177,7 +176,7 @@ impl Constraint {
         }
     }
 
-    /// Whatever moves within the limits must not break it.
+    /// Asserts that every motion within the limits keeps the constraint.
     pub(crate) fn assert_kept(&self, Limits { vel, acc, jerk }: Limits) {
         assert!(self.first * vel <= self.vel * 1.000_001);
         assert!(self.first * acc + self.second * vel * vel <= self.acc * 1.000_001);

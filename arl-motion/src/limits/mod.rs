@@ -1,4 +1,4 @@
-//! Limits of one parameter: constant ones, and jerk-limited changes of speed within them.
+//! Limits of one parameter: constant limits, and jerk-limited changes of speed within them.
 
 pub(crate) mod constant;
 pub(crate) mod duration;

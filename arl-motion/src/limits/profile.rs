@@ -1,6 +1,6 @@
 //! Jerk-limited changes of one parameter's speed.
 
-/// Looking ahead counts on a little less than the limits, so that whole cycles can follow what it found.
+/// Looking ahead uses a little less than the limits, so that whole cycles can follow the result.
 pub(crate) const LOOK_AHEAD_MARGIN: f64 = 0.998;
 
 /// Cells whose limits differ by up to this factor share a stretch.
@@ -15,17 +15,17 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// The limits of the same profile run at `factor` of its speed.
+    /// The limits of the same profile, run at `factor` times its speed.
     pub(crate) fn slowed(self, factor: f64) -> Self {
         Self { vel: self.vel * factor, acc: self.acc * factor * factor, jerk: self.jerk * factor * factor * factor }
     }
 
-    /// With a jerk so low that the acceleration takes at least `time` s to rise.
+    /// Lowers the jerk so that the acceleration takes at least `time` s to rise.
     pub(crate) fn rising_in(self, time: f64) -> Self {
         Self { jerk: self.jerk.min(self.acc / time), ..self }
     }
 
-    /// The distance of the change from one speed, without acceleration, to a lower one without: the mean speed times
+    /// The distance of a change from one speed to a lower one, without acceleration at either end: the mean speed times
     /// the time.
     pub(crate) fn slowing(&self, from: f64, to: f64) -> f64 {
         let Self { acc, jerk, .. } = *self;
@@ -38,7 +38,7 @@ impl Limits {
     fn peak(&self, distance: f64) -> f64 {
         let Limits { vel, acc, jerk } = *self;
         let ramp = acc / jerk;
-        // The speed whose two ramps take up the whole distance: with the full acceleration, else without.
+        // The speed whose two ramps take up the whole distance: with the full acceleration, else without it.
         let full = 0.5 * acc * ((ramp * ramp + 4.0 * distance / acc).sqrt() - ramp);
         let peak = if full >= acc * ramp { full } else { (0.25 * distance * distance * jerk).cbrt() };
         peak.min(vel)
@@ -52,7 +52,7 @@ impl Limits {
         2.0 * ramp.duration() + if peak > 0.0 { rest / peak } else { 0.0 }
     }
 
-    /// How long the shortest profile from rest to rest over 1 takes for a share of that from its start.
+    /// How long the shortest profile from rest to rest over 1 takes to cover `share` from its start.
     pub(crate) fn time_to(&self, share: f64) -> f64 {
         let (mut before, mut behind) = (0.0, self.duration(1.0));
         for _ in 0..60 {
@@ -62,19 +62,19 @@ impl Limits {
         behind
     }
 
-    /// The state of the same profile `time` after its start.
+    /// The state of this profile `time` s after its start.
     pub(crate) fn state_after(&self, time: f64) -> State {
         let whole = self.duration(1.0);
         let speeding_up = Change::new(0.0, 0.0, self.peak(1.0), self);
         if 2.0 * time <= whole {
             return speeding_up.after(State::default(), time);
         }
-        // What is left is the same, seen from the other end.
+        // The rest is the same, seen from the other end.
         let left = speeding_up.after(State::default(), (whole - time).max(0.0));
         State { at: 1.0 - left.at, vel: left.vel, acc: -left.acc }
     }
 
-    /// [`Limits::duration`] where slowing down counts on `braking` times the acceleration and jerk only.
+    /// [`Limits::duration`] where slowing down uses only `braking` times the acceleration and jerk.
     pub(crate) fn duration_braking(&self, distance: f64, braking: f64) -> f64 {
         let gently = Self { acc: self.acc * braking, jerk: self.jerk * braking, ..*self };
         let ramps = |peak: f64| [Change::new(0.0, 0.0, peak, self), Change::new(peak, 0.0, 0.0, &gently)];
@@ -95,7 +95,7 @@ impl Limits {
     }
 }
 
-/// Where the parameter is and how it moves.
+/// The position of the parameter and how it moves.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct State {
     pub(crate) at: f64,
@@ -133,14 +133,15 @@ pub(crate) struct Change {
 impl Change {
     pub(crate) fn new(vel: f64, acc: f64, goal: f64, limits: &Limits) -> Self {
         let (most, jerk) = (limits.acc, limits.jerk);
-        // The speed that is left when the acceleration just fades out tells whether to speed up or slow down.
+        // Whether to speed up or slow down depends on the speed that is left when the acceleration just fades out.
         let fading = vel + acc * acc.abs() / (2.0 * jerk);
         let sign = if goal >= fading { 1.0 } else { -1.0 };
         let (acc, gain) = (acc * sign, (goal - vel) * sign);
         let free = (jerk * gain + acc * acc / 2.0).max(0.0).sqrt();
         let peak = free.min(most);
         let hold = if free > most {
-            // What the two ramps do not gain; the first one falls where the acceleration is too high already.
+            // The gain that the two ramps do not provide; the first one falls where the acceleration is too high
+            // already.
             let ramps = (peak * peak + (peak * peak - acc * acc) * (peak - acc).signum()) / (2.0 * jerk);
             ((gain - ramps) / peak).max(0.0)
         } else {
@@ -155,7 +156,7 @@ impl Change {
         self.phases.iter().map(|phase| phase.time).sum()
     }
 
-    /// The state `time` s after `state`, which the change was made for; behind its end the speed stays.
+    /// The state `time` s after `state`, for which the change was created; behind its end the speed is constant.
     pub(crate) fn after(&self, state: State, time: f64) -> State {
         let mut state = state;
         let mut left = time;
@@ -170,7 +171,7 @@ impl Change {
         State { at: state.at + state.vel * left, acc: 0.0, ..state }
     }
 
-    /// What is left of it `time` s after the start.
+    /// The rest of the change `time` s after its start.
     pub(crate) fn later(&self, time: f64) -> Self {
         let mut passed = time;
         let phases = self.phases.map(|phase| {
@@ -193,7 +194,7 @@ impl Change {
         0.0
     }
 
-    /// How far the change goes from a start with this speed and acceleration.
+    /// The distance of the change from a start with this speed and acceleration.
     pub(crate) fn distance(&self, vel: f64, acc: f64) -> f64 {
         let start = State { at: 0.0, vel, acc };
         self.phases.iter().fold(start, |state, phase| state.after(phase.jerk, phase.time)).at

@@ -1,18 +1,18 @@
-//! Looking for the edge of what is possible.
+//! Finding the edge of what is possible.
 
-/// What is near enough to the edge.
+/// Tolerances for the edge.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Enough {
-    /// So near a value that is too high.
+    /// Distance from a value that is too high.
     pub(crate) value: f64,
-    /// So little below the excess of 0.
+    /// Distance of the excess below 0.
     pub(crate) excess: f64,
 }
 
-/// The highest value of a range, whose end is too high, up to which what grows over it, the excess, is not above 0; the
-/// lowest one where that is too high as well.
+/// The highest value of a range at which `excess`, which grows over the range and is above 0 at its end, is not above
+/// 0; the lowest value where the excess is above 0 there as well.
 pub(crate) fn highest(low: f64, high: f64, enough: Enough, excess: impl Fn(f64) -> f64) -> f64 {
-    /// As many as halving alone would take; mostly a few are enough.
+    /// As many as bisection alone would take; usually a few are enough.
     const STEPS: u32 = 50;
     let (mut low, mut high) = (low, high);
     let (mut below, mut above) = (excess(low), excess(high));
@@ -21,8 +21,8 @@ pub(crate) fn highest(low: f64, high: f64, enough: Enough, excess: impl Fn(f64) 
         if below >= 0.0 || high - low <= enough.value {
             break;
         }
-        // Where the secant is 0; an end that stays once more counts half, and now and then a half of the range is
-        // taken.
+        // The zero of the secant. An end that stays repeatedly counts half, and now and then the range is bisected
+        // instead.
         let secant = low - below * (high - low) / (above - below);
         let inside = secant > low && secant < high && step % 4 != 3;
         let middle = if inside { secant } else { f64::midpoint(low, high) };

@@ -1,4 +1,4 @@
-//! Compensation: paths that are shifted and turned in frames that a program chooses, bit by bit.
+//! Compensation: shifting and turning paths gradually, in frames that a program chooses.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -10,8 +10,8 @@ use crate::overlay::{easing, paced, times};
 use arl_robot::frames::{Carried, Rig};
 use arl_robot::kinematics::frame;
 
-/// How far, in mm, and how, as a rotation vector in rad, the TCP is led away from its path: along and about the axes of
-/// what the way is seen from, unless said otherwise.
+/// The shift of the TCP from its path, in mm, and its rotation, as a rotation vector in rad: along and about the axes
+/// of what the path is relative to, unless stated otherwise.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Lead {
     shift: Vector3<f64>,
@@ -31,18 +31,18 @@ impl Lead {
         Self { shift: self.shift + other.shift, turn: self.turn + other.turn }
     }
 
-    /// The frame that is led to `at`, before it was led.
+    /// The frame that is led to `at`, without the lead.
     pub(crate) fn undone(&self, at: &arl_robot::kinematics::Frame) -> arl_robot::kinematics::Frame {
         let rotation = UnitQuaternion::from_scaled_axis(-self.turn) * at.rotation;
         arl_robot::kinematics::Frame::from_parts((at.translation.vector - self.shift).into(), rotation)
     }
 }
 
-/// How a compensation stands at the end of a motion, for the next one.
+/// The state of a compensation at the end of a motion, for the next one.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Led {
     pub(crate) lead: Lead,
-    /// Which compensation it is; 0 for none.
+    /// Number of the compensation; 0 for none.
     pub(crate) number: u32,
     /// y of [`Reference::ModifyPath`], along the axes of the path.
     across: Option<Vector3<f64>>,
@@ -51,8 +51,8 @@ pub(crate) struct Led {
 }
 
 impl Led {
-    /// What of it a motion takes over: nothing under another compensation or none, or where paths are seen from
-    /// elsewhere.
+    /// The part that the next motion takes over: nothing under another compensation or none, or where its path is
+    /// relative to something else.
     pub(crate) fn for_next(&self, settings: &Settings, rig: &Rig) -> Self {
         let goes_on = settings.compensation.is_some_and(|compensation| compensation.number == self.number);
         let alike = match (self.carried, rig.carried) {
@@ -63,39 +63,39 @@ impl Led {
     }
 }
 
-/// A compensation along one motion: from how the motion before was led to what is asked for.
+/// A compensation along one motion: from the lead of the motion before to the requested one.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Shift {
     from: Lead,
-    /// In axes of what the path is seen from.
+    /// In axes of what the path is relative to.
     fixed: Lead,
     /// In axes of the tool.
     tool: Lead,
     /// In axes of the path's frame.
     path: Lead,
-    /// The part of the motion on which it grows; 0 where it is there already.
+    /// Share of the motion over which it grows; 0 where it is complete from the start.
     within: f64,
-    /// How fast it may grow.
+    /// Limits of its growth.
     limits: [f64; 6],
-    /// How far it grows, in mm and deg.
+    /// Amount of growth, in mm and deg.
     by: [f64; 2],
     number: u32,
-    /// Whether y of the path's frame is turned over for [`Reference::ModifyPath`].
+    /// 1, or -1 where y of the path's frame is reversed for [`Reference::ModifyPath`].
     side: f64,
 }
 
-/// The longest that an easing of length 1 goes at once: its highest speed, acceleration, jerk.
+/// The peaks of an easing of length 1: its highest speed, acceleration and jerk.
 const EASING_PEAKS: [f64; 3] = [1.875, 5.773_502_691_896_258, 60.0];
-/// What is left for the motion's own changes of speed: growing takes so much longer than it has to.
+/// Margin for the motion's own changes of speed: growth takes longer than necessary by this factor.
 const GROWTH_TIME_FACTOR: f64 = 1.3;
-/// Less, in mm and deg, is nothing to go.
+/// Growth below this, in mm and deg, is ignored.
 const NO_GROWTH: f64 = 1e-9;
-/// It grows over no less than this part of a motion.
+/// The least share of a motion over which it grows.
 const LEAST_GROWTH_SHARE: f64 = 1.0 / 16.0;
 
 impl Shift {
-    /// The compensation of a motion along `curve` that takes `seconds` at its full speed. `workpiece` and `world` are
-    /// the orientations of the workpiece frame and of the world, seen like the path.
+    /// Creates the compensation of a motion along `curve` that takes `seconds` at its full speed. `workpiece` and
+    /// `world` are the orientations of the workpiece frame and of the world, relative to what the path is relative to.
     pub(crate) fn new(
         compensation: &Compensation,
         before: &Led,
@@ -125,7 +125,7 @@ impl Shift {
             side,
         };
         if path.is_none() && compensation.follows_path() {
-            // A motion without a direction keeps what there is.
+            // A motion without a direction keeps the current lead.
             (shift.fixed, shift.tool, shift.path) = (before.lead, Lead::default(), Lead::default());
         }
         let target = shift.target(curve, path, 0.0);
@@ -139,13 +139,13 @@ impl Shift {
         shift
     }
 
-    /// How the motion behind this one begins.
+    /// The state in which the motion behind this one begins.
     pub(crate) fn led(&self, curve: &TcpPath, carried: Carried, path: Option<&PathFrame>) -> Led {
         let across = path.map(|path| path.rotation(1.0) * Vector3::y() * self.side);
         Led { lead: self.target(curve, path, 1.0), number: self.number, across, carried: Some(carried) }
     }
 
-    /// What it grows to, as it stands at `at`.
+    /// The lead that it grows to, as of `at`.
     fn target(&self, curve: &TcpPath, path: Option<&PathFrame>, at: f64) -> Lead {
         let along = path.map_or_else(Lead::default, |path| self.path.rotated(&path.rotation(at)));
         self.fixed.plus(&self.tool.rotated(&curve.rotation(at))).plus(&along)
@@ -155,7 +155,7 @@ impl Shift {
         if self.within > 0.0 { paced(easing(at / self.within), 1.0 / self.within) } else { [1.0, 0.0, 0.0, 0.0] }
     }
 
-    /// What is added to the place of the TCP, with its derivatives.
+    /// What is added to the position of the TCP, with its derivatives.
     pub(crate) fn offset(&self, curve: &TcpPath, path: Option<&PathFrame>, at: f64) -> Rates {
         let still = |vector: Vector3<f64>| [vector, Vector3::zeros(), Vector3::zeros(), Vector3::zeros()];
         let tool = carried(&curve.rotation(at), &curve.rotation_rates(at), &still(self.tool.shift));
@@ -188,17 +188,17 @@ impl Shift {
         [self.from, self.fixed, self.tool, self.path].iter().any(|lead| *lead != Lead::default())
     }
 
-    /// Whether it is not all there from the start.
+    /// Whether it is incomplete at the start and grows.
     pub(crate) fn grows(&self) -> bool {
         self.within > 0.0
     }
 
-    /// The part of the motion on which it does not change much.
+    /// The share of the motion over which it does not change much.
     pub(crate) fn grain(&self) -> f64 {
         if self.grows() { self.within / 32.0 } else { 1.0 }
     }
 
-    /// What keeps its growing within its limits.
+    /// The constraints that keep its growth within its limits.
     pub(crate) fn constraints(&self) -> Vec<Constraint> {
         const PLACES: u32 = 24;
         let mut rows = Vec::new();
@@ -215,7 +215,7 @@ impl Shift {
     }
 }
 
-/// The least time in s in which an easing over `by` keeps to limits of speed, acceleration and jerk.
+/// The shortest time in s in which an easing over `by` keeps the limits of speed, acceleration and jerk.
 fn least_time(by: f64, limits: &[f64]) -> f64 {
     let [vel, acc, jerk] = EASING_PEAKS;
     match limits {

@@ -1,7 +1,7 @@
-//! What is laid over a path of the TCP: a weave beside it, and a compensation that shifts and turns it.
+//! Overlays on a path of the TCP: a weave beside it, and a compensation that shifts and turns it.
 //!
-//! Both are part of the geometry: functions of the path parameter. So what checks, limits and governs the motion sees
-//! them, and the override, stops and late motions change their time but never their shape.
+//! Both are part of the geometry: functions of the path parameter. So everything that checks, limits and governs the
+//! motion takes them into account, and the override, stops and late motions change their time but never their shape.
 
 pub(crate) mod compensation;
 
@@ -17,31 +17,31 @@ use weave::Pattern;
 
 pub(crate) use compensation::Led;
 
-/// What is laid over a path of the TCP.
+/// The overlay on a path of the TCP.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Overlay {
-    /// The frame of the path, where anything needs it.
+    /// The frame of the path, where it is needed.
     pub(crate) frame: Option<PathFrame>,
     pub(crate) woven: Option<Woven>,
     pub(crate) shift: Option<Shift>,
 }
 
-/// A stretch of a weave.
+/// The part of a weave along one motion.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Woven {
     pub(crate) pattern: Pattern,
-    /// How long it has been going on at the start of the motion, in s at full speed.
+    /// How long the weave has been running at the start of the motion, in s at full speed.
     pub(crate) begun: f64,
     /// How long the motion takes, in s at full speed.
     pub(crate) seconds: f64,
-    /// Over how many s at its end it goes back to the path; 0 where the next motion takes it over.
+    /// Time at its end in which it returns to the path, in s; 0 where the next motion continues it.
     pub(crate) fading: f64,
 }
 
-/// A value that goes from 0 to 1 smoothly, with its first three derivatives.
+/// A value that changes smoothly from 0 to 1, with its first three derivatives.
 type Easing = [f64; 4];
 
-/// Before the start 0, behind the end 1, between them a polynomial of the fifth degree.
+/// 0 before the start, 1 behind the end, and a polynomial of the fifth degree in between.
 fn easing(x: f64) -> Easing {
     if x <= 0.0 {
         return [0.0; 4];
@@ -58,7 +58,7 @@ fn easing(x: f64) -> Easing {
     ]
 }
 
-/// The derivatives by a parameter that goes `rate` times as fast.
+/// The derivatives by a parameter that is `rate` times as fast.
 fn paced([value, first, second, third]: Easing, rate: f64) -> Easing {
     [value, first * rate, second * rate * rate, third * rate * rate * rate]
 }
@@ -89,15 +89,15 @@ impl Woven {
 }
 
 impl Overlay {
-    /// What the weave adds to the place of the TCP, in mm, along the axes of what the path is seen from, with its
+    /// What the weave adds to the position of the TCP, in mm, along the axes of what the path is relative to, with its
     /// derivatives by the parameter.
     pub(crate) fn weaving(&self, at: f64) -> Option<Rates> {
         let (woven, frame) = (self.woven.as_ref()?, self.frame.as_ref()?);
         Some(carried(&frame.rotation(at), &frame.turning(at), &woven.at(at)))
     }
 
-    /// What is added to the place of the TCP, in mm, along the axes of what the path is seen from, with its derivatives
-    /// by the parameter.
+    /// What is added to the position of the TCP, in mm, along the axes of what the path is relative to, with its
+    /// derivatives by the parameter.
     pub(crate) fn offset(&self, curve: &TcpPath, at: f64) -> Rates {
         let woven = self.weaving(at).unwrap_or([Vector3::zeros(); 4]);
         let shifted = self.shift.as_ref().map(|shift| shift.offset(curve, self.frame.as_ref(), at));
@@ -108,7 +108,7 @@ impl Overlay {
         })
     }
 
-    /// What turns the TCP besides, about axes of what the path is seen from.
+    /// The additional rotation of the TCP, about axes of what the path is relative to.
     pub(crate) fn turned(&self, curve: &TcpPath, at: f64) -> UnitQuaternion<f64> {
         let shift = self.shift.as_ref();
         UnitQuaternion::from_scaled_axis(
@@ -121,17 +121,17 @@ impl Overlay {
         self.shift.as_ref().is_some_and(Shift::turns)
     }
 
-    /// The longest part of the motion on which nothing that is laid over it changes much.
+    /// The longest share of the motion over which no overlay changes much.
     pub(crate) fn longest_step(&self) -> f64 {
         let woven = self.woven.as_ref().map_or(1.0, |woven| woven.pattern.grain() / woven.seconds);
         self.shift.as_ref().map_or(woven, |shift| woven.min(shift.grain()))
     }
 
-    /// The length of a figure of the weave as part of the motion, and where the stretch begins in which figures are not
-    /// alike any more.
+    /// The length of a figure of the weave as a share of the motion, and the place from which figures are no longer
+    /// alike.
     pub(crate) fn figures(&self) -> Option<(f64, f64)> {
         let woven = self.woven.as_ref()?;
-        // A compensation that grows makes no two figures alike.
+        // With a compensation that grows, no two figures are alike.
         let grows = self.shift.as_ref().is_some_and(Shift::grows);
         let like = if grows { 0.0 } else { 1.0 - woven.fading / woven.seconds };
         Some((woven.pattern.period / woven.seconds, like))

@@ -1,4 +1,4 @@
-//! The frame that goes along with a path: x forward, y to the left, z away from what the tool points at.
+//! The frame that moves along a path: x forward, y to the left, z away from where the tool points.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -9,13 +9,13 @@ use crate::geometry::tcp_path::TcpPath;
 
 /// A path shorter than this, in mm, has no direction.
 const NO_LENGTH: f64 = 1e-6;
-/// Sines of the angle between tool and path below this leave no plane across the path.
+/// Below this sine of the angle between tool and path, no plane across the path is defined.
 const PARALLEL: f64 = 1e-3;
 
 /// A value with its first three derivatives by the path parameter.
 pub(crate) type Rates = [Vector3<f64>; 4];
 
-/// How something turns: its speed of rotation in rad per unit of the path parameter, and two derivatives of that.
+/// A rotation: its speed in rad per unit of the path parameter, and the first two derivatives of that.
 pub(crate) type Turning = [Vector3<f64>; 3];
 
 /// The frame of a path: x along it, y across x and the tool's z axis, z across x and y (manual 3.2.11.2).
@@ -30,19 +30,19 @@ pub(crate) struct PathFrame {
 enum Turns {
     /// With a line or a circle and, about the path, evenly with the tool.
     Evenly {
-        /// How the path turns, in rad per unit about an axis of the base.
+        /// Rotation of the path, in rad per unit about an axis of the base.
         path: Vector3<f64>,
-        /// How the tool turns the frame about the path, in rad per unit.
+        /// Rotation of the frame about the path due to the tool, in rad per unit.
         roll: f64,
     },
     /// From the direction at the start to that at the end of a segment of a spline: a rotation vector in rad about axes
-    /// of the base. Where segments meet it turns evenly, which their directions themselves do not: else acceleration
-    /// would jump there.
+    /// of the base. Where segments meet, the frame turns evenly, which their directions themselves do not: otherwise
+    /// acceleration would jump there.
     Smoothly(Quintic<3>),
 }
 
 impl PathFrame {
-    /// The frame of a path of the TCP; `None` where it has no direction.
+    /// The frame of a path of the TCP; `None` where the path has no direction.
     ///
     /// # Errors
     /// The tool points along the path at its start or its end.
@@ -89,7 +89,7 @@ impl PathFrame {
         }
     }
 
-    /// How it turns.
+    /// The rotation of the frame.
     pub(crate) fn turning(&self, at: f64) -> Turning {
         match &self.turns {
             Turns::Evenly { path, roll } => {
@@ -105,20 +105,20 @@ impl PathFrame {
     }
 }
 
-/// The axes along a path of the TCP at `at`, and how fast they turn there, in rad per unit.
+/// The axes along a path of the TCP at `at`, and their speed of rotation there, in rad per unit.
 fn directed(curve: &TcpPath, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<f64>), PlanError> {
-    /// A vector and its derivative, made of length 1.
+    /// A vector scaled to length 1, with its derivative.
     fn unit(vector: Vector3<f64>, change: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         let (length, unit) = (vector.norm(), vector.normalize());
         (unit, (change - unit * unit.dot(&change)) / length)
     }
-    // Where splines turn back they end, so that they go somewhere at each point.
+    // Splines end where they turn back, so that they have a direction at each point.
     let way = curve.track.derivative(1, at);
     let (x, dx) = unit(way, curve.track.derivative(2, at));
     let tool = curve.rotation(at) * Vector3::z();
     let [turning, ..] = curve.rotation_rates(at);
     let across = x.cross(&tool);
-    // What is not a number is no side either.
+    // A value that is not a number defines no side either.
     if across.norm().is_nan() || across.norm() < PARALLEL {
         return Err(PlanError::ToolAlongPath);
     }
@@ -128,10 +128,10 @@ fn directed(curve: &TcpPath, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<f6
     Ok((rotation, (x.cross(&dx) + y.cross(&dy) + z.cross(&dz)) / 2.0))
 }
 
-/// A vector that is given in the axes of something that turns, with its derivatives there: the same in the base.
+/// A vector given in rotating axes, with its derivatives there, expressed in the base.
 pub(crate) fn carried(rotation: &UnitQuaternion<f64>, [w, w1, w2]: &Turning, local: &Rates) -> Rates {
     let [v, v1, v2, v3] = local.map(|vector| rotation * vector);
-    // What is written with a prime in textbooks: the derivative in the base of each of these.
+    // Written with a prime in textbooks: the derivative of each of these in the base.
     let (d, d1, d2) = (w.cross(&v) + v1, w.cross(&v1) + v2, w.cross(&v2) + v3);
     let second = w1.cross(&v) + w.cross(&d) + d1;
     let second1 = w1.cross(&v1) + w.cross(&d1) + d2;

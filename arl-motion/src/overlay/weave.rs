@@ -1,11 +1,11 @@
-//! The figures of a weave: where the TCP is beside the path, over the time.
+//! The figures of a weave: the offset of the TCP from the path as a function of time.
 
 use nalgebra::{Rotation3, Vector3};
 
 use crate::command::{Weave, WeaveShape};
 use crate::overlay::path_frame::Rates;
 
-/// A place where a straight leg of the figure begins: when, where, and how fast it goes on from there.
+/// The start of a straight leg of the figure: time, place, and the speed from there on.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Leg {
     time: f64,
@@ -21,18 +21,18 @@ enum Figure {
     Cornered { legs: Vec<Leg>, rounding: f64 },
 }
 
-/// A figure that can be followed: twice differentiable, its third derivative finite.
+/// A figure that can be followed: twice differentiable, with a finite third derivative.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Pattern {
     figure: Figure,
     pub(crate) period: f64,
 }
 
-/// Places at which a figure is measured.
+/// Number of places at which a figure is measured.
 const PLACES: u32 = 512;
 
 impl Pattern {
-    /// The figure of `weave`; corners are rounded over `rounding` s before and behind them.
+    /// Creates the figure of `weave`; corners are rounded over `rounding` s before and behind them.
     pub(crate) fn new(weave: &Weave, rounding: f64) -> Self {
         let period = weave.period();
         let turned = Rotation3::new(weave.turned);
@@ -62,7 +62,7 @@ impl Pattern {
             WeaveShape::Triangle => &[(left, stay_left), (right, stay_right), (middle, stay_middle)],
             _ => &[(left, stay_left), (middle, stay_middle), (right, stay_right), (middle, stay_middle)],
         };
-        // The legs share the time by their lengths.
+        // The legs share the time in proportion to their lengths.
         let ways = |stops: &[(Vector3<f64>, f64)]| {
             let mut from = middle;
             stops.iter().map(|(to, _)| (to - std::mem::replace(&mut from, *to)).norm()).sum::<f64>()
@@ -79,7 +79,7 @@ impl Pattern {
         }
         let period = if time > 0.0 { time } else { weave.period() };
         let mut pattern = Self { figure: Figure::Cornered { legs, rounding }, period };
-        // Rounding cuts the corners off: the figure is made so much larger that it goes as far as it shall.
+        // Rounding cuts the corners off: the figure is enlarged so that it reaches as far as requested.
         let widest = (0..PLACES).map(|place| pattern.at(period * f64::from(place) / f64::from(PLACES)));
         let widest = widest.map(|[offset, ..]| offset.norm()).fold(0.0, f64::max);
         if let Figure::Cornered { legs, .. } = &mut pattern.figure
@@ -100,7 +100,7 @@ impl Pattern {
         legs.iter().zip(before).map(|(leg, before)| (leg.speed - before.speed).norm()).fold(0.0, f64::max)
     }
 
-    /// Over how many s the figure changes at least.
+    /// The shortest time, in s, over which the figure changes.
     pub(crate) fn grain(&self) -> f64 {
         match &self.figure {
             Figure::Smooth { double, .. } if *double != Vector3::zeros() => self.period / 64.0,
@@ -126,7 +126,7 @@ impl Pattern {
         }
     }
 
-    /// The legs, averaged over the time around `time`: what is straight stays so, a corner becomes smooth.
+    /// The legs, averaged over the time around `time`: straight parts stay straight, corners become smooth.
     fn rounded(&self, legs: &[Leg], rounding: f64, time: f64) -> Rates {
         let after = legs.partition_point(|leg| leg.time <= time);
         let Some(here) = legs.get(after.saturating_sub(1)) else { return [Vector3::zeros(); 4] };
@@ -141,7 +141,7 @@ impl Pattern {
                 if x.abs() >= 1.0 {
                     continue;
                 }
-                // A ramp that begins at the corner, averaged with the weights 3/4 (1 - x2), less the ramp itself.
+                // A ramp that begins at the corner, averaged with the weights 3/4 (1 - x2), minus the ramp itself.
                 let (ramp, step) = if x >= 0.0 { (x, 1.0) } else { (0.0, 0.0) };
                 let square = x * x;
                 *place += change * (rounding * (0.1875 + x * 0.5 + square * (0.375 - square * 0.0625) - ramp));
@@ -217,7 +217,7 @@ mod tests {
             let near = |[place, speed, ..]: Rates| speed.norm() < 1e-6 && (place.y - y).abs() < 1e-6;
             (0..steps).filter(|step| near(at(*step))).count() as f64 * pattern.period / f64::from(steps)
         };
-        // The corners take their rounding from both sides of the stay.
+        // Rounding takes time from both ends of each dwell.
         assert!((resting(15.0) - 0.18).abs() < 1e-3 && (resting(-15.0) - 0.28).abs() < 1e-3);
         assert!((resting(0.0) - 2.0 * 0.08).abs() < 1e-3);
     }

@@ -1,4 +1,4 @@
-//! Motions whose path depends on the one behind them: it is planned when that one is known, or none comes.
+//! Motions whose path depends on the one behind them: they are planned once that one is known, or once none follows.
 
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
@@ -13,13 +13,13 @@ use crate::plan::planner::Planner;
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::Robot;
 
-/// Points of a spline that are not so far from each other, in mm, are the same: the tool only turns there.
+/// Points of a spline no farther apart than this, in mm, are the same: the tool only turns there.
 const SAME_POINT_MM: f64 = 1e-3;
 
-/// The kinds of motion that make one path together with their neighbours.
+/// The kinds of motion that form one path together with their neighbours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Kind {
-    /// Circles through targets of neighbours ([`crate::command::Target::Circle`]).
+    /// Circles through the targets of neighbours ([`crate::command::Target::Circle`]).
     Circle,
     /// Splines ([`crate::command::Target::Spline`]).
     Spline,
@@ -32,25 +32,25 @@ pub(crate) struct Held {
     command: Command,
     settings: Settings,
     pub(crate) number: u64,
-    /// Where the robot is when it begins, and where it ends as far as that is known already: without what is laid over
-    /// it.
+    /// Where the robot is when the motion begins, and where the motion ends, as far as that is known already: without
+    /// overlays.
     start: Joints,
     end: Joints,
     target: SplinePoint,
     before: Option<Predecessor>,
 }
 
-/// What the motion before, of the same kind and planned already, leaves to the next.
+/// What the motion before, of the same kind and already planned, passes on to the next one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Predecessor {
-    /// Where the circle before began.
+    /// Where the previous circle began.
     Circle(Joints),
-    /// How the spline goes on.
+    /// How the spline continues.
     Spline(Passing),
 }
 
 impl Target {
-    /// The kind of path that this makes with its neighbours.
+    /// The kind of path that the target forms with its neighbours, with its pose, workpiece frame and external axes.
     pub(crate) fn chained(&self) -> Option<(Kind, &[f64; 6], &Frame, &[f64; 6])> {
         match self {
             Target::Circle { pose, wobj, external, .. } => Some((Kind::Circle, pose, wobj, external)),
@@ -61,7 +61,7 @@ impl Target {
 }
 
 impl Held {
-    /// Holds a motion back that starts at `start`; `None` for a kind that needs not wait.
+    /// Holds back a motion that starts at `start`; `None` for a kind that does not have to wait.
     pub(crate) fn new(
         robot: &Robot,
         start: &Joints,
@@ -102,7 +102,7 @@ impl Held {
         self.kind == Kind::Spline || self.before.is_some()
     }
 
-    /// Whether the motion that comes next makes one path with this one.
+    /// Whether the next motion forms one path with this one.
     pub(crate) fn goes_on(&self, robot: &Robot, next: &Held) -> bool {
         self.kind == next.kind
             && match self.kind {
@@ -114,7 +114,7 @@ impl Held {
             }
     }
 
-    /// Whether a spline has to end here and a new one to begin: points are the same, the way turns back, or another
+    /// Whether a spline has to end here and a new one to begin: points are the same, the path turns back, or another
     /// compensation begins to grow, which would not flow.
     fn breaks_off(&self, robot: &Robot, next: &Held) -> bool {
         let from = self.from(robot);
@@ -124,8 +124,8 @@ impl Held {
             || from.turns_back(&self.target, &next.target)
     }
 
-    /// Ends it with a stop, whatever its zone, where the next one would be of the same spline but for
-    /// [`Held::breaks_off`]: within a spline zones count for nothing.
+    /// Lets it end with a stop, whatever its zone, where only [`Held::breaks_off`] separates the next motion from the
+    /// same spline: zones do not apply within a spline.
     pub(crate) fn stop_before(&mut self, robot: &Robot, next: &Held) {
         if [self.kind, next.kind] == [Kind::Spline; 2] && self.breaks_off(robot, next) {
             self.command.zone = Zone::NONE;
@@ -137,11 +137,11 @@ impl Held {
         SplinePoint { tcp, external: self.start.external }
     }
 
-    /// Plans it, without what is laid over it, with the motion of its path that comes next; returns also what it leaves
-    /// to that one.
+    /// Plans it without overlays, together with the next motion of its path. Also returns what it passes on to that
+    /// motion.
     ///
     /// # Errors
-    /// It cannot be moved; the error tells its line.
+    /// It cannot be planned; the error contains its line.
     pub(crate) fn plan(&self, robot: &Robot, next: Option<&Held>) -> Result<(Motion, Option<Predecessor>), PlanError> {
         let planner = Planner { robot, start: &self.start, command: &self.command, settings: &self.settings };
         let planned = match self.kind {
@@ -151,15 +151,15 @@ impl Held {
         planned.map_err(|error| self.failed(error))
     }
 
-    /// Whether its weave goes on into the motion that makes one path with it.
+    /// Whether its weave continues into the motion that forms one path with it.
     pub(crate) fn weaves_on(&self, next: &Held) -> bool {
         self.kind == Kind::Spline && self.settings.weave == next.settings.weave
     }
 
-    /// Lays over it, planned, what its settings say.
+    /// Adds the overlays of its settings to the planned motion.
     ///
     /// # Errors
-    /// It cannot be moved so; the error tells its line.
+    /// It cannot be executed with them; the error contains its line.
     pub(crate) fn laid(&self, robot: &Robot, plain: Motion, beginning: &OverlayStart<'_>) -> Result<Motion, PlanError> {
         let Some((_, _, wobj, _)) = self.command.target.chained() else { return Ok(plain) };
         lay(robot, plain, beginning, &wobj.rotation, &self.settings).map_err(|error| self.failed(error))
@@ -174,17 +174,17 @@ impl Held {
         &self.command
     }
 
-    /// What held when it was added.
+    /// The settings at the time when it was added.
     pub(crate) fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Takes over what the motion before has left.
+    /// Takes over what the motion before has passed on.
     pub(crate) fn goes_on_from(&mut self, end: &Joints, before: Option<Predecessor>) {
         (self.start, self.before) = (*end, before);
     }
 
-    /// Takes over that a circle began at `start`.
+    /// Notes that a circle began at `start`.
     pub(crate) fn follows_circle_from(&mut self, start: Joints) {
         self.before.get_or_insert(Predecessor::Circle(start));
     }

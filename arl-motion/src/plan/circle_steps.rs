@@ -1,4 +1,4 @@
-//! A circle in two motions: to the point on the way, and on to the target, as single steps go along it.
+//! A circle in two motions, as single steps execute it: to the via point, and on to the target.
 
 use crate::command::UNSET;
 use crate::command::joints::{Joints, is_unset};
@@ -7,8 +7,8 @@ use crate::geometry::arc::{arc_through, circle_through};
 use crate::plan::planner::Planner;
 use arl_robot::robot::Robot;
 
-/// The two motions of a circle that starts at `start`; `None` for what is not a circle, or does not come to the point
-/// on the way.
+/// The two motions of a circle that starts at `start`; `None` for what is not a circle, or does not reach the via
+/// point.
 pub fn circle_steps(
     robot: &Robot,
     start: &Joints,

@@ -1,4 +1,4 @@
-//! Collects what limits the parameter of a motion: every axis, the TCP, the tool's turning, the programmed speeds.
+//! Collects what limits the parameter of a motion: every axis, the TCP, the tool's rotation, the programmed speeds.
 
 use nalgebra::Vector3;
 
@@ -13,25 +13,25 @@ use arl_robot::robot::{Axis, EXTERNAL_AXES, Robot};
 
 /// The highest speed of the TCP in manual low-speed mode, in mm/s.
 pub(crate) const MANUAL_SPEED_MM_S: f64 = 250.0;
-/// Between the places where a path is checked, derivatives are a little larger than at them.
+/// Factor for derivatives, which are a little larger between the checked places of a path than at them.
 const BETWEEN_SAMPLES_FACTOR: f64 = 1.005;
-/// Places at which a curved path of the TCP is looked at; and of each part of one whose pace is made of parts: there
-/// the way may turn within a small part of its time.
+/// Number of places at which a curved path of the TCP is checked; and the number for each part where the pace consists
+/// of parts: there the path may turn within a small part of its time.
 const PLACES_OF_CURVE: u32 = 24;
 const PLACES_OF_PART: u32 = 6;
-/// How far beside a place its other side is looked at.
+/// Distance from a jump at which its other side is checked.
 const BESIDE_SHARE: f64 = 1e-9;
 
-/// How fast a motion may go, and how hard it may accelerate.
+/// The speed and the accelerations that a motion may have.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct PathLimits {
     /// Share of the own axes' speeds.
     pub(crate) axes: f64,
-    /// TCP in mm/s.
+    /// Speed of the TCP in mm/s.
     pub(crate) tcp: f64,
-    /// Turning of the tool in deg/s.
+    /// Rotation of the tool in deg/s.
     pub(crate) ori: f64,
-    /// Turning external axes in deg/s.
+    /// Rotary external axes in deg/s.
     pub(crate) turning: f64,
     /// Linear external axes in mm/s.
     pub(crate) linear: f64,
@@ -44,7 +44,7 @@ pub(crate) struct PathLimits {
 }
 
 impl PathLimits {
-    /// Nothing but the robot's own limits.
+    /// The robot's own limits alone.
     pub(crate) const FREE: Self = Self {
         axes: 1.0,
         tcp: f64::INFINITY,
@@ -61,14 +61,14 @@ impl PathLimits {
         [axis.vel * self.axes, axis.acc * self.acc, axis.jerk * self.jerk]
     }
 
-    /// The same of an external axis.
+    /// Speed, acceleration and jerk that an external axis may have.
     pub(crate) fn of_external(&self, axis: &Axis) -> [f64; 3] {
         let vel = axis.vel.min(if axis.linear { self.linear } else { self.turning });
         [vel, axis.acc * self.acc, axis.jerk * self.jerk]
     }
 }
 
-/// The bounds of one place, and the part of the blend that it speaks for: up to its neighbours.
+/// The bounds of one place, and the part of the blend that they apply to: up to the neighbouring places.
 pub(crate) struct PlaceBounds<'a> {
     /// Shares of the blend's nominal time.
     pub(crate) from: f64,
@@ -87,12 +87,12 @@ pub(crate) struct Constraints<'a> {
 }
 
 impl<'a> Constraints<'a> {
-    /// Rows of magnitudes.
+    /// Creates constraints whose rows are magnitudes.
     pub(crate) fn new(robot: &'a Robot) -> Self {
         Self { robot, rows: Vec::with_capacity(64), signed: false, places: Vec::new() }
     }
 
-    /// Rows that keep the signs of the derivatives, for one place.
+    /// Creates constraints whose rows keep the signs of the derivatives, for one place.
     pub(crate) fn signed(robot: &'a Robot) -> Self {
         Self { signed: true, ..Self::new(robot) }
     }
@@ -101,18 +101,18 @@ impl<'a> Constraints<'a> {
         self.rows.push(if self.signed { constraint } else { constraint.size() });
     }
 
-    /// Forgets all rows.
+    /// Removes all rows.
     pub(crate) fn clear(&mut self) {
         self.rows.clear();
         self.places.clear();
     }
 
-    /// The rows that follow are those of a place at this share of the nominal time.
+    /// Assigns the rows that follow to a place at this share of the nominal time.
     pub(crate) fn place(&mut self, share: f64) {
         self.places.push((self.rows.len(), share));
     }
 
-    /// The rows of each place. Places of one kind are told of in order, one kind behind the other.
+    /// The rows of each place. Places of one kind are added in order, one kind after the other.
     pub(crate) fn by_place(&self) -> Vec<PlaceBounds<'_>> {
         let place = |index: usize, (start, share): (usize, f64)| {
             let before = index.checked_sub(1).and_then(|index| self.places.get(index));
@@ -127,8 +127,8 @@ impl<'a> Constraints<'a> {
         self.places.iter().enumerate().map(|(index, known)| place(index, *known)).collect()
     }
 
-    /// Joins the rows from `known` on, which are of one place, to the first rows, which are of others: limits that hold
-    /// at all of these places.
+    /// Merges the rows from `known` on, which belong to one place, into the first rows, which belong to others: the
+    /// result holds at all of these places.
     pub(crate) fn join(&mut self, known: usize) {
         if known == 0 {
             return;
@@ -142,7 +142,7 @@ impl<'a> Constraints<'a> {
         self.rows.truncate(known);
     }
 
-    /// All axes go evenly from `start` to `end`.
+    /// Adds the limits of all axes moving evenly from `start` to `end`.
     pub(crate) fn even_axes(&mut self, start: &Joints, end: &Joints, pace: &PathLimits) {
         for (axis, (start, end)) in self.robot.own_axes().iter().zip(start.axes.iter().zip(&end.axes)) {
             self.push(Constraint::even(end - start, axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk));
@@ -150,7 +150,7 @@ impl<'a> Constraints<'a> {
         self.even_external(start, end, pace);
     }
 
-    /// The external axes go evenly from `start` to `end`.
+    /// Adds the limits of the external axes moving evenly from `start` to `end`.
     pub(crate) fn even_external(&mut self, start: &Joints, end: &Joints, pace: &PathLimits) {
         let ways = start.external.iter().zip(&end.external).map(|(start, end)| end - start);
         for (axis, way) in self.robot.external_axes().iter().zip(ways) {
@@ -160,7 +160,7 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// The own axes at a place where these are their derivatives.
+    /// Adds the limits of the robot's own axes at a place with these derivatives.
     pub(crate) fn axes(&mut self, first: &Axes, second: &Axes, third: &Axes, pace: &PathLimits) {
         let derivatives = first.iter().zip(second).zip(third);
         for (axis, ((first, second), third)) in self.robot.own_axes().iter().zip(derivatives) {
@@ -168,7 +168,7 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// All axes at a place where these are their derivatives.
+    /// Adds the limits of all axes at a place with these derivatives.
     pub(crate) fn all_axes(&mut self, derivatives: &[[f64; ALL]; 3], pace: &PathLimits) {
         let parts = derivatives.map(|all| Joints::of(&all));
         let [first, second, third] = &parts;
@@ -176,19 +176,19 @@ impl<'a> Constraints<'a> {
         self.external(&parts.map(|part| part.external), pace);
     }
 
-    /// The parameter's acceleration takes at least `time` s to rise to what the rows of this place leave it.
+    /// Lets the parameter's acceleration take at least `time` s to rise to what the rows of this place allow.
     pub(crate) fn rising_in(&mut self, time: f64) {
         let acc = self.rows.iter().map(|row| row.acc / row.first.abs()).fold(f64::INFINITY, f64::min);
         self.push(Constraint::even(1.0, f64::INFINITY, f64::INFINITY, acc / time));
     }
 
-    /// Constant limits of the parameter itself.
+    /// Adds constant limits of the parameter itself.
     pub(crate) fn cell(&mut self, limits: &Limits) {
         let Limits { vel, acc, jerk } = *limits;
         self.push(Constraint::even(1.0, vel, acc, jerk));
     }
 
-    /// The TCP on its path, and the turning of the tool.
+    /// Adds the limits of the TCP on its path, and of the rotation of the tool.
     pub(crate) fn tool(&mut self, curve: &ToolCurve, pace: &PathLimits) {
         for place in places(curve) {
             self.moving(&[1, 2, 3].map(|order| curve.path.track.derivative(order, place)), pace);
@@ -196,26 +196,26 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// The TCP at a place where these are the derivatives of its position, in mm.
+    /// Adds the limits of the TCP at a place with these derivatives of its position, in mm.
     pub(crate) fn moving(&mut self, rates: &[Vector3<f64>; 3], pace: &PathLimits) {
         let tcp = &self.robot.tcp;
         self.push(along(rates, (tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk)));
     }
 
-    /// The TCP at a place where these are the derivatives of its position, in mm, and where it swings to and fro: all
-    /// of its acceleration counts, not only that along its path.
+    /// Adds the limits of the TCP at a place with these derivatives of its position, in mm, where it swings to and fro:
+    /// all of its acceleration counts, not only the part along its path.
     pub(crate) fn swinging(&mut self, rates: &[Vector3<f64>; 3], pace: &PathLimits) {
         let tcp = &self.robot.tcp;
         let limits = [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk];
         self.rows.push(row(rates.map(|rate| rate.norm()), limits));
     }
 
-    /// The speed of the TCP in manual operation, at a place where these are the derivatives of its position.
+    /// Adds the speed limit of the TCP in manual operation, at a place with these derivatives of its position.
     pub(crate) fn manual_moving(&mut self, rates: &[Vector3<f64>; 3]) {
         self.push(along(rates, (MANUAL_SPEED_MM_S, f64::INFINITY, f64::INFINITY)));
     }
 
-    /// The tool at a place where it turns so, in rad.
+    /// Adds the limits of the tool at a place with these rates of rotation, in rad.
     pub(crate) fn turning(&mut self, rates: &[Vector3<f64>; 3], pace: &PathLimits) {
         let tcp = &self.robot.tcp;
         let rates = rates.map(|rate| rate.map(f64::to_degrees));
@@ -223,7 +223,7 @@ impl<'a> Constraints<'a> {
         self.push(along(&rates, limits));
     }
 
-    /// The external axes at a place where these are their derivatives.
+    /// Adds the limits of the external axes at a place with these derivatives.
     pub(crate) fn external(&mut self, rates: &[[f64; EXTERNAL_AXES]; 3], pace: &PathLimits) {
         let [first, second, third] = rates;
         let derivatives = first.iter().zip(second).zip(third);
@@ -232,14 +232,14 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// The external axes all along a path.
+    /// Adds the limits of the external axes along a whole path.
     pub(crate) fn external_along(&mut self, curve: &ToolCurve, pace: &PathLimits) {
         for place in places(curve) {
             self.external(&[1, 2, 3].map(|order| curve.external.derivative(order, place)), pace);
         }
     }
 
-    /// A speed of the TCP, in mm/s, that must not be passed, whatever is programmed.
+    /// Adds a speed of the TCP, in mm/s, that must not be exceeded, whatever is programmed.
     pub(crate) fn cap_tool(&mut self, curve: &ToolCurve, vel: f64) {
         for place in places(curve) {
             let first = curve.path.track.derivative(1, place).norm();
@@ -247,7 +247,7 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// The speed of the TCP of an axis motion in manual operation.
+    /// Adds the speed limit of the TCP of an axis motion in manual operation.
     pub(crate) fn manual_axes(&mut self, curve: &Curve, carried: &Carried, start: &Joints) {
         let Curve::Axes(axes) = curve else { return };
         let kinematics = &self.robot.kinematics;
@@ -260,8 +260,8 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// The speed of the TCP in manual operation, at a place where all axes change by `rates`; of the flange, too, where
-    /// the tool stands.
+    /// Adds the speed limit of the TCP in manual operation, at a place where all axes change by `rates`; also that of
+    /// the flange, where the tool is stationary.
     pub(crate) fn manual_place(&mut self, joints: &Joints, rates: &[f64; ALL], carried: &Carried) {
         self.cap_place(joints, rates, carried, MANUAL_SPEED_MM_S);
         if let Carried::Workpiece(_) = carried {
@@ -270,7 +270,7 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// A speed of the TCP in mm/s that must not be passed, at a place where all axes change by `rates`.
+    /// Adds a speed of the TCP in mm/s that must not be exceeded, at a place where all axes change by `rates`.
     pub(crate) fn cap_place(&mut self, joints: &Joints, rates: &[f64; ALL], carried: &Carried, vel: f64) {
         let place = match carried {
             Carried::Tool(tool) => (self.robot.kinematics.forward(&joints.axes) * tool).translation.vector,
@@ -279,15 +279,15 @@ impl<'a> Constraints<'a> {
         self.cap_point(joints, rates, &place, vel);
     }
 
-    /// The same for a point, given in the base in mm, that the robot carries.
+    /// Adds a speed that must not be exceeded by a point that the robot carries, given in the base in mm.
     fn cap_point(&mut self, joints: &Joints, rates: &[f64; ALL], place: &Vector3<f64>, vel: f64) {
         let rates = Joints::of(rates).axes;
         let speed = self.robot.kinematics.point_velocity(&joints.axes, &rates, place).norm() * BETWEEN_SAMPLES_FACTOR;
         self.push(Constraint::even(speed, vel, f64::INFINITY, f64::INFINITY));
     }
 
-    /// The speed of the flange in manual operation at a place of a path whose parameter changes by `rate`, where the
-    /// tool stands; else it is the TCP's that counts.
+    /// Adds the speed limit of the flange in manual operation at a place of a path whose parameter changes by `rate`,
+    /// where the tool is stationary; otherwise the TCP counts.
     pub(crate) fn manual_flange(&mut self, curve: &ToolCurve, at: f64, rate: f64) {
         if let Carried::Workpiece(_) = curve.carried {
             let [first, ..] = curve.twist(at).of_place(&curve.flange(at).translation.vector);
@@ -297,7 +297,7 @@ impl<'a> Constraints<'a> {
     }
 }
 
-/// Where to look at a way: once where it is even.
+/// The places at which to check a path: a single one where it is even.
 fn places(curve: &ToolCurve) -> impl Iterator<Item = f64> + use<> {
     let paced = curve.is_paced();
     let count = if paced { PLACES_OF_PART * Parametrization::PARTS as u32 } else { PLACES_OF_CURVE };
@@ -308,16 +308,16 @@ fn places(curve: &ToolCurve) -> impl Iterator<Item = f64> + use<> {
     even.chain(before)
 }
 
-/// A value with these derivatives, between whose places it changes a little more.
+/// The constraint of a value with these derivatives, with a margin for the changes between places.
 fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Constraint {
     let more = |value: f64| value * BETWEEN_SAMPLES_FACTOR;
     Constraint { first: more(first), second: more(second), third: more(third), vel, acc, jerk }
 }
 
-/// A speed along a path whose derivatives are given, with how it changes along the path.
+/// The constraint of a speed along a path with these derivatives, with its changes along the path.
 ///
-/// Where a path all but turns back, its speed falls and rises at once, and has no jerk to speak of. There the part of
-/// the jerk along the path counts, which is the smaller one.
+/// Where a path all but turns back, its speed falls and rises at once, with hardly any jerk. There the component of the
+/// jerk along the path counts, which is the smaller one.
 fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Constraint {
     let [p1, p2, p3] = rates;
     let first = p1.norm();

@@ -1,4 +1,4 @@
-//! The geometry of motion: where everything is at a parameter that runs from 0 to 1, and how it changes with it.
+//! The geometry of motion: all positions as a function of a parameter from 0 to 1, with their derivatives.
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
@@ -13,23 +13,23 @@ use arl_robot::frames::Carried;
 use arl_robot::kinematics::{Axes, Frame, Kinematics, Passage, Rates, Twist, wrap_degrees};
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
-/// Closer to a singular point than this (see [`arl_robot::kinematics::Kinematics::clearance`]) rounding spoils the
+/// Closer to a singular point than this (see [`arl_robot::kinematics::Kinematics::clearance`]), rounding spoils the
 /// derivatives.
 pub(crate) const SINGULAR_CLEARANCE: f64 = 1e-5;
 
-/// What a motion moves along.
+/// What moves along a curve.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Curve {
     /// All axes by polynomials.
     Axes(Quintic<ALL>),
-    /// The TCP along a track; external axes by polynomials.
+    /// The TCP along a track, external axes by polynomials.
     Tool(ToolCurve),
 }
 
-/// A path of the TCP, seen from what [`Carried`] says.
+/// A path of the TCP, relative to what [`Carried`] specifies.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct ToolCurve {
-    /// The position of the TCP and the orientation of the tool, without what is laid over the path.
+    /// The position of the TCP and the orientation of the tool, without overlays.
     pub(crate) path: TcpPath,
     /// What the robot moves along the path.
     pub(crate) carried: Carried,
@@ -39,13 +39,13 @@ pub(crate) struct ToolCurve {
     pub(crate) cfg: u8,
     /// Where axis 4 is led through the wrist singularity.
     pub(crate) passages: Vec<Passage>,
-    /// Places beside singular points, where the axes' motion changes quickly.
+    /// Places near singular points, where the axes' motion changes quickly.
     pub(crate) close_places: Vec<f64>,
-    /// What is laid over the path.
+    /// The overlays on the path.
     pub(crate) over: Option<Box<Overlay>>,
 }
 
-/// Half the width of the places between which derivatives are measured within a passage, as part of it.
+/// Half the width of the span over which derivatives are measured within a passage, as a share of the passage.
 const STENCIL_SHARE: f64 = 1.0 / 128.0;
 
 impl ToolCurve {
@@ -55,7 +55,7 @@ impl ToolCurve {
         Frame::from_parts(Translation3::from(place), self.rotation(at))
     }
 
-    /// The place of the TCP at `at` in mm, with its first three derivatives.
+    /// The position of the TCP at `at` in mm, with its first three derivatives.
     pub(crate) fn moving(&self, at: f64) -> [Vector3<f64>; 4] {
         let over = self.over.as_ref().map_or([Vector3::zeros(); 4], |over| over.offset(&self.path, at));
         let [place, first, second, third] = over;
@@ -63,7 +63,7 @@ impl ToolCurve {
         [self.path.track.at(at) + place, of(1) + first, of(2) + second, of(3) + third]
     }
 
-    /// Whether speed and turning of the TCP are the same all along.
+    /// Whether the speed and the rotation of the TCP are constant along the whole curve.
     pub(crate) fn is_even(&self) -> bool {
         let even = match &self.path.track {
             Track::Poly(poly) => poly.is_even(),
@@ -72,7 +72,7 @@ impl ToolCurve {
         even && self.path.turning.is_even() && self.over.is_none()
     }
 
-    /// Whether the parameter's pace is made of parts, between which third derivatives jump.
+    /// Whether the parameter's pace consists of parts, between which third derivatives jump.
     pub(crate) fn is_paced(&self) -> bool {
         matches!(&self.path.track, Track::Poly(way) if way.is_paced())
     }
@@ -83,7 +83,7 @@ impl ToolCurve {
         self.over.as_ref().filter(|over| over.turns()).map_or(plain, |over| over.turned(&self.path, at) * plain)
     }
 
-    /// The angle in deg by which the tool turns all along.
+    /// The angle in deg by which the tool turns along the whole curve.
     pub(crate) fn turned_angle(&self) -> f64 {
         const PARTS: u32 = 16;
         let place = |part: u32| self.rotation(f64::from(part) / f64::from(PARTS));
@@ -96,7 +96,7 @@ impl ToolCurve {
         self.carried.flange_at(&self.tcp(at))
     }
 
-    /// The passage that `at` is in.
+    /// The passage that contains `at`.
     pub(crate) fn passage(&self, at: f64) -> Option<&Passage> {
         self.passages.iter().find(|passage| passage.from <= at && at <= passage.to)
     }
@@ -106,12 +106,12 @@ impl ToolCurve {
         self.passages.iter().flat_map(|passage| [passage.from, passage.to])
     }
 
-    /// The configuration at `at`; within a passage, that before it.
+    /// The configuration at `at`; within a passage, the one before it.
     pub(crate) fn cfg_at(&self, at: f64) -> u8 {
         self.passages.iter().rev().find(|passage| passage.to < at).map_or(self.cfg, |passage| passage.cfg_behind)
     }
 
-    /// Whether the TCP can go from one path over to another: they lead the same TCP, and no passage makes their
+    /// Whether the TCP can change from one path to the other: both lead the same TCP, and no passage makes their
     /// orientations inexact there.
     pub(crate) fn goes_on(&self, leave: f64, to: &ToolCurve, join: f64) -> bool {
         let exact = self.passages.iter().all(|passage| passage.to < leave)
@@ -119,8 +119,8 @@ impl ToolCurve {
         exact && self.carried == to.carried && self.cfg_at(1.0) == to.cfg
     }
 
-    /// The axes at `at`, no farther than half a turn from `near`; `None` where the arm does not reach. Within a passage
-    /// `near` has to be the axes shortly before.
+    /// The axes at `at`, no farther than half a turn from `near`; `None` where the arm does not reach. Within a
+    /// passage, `near` has to be the axes shortly before.
     pub(crate) fn axes(&self, kinematics: &Kinematics, at: f64, near: &Axes) -> Option<Axes> {
         let mut axes = match self.passage(at) {
             None => kinematics.inverse(&self.flange(at), self.cfg_at(at), near)?,
@@ -135,7 +135,7 @@ impl ToolCurve {
         Some(axes)
     }
 
-    /// The derivatives of the axes by the parameter at `at`, where they are `axes`; `None` at a singular point.
+    /// The derivatives of the axes by the parameter at `at`, where the axes are at `axes`; `None` at a singular point.
     pub(crate) fn rates(&self, kinematics: &Kinematics, at: f64, axes: &Axes) -> Option<Rates> {
         match self.passage(at) {
             None => kinematics.rates(axes, &self.twist(at)),
@@ -143,7 +143,7 @@ impl ToolCurve {
         }
     }
 
-    /// The same within a passage, from the axes at five places of it.
+    /// The derivatives of the axes within a passage, from the axes at five places of it.
     fn rates_in(&self, passage: &Passage, kinematics: &Kinematics, at: f64, axes: &Axes) -> Option<Rates> {
         let h = (passage.to - passage.from) * STENCIL_SHARE;
         let middle = at.clamp(passage.from + 2.0 * h, passage.to - 2.0 * h);
@@ -166,7 +166,7 @@ impl ToolCurve {
         Some(rates)
     }
 
-    /// How the orientation changes at `at`: its speed of rotation in rad per unit, and two derivatives of that.
+    /// How the orientation changes at `at`: the speed of rotation in rad per unit, and its first two derivatives.
     pub(crate) fn rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
         let Some(over) = self.over.as_ref().filter(|over| over.turns()) else { return self.path.rotation_rates(at) };
         let step = STENCIL_SHARE.min(over.longest_step() / 2.0);
@@ -179,7 +179,7 @@ impl ToolCurve {
         self.carried.twist(&self.tcp(at), &moving, &self.rotation_rates(at))
     }
 
-    /// The position and the rotation vector from `origin` at `at`, with their derivatives.
+    /// The position and the rotation vector relative to `origin` at `at`, with their derivatives.
     pub(crate) fn place(&self, at: f64, origin: &UnitQuaternion<f64>) -> [[Vector3<f64>; 3]; 2] {
         let turned = (self.rotation(at) * origin.inverse()).scaled_axis();
         let [speed, change, _] = self.rotation_rates(at);
@@ -189,9 +189,9 @@ impl ToolCurve {
     }
 }
 
-/// How `rotation` changes at `at`: its speed in rad per unit, and two derivatives of that.
+/// How `rotation` changes at `at`: the speed in rad per unit, and its first two derivatives.
 fn measured(rotation: impl Fn(f64) -> UnitQuaternion<f64>, at: f64, h: f64) -> [Vector3<f64>; 3] {
-    // The rotation vector from here on, at five places, gives derivatives that hold here.
+    // The rotation vector relative to this place, at five places, gives derivatives that hold here.
     let here = rotation(at).inverse();
     let turned = |steps: f64| (rotation(at + steps * h) * here).scaled_axis();
     let (m2, m1, p1, p2) = (turned(-2.0), turned(-1.0), turned(1.0), turned(2.0));
@@ -202,7 +202,7 @@ fn measured(rotation: impl Fn(f64) -> UnitQuaternion<f64>, at: f64, h: f64) -> [
 }
 
 impl Curve {
-    /// The external axes of an axis curve; of others, those that they have.
+    /// The external axes of the curve.
     pub(crate) fn external(&self) -> PacedQuintic<EXTERNAL_AXES> {
         match self {
             Curve::Axes(axes) => Quintic(axes.0.map(|power| Joints::of(&power).external)).into(),
@@ -210,7 +210,7 @@ impl Curve {
         }
     }
 
-    /// Whether the parameter's pace is made of parts, between which third derivatives jump.
+    /// Whether the parameter's pace consists of parts, between which third derivatives jump.
     pub(crate) fn is_paced(&self) -> bool {
         matches!(self, Curve::Tool(curve) if curve.is_paced())
     }
@@ -224,8 +224,8 @@ impl Curve {
         Curve::Axes(Quintic::even(from, travel))
     }
 
-    /// How all joints change at `at`, where they are `joints`: three derivatives by the parameter. `None` at a singular
-    /// point, where they would be made of rounding errors.
+    /// The first three derivatives of all joints by the parameter at `at`, where they are at `joints`. `None` at a
+    /// singular point, where they would consist of rounding errors.
     pub(crate) fn rates(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<[[f64; ALL]; 3]> {
         match self {
             Curve::Axes(axes) => Some([1, 2, 3].map(|order| axes.derivative(order, at))),
@@ -242,11 +242,11 @@ impl Curve {
         }
     }
 
-    /// The joints at `at`; `near` are the joints of the cycle before.
+    /// The joints at `at`; `near` are the joints of the previous cycle.
     pub(crate) fn joints(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
         match self {
             Curve::Axes(axes) => Joints::of(&axes.at(at)),
-            // Planning has walked the path; where rounding alone misses the edge of the reach, the axes stay.
+            // Planning has checked the path; where only rounding misses the edge of the reach, the axes stay.
             Curve::Tool(tool) => Joints {
                 axes: tool.axes(kinematics, at, &near.axes).unwrap_or(near.axes),
                 external: tool.external.at(at),

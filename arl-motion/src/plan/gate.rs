@@ -1,10 +1,10 @@
-//! Gates: straight up, over, and straight down to the target, with rounded corners.
+//! Gates: straight up, across, and straight down to the target, with rounded corners.
 //!
 //! A gate is three axis motions in a row under one number. It rises by `rise` before anything else moves, and by as
-//! much again while it goes over already; on the other side the same with `sink`. Where the highest place that is
-//! allowed leaves no room for the second half, the corner is a right angle, in which the robot stops.
+//! much again while it already moves across; on the other side the same applies to `sink`. Where the highest permitted
+//! position leaves no room for the second half, the corner is a right angle, in which the robot stops.
 //!
-//! How much of the way over a corner takes depends on what is programmed for both, not on the override.
+//! The share of the motion across that a corner takes depends on what is programmed for both, not on the override.
 
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
@@ -17,18 +17,18 @@ use arl_robot::robot::Robot;
 
 /// The axis that lifts.
 const LIFT_AXIS: usize = 2;
-/// Ways up to this, in mm, are none.
+/// Distances up to this, in mm, do not count as motion.
 const NO_DISTANCE_MM: f64 = 1e-6;
-/// How much of the way over a corner may take.
+/// The largest share of the motion across that a corner may take.
 const LARGEST_CORNER_SHARE: f64 = 0.5;
-/// An acceleration of the form of a corner takes so many s to rise at least, also without a limit of the jerk.
+/// An acceleration that forms a corner takes at least this many s to rise, even without a jerk limit.
 const LEAST_RISE_S: f64 = 0.004;
-/// The part of the way down that a corner leaves to stop in, whatever is asked for.
+/// The share of the motion down that a corner leaves for stopping, whatever is requested.
 const STOPPING_SHARE: f64 = 0.02;
-/// The zone of a gate that goes on without a stop, in percent of the largest.
+/// The zone of a gate that continues without a stop, in percent of the largest zone.
 const SMOOTH_ZONE_PERCENT: f64 = 25.0;
 
-/// Plans the motions of a gate, one behind the other; all but the last one are parts of it.
+/// Plans the motions of a gate in order; all but the last one are parts of it.
 pub(crate) fn plan(
     robot: &Robot,
     start: &Joints,
@@ -51,7 +51,7 @@ pub(crate) fn plan(
     let stays = at(start, top).all().iter().zip(at(&end, top).all()).all(|(a, b)| (a - b).abs() < NO_DISTANCE_MM);
     let ways = Ways { robot, command, settings };
     if stays {
-        // Over the same place there is nothing to go over.
+        // There is nothing to move across when the target is at the same place.
         let (end, way) = if gate.stays() { (at(&end, top), &gate.rising) } else { (end, &gate.falling) };
         return Ok(vec![Motion { zone: zone(gate), ..ways.part(start, end, &ways.lifting(way))? }]);
     }
@@ -60,7 +60,7 @@ pub(crate) fn plan(
     let mut push = |motion: Motion, corner: Option<GivenCorner>| {
         motions.push(Motion { corner, ends: false, zone: Zone::NONE, ..motion });
     };
-    // The share of a way of the lift that is left when it has gone straight for so long.
+    // The share of a lift motion that is left after it has gone straight for `straight` mm.
     let rest = |way: f64, straight: f64| 1.0 - (straight / way).min(1.0);
     let way_over = Instruction { command: command.clone(), settings: *settings };
     let form_over = ways.form(&up, over, &way_over)?;
@@ -75,7 +75,7 @@ pub(crate) fn plan(
     let going_over = ways.part(&up, over, &way_over)?;
     if top - to > NO_DISTANCE_MM && !gate.stays() {
         let sinking = ways.lifting(&gate.falling);
-        // Where it goes on smoothly, the corner leaves the next blend its part.
+        // Where the gate continues smoothly, the corner leaves the next blend its part.
         let most = 1.0 - if gate.smooth { SMOOTH_ZONE_PERCENT / 100.0 * LARGEST_ZONE } else { STOPPING_SHARE };
         let corner = corner(ways.form(&over, end, &sinking)?, rest(top - to, gate.sink).min(most), form_over);
         push(going_over, corner.map(|[lift, over]| GivenCorner { leaving: over.reversed(), joining: lift }));
@@ -90,12 +90,12 @@ pub(crate) fn plan(
     Ok(motions)
 }
 
-/// Where the lift is, in mm.
+/// The position of the lift, in mm.
 fn height(joints: &Joints) -> f64 {
     joints.axes.get(LIFT_AXIS).copied().unwrap_or_default()
 }
 
-/// The same with the lift elsewhere.
+/// The same positions with the lift at `height`.
 fn at(joints: &Joints, height: f64) -> Joints {
     let mut joints = *joints;
     if let Some(value) = joints.axes.get_mut(LIFT_AXIS) {
@@ -104,9 +104,9 @@ fn at(joints: &Joints, height: f64) -> Joints {
     joints
 }
 
-/// How high the lift goes over between two heights; `most` is the end of its range.
+/// The height of the lift while moving across between two heights; `most` is the end of its range.
 fn top(planner: &Planner<'_>, gate: &Gate, from: f64, to: f64, most: f64) -> Result<f64, PlanError> {
-    // The TCP is everywhere as far above the lift.
+    // The TCP is the same distance above the lift everywhere.
     let above = planner.start_frame().translation.vector.z - from;
     let highest = gate.highest.map_or(most, |highest| most.min(highest - above));
     let highest_end = from.max(to);
@@ -116,13 +116,13 @@ fn top(planner: &Planner<'_>, gate: &Gate, from: f64, to: f64, most: f64) -> Res
     Ok((from + 2.0 * gate.rise).max(to + 2.0 * gate.sink).min(highest).max(highest_end))
 }
 
-/// What one way of a gate is planned with.
+/// What one motion of a gate is planned with.
 struct Instruction {
     command: Command,
     settings: Settings,
 }
 
-/// Plans the three ways of a gate.
+/// Plans the three motions of a gate.
 struct Ways<'a> {
     robot: &'a Robot,
     command: &'a Command,
@@ -130,7 +130,7 @@ struct Ways<'a> {
 }
 
 impl Ways<'_> {
-    /// What a way of the lift is planned with.
+    /// What a motion of the lift is planned with.
     fn lifting(&self, way: &Lift) -> Instruction {
         let (command, settings) = (self.command, self.settings);
         let speed = Speed { percent: way.vel.unwrap_or(command.speed.percent), ..command.speed };
@@ -144,7 +144,7 @@ impl Ways<'_> {
         Planner { robot: self.robot, start: from, command, settings }.axes(to)
     }
 
-    /// What the form of a corner follows from; it is the same at every override, and in manual operation.
+    /// The limits that the form of a corner follows from; it is the same at every override, and in manual operation.
     fn form(&self, from: &Joints, to: Joints, asked: &Instruction) -> Result<Option<Limits>, PlanError> {
         let settings = Settings { speed_percent: 100.0, manual: false, ..asked.settings };
         let command = asked.command.clone();
@@ -152,28 +152,28 @@ impl Ways<'_> {
     }
 }
 
-/// The corner that takes `share` of a way of the lift: while the lift goes from there to where it rests, the way over
-/// begins. Returns how it meets both, each seen from where the other one rests. So a corner takes about as long as both
-/// of them would by themselves, and neither waits for the other one.
+/// The corner that takes `share` of a motion of the lift: while the lift moves from there to where it rests, the motion
+/// across begins. Returns how the corner meets both, each seen from where the other one is at rest. So a corner takes
+/// about as long as each of them would by itself, and neither waits for the other one.
 fn corner(lift: Option<Limits>, share: f64, over: Option<Limits>) -> Option<[CornerEnd; 2]> {
     let [lift, over] = [lift?, over?].map(|limits| limits.rising_in(LEAST_RISE_S));
     if share <= 0.0 {
         return None;
     }
     let time = lift.time_to(share);
-    // A way over that is short has the same form in less time.
+    // A short motion across has the same form in less time.
     let over_time = time.min(over.time_to(LARGEST_CORNER_SHARE));
     let end = |part: f64, state: State, time: f64| {
-        // A lift that has hardly set off is met as fast as it is on average.
+        // A lift that has hardly started is met at its average speed.
         CornerEnd { part, speed: (state.vel * time).max(part), acc: state.acc * time * time }
     };
     let gone_over = over.state_after(over_time);
-    // Not by rounding more than its half, which the other corner needs.
+    // Rounding must not make it more than half, since the other corner needs its half.
     let over_share = gone_over.at.min(LARGEST_CORNER_SHARE);
     Some([end(share, lift.state_after(time), time), end(over_share, gone_over, over_time)])
 }
 
-/// Lets each part be as much of the gate as it takes of the time.
+/// Assigns each part the share of the gate that it takes of the time.
 fn share_out(parts: &mut [Motion]) {
     let all: f64 = parts.iter().map(Motion::duration).sum();
     let mut done = 0.0;

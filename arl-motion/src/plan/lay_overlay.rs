@@ -1,4 +1,4 @@
-//! Lays weave and compensation over a planned motion, and finds how fast it may go then.
+//! Lays weave and compensation over a planned motion, and finds how fast it may then be.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -19,30 +19,31 @@ use arl_robot::frames::Carried;
 use arl_robot::kinematics::Rates;
 use arl_robot::robot::Robot;
 
-/// The shortest rounding of corners that is tried, and the longest, as parts of the time that a figure swings.
+/// The shortest and the longest rounding of corners that is tried, as shares of the time that a figure swings.
 const ROUNDING_SHARES: [f64; 2] = [0.01, 0.125];
-/// How much longer the next one that is tried is.
+/// Factor from one tried rounding to the next.
 const ROUNDING_STEP_FACTOR: f64 = 1.5;
-/// Corners count as round enough when the motion keeps this part of its speed.
+/// Corners count as sufficiently rounded when the motion keeps this share of its speed.
 const UNSLOWED_SHARE: f64 = 0.999;
-/// Rates of so many places in a row make one bound.
+/// Number of consecutive places whose rates form one bound.
 const PLACES_OF_CONSTRAINT: usize = 6;
-/// Between the places that are looked at, derivatives are a little larger.
+/// Factor for derivatives, which are a little larger between the checked places than at them.
 const BETWEEN_SAMPLES_FACTOR: f64 = 1.005;
 
-/// Where a motion begins over which something is laid, and what comes before and behind it.
+/// The start of a motion with overlays, and what comes before and behind it.
 pub(crate) struct OverlayStart<'a> {
     /// Where the robot really is.
     pub(crate) start: &'a Joints,
-    /// How a compensation stands there.
+    /// State of a compensation there.
     pub(crate) before: &'a Led,
-    /// The segment of a spline from which the motion flows on.
+    /// The segment of a spline that flows into the motion.
     pub(crate) flows_from: Option<&'a Motion>,
-    /// Whether a weave goes on into the motion behind.
+    /// Whether a weave continues into the motion behind.
     pub(crate) goes_on: bool,
 }
 
-/// Lays over `plain` what the settings say. `workpiece` is the orientation of the workpiece frame, seen like the path.
+/// Lays the overlays of the settings over `plain`. `workpiece` is the orientation of the workpiece frame, relative to
+/// what the path is relative to.
 pub(crate) fn lay(
     robot: &Robot,
     plain: Motion,
@@ -94,7 +95,7 @@ pub(crate) fn lay(
     }
 }
 
-/// Two motions that shall be blended, with a weave that goes on from the first to the second without a break.
+/// Two motions to be blended, with a weave that continues from the first into the second without a break.
 pub(crate) fn joined(robot: &Robot, from: &Motion, to: &Motion) -> Option<(Motion, Motion)> {
     let (first, second) = (from.laid.as_ref()?, to.laid.as_ref()?);
     let (weaving, next) = (first.weave?, second.weave?);
@@ -110,24 +111,25 @@ pub(crate) fn joined(robot: &Robot, from: &Motion, to: &Motion) -> Option<(Motio
 }
 
 impl OverlaidMotion {
-    /// The part of the motion behind which a blend with the next one comes too late: the weave fades out already.
+    /// The share of the motion beyond which a blend with the next one comes too late, because the weave already fades
+    /// out.
     pub(crate) fn fades_from(&self) -> f64 {
         let overlay = self.overlay().woven;
         overlay.map_or(1.0, |woven| 1.0 - woven.fading / woven.seconds)
     }
 
-    /// How long the motion takes at full speed without what is laid over it, in s.
+    /// How long the motion takes at full speed without overlays, in s.
     fn seconds(&self) -> f64 {
         if self.plain.limits.is_some() { 1.0 / self.plain.rate } else { 1.0 }
     }
 
-    /// The weave that goes on behind the motion.
+    /// The weave that continues behind the motion.
     fn at_end(&self) -> Option<Weaving> {
         let weaving = self.weave.filter(|weaving| !weaving.fades)?;
         Some(Weaving { begun: weaving.begun + self.seconds(), ..weaving })
     }
 
-    /// With corners that are rounded as little as the speed allows.
+    /// The motion with corners that are rounded as little as the speed allows.
     fn with_corners(&self, robot: &Robot, weaving: Weaving) -> Result<Motion, PlanError> {
         let swing = 1.0 / weaving.weave.frequency;
         let [shortest, longest] = ROUNDING_SHARES.map(|part| part * swing);
@@ -155,14 +157,14 @@ impl OverlaidMotion {
         let seconds = self.seconds();
         let woven = self.weave.map(|Weaving { weave, rounding, begun, fades }| {
             let pattern = Pattern::new(&weave, rounding);
-            // A blend with the motion before takes half of this one at most: what it meets must stay as it is.
+            // A blend with the motion before takes at most half of this one: what the blend meets must stay as it is.
             let fading = if fades { (pattern.period / 2.0).min(seconds / 2.0) } else { 0.0 };
             Woven { pattern, begun, seconds, fading }
         });
         Overlay { frame: self.frame, woven, shift: self.shift }
     }
 
-    /// The motion with everything that is laid over it.
+    /// The motion with all its overlays.
     fn finished(self, robot: &Robot) -> Result<Motion, PlanError> {
         let Curve::Tool(plain) = &self.plain.curve else { return Ok(self.plain) };
         let overlay = self.overlay();
@@ -193,7 +195,7 @@ impl OverlaidMotion {
         Ok(Motion { curve: Curve::Tool(curve), laid: Some(Box::new(self)), ..motion })
     }
 
-    /// Everything that limits the parameter: the plain motion's own limits, the axes, the TCP, the compensation's
+    /// Everything that limits the parameter: the plain motion's own limits, the axes, the TCP, and the compensation's
     /// limits.
     fn constraints(&self, robot: &Robot, curve: &ToolCurve, rates: &[(f64, Rates)]) -> Vec<Constraint> {
         let mut constraints = Constraints::new(robot);
@@ -227,7 +229,7 @@ fn highest<const N: usize>(most: &mut [f64; N], values: &[f64; N]) {
     }
 }
 
-/// The largest derivatives of the TCP's place, of what weaving adds to it (mm), and of the tool's turning (rad).
+/// The largest derivatives of the TCP's position, of what weaving adds to it (mm), and of the tool's rotation (rad).
 #[derive(Default)]
 struct Most {
     speed: f64,

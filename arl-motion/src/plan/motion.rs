@@ -1,4 +1,4 @@
-//! Motions that are planned.
+//! Planned motions.
 
 use crate::command::Weave;
 use crate::command::Zone;
@@ -15,10 +15,10 @@ use crate::plan::path_check::NearSingular;
 use arl_robot::frames::Rig;
 use arl_robot::robot::VelocityProfile;
 
-/// Ways of the TCP that are shorter, in mm and deg, are none: targets that differ by so little are the same.
+/// Paths of the TCP that are shorter than this, in mm and deg, do not count: such close targets are the same.
 pub(crate) const NO_WAY_MM_OR_DEG: f64 = 1e-5;
 
-/// A motion that is ready to run, from the target before it to its own.
+/// A motion that is ready to run, from the previous target to its own.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Motion {
     pub(crate) curve: Curve,
@@ -27,29 +27,29 @@ pub struct Motion {
     pub(crate) rig: Rig,
     /// `None` for a motion that goes nowhere.
     pub(crate) limits: Option<Limits>,
-    /// The nominal speed, as part of the motion per s, at which it meets its neighbours; at most `limits` are reached.
+    /// The nominal speed, as share of the motion per s, at which it meets its neighbours; at most `limits` are reached.
     pub(crate) rate: f64,
-    /// Whether it goes on smoothly from the motion before it, at the same nominal speed.
+    /// Whether it continues smoothly from the motion before it, at the same nominal speed.
     pub(crate) flows: bool,
     pub(crate) pace: PathLimits,
     pub(crate) profile: VelocityProfile,
     /// The speed that it could have, where a duration was programmed.
     pub(crate) timed: Option<f64>,
-    /// The length of the TCP's path in mm, 0 for axis motions.
+    /// The length of the TCP's path in mm; 0 for axis motions.
     pub(crate) length: f64,
-    /// The angle in deg by which the tool turns on its path, 0 for axis motions.
+    /// The angle in deg by which the tool turns on its path; 0 for axis motions.
     pub(crate) angle: f64,
     pub(crate) zone: Zone,
-    /// The form of the blend with the next motion, where that is not left to the zone.
+    /// The form of the blend with the next motion, where it is not determined by the zone.
     pub(crate) corner: Option<GivenCorner>,
     /// Whether the instruction ends with it.
     pub(crate) ends: bool,
-    /// From which share of the instruction to which it goes.
+    /// The share of the instruction at its start, and that at its end.
     pub(crate) stretch: [f64; 2],
     pub(crate) line: u32,
     /// Where it passes close to a singular point.
     pub(crate) near_singular: Option<NearSingular>,
-    /// What is laid over it.
+    /// The overlays on it.
     pub(crate) laid: Option<Box<OverlaidMotion>>,
 }
 
@@ -64,18 +64,18 @@ impl Motion {
         &self.end
     }
 
-    /// How long it takes from rest to rest at an override of 100 %, in s: where its duration is given, as it is
-    /// executed, braking a little more gently than its limits allow; else as the limits allow.
+    /// The duration from rest to rest at an override of 100 %, in s: where a duration is given, as executed, braking a
+    /// little more gently than the limits allow; else as the limits allow.
     pub fn duration(&self) -> f64 {
         self.limits.map_or(0.0, |limits| self.duration_with(&limits))
     }
 
-    /// The same with these limits.
+    /// The duration with these limits.
     pub(crate) fn duration_with(&self, limits: &Limits) -> f64 {
         if self.timed.is_some() { limits.duration_braking(1.0, LOOK_AHEAD_MARGIN) } else { limits.duration(1.0) }
     }
 
-    /// The same where an acceleration takes `rise` s to rise: a programmed duration is kept for all that, as long as
+    /// The motion with accelerations that take `rise` s to rise: a programmed duration is kept nevertheless, as long as
     /// the robot can go a little faster.
     pub(crate) fn rising_in(mut self, rise: f64) -> Self {
         if let (Some(highest), Some(limits)) = (self.timed, self.limits) {
@@ -89,13 +89,13 @@ impl Motion {
         self
     }
 
-    /// The share of the instruction that is done where so much of the motion is.
+    /// The share of the instruction that is done at this share of the motion.
     pub(crate) fn of_instruction(&self, share: f64) -> f64 {
         let [from, to] = self.stretch;
         from + (to - from) * share
     }
 
-    /// Whether the TCP goes or the tool turns.
+    /// Whether the TCP moves or the tool turns.
     pub(crate) fn moves_tool(&self) -> bool {
         self.length.max(self.angle) >= NO_WAY_MM_OR_DEG
     }
@@ -105,7 +105,7 @@ impl Motion {
         self.limits.is_some()
     }
 
-    /// The part of its speed that is left to it with what is laid over it.
+    /// The share of its speed that is left to it with its overlays.
     pub fn share_of_speed(&self) -> f64 {
         match (&self.laid, self.limits) {
             (Some(laid), Some(limits)) => limits.vel / laid.plain_speed().unwrap_or(self.rate),
@@ -113,12 +113,12 @@ impl Motion {
         }
     }
 
-    /// How fast the TCP may go with what is laid over the motion, in mm/s.
+    /// The highest speed of the TCP with the overlays on the motion, in mm/s.
     pub(crate) fn fastest(&self) -> f64 {
         self.laid.as_ref().map_or(f64::INFINITY, |laid| laid.fastest)
     }
 
-    /// How a compensation stands at the end, for the motion behind it.
+    /// The state of a compensation at the end, for the motion behind it.
     pub(crate) fn led(&self) -> Led {
         self.laid.as_ref().map_or_else(Led::default, |laid| laid.led())
     }
@@ -129,45 +129,45 @@ impl Motion {
     }
 }
 
-/// A blend between two motions of the axes that is given: where it leaves the first one and where it joins the second.
+/// A given blend between two motions of the axes: where it leaves the first one and where it joins the second.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct GivenCorner {
     pub(crate) leaving: CornerEnd,
     pub(crate) joining: CornerEnd,
 }
 
-/// One end of a given blend, in parts of the motion that is met there.
+/// One end of a given blend, in shares of the motion that is met there.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct CornerEnd {
-    /// How much of the motion the blend takes.
+    /// Share of the motion that the blend takes.
     pub(crate) part: f64,
-    /// How fast the motion is met, as it goes on, and how that speed rises: by the blend's own parameter, which goes
-    /// from 0 to 1.
+    /// The speed of the motion where it is met, along its direction, and the rise of that speed: by the blend's own
+    /// parameter, which goes from 0 to 1.
     pub(crate) speed: f64,
     pub(crate) acc: f64,
 }
 
 impl CornerEnd {
-    /// The same form, smaller or larger, where it takes another part.
+    /// The same form, scaled to take another share.
     pub(crate) fn taking(self, part: f64) -> Self {
         let share = part / self.part;
         Self { part, speed: self.speed * share, acc: self.acc * share }
     }
 
-    /// The same where the motion is gone the other way.
+    /// The same end where the motion runs in the opposite direction.
     pub(crate) fn reversed(self) -> Self {
         Self { acc: -self.acc, ..self }
     }
 }
 
 impl GivenCorner {
-    /// The parts that it takes.
+    /// The shares that it takes of both motions.
     pub(crate) fn parts(&self) -> (f64, f64) {
         (self.leaving.part, self.joining.part)
     }
 }
 
-/// A motion as it was planned, and what is laid over it: enough to lay it anew when it is blended with a neighbour.
+/// A motion as it was planned, with its overlays: enough to lay them again when it is blended with a neighbour.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct OverlaidMotion {
     pub(crate) plain: Motion,
@@ -184,21 +184,21 @@ pub(crate) struct OverlaidMotion {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Weaving {
     pub(crate) weave: Weave,
-    /// How corners are rounded, in s.
+    /// Duration of the rounding of corners, in s.
     pub(crate) rounding: f64,
-    /// How long it has been going on at the start, in s at full speed.
+    /// How long the weave has been running at the start, in s at full speed.
     pub(crate) begun: f64,
-    /// Whether it goes back to the path at the end.
+    /// Whether it returns to the path at the end.
     pub(crate) fades: bool,
 }
 
 impl OverlaidMotion {
-    /// How fast the motion may go without what is laid over it, as part of the motion per s.
+    /// The speed that the motion may have without its overlays, as share of the motion per s.
     pub(crate) fn plain_speed(&self) -> Option<f64> {
         self.plain.limits.map(|limits| limits.vel)
     }
 
-    /// How the compensation stands at the end.
+    /// The state of the compensation at the end.
     pub(crate) fn led(&self) -> Led {
         match (&self.plain.curve, &self.shift) {
             (Curve::Tool(curve), Some(shift)) => shift.led(&curve.path, curve.carried, self.frame.as_ref()),

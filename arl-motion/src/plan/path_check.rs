@@ -1,5 +1,5 @@
-//! Walks a path of the TCP before it is moved: is it reachable, within the ranges of the axes, clear of singular
-//! points, and how do the axes move along it?
+//! Walks a path of the TCP before it is executed: checks that it is reachable, within the ranges of the axes and clear
+//! of singular points, and finds how the axes move along it.
 
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
@@ -12,47 +12,48 @@ use arl_robot::kinematics::{
 use arl_robot::robot::{ROBOT_AXES, Robot};
 use nalgebra::Vector3;
 
-/// What the walk found.
+/// The result of the walk.
 pub(crate) struct Survey {
     /// The axes at the end.
     pub(crate) end: Axes,
     /// The derivatives of the axes by the parameter, at places close enough to see every change.
     pub(crate) rates: Vec<(f64, Rates)>,
-    /// The slowest of the places where it passes by a singular point, if it comes near one.
+    /// The slowest place near a singular point, if the path comes near one.
     pub(crate) near_singular: Option<NearSingular>,
 }
 
-/// The longest step, as part of the path.
+/// The longest step, as a share of the path.
 const LONGEST_STEP_SHARE: f64 = 1.0 / 16.0;
-/// The same for a path on which no axis moves farther than `SHORT_PATH_DEG_OR_MM` deg (mm).
+/// The longest step on a path on which no axis moves farther than `SHORT_PATH_DEG_OR_MM` deg (mm).
 const LONGEST_SHORT_STEP_SHARE: f64 = 0.5;
 const SHORT_PATH_DEG_OR_MM: f64 = 3.0;
-/// A step as part of the length over which the axes' motion changes. A singular point is never stepped over: the steps
-/// get shorter in proportion to its distance, and a step over which an axis jumps is halved.
+/// A step as a share of the length over which the axes' motion changes. A singular point is never stepped over: the
+/// steps get shorter in proportion to its distance, and a step over which an axis jumps is halved.
 const STEP_SHARE_OF_SCALE: f64 = 0.04;
-/// A step, as part of the path, where the derivatives of the axes are not known.
+/// A step, as a share of the path, where the derivatives of the axes are not known.
 const BLIND_STEP_SHARE: f64 = 1e-3;
-/// A path that changes over less than this part of it turns too sharply, or what is laid over it is too dense.
+/// A path that changes over less than this share of it turns too sharply, or its overlay is too dense.
 const DENSEST_SHARE: f64 = 1e-3;
-/// An axis that is so far (deg) from where it was bound to be has jumped to another solution, or the step was too long.
+/// An axis that is this far (deg) from its expected position has jumped to another solution, or the step was too long.
 const JUMP_DEG: f64 = 10.0;
-/// So far ahead (s at the lowest speed that makes sense) of a singular place the end of the arm's reach is looked for.
+/// Distances ahead of a singular place (s at the lowest reasonable speed) at which the end of the arm's reach is
+/// sought.
 const ENDS_AHEAD_S: [f64; 5] = [0.01, 0.1, 1.0, 3.0, 10.0];
 /// Steps through a passage of the wrist singularity.
 const PASSAGE_STEPS: f64 = 48.0;
-/// The place of axis 4.
+/// Index of axis 4.
 const AXIS_4: usize = 3;
-/// How far beside a place its other side is looked at.
+/// Distance from a jump at which its other side is checked.
 const BESIDE_SHARE: f64 = 1e-9;
-/// A glimpse behind the start and before the end, where the axes must not differ from the ends by over
+/// A place just behind the start and one just before the end, where the axes must not differ from the ends by more than
 /// `BEHIND_END_JUMP_DEG` deg.
 const BEHIND_END_SHARE: f64 = 1e-6;
 const BEHIND_END_JUMP_DEG: f64 = 0.05;
 
-/// Places of a path are close together where the axes' motion changes over less than this part of it: beside singular
+/// Places of a path are close together where the axes' motion changes over less than this share of it: near singular
 /// points.
 const CLOSE_SHARE: f64 = 0.02;
-/// These are so far apart, as part of the length over which the axes' motion changes.
+/// The distance between close places, as a share of the length over which the axes' motion changes.
 const CLOSE_STEP_SHARE: f64 = 0.06;
 
 /// Where a motion passes close to a singular point, so that its axes slow it down.
@@ -61,17 +62,17 @@ const CLOSE_STEP_SHARE: f64 = 0.06;
 pub struct NearSingular {
     /// The axis that slows it down most: its index in [`Robot::axes`](arl_robot::robot::Description::axes).
     pub axis: usize,
-    /// Where, as part of the path.
+    /// Place, as a share of the path.
     pub along: f64,
-    /// How fast the path may be gone straight on there, by the limits of the robot's own axes: mm/s of the TCP, or
-    /// deg/s where the tool only turns.
+    /// Highest speed straight on along the path there, by the limits of the robot's own axes: mm/s of the TCP, or deg/s
+    /// where the tool only turns.
     pub speed: f64,
     /// `mm/s` or `deg/s`.
     pub unit: &'static str,
 }
 
 impl NearSingular {
-    /// The slower one of two places of one kind of motion, where there are two.
+    /// The slower of two places of one kind of motion, or the only one.
     pub fn slower(one: Option<Self>, other: Option<Self>) -> Option<Self> {
         match (one, other) {
             (Some(one), Some(other)) => Some(if other.speed < one.speed { other } else { one }),
@@ -81,7 +82,7 @@ impl NearSingular {
 }
 
 impl Survey {
-    /// The places beside singular points where the axes' motion changes so quickly that others may miss it.
+    /// The places near singular points where the axes' motion changes so quickly that other places may miss it.
     pub(crate) fn close_places(&self, robot: &Robot) -> Vec<f64> {
         let mut places: Vec<f64> = Vec::new();
         for (at, rates) in &self.rates {
@@ -98,7 +99,7 @@ impl Survey {
 struct Walk<'a> {
     robot: &'a Robot,
     curve: &'a ToolCurve,
-    /// The same way without what is laid over it.
+    /// The same path without overlays.
     plain: Option<ToolCurve>,
 }
 
@@ -106,7 +107,7 @@ struct Walk<'a> {
 pub(crate) fn check_path(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result<Survey, PlanError> {
     let plain = curve.over.as_ref().map(|_| ToolCurve { over: None, ..curve.clone() });
     let walk = Walk { robot, curve, plain };
-    // The target first: where it cannot be reached, that is what the programmer wants to know.
+    // The target first: if it cannot be reached, that is what the programmer wants to know.
     let target = walk.reaches_target(&start.axes)?;
     let short = target.iter().zip(&start.axes).all(|(end, start)| (end - start).abs() <= SHORT_PATH_DEG_OR_MM);
     let longest = if short { LONGEST_SHORT_STEP_SHARE } else { LONGEST_STEP_SHARE };
@@ -153,13 +154,14 @@ pub(crate) fn check_path(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Re
     limits.broken.map_or(Ok(Survey { end, rates, near_singular }), Err)
 }
 
-/// How far an axis may turn, in deg, between an end of the path and a glimpse beside it, where `rates` are those there.
+/// How far an axis may turn, in deg, between an end of the path and a place just beside it, with the derivatives
+/// `rates` at the end.
 fn turned_beside_end(rates: Option<&Rates>) -> f64 {
     let fastest = rates.map_or(0.0, |rates| rates.first.iter().fold(0.0, |most: f64, rate| most.max(rate.abs())));
     BEHIND_END_JUMP_DEG + 2.0 * BEHIND_END_SHARE * fastest
 }
 
-/// The next side of a place where the derivatives of a way jump that goes at an even pace in parts.
+/// The next side of a jump of the derivatives, where the path has an even pace in parts.
 fn jump_ahead(curve: &ToolCurve, at: f64) -> f64 {
     if !curve.is_paced() {
         return f64::INFINITY;
@@ -174,23 +176,23 @@ fn jump_ahead(curve: &ToolCurve, at: f64) -> f64 {
     }
 }
 
-/// An axis may be beside where the place before made it bound to be by this part of what the axes moved since.
+/// An axis may differ from its expected position by this share of what the axes have moved since the previous place.
 const EXPECTED_SHARE: f64 = 0.02;
 
-/// What an axis does in less time than this, s at its highest speed, comes from rounding.
+/// Motion of an axis that takes less time than this, in s at its highest speed, is due to rounding.
 const SEEN_S: f64 = 1e-9;
-/// An axis that is farther from where the place before made it bound to be than by this part of what the axes moved
-/// since was led by something between.
+/// Where an axis differs from its expected position by more than this share of what the axes have moved since the
+/// previous place, something in between has changed its motion.
 const BENT_SHARE: f64 = 1e-3;
 
-/// How long the robot's own axis that takes longest would take from `a` to `b`, in s at its highest speed.
+/// How long the slowest of the robot's own axes would take from `a` to `b`, in s at its highest speed.
 fn farthest(robot: &Robot, a: &Axes, b: &Axes) -> f64 {
     let ways = a.iter().zip(b).zip(robot.own_axes());
     ways.map(|((a, b), axis)| (a - b).abs() / axis.vel).fold(0.0, f64::max)
 }
 
-/// Looks at a short path at a few places, the first and the last of which are its ends; `None` where that is not enough
-/// to know how the axes move, or where they must not go: [`check_path`] tells then.
+/// Checks a short path at a few places, the first and the last of which are its ends; `None` where these are not enough
+/// to know how the axes move, or where an axis leaves its range: [`check_path`] then gives the reason.
 pub(crate) fn check_gentle_path<const N: usize>(
     robot: &Robot,
     curve: &ToolCurve,
@@ -235,7 +237,7 @@ impl Walk<'_> {
         found.ok_or_else(|| self.unreachable(1.0))
     }
 
-    /// The next place to look at; never beyond the border of a passage.
+    /// The next place to check; never beyond the border of a passage.
     fn next(&self, at: f64, axes: &Axes, known: Option<&Rates>, longest: f64) -> Result<f64, PlanError> {
         let step = match (self.curve.passage(at), known) {
             (Some(passage), _) if at < passage.to => (passage.to - passage.from) / PASSAGE_STEPS,
@@ -251,8 +253,8 @@ impl Walk<'_> {
         Ok(self.curve.borders().filter(|border| *border > at).fold(at + step, f64::min))
     }
 
-    /// Goes on to `next`, or less far where an axis jumps on the way there: then a singular point is between, which the
-    /// axes pass at a low speed, or cannot pass.
+    /// Advances to `next`, or less far where an axis jumps on the way there: then a singular point is in between, which
+    /// the axes pass at a low speed, or cannot pass.
     fn step(&self, at: f64, here: &Axes, known: Option<&Rates>, mut next: f64) -> Result<(f64, Axes), PlanError> {
         loop {
             let expected = known.map_or(*here, |known| ahead(here, known, next - at));
@@ -275,25 +277,25 @@ impl Walk<'_> {
         }
     }
 
-    /// Whether the axes are so far from where they were bound to be that their motion changed on the way: an arm that
-    /// is all but stretched turns back within a hair's breadth.
+    /// Whether the axes are so far from their expected positions that their motion changed in between: an arm that is
+    /// all but stretched turns back within a hair's breadth.
     fn bends(&self, here: &Axes, expected: &Axes, found: &Axes) -> bool {
         farthest(self.robot, found, expected) > BENT_SHARE * farthest(self.robot, found, here) + SEEN_S
     }
 
-    /// The way, without what is laid over it.
+    /// The path without overlays.
     fn way(&self) -> &ToolCurve {
         self.plain.as_ref().unwrap_or(self.curve)
     }
 
-    /// s per unit of the parameter at the lowest speed that makes sense.
+    /// s per unit of the parameter at the lowest reasonable speed.
     fn lowest_pace(&self, at: f64) -> f64 {
         let ([_, travel, ..], [turning, ..]) = (self.way().moving(at), self.way().rotation_rates(at));
         lowest_pace(&travel, &turning)
     }
 
-    /// How fast the way can be gone straight on beside a singular point. A place from which the axes cannot go on at
-    /// the lowest speed that makes sense is singular. In a passage axis 4 is led.
+    /// The speed straight on along the path near a singular point. A place from which the axes cannot go on at the
+    /// lowest reasonable speed is singular. In a passage axis 4 is led.
     fn near_singular(&self, at: f64, axes: &Axes) -> Result<Option<NearSingular>, PlanError> {
         let kinematics = &self.robot.kinematics;
         if self.curve.passage(at).is_some() || kinematics.clearance(axes) > CLEAR_OF_SINGULAR {
@@ -313,8 +315,8 @@ impl Walk<'_> {
         Ok(Some(NearSingular { axis, along: at, speed: margin * way / pace, unit }))
     }
 
-    /// Where the axes' motion changes over so little of the path though they could go straight on, the path itself
-    /// turns too sharply, or what is laid over it does.
+    /// Returns an error where the axes' motion changes over so little of the path although they could go straight on:
+    /// the path itself turns too sharply, or its overlay does.
     fn not_too_sharp(&self, at: f64, axes: &Axes) -> Result<(), PlanError> {
         if self.is_plain_clear(at, axes) {
             return Err(PlanError::TooDense { along: at });
@@ -324,14 +326,14 @@ impl Walk<'_> {
         if is_clear { Err(PlanError::TooSharp { along: at }) } else { Ok(()) }
     }
 
-    /// How the flange moves where the way goes straight on, the tool turning evenly.
+    /// How the flange moves where the path goes straight on and the tool turns evenly.
     fn straight_on(&self, at: f64) -> Twist {
         let way = self.way();
         let ([_, travel, ..], [turning, ..], rest) = (way.moving(at), way.rotation_rates(at), Vector3::zeros());
         way.carried.twist(&way.tcp(at), &[travel, rest, rest], &[turning, rest, rest])
     }
 
-    /// Out of reach from here on: how far at worst?
+    /// The error for a path that is out of reach from here on, with the largest excess.
     fn unreachable(&self, along: f64) -> PlanError {
         let (mut farthest, mut tilt) = (0.0_f64, 0.0_f64);
         for step in 0..=32 {
@@ -349,20 +351,20 @@ impl Walk<'_> {
         }
     }
 
-    /// The derivatives of the axes; `None` at a singular point, where they would be made of rounding errors.
+    /// The derivatives of the axes; `None` at a singular point, where they would consist of rounding errors.
     fn rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
         let kinematics = &self.robot.kinematics;
         let spoilt = self.curve.passage(at).is_none() && kinematics.clearance(axes) < SINGULAR_CLEARANCE;
         if spoilt { None } else { self.curve.rates(kinematics, at, axes) }
     }
 
-    /// Over which part of the path the axes' motion changes substantially.
+    /// The share of the path over which the axes' motion changes substantially.
     fn scale(&self, rates: &Rates) -> f64 {
         rates.scale(&self.robot.axes)
     }
 
-    /// The same where something is laid over the path: how the axes change along the plain path tells how near a
-    /// singular point is, while a weave would be at rest now and then.
+    /// The same share where the path has an overlay: how the axes change along the plain path shows how near a singular
+    /// point is, while a weave would be at rest now and then.
     fn scale_of_way(&self, rates: &Rates, at: f64, axes: &Axes) -> f64 {
         let plain = self.plain.as_ref().and_then(|plain| Some((plain, self.plain_rates(at, axes)?)));
         let Some((plain, plain_rates)) = plain else { return self.scale(rates) };
@@ -371,7 +373,7 @@ impl Walk<'_> {
         self.scale(&plain_rates) * slower
     }
 
-    /// Whether only what is laid over the path makes the axes' motion change so quickly.
+    /// Whether only the overlay makes the axes' motion change so quickly.
     fn is_plain_clear(&self, at: f64, axes: &Axes) -> bool {
         self.plain.is_some() && self.plain_rates(at, axes).is_some_and(|plain| self.scale(&plain) >= DENSEST_SHARE)
     }
@@ -380,7 +382,7 @@ impl Walk<'_> {
         self.robot.kinematics.rates(axes, &self.plain.as_ref()?.twist(at))
     }
 
-    /// How far to skip ahead, by whole figures of a weave, when the last one has been walked for `walked`: with the
+    /// How far to skip ahead, by whole figures of a weave, after the last one has been walked for `walked`; with the
     /// derivatives of the axes along the plain path.
     fn figures_alike(&self, at: f64, walked: f64, axes: &Axes) -> Option<(f64, Rates)> {
         let (figure, until) = self.curve.over.as_ref()?.figures()?;
@@ -400,7 +402,7 @@ impl Walk<'_> {
         }
     }
 
-    /// An axis jumps.
+    /// The error for an axis that jumps.
     fn jumps(&self, axis: usize, at: f64, found: &Axes) -> PlanError {
         if self.is_plain_clear(at, found) {
             PlanError::TooDense { along: at }
@@ -410,7 +412,7 @@ impl Walk<'_> {
     }
 
     fn singular(&self, axis: usize, at: f64) -> PlanError {
-        // A stretched arm is singular, too; but what is wrong there is that the line goes on where the arm ends.
+        // A stretched arm is singular, too; but the error there is that the line continues beyond the arm's reach.
         let pace = self.lowest_pace(at);
         let ends = |time: &f64| {
             let ahead = (at + time / pace).min(1.0);
@@ -427,13 +429,13 @@ impl Walk<'_> {
     }
 }
 
-/// The axis that is farthest from where it was expected, and how far.
+/// The axis that is farthest from its expected position, with the distance.
 fn worst_jump(expected: &Axes, found: &Axes) -> Option<(usize, f64)> {
     let jumps = expected.iter().zip(found).map(|(expected, found)| (found - expected).abs());
     jumps.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b))
 }
 
-/// Where the axes are bound to be a step further.
+/// The expected positions of the axes after a step.
 fn ahead(here: &Axes, rates: &Rates, step: f64) -> Axes {
     let mut axes = *here;
     for (index, value) in axes.iter_mut().enumerate() {
@@ -463,7 +465,7 @@ impl<'a> Ranges<'a> {
         }
     }
 
-    /// An axis that turns back between two places goes farthest between them.
+    /// Checks an axis that turns back between two places, where it goes farthest.
     fn between(&mut self, at: f64, axes: &Axes, rates: &Rates, step: f64) {
         for (index, ((value, first), second)) in axes.iter().zip(&rates.first).zip(&rates.second).enumerate() {
             let back = -first / second;

@@ -1,4 +1,4 @@
-//! From a command to a motion: geometry, checks, and the limits of its parameter.
+//! From a command to a motion: geometry, checks, and the limits of the motion's parameter.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -23,7 +23,7 @@ use crate::plan::path_check::check_path;
 use arl_robot::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, Wanted, frame, frame_components};
 use arl_robot::robot::{Axis, Robot, VelocityProfile};
 
-/// Distances up to this (mm or deg) of an axis are not a motion.
+/// Distances of an axis up to this (mm or deg) do not count as motion.
 const NO_DISTANCE: f64 = 1e-10;
 
 /// The largest angle of a circle, in deg.
@@ -32,8 +32,8 @@ const LARGEST_CIRCLE_DEG: f64 = 7200.0;
 /// Plans a motion that starts at `start`.
 ///
 /// # Errors
-/// The target or the way to it is out of reach or of an axis's range, the way passes a singular point, the duration is
-/// too short, a speed is not above zero, a number is none. Nothing has moved then.
+/// The target or the path to it is out of reach or out of the range of an axis, the path passes a singular point, the
+/// duration is too short, a speed is not above zero, or a value is not a number. Nothing has moved in these cases.
 pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Settings) -> Result<Motion, PlanError> {
     if !start.is_finite() {
         return Err(PlanError::NotANumber);
@@ -42,7 +42,7 @@ pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Setting
     plan_behind(robot, start, &Led::default(), command, settings)
 }
 
-/// Plans a motion that starts at `start`, where a compensation leads the robot as `before` says.
+/// Plans a motion that starts at `start`, with the compensation in the state `before`.
 pub(crate) fn plan_behind(
     robot: &Robot,
     start: &Joints,
@@ -60,7 +60,7 @@ pub(crate) fn plan_behind(
     lay(robot, motion, &beginning, &wobj.rotation, settings)
 }
 
-/// Where the robot would be without the compensation that leads it to `start`.
+/// The position of the robot without the compensation that leads it to `start`.
 pub(crate) fn not_led(robot: &Robot, start: &Joints, before: &Led, command: &Command) -> Result<Joints, PlanError> {
     if before.number == 0 {
         return Ok(*start);
@@ -71,7 +71,7 @@ pub(crate) fn not_led(robot: &Robot, start: &Joints, before: &Led, command: &Com
     axes.map(|axes| Joints { axes, ..*start }).ok_or(PlanError::Unreachable { beyond: 0.0, along: 0.0 })
 }
 
-/// Plans a motion without what is laid over it.
+/// Plans a motion without overlays.
 fn plan_plain(robot: &Robot, start: &Joints, command: &Command, settings: &Settings) -> Result<Motion, PlanError> {
     let planner = Planner { robot, start, command, settings };
     match &command.target {
@@ -103,7 +103,8 @@ impl Planner<'_> {
         self.command.rig.carried.way_at(&self.robot.kinematics.forward(&self.start.axes))
     }
 
-    /// The TCP's frame at the target, on its path; unset components stay as at the start, seen in the workpiece frame.
+    /// The TCP's frame at the target, on its path; unset components keep their values at the start, in the workpiece
+    /// frame.
     pub(crate) fn target_frame(&self, pose: &[f64; 6], wobj: &Frame) -> Result<Frame, PlanError> {
         if pose.iter().any(|value| !value.is_finite()) {
             return Err(PlanError::NotANumber);
@@ -132,7 +133,7 @@ impl Planner<'_> {
         self.tool(track, (end.rotation * start.rotation.inverse()).scaled_axis(), external)
     }
 
-    /// The circle, and the rotation vector by which the tool turns on it.
+    /// The circle, and the rotation vector of the tool along it.
     fn arc(
         &self,
         via: &[f64; 3],
@@ -160,13 +161,13 @@ impl Planner<'_> {
         let turning = if follow {
             arc.across.cross(&arc.along).normalize() * arc.sweep
         } else {
-            // The orientation of the target belongs to the target's place on the circle.
+            // The orientation of the target belongs to the position of the target on the circle.
             (end.rotation * start.rotation.inverse()).scaled_axis() * (arc.sweep / whole)
         };
         Ok((Track::Arc(arc), turning))
     }
 
-    /// Why a target has no axes.
+    /// The error for a target that no axis positions reach.
     pub(crate) fn refused(&self, refusal: Refusal) -> PlanError {
         match refusal {
             Refusal::NoSuchCfg { cfg } => PlanError::NoSuchCfg { cfg },
@@ -179,7 +180,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Brings `end` into the ranges where it is beside them by rounding only.
+    /// Moves `end` into the ranges of the axes where it is outside only due to rounding.
     fn within_ranges(&self, mut end: Joints) -> Result<Joints, PlanError> {
         let own = self.robot.own_axes().len();
         for (index, axis) in self.robot.axes.iter().enumerate() {
@@ -196,7 +197,7 @@ impl Planner<'_> {
         Ok(end)
     }
 
-    /// The axes at a target pose.
+    /// The axis positions at a target pose.
     pub(crate) fn choose(
         &self,
         pose: &[f64; 6],
@@ -248,8 +249,8 @@ impl Planner<'_> {
         }
     }
 
-    /// A segment of a smooth path, nominally in `time` s; it joins the motion before it without a stop where it
-    /// `flows`.
+    /// Plans a segment of a smooth path, nominally in `time` s. Where it `flows`, it joins the motion before it without
+    /// a stop.
     pub(crate) fn segment(
         &self,
         mut curve: ToolCurve,
@@ -302,13 +303,13 @@ impl Planner<'_> {
         })
     }
 
-    /// The highest speed that the TCP may have, in mm/s.
+    /// The highest speed of the TCP, in mm/s.
     pub(crate) fn tcp_speed(&self) -> Result<f64, PlanError> {
         let speed = self.pace(true)?.tcp.min(self.robot.tcp.vel).min(self.programmed_cap()?);
         Ok(if self.settings.manual { speed.min(crate::plan::constraints::MANUAL_SPEED_MM_S) } else { speed })
     }
 
-    /// Finds where axis 4 has to be led through the wrist singularity, if `$WRIST` wants that.
+    /// Finds where axis 4 has to be led through the wrist singularity, if `$WRIST` requires that.
     fn find_passages(&self, curve: &mut ToolCurve) {
         if self.settings.wrist {
             let kinematics = &self.robot.kinematics;
@@ -317,7 +318,7 @@ impl Planner<'_> {
         }
     }
 
-    /// A motion along a path of the TCP, which starts where the robot is.
+    /// Plans a motion along a path of the TCP that starts where the robot is.
     fn along(&self, mut curve: ToolCurve, end: Joints) -> Result<Motion, PlanError> {
         self.find_passages(&mut curve);
         let length = curve.path.track.length();
@@ -357,7 +358,7 @@ impl Planner<'_> {
         Ok(Motion { near_singular, ..motion })
     }
 
-    /// A singular point that `$WRIST` would pass is told as such.
+    /// Turns the error for a singular point that `$WRIST` would pass into a wrist error.
     fn at_the_wrist(&self, error: PlanError, curve: &ToolCurve) -> PlanError {
         const BESIDE_SHARE: f64 = 0.02;
         match error {
@@ -376,7 +377,8 @@ impl Planner<'_> {
         }
     }
 
-    /// The configuration of the start. At a singular start two meet: then the one in which the axes go on evenly.
+    /// The configuration at the start. At a singular start two configurations meet: then the one in which the axes
+    /// continue evenly.
     fn configuration(&self, curve: &ToolCurve) -> u8 {
         let kinematics = &self.robot.kinematics;
         let own = kinematics.cfg(&self.start.axes);
@@ -391,13 +393,13 @@ impl Planner<'_> {
         candidates.min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(own)
     }
 
-    /// Whether any axis has to go somewhere.
+    /// Whether any axis has to move.
     fn moves(&self, end: &Joints) -> bool {
         let pairs = self.start.all().into_iter().zip(end.all());
         pairs.into_iter().any(|(start, end)| (end - start).abs() > NO_DISTANCE)
     }
 
-    /// A programmed speed under the override.
+    /// A programmed value under the override.
     fn programmed(&self, what: &'static str, value: f64) -> Result<f64, PlanError> {
         let percent = self.settings.speed_percent;
         if !percent.is_finite() || percent <= 0.0 {
@@ -435,7 +437,7 @@ impl Planner<'_> {
         Ok(pace)
     }
 
-    /// Nothing but the robot's own limits.
+    /// The robot's own limits alone.
     fn free(&self) -> PathLimits {
         let share = |percent: f64| percent.clamp(20.0, 100.0) / 100.0;
         PathLimits {
@@ -449,8 +451,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Finds the timing: `bounds` collects the limits at a programmed pace or, for a programmed duration, those of the
-    /// robot alone. `caps` slow the motion down in either case.
+    /// Finds the timing: `collect` collects the limits at a programmed speed or, for a programmed duration, those of
+    /// the robot alone. `caps` slow the motion down in either case.
     fn motion(
         &self,
         curve: &Curve,
@@ -486,13 +488,13 @@ impl Planner<'_> {
                     let capped = quickest(&constraints.rows);
                     highest = capped.vel;
                     let at = |vel: f64| Limits { vel, ..capped };
-                    // Only its speed is lower: it stops as soon as any other motion.
+                    // Only its speed is lower: it stops as soon as any other motion does.
                     at(slowest_within(duration, [1.0 / duration, highest], at))
                 })
             }
         };
-        // Where one motion leaves something of its speed for its own ramps, and its neighbour does not, the way through
-        // both is still an even one.
+        // Where one motion leaves some of its speed for its own ramps, and its neighbour does not, the path through
+        // both is nevertheless an even one.
         let rate = match limits {
             Some(_) if self.command.duration.is_none() => highest_speed(&constraints.rows),
             limits => limits.map_or(1.0, |limits| limits.vel),

@@ -1,7 +1,7 @@
-//! Time that adds up over days.
+//! Time that is summed over days.
 
-/// A sum of cycles in s. What a sum of two is rounded by goes into the next one: after a hundred hours nothing is lost,
-/// where plain sums are off by milliseconds.
+/// A sum of cycle times in s. The rounding error of each addition is added with the next one: after a hundred hours
+/// nothing is lost, where plain sums are off by milliseconds.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]
 pub(crate) struct Elapsed {
     sum: f64,

@@ -1,4 +1,4 @@
-//! What moves the robot: all that is put away whole when its motion is suspended, and comes back whole.
+//! What moves the robot: everything that is stored as a whole when its motion is suspended, and restored as a whole.
 
 use std::collections::VecDeque;
 
@@ -11,28 +11,28 @@ use crate::queue::path_buffer::PathBuffer;
 use crate::queue::{Progress, Start};
 use arl_robot::frames::Rig;
 
-/// Room for so many stops within each other takes no memory in the cycle.
+/// Up to this many nested stops need no memory allocation in the cycle.
 pub(crate) const RESERVED_SUSPENSIONS: usize = 4;
 
-/// The motions on the path and those that wait, how far they have come, and what was asked of them.
+/// The motions on the path and those that wait, their progress, and what was requested for them.
 #[derive(Clone, Debug)]
 pub(crate) struct Layer {
     pub(crate) path: PathBuffer,
-    /// Motions that wait until they are laid on the path.
+    /// Motions that wait to be laid on the path.
     pub(crate) waiting: Waiting,
-    /// The last motion, where its way depends on the next one.
+    /// The last motion, where its path depends on the next one.
     pub(crate) held: Option<Held>,
-    /// Whether none is expected behind the last motion until the robot rests.
+    /// Whether no motion is expected behind the last one until the robot is at rest.
     pub(crate) concluded: bool,
     /// Where the last motion ends.
     pub(crate) end: Joints,
-    /// What the robot carries in the last motion.
+    /// Tool and base of the last motion.
     pub(crate) last_rig: Rig,
-    /// How a compensation stands at the end of the last motion.
+    /// State of a compensation at the end of the last motion.
     pub(crate) led: Led,
     /// The last motion that has ended.
     pub(crate) finished: u64,
-    /// The last motion that is not executed any more: it has ended, or a blend leads away from it.
+    /// The last motion that is no longer executed: it has ended, or a blend leads away from it.
     pub(crate) over: u64,
     pub(crate) execution: Execution,
     pub(crate) progress: Option<Progress>,
@@ -44,29 +44,29 @@ pub(crate) struct Layer {
 pub(crate) struct Execution {
     /// The motion being executed.
     pub(crate) started: Option<u64>,
-    /// What the robot carries in it, and where it stands.
+    /// Its tool and base.
     pub(crate) rig: Rig,
-    /// The motion whose time counts, and the s that it has run at an override of 100 %.
+    /// The motion whose time is counted, and the s that it has run at an override of 100 %.
     pub(crate) timed: u64,
     pub(crate) elapsed: f64,
 }
 
-/// What was asked of the motions of a layer.
+/// What was requested for the motions of a layer.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Requests {
-    /// The motions that are not over, and the last one that is.
+    /// The motions that are not over, and the last one that is over.
     pub(crate) asked: VecDeque<Asked>,
-    /// Motions, from a number to another, that ended before others with lower numbers.
+    /// Ranges of motion numbers, both ends included, that ended before motions with lower numbers.
     pub(crate) early: Vec<(u64, u64)>,
-    /// How to go on with what is suspended below, as soon as the robot rests where nothing is left to go.
+    /// How to continue what is suspended below, as soon as the robot is at rest with no motion left.
     pub(crate) starts: VecDeque<Start>,
-    /// Whether the robot is on the way that the first of these asks for.
+    /// Whether the robot is on the return motion that the first of `starts` requires.
     pub(crate) going: bool,
-    /// Motions to be planned anew.
+    /// Motions to be planned again.
     pub(crate) anew: VecDeque<Asked>,
 }
 
-/// A motion as it was asked for.
+/// A motion as it was requested.
 #[derive(Clone, Debug)]
 pub(crate) struct Asked {
     pub(crate) number: u64,
@@ -74,12 +74,12 @@ pub(crate) struct Asked {
     pub(crate) settings: Settings,
     pub(crate) start: Joints,
     pub(crate) end: Joints,
-    /// How a compensation stands at its end.
+    /// State of a compensation at its end.
     pub(crate) led: Led,
 }
 
 impl Layer {
-    /// Nothing to do for a robot that rests at `start`.
+    /// A layer without motions, for a robot at rest at `start`.
     pub(crate) fn resting_at(start: Joints) -> Self {
         Self {
             path: PathBuffer::default(),
@@ -97,8 +97,8 @@ impl Layer {
         }
     }
 
-    /// Puts this layer away, of a robot that rests at `here` and has been given motions up to the number `added`: what
-    /// is left in its place has nothing to do. `starts` and `going` say how what is suspended below it goes on.
+    /// Suspends this layer, with the robot at rest at `here` and motions added up to the number `added`; an empty layer
+    /// takes its place. `starts` and `going` define how what is suspended below it is continued.
     pub(crate) fn suspend(&mut self, here: Joints, added: u64, starts: VecDeque<Start>, going: bool) -> Self {
         let path = self.path.suspend();
         let early = self.requests.take_early();
@@ -127,7 +127,7 @@ impl Layer {
         Self { path, requests, ..suspended }
     }
 
-    /// Goes on with a layer that was put away, under what is asked of the motions now.
+    /// Continues a suspended layer, with the current requests.
     pub(crate) fn resume(&mut self, suspended: Self) {
         let Self { path, .. } = suspended;
         self.path.resume_suspended(path);
@@ -137,7 +137,7 @@ impl Layer {
 }
 
 impl Requests {
-    /// None yet, with memory for what comes while the robot moves.
+    /// No requests, with memory reserved for those that come while the robot moves.
     fn reserved() -> Self {
         Self {
             early: Vec::with_capacity(2 * RESERVED_SUSPENSIONS),
@@ -146,7 +146,7 @@ impl Requests {
         }
     }
 
-    /// Takes over what was asked of the layer below, motions from a number to another having ended meanwhile.
+    /// Takes over the requests of the layer below; the motions of the range `ended` have ended meanwhile.
     pub(crate) fn take_over(&mut self, below: Self, ended: (u64, u64)) {
         self.exchange_early(below.early);
         self.early.push(ended);
@@ -154,7 +154,7 @@ impl Requests {
         self.put_back(below.starts);
     }
 
-    /// The first motion to be planned anew.
+    /// The number of the first motion to be planned again.
     pub(crate) fn first_anew(&self) -> Option<u64> {
         self.anew.front().map(|asked| asked.number)
     }
@@ -173,12 +173,12 @@ impl Requests {
         self.going = false;
     }
 
-    /// Takes what was said of going on; an empty list keeps its memory.
+    /// Takes the requests to continue; an empty list keeps its memory.
     pub(crate) fn take_starts(&mut self) -> VecDeque<Start> {
         if self.starts.is_empty() { VecDeque::new() } else { std::mem::take(&mut self.starts) }
     }
 
-    /// Puts what was said of going on in front again.
+    /// Puts requests to continue back in front.
     pub(crate) fn put_back(&mut self, mut starts: VecDeque<Start>) {
         if !starts.is_empty() {
             starts.append(&mut self.starts);
@@ -191,7 +191,7 @@ impl Requests {
         if self.early.is_empty() { Vec::new() } else { std::mem::take(&mut self.early) }
     }
 
-    /// Exchanges the motions that ended early for others.
+    /// Replaces the motions that ended early.
     fn exchange_early(&mut self, early: Vec<(u64, u64)>) {
         if early.is_empty() {
             self.early.clear();

@@ -1,41 +1,42 @@
-//! Motions that are planned and wait until they are laid on the path.
+//! Motions that are planned and wait to be laid on the path.
 //!
-//! Blends take long to find, so a thread has some time for them where the robot can do without the motion meanwhile.
-//! How much time that is depends on the path alone, never on the thread.
+//! Blends take long to find, so a thread is given some time for them where the robot does not need the motion
+//! meanwhile. How much time that is depends on the path alone, never on the thread.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::blend::zone::asks;
-use crate::junction::blend_thread::{Joining, Prepared};
+use crate::junction::blend_thread::{BlendThread, Joining, Prepared};
 use crate::junction::{Junction, MotionPair};
 use crate::plan::motion::Motion;
 use crate::queue::path_buffer::limit_rise;
 use crate::queue::{LOOK_AHEAD_S, Queue};
 
-/// The longest time, in s, that a blend may take to be found.
+/// The longest time, in s, for finding a blend.
 const LONGEST_WAIT_S: f64 = 0.05;
-/// The part of the time after which the robot may have to brake without the motion; and the least time, in s, that is
-/// waited for.
+/// The waiting time as a share of the time after which the robot may have to brake without the motion; and the shortest
+/// waiting time, in s.
 const WAITED_SHARE_OF_SPARE_TIME: f64 = 0.5;
 const LEAST_WAIT_S: f64 = 0.003;
-/// The same where the robot moves, and other laws may have to tell whether a blend saves time.
+/// The shortest waiting time, in s, where the robot moves and further laws may have to decide whether a blend saves
+/// time.
 const LEAST_WAIT_BESIDE_LAW_S: f64 = 0.02;
-/// So many motions a cycle are always laid, and are taken from the program, so many while there is not enough way
-/// ahead, and so many short ones, whose blends a thread finds, while the robot rests: no cycle must take long. As many
-/// as the robot may go in so many cycles are always possible.
+/// Limits of the number of motions in a cycle, so that no cycle takes long: motions that can always be laid and taken
+/// from the program; motions while not enough path is ahead; short motions, whose blends a thread finds, while the
+/// robot is at rest. As many motions as the robot may cover in `CYCLES_WORTH_OF_MOTIONS` cycles are always possible.
 const LEAST_MOTIONS_A_CYCLE: u32 = 2;
 const MOST_MOTIONS_A_CYCLE: u32 = 4;
 const SHORT_MOTIONS_A_CYCLE_AT_REST: u32 = 16;
 const CYCLES_WORTH_OF_MOTIONS: f64 = 2.0;
-/// A robot at rest does not set off along shorter motions, in s at full speed, before enough of them are ahead: one
-/// acceleration holds for all of them then, which could not get less any more while it speeds up.
+/// A robot at rest does not start along motions shorter than this, in s at full speed, before enough of them are ahead:
+/// one acceleration then holds for all of them, and it could no longer be lowered while the robot speeds up.
 const SHORT_MOTION_S: f64 = 0.02;
-/// Enough way ahead, in s at full speed; and where laws look along it.
+/// Enough path ahead, in s at full speed; and the same where laws look along it.
 const ENOUGH_AHEAD_S: f64 = 0.5;
 const ENOUGH_AHEAD_FOR_LAWS_S: f64 = 5.0;
-/// How long, in s, a robot at rest waits for motions that come cycle by cycle, or for their blends, and the way, in s
-/// at full speed, that is laid then and enough; and the same where they are short: laws along very many of them leave
+/// How long, in s, a robot at rest waits for motions that come cycle by cycle, or for their blends, and how much path
+/// ahead, in s at full speed, ends this. Then the same where the motions are short: laws along very many of them leave
 /// some open, for which there has to be room.
 const GATHERING_S: (f64, f64) = (0.05, ENOUGH_AHEAD_FOR_LAWS_S);
 const GATHERING_OF_DENSE_CHAIN_S: (f64, f64) = (0.5, 0.9);
@@ -45,7 +46,7 @@ const GATHERING_OF_DENSE_CHAIN_S: (f64, f64) = (0.5, 0.9);
 pub(crate) struct Ready {
     pub(crate) motion: Arc<Motion>,
     pub(crate) number: u64,
-    /// The cycle in which it is laid; 0: at once.
+    /// The cycle in which it is laid; 0 means at once.
     due: u64,
     pub(crate) prepared: Option<Prepared>,
 }
@@ -54,16 +55,16 @@ pub(crate) struct Ready {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Waiting {
     motions: VecDeque<Ready>,
-    /// How long they take, in s at full speed.
+    /// Their duration, in s at full speed.
     way: f64,
 }
 
-/// Motions that waited for their blends when they were due, in real time.
+/// Motions that had to wait for their blends when they were due, in real time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LateBlends {
-    /// How many they were.
+    /// Number of these motions.
     pub(crate) count: u64,
-    /// The number of the last one.
+    /// Number of the last of them.
     last: u64,
 }
 
@@ -75,7 +76,42 @@ impl LateBlends {
     }
 }
 
-/// What was done in a cycle: motions, and their way in s at full speed.
+/// State of planning ahead.
+#[derive(Clone, Debug)]
+pub(crate) struct LookAhead {
+    /// Finds the blends of motions that wait.
+    blend_thread: BlendThread,
+    pub(crate) late_blends: LateBlends,
+    /// Whether cycles run in real time.
+    pub(crate) in_real_time: bool,
+    /// Number of the current cycle.
+    cycles: u64,
+    /// What was planned in this cycle.
+    taken: Done,
+    /// How long, in s, the robot can continue without the motions that wait, where that is known.
+    spare: Option<f64>,
+    /// How long, in s, the robot has been at rest for a motion that is held back.
+    pub(crate) waited: f64,
+    /// How long, in s, the robot has been at rest while motions came.
+    waited_for_motion: f64,
+}
+
+impl Default for LookAhead {
+    fn default() -> Self {
+        Self {
+            blend_thread: BlendThread::default(),
+            late_blends: LateBlends::default(),
+            in_real_time: false,
+            cycles: 1,
+            taken: Done::default(),
+            spare: None,
+            waited: 0.0,
+            waited_for_motion: 0.0,
+        }
+    }
+}
+
+/// Work done in a cycle: the number of motions, and their duration in s at full speed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Done {
     count: u32,
@@ -88,13 +124,13 @@ impl Done {
         self.way += way(motion);
     }
 
-    /// Whether these are `count` motions, and enough way for a cycle of so many s.
+    /// Whether this is `count` motions, and enough of the path for a cycle of `cycle` s.
     fn suffices(&self, cycle: f64, count: u32) -> bool {
         self.count >= count && self.way >= CYCLES_WORTH_OF_MOTIONS * cycle
     }
 }
 
-/// The way of a motion in s at full speed.
+/// The duration of a motion in s at full speed.
 fn way(motion: &Motion) -> f64 {
     if motion.goes() { 1.0 / motion.rate } else { 0.0 }
 }
@@ -114,7 +150,7 @@ impl Waiting {
 
     pub(crate) fn pop(&mut self) -> Option<Ready> {
         let first = self.motions.pop_front()?;
-        // Rounding must not gather.
+        // Rounding errors must not accumulate.
         self.way = if self.motions.is_empty() { 0.0 } else { self.way - way(&first.motion) };
         Some(first)
     }
@@ -124,7 +160,7 @@ impl Waiting {
         self.way = 0.0;
     }
 
-    /// Those that are due.
+    /// The motions that are due.
     pub(crate) fn due(&self, cycle: u64) -> impl Iterator<Item = &Ready> {
         self.motions.iter().take_while(move |ready| ready.due <= cycle)
     }
@@ -134,14 +170,14 @@ impl Waiting {
         self.motions.push_back(ready);
     }
 
-    /// Wants all of them laid at once.
+    /// Makes all motions due at once.
     fn lay_at_once(&mut self) {
         self.motions.iter_mut().for_each(|ready| ready.due = 0);
     }
 }
 
 impl Queue {
-    /// Whether so little way is ahead that more than the motions that can always wait may be added.
+    /// Whether so little path is ahead that more than the motions that can always wait may be added.
     pub(crate) fn is_short_of_way(&self) -> bool {
         // Motions may wait for a law.
         let lays = self.layer.waiting.is_empty() || !(self.layer.path.is_asking() || self.layer.path.is_laid_down());
@@ -152,8 +188,10 @@ impl Queue {
     /// come in time.
     pub(crate) fn has_planned_enough(&self) -> bool {
         let enough = if self.layer.path.wants_laws() { ENOUGH_AHEAD_FOR_LAWS_S } else { ENOUGH_AHEAD_S };
-        let can_wait =
-            || self.spare.unwrap_or_else(|| self.layer.path.spare()) >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME;
+        let can_wait = || {
+            self.look_ahead.spare.unwrap_or_else(|| self.layer.path.spare())
+                >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME
+        };
         let is_short_of_way = self.way_ahead() < enough || !can_wait();
         let path = &self.layer.path;
         let count = if path.rests() && path.wants_laws() && self.is_dense() {
@@ -163,53 +201,53 @@ impl Queue {
         } else {
             LEAST_MOTIONS_A_CYCLE
         };
-        self.taken.suffices(self.cycle, count)
+        self.look_ahead.taken.suffices(self.cycle, count)
     }
 
-    /// Whether the motion that came last is short.
+    /// Whether the motion added last is short.
     fn is_dense(&self) -> bool {
         self.last_ahead().is_some_and(|last| way(last) < SHORT_MOTION_S)
     }
 
-    /// The motion that came last, if it is still to be gone.
+    /// The motion added last, if it has not been executed yet.
     pub(crate) fn last_ahead(&self) -> Option<&Motion> {
         self.layer.waiting.last().or_else(|| self.layer.path.last().map(|motion| &**motion))
     }
 
-    /// The way that is ahead, in s at full speed.
+    /// The path ahead, in s at full speed.
     fn way_ahead(&self) -> f64 {
         self.layer.path.time_left() + self.layer.waiting.way
     }
 
-    /// Appends a motion to those that wait; lays what is due.
+    /// Appends a motion to those that wait, and lays the motions that are due.
     pub(crate) fn enqueue(&mut self, motion: Motion, number: u64) {
-        self.taken.add(&motion);
+        self.look_ahead.taken.add(&motion);
         let motion = limit_rise(motion, self.cycle);
         let (due, prepared) = self.begin_to_prepare(&motion);
         self.layer.waiting.push(Ready { motion, number, due, prepared });
         self.lay_waiting();
     }
 
-    /// Begins to look for how a motion is joined by the one before it, if that takes long and there is time. Returns
-    /// when it is laid.
+    /// Starts to find how a motion is joined to the one before it, if that takes long and there is time. Returns the
+    /// cycle in which the motion is laid.
     fn begin_to_prepare(&mut self, motion: &Arc<Motion>) -> (u64, Option<Prepared>) {
         let time = (WAITED_SHARE_OF_SPARE_TIME * self.spare()).min(LONGEST_WAIT_S);
         let before = self.layer.waiting.motions.iter().rev().find(|ready| ready.motion.goes());
         let on_path = self.layer.path.last().filter(|_| !self.layer.path.is_empty());
         let Some(last) = before.map(|ready| &ready.motion).or(on_path) else { return (0, None) };
-        // What is laid over a motion depends on how those before it have been laid.
+        // What is laid over a motion depends on how the motions before it have been laid.
         let overlaid = motion.laid.is_some() || last.laid.is_some();
         let is_short = way(motion) < SHORT_MOTION_S;
         let is_led = self.layer.path.wants_laws();
         let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
         let mut hurries = if is_led {
-            // What comes behind a motion that waits for its blend waits, too.
+            // What comes behind a motion that waits for its blend has to wait, too.
             self.layer.path.rests() && !is_short && before.is_none()
         } else {
             time < LEAST_WAIT_S || (is_short && self.layer.path.rests() && self.layer.path.time_left() < ENOUGH_AHEAD_S)
         };
-        // It may have to wait for a law all the same, or behind a motion whose blend is late.
-        let is_late = |first: &Ready| first.due <= self.cycles && !self.is_prepared(first);
+        // The motion may nevertheless have to wait for a law, or behind a motion whose blend is late.
+        let is_late = |first: &Ready| first.due <= self.look_ahead.cycles && !self.is_prepared(first);
         let is_blocked = self.layer.waiting.first().is_some_and(is_late);
         let waits = is_blocked || self.layer.path.is_asking() || self.layer.path.is_laid_down();
         if is_led && hurries && is_blended && !waits {
@@ -225,7 +263,7 @@ impl Queue {
                 Some(_) => Joining::Known(None),
                 None => Joining::Known(self.layer.path.before()),
             };
-            self.blend_thread.prepare(&self.robot, joining, [last, motion])
+            self.look_ahead.blend_thread.prepare(&self.robot, joining, [last, motion])
         });
         if overlaid || (hurries && !waits) {
             self.layer.waiting.lay_at_once();
@@ -234,74 +272,82 @@ impl Queue {
         let time = match (is_blended, is_led && !is_short) {
             (false, _) => 0.0,
             (true, false) => time.max(LEAST_WAIT_S),
-            // A robot that rests can wait longer, if need be.
+            // A robot at rest can wait longer if necessary.
             (true, true) if self.layer.path.rests() => LEAST_WAIT_S,
             (true, true) => time.max(LEAST_WAIT_BESIDE_LAW_S),
         };
-        (self.cycles + (time / self.cycle) as u64, prepared)
+        (self.look_ahead.cycles + (time / self.cycle) as u64, prepared)
     }
 
-    /// As [`crate::queue::path_buffer::PathBuffer::spare`].
+    /// See [`crate::queue::path_buffer::PathBuffer::spare`].
     fn spare(&mut self) -> f64 {
-        *self.spare.get_or_insert_with(|| self.layer.path.spare())
+        *self.look_ahead.spare.get_or_insert_with(|| self.layer.path.spare())
     }
 
-    /// Whether a robot at rest waits one more cycle because motions come, or blends are being found, that laws can then
-    /// lead along from the start: a law in hand would have to be found anew for each of them, and the last ones might
-    /// come too late.
+    /// Whether a robot at rest waits one more cycle because motions come, or blends are being found, along which laws
+    /// can then lead from the start: otherwise the current law would have to be found again for each of them, and the
+    /// last ones might come too late.
     pub(crate) fn waits_for_motion(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
         let is_open = || self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
         let comes_more = || !self.layer.concluded && is_open();
         let (longest, enough) = if self.is_dense() { GATHERING_OF_DENSE_CHAIN_S } else { GATHERING_S };
-        let comes = || self.taken.count > 0 && comes_more();
+        let comes = || self.look_ahead.taken.count > 0 && comes_more();
         // No law leads along motions before their blends are found.
         let waits = || !(self.layer.waiting.is_empty() || path.is_asking());
-        let may = self.waited_for_motion < longest && path.rests() && path.wants_laws() && path.time_left() < enough;
+        let may = self.look_ahead.waited_for_motion < longest
+            && path.rests()
+            && path.wants_laws()
+            && path.time_left() < enough;
         let waits_for_motion = may && (comes() || waits());
-        self.waited_for_motion = if waits_for_motion { self.waited_for_motion + cycle } else { 0.0 };
+        self.look_ahead.waited_for_motion =
+            if waits_for_motion { self.look_ahead.waited_for_motion + cycle } else { 0.0 };
         waits_for_motion
     }
 
-    /// A cycle begins.
+    /// Begins a cycle.
     pub(crate) fn count_cycle(&mut self) {
-        self.cycles += 1;
-        self.taken = Done::default();
-        self.spare = None;
+        self.look_ahead.cycles += 1;
+        self.look_ahead.taken = Done::default();
+        self.look_ahead.spare = None;
     }
 
-    /// Whether a motion can be laid without waiting for the blend that leads to it, where that counts. The robot does
-    /// not go on without it while there is way ahead, and at its end needs none.
+    /// Whether a motion can be laid without waiting for the blend that leads to it, where that matters. The robot does
+    /// not continue without the blend while there is path ahead; at the end of the path it needs none.
     fn is_prepared(&self, ready: &Ready) -> bool {
-        !self.in_real_time || self.layer.path.is_empty() || ready.prepared.as_ref().is_none_or(Prepared::is_ready)
+        !self.look_ahead.in_real_time
+            || self.layer.path.is_empty()
+            || ready.prepared.as_ref().is_none_or(Prepared::is_ready)
     }
 
-    /// Lays the motions that are due on the path, as soon as that can take them; some a cycle, but for those in a
-    /// hurry, and those for which a robot stands.
+    /// Lays the motions that are due on the path, as soon as the path can take them: a few per cycle, except those in a
+    /// hurry and those for which a robot is at rest.
     pub(crate) fn lay_waiting(&mut self) {
         let mut laid = Done::default();
         let stands = self.layer.path.rests() && self.layer.path.wants_laws();
         while let Some(first) = self.layer.waiting.first() {
             let hurries = first.due == 0 || self.layer.path.is_empty();
-            let is_due = first.due <= self.cycles && (stands || !laid.suffices(self.cycle, LEAST_MOTIONS_A_CYCLE));
+            let is_due =
+                first.due <= self.look_ahead.cycles && (stands || !laid.suffices(self.cycle, LEAST_MOTIONS_A_CYCLE));
             if self.layer.path.is_asking() || !(hurries || is_due) {
                 return;
             }
             if !self.is_prepared(first) {
-                self.late_blends.note(first.number);
+                self.look_ahead.late_blends.note(first.number);
                 return;
             }
             laid.add(&first.motion);
-            self.spare = None;
+            self.look_ahead.spare = None;
             self.forecast = None;
             if self.layer.path.is_laid_down() {
-                let prepared = self.layer.waiting.due(self.cycles).take_while(|ready| self.is_prepared(ready)).count();
-                if let Some(late) = self.layer.waiting.due(self.cycles).nth(prepared) {
-                    self.late_blends.note(late.number);
+                let prepared =
+                    self.layer.waiting.due(self.look_ahead.cycles).take_while(|ready| self.is_prepared(ready)).count();
+                if let Some(late) = self.layer.waiting.due(self.look_ahead.cycles).nth(prepared) {
+                    self.look_ahead.late_blends.note(late.number);
                 }
-                let due = self.layer.waiting.due(self.cycles).take(prepared);
+                let due = self.layer.waiting.due(self.look_ahead.cycles).take(prepared);
                 let motions = due.map(|ready| ((&ready.motion, ready.number), ready.prepared.as_ref()));
-                self.layer.path.offer((&self.robot, &self.joints), motions, self.cycle);
+                self.layer.path.offer(&self.robot, &self.commanded.joints, motions, self.cycle);
                 self.take_answer();
             } else if let Some(Ready { motion, number, prepared, .. }) = self.layer.waiting.pop() {
                 let unblended = self.layer.path.append(&self.robot, (&motion, number), prepared.as_ref(), self.cycle);
@@ -313,18 +359,18 @@ impl Queue {
 
 #[cfg(test)]
 impl Queue {
-    /// Has the thread never find anything.
+    /// Makes the thread never find anything.
     pub(crate) fn prepare_nothing(&mut self) {
-        self.blend_thread = crate::junction::blend_thread::BlendThread::stuck();
+        self.look_ahead.blend_thread = BlendThread::stuck();
     }
 
-    /// Has no thread ever find anything.
+    /// Makes all threads never find anything.
     pub(crate) fn find_nothing(&mut self) {
         self.prepare_nothing();
         self.layer.path.find_no_laws();
     }
 
-    /// Waits until the law is found that is being looked for.
+    /// Waits until the law that is being sought is found.
     pub(crate) fn await_law(&self) {
         self.layer.path.await_law();
     }

@@ -1,33 +1,33 @@
-//! How far the motions of the queue have come.
+//! Progress of the motions of the queue.
 
 use crate::follow::segment::Segment;
 use crate::queue::Queue;
 
-/// For so many cycles what is left of a motion is counted down before it is found anew.
+/// For this many cycles the remaining time of a motion is counted down before it is found again.
 const CYCLES_BETWEEN_FORECASTS: u32 = 16;
-/// How far the motion being executed has come. Times are those at an override of 100 %. A blend belongs to the motion
-/// that is joined, whose path counts from the target that is rounded off (manual 7.3).
+/// Progress of the motion being executed. Times are those at an override of 100 %. A blend belongs to the motion that
+/// it leads into, whose path counts from the target that is rounded off (manual 7.3).
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Progress {
-    /// The running number of the motion.
+    /// Running number of the motion.
     pub motion: u64,
-    /// Its program line.
+    /// Program line of the motion.
     pub line: u32,
-    /// s since its start.
+    /// Time since its start, in s.
     pub elapsed_time: f64,
-    /// s to its end.
+    /// Time to its end, in s.
     pub left_time: f64,
-    /// mm of the line that are done; 0 for axis motions.
+    /// Distance covered along the line, in mm; 0 for axis motions.
     pub elapsed_distance: f64,
-    /// mm of the line that are left; 0 for axis motions.
+    /// Distance left along the line, in mm; 0 for axis motions.
     pub left_distance: f64,
-    /// The share of the motion that is done, 0 to 1; of axis motions as of others.
+    /// Share of the motion that is done, 0 to 1; also for axis motions.
     pub share: f64,
 }
 
 impl Progress {
-    /// A motion that goes nowhere, done.
+    /// A completed motion that goes nowhere.
     const DONE: Self = Self {
         motion: 0,
         line: 0,
@@ -40,24 +40,24 @@ impl Progress {
 }
 
 impl Queue {
-    /// How far the motion has come that was executed in the last cycle: all the way, if it came to its target then.
-    /// `None`: there was none.
+    /// The progress of the motion that was executed in the last cycle: complete, if it reached its target in that
+    /// cycle. `None` where no motion was executed.
     pub fn progress(&self) -> Option<Progress> {
         self.layer.progress
     }
 
-    /// How far a motion had come when it ended, or was left for a blend, in the last cycle. `None`: neither did it
-    /// then, or it was dropped.
+    /// The progress of a motion when it ended, or was left for a blend, in the last cycle. `None` where neither
+    /// happened in that cycle, or where the motion was dropped.
     pub fn left(&self, motion: u64) -> Option<Progress> {
         self.left.iter().rev().find(|progress| progress.motion == motion).copied()
     }
 
-    /// How far motions had come that ended, or were left for a blend, in the last cycle; parts of motions, too.
+    /// The progress of motions, and also of parts of motions, that ended or were left for a blend in the last cycle.
     pub(super) fn left_behind(&self) -> &[Progress] {
         &self.left
     }
 
-    /// Counts time for the motion that counts as being executed.
+    /// Adds time to the motion that counts as being executed.
     pub(crate) fn count_time(&mut self, passed: f64) {
         let Some((segment, _)) = self.layer.path.current() else { return };
         if self.layer.execution.timed != segment.number {
@@ -70,8 +70,7 @@ impl Queue {
         progress_at(segment, 1.0, segment.duration().unwrap_or(self.layer.execution.elapsed), 0.0)
     }
 
-    /// How long the motion being executed still takes at full speed, in s, `passed` s of that later than when this was
-    /// asked last.
+    /// How long the motion being executed still takes at full speed, in s; `passed` s have elapsed since the last call.
     pub(crate) fn time_left(&mut self, motion: u64, elapsed: f64, passed: f64) -> f64 {
         let (left, age) = match self.forecast {
             Some((of, left, age)) if of == motion && age < CYCLES_BETWEEN_FORECASTS => {
@@ -85,7 +84,7 @@ impl Queue {
 
     pub(crate) fn progress_on_way(&mut self, passed: f64) -> Option<Progress> {
         let (segment, share) = self.layer.path.current()?;
-        // A motion that is joined in this very cycle has not run yet.
+        // A motion that is entered in this very cycle has not run yet.
         let elapsed = if segment.number == self.layer.execution.timed { self.layer.execution.elapsed } else { 0.0 };
         let motion = segment.number;
         let left = self.time_left(motion, elapsed, passed);
@@ -93,11 +92,11 @@ impl Queue {
         Some(progress_at(segment, share, elapsed, left))
     }
 
-    /// Notes which motions are not executed any more. Those of which nothing is known go nowhere.
+    /// Notes which motions are no longer executed. Those of which nothing is known go nowhere.
     pub(crate) fn leave_behind(&mut self) {
         let ahead = self.layer.path.current().map_or(self.layer.finished + 1, |(segment, _)| segment.number);
         for motion in self.layer.over + 1..ahead {
-            if !self.dropping && self.left(motion).is_none() {
+            if !self.halt.dropping && self.left(motion).is_none() {
                 self.left.push(Progress { motion, ..Progress::DONE });
             }
         }
@@ -105,7 +104,7 @@ impl Queue {
     }
 }
 
-/// How far the motion of a segment has come.
+/// The progress of the motion of a segment.
 pub(crate) fn progress_at(segment: &Segment, share: f64, elapsed_time: f64, left_time: f64) -> Progress {
     let elapsed_distance = segment.length * share;
     Progress {

@@ -1,26 +1,26 @@
-//! The speed along a way that may turn back.
+//! The speed along a path that may reverse.
 
 use nalgebra::Vector3;
 
 use crate::geometry::derivatives::{second_difference_along, third_difference_along};
 
-/// The speed and the acceleration along a way. Where it turns back the speed goes on with the other sign, so that its
-/// derivatives are what the robot does there, not those of a size. Where it all but turns back, the parts of
-/// acceleration and jerk along the way count, as in limits.
+/// Speed and acceleration along a path. Where the path reverses, the speed continues with the opposite sign, so that
+/// its derivatives are those of the robot's motion, not those of an absolute value. Where the path all but reverses,
+/// the components of acceleration and jerk along the path count, as they do for limits.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(super) struct PathSpeed {
-    /// The last two steps.
+    /// The last two displacements.
     steps: [Vector3<f64>; 2],
     vel: f64,
     acc: f64,
 }
 
 impl PathSpeed {
-    /// The speed with its first two derivatives after one more step, of `period` s.
+    /// The speed with its first two derivatives after one more displacement, within `period` s.
     pub(super) fn derivatives(&mut self, step: Vector3<f64>, period: f64) -> [f64; 3] {
         let expected = self.vel + self.acc * period;
         let on = (step.norm() / period).copysign(self.vel);
-        // In a sharp corner the way turns, too, but the speed does not.
+        // In a sharp corner the path turns, too, but the speed does not change sign.
         let [first, second] = self.steps;
         let turns_back = step.dot(&second) < 0.0 && (-on - expected).abs() < (on - expected).abs();
         let vel = if turns_back { -on } else { on };
@@ -35,7 +35,7 @@ impl PathSpeed {
     }
 }
 
-/// The second one where the first is not a number.
+/// The value nearer to zero; `other` where `one` is not a number.
 fn nearer_to_zero(one: f64, other: f64) -> f64 {
     if one.abs() < other.abs() { one } else { other }
 }
@@ -44,7 +44,7 @@ fn nearer_to_zero(one: f64, other: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The highest acceleration and jerk on a way, behind the first steps.
+    /// The highest acceleration and jerk along a path, after the first steps.
     fn most(ways: impl Iterator<Item = Vector3<f64>>, period: f64) -> [f64; 2] {
         let ways: Vec<Vector3<f64>> = ways.collect();
         let mut speed = PathSpeed::default();
@@ -63,8 +63,8 @@ mod tests {
     #[test]
     fn a_way_that_brakes_into_a_hairpin_has_the_acceleration_along_it() {
         let period = 0.001;
-        // It brakes to 4 mm/s by 8000 mm/s2, turns by 120 deg from one cycle to the next, and goes off from 5.6 mm/s in
-        // the same way.
+        // It brakes to 4 mm/s at 8000 mm/s2, turns by 120 deg from one cycle to the next, and speeds up from 5.6 mm/s
+        // in the same manner.
         let braking = (0..25).rev().map(|cycle| (4.0 + 8.0 * f64::from(cycle), 0.0_f64));
         let going_off = (0..25).map(|cycle| (5.6 + 8.0 * f64::from(cycle), 120.0_f64.to_radians()));
         let mut place = Vector3::zeros();

@@ -1,4 +1,4 @@
-//! Looking ahead: what the motions that are there will do, without doing it.
+//! Preview: what the queued motions will do, without executing them.
 
 use std::time::Duration;
 
@@ -28,28 +28,28 @@ use crate::command::{Cycle, Joints, Override};
 #[derive(Clone, Debug)]
 pub struct Preview {
     cycle: Cycle,
-    /// Where the robot is now, and the set-points behind that.
+    /// The current state of the robot, followed by the set-points.
     steps: Vec<Step>,
 }
 
 impl Preview {
-    /// No more cycles than this are looked at: they are kept, all of them.
+    /// Maximum number of cycles of a preview: all of them are kept in memory.
     pub const MOST_CYCLES: usize = (1 << 20) - 1;
 
-    /// How long it takes until the robot rests and nothing is left to do.
+    /// How long it takes until the robot is at rest and nothing is left to do.
     pub fn duration(&self) -> Duration {
         self.cycle.length() * u32::try_from(self.steps.len().saturating_sub(1)).unwrap_or(u32::MAX)
     }
 
-    /// The set-points, a cycle apart; the first one is where the robot is now.
+    /// The set-points, a cycle apart; the first one is the current state of the robot.
     pub fn steps(&self) -> &[Step] {
         &self.steps
     }
 
-    /// The set-point at a time from now; behind the end the last one. Between two cycles positions, speeds and
-    /// accelerations of the axes go on smoothly from the one to the other, the TCP evenly.
+    /// The set-point at a time from now; after the end, the last one. Between two cycles, positions, velocities and
+    /// accelerations of the axes change smoothly from one to the other, the TCP evenly.
     pub fn at(&self, time: Duration) -> Step {
-        // Whole numbers: at the end of a cycle it is over.
+        // Whole numbers, so that a cycle is over at exactly its end.
         let cycle = self.cycle.length().as_nanos();
         let passed = usize::try_from(time.as_nanos() / cycle).unwrap_or(usize::MAX);
         let share = (time.as_nanos() % cycle) as f64 / cycle as f64;
@@ -63,18 +63,19 @@ impl Preview {
 }
 
 impl Queue {
-    /// Looks at what the motions that are there will do from now on, at an override, where no other command comes: a
-    /// copy of the queue goes ahead, waits for blends and time laws as [`Queue::repeatable`] does, and stops where the
-    /// robot rests and cannot go on. It takes as long as those cycles take, and keeps some 0.5 kB for each of them.
+    /// Finds what the queued motions will do from now on, at an override, if no other command comes: a copy of the
+    /// queue goes ahead, waits for blends and time laws as [`Queue::repeatable`] does, and stops where the robot is at
+    /// rest and cannot continue. This takes as long as computing these cycles takes, and about 0.5 kB of memory for
+    /// each of them.
     ///
     /// # Errors
-    /// A motion that waits for the next one cannot be moved without it; the motion takes more than
+    /// A motion that waits for the next one cannot be executed without it, or the motions take more than
     /// [`Preview::MOST_CYCLES`].
     pub fn preview(&self, cycle: Cycle, speed_override: Override) -> Result<Preview, PlanError> {
         self.preview_up_to(cycle, speed_override, Preview::MOST_CYCLES)
     }
 
-    /// The same for at most so many cycles.
+    /// The preview of at most `most` cycles.
     pub(crate) fn preview_up_to(
         &self,
         cycle: Cycle,
@@ -88,7 +89,7 @@ impl Queue {
         let mut steps = vec![self.now()];
         let stands = |copy: &Queue| copy.is_layer_idle() || copy.stopped() || speed_override == Override::ZERO;
         while !(copy.rests() && stands(&copy)) {
-            // The first one is where it begins.
+            // The first step is the state at the start.
             if steps.len() > most {
                 return Err(PlanError::TooLong { most });
             }
@@ -98,7 +99,7 @@ impl Queue {
     }
 }
 
-/// Between two set-points that are `period` s apart: by polynomials of the fifth degree.
+/// Interpolates between two set-points that are `period` s apart, by polynomials of the fifth degree.
 fn between(from: &Step, to: &Step, share: f64, period: f64) -> Step {
     let mut step = Step { tcp: from.tcp.try_lerp_slerp(&to.tcp, share, 1e-9).unwrap_or(from.tcp), ..*from };
     step.tcp_speed += (to.tcp_speed - from.tcp_speed) * share;
@@ -116,7 +117,7 @@ fn between(from: &Step, to: &Step, share: f64, period: f64) -> Step {
     step
 }
 
-/// A value with two derivatives at a share of `time` s, between two places where they are given.
+/// A value with two derivatives at a share of `time` s, between two points where all three are given.
 fn quintic([p0, v0, a0]: [f64; 3], [p1, v1, a1]: [f64; 3], share: f64, time: f64) -> [f64; 3] {
     let (c1, c2) = (v0 * time, a0 * time * time / 2.0);
     let (way, speed, change) = (p1 - p0 - c1 - c2, v1 * time - c1 - 2.0 * c2, a1 * time * time - 2.0 * c2);

@@ -1,4 +1,4 @@
-//! What motions really did: speeds reached, durations, blends, and the limit that each came nearest to.
+//! What motions really did: speeds reached, durations, blends, and the limit that each motion came nearest to.
 
 mod derivatives;
 mod reached;
@@ -23,33 +23,33 @@ use derivatives::{DERIVATIVES, Derivatives};
 use reached::Reached;
 pub use smaller_zone::SmallerZone;
 
-/// A motion that has to be slower than this part of the programmed speed somewhere beside a singular point is told of.
+/// A motion that has to be slower than this share of the programmed speed somewhere near a singular point is reported.
 const SLOWED_SHARE: f64 = 0.5;
-/// A zone of which a smaller part than this is left out is used as it was asked for.
+/// Where a smaller part of a zone than this is left out, the zone counts as used as requested.
 const NO_PART: f64 = 1e-6;
 
-/// What a programmed speed is one of.
+/// What a programmed speed refers to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Measure {
     /// The robot's axes, in percent.
     Axes,
     /// The TCP, in mm/s.
     Tcp,
-    /// The tool's turning, in deg/s.
+    /// The rotation of the tool, in deg/s.
     Turning,
-    /// External axes that turn, in deg/s.
+    /// Rotary external axes, in deg/s.
     TurningAxes,
-    /// External axes that go straight, in mm/s.
+    /// Linear external axes, in mm/s.
     LinearAxes,
-    /// Not a speed but how long it takes, in s.
+    /// No speed but a duration, in s.
     Duration,
 }
 
-/// A figure with its unit.
+/// A value with its unit.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Figure {
-    /// How much.
+    /// The value.
     pub value: f64,
     /// `%`, `mm/s`, `deg/s` or `s`.
     pub unit: &'static str,
@@ -66,15 +66,15 @@ pub enum Rate {
     Jerk,
 }
 
-/// Whose limit it is.
+/// What the limit applies to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Limited {
     /// The axis with this index in [`Robot::axes`](arl_robot::robot::Description::axes).
     Axis(usize),
-    /// The TCP on its path.
+    /// The TCP along its path.
     Tcp,
-    /// The turning of the tool.
+    /// The rotation of the tool.
     Turning,
 }
 
@@ -82,16 +82,16 @@ pub enum Limited {
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Closest {
-    /// Whose limit.
+    /// What the limit applies to.
     pub of: Limited,
-    /// Which one.
+    /// Which derivative is limited.
     pub rate: Rate,
-    /// How much of it was used: 1 is all of it.
+    /// Share of the limit that was used: 1 is all of it.
     pub share: f64,
 }
 
 impl Closest {
-    /// Whose limit, as robot files name it: `j3`, `tcp`, `tcp ori`.
+    /// The name of what the limit applies to, as in robot files: `j3`, `tcp`, `tcp ori`.
     pub fn name<'a>(&self, robot: &'a Robot) -> &'a str {
         match self.of {
             Limited::Axis(at) => robot.axes.get(at).map_or("", |axis| axis.name.as_str()),
@@ -112,7 +112,7 @@ impl Nearest {
         Closest { of: Limited::Tcp, rate: Rate::Jerk, share: 0.0 },
     ]);
 
-    /// Takes the shares that are higher, of the first `known` derivatives.
+    /// Takes over the shares that are higher, of the first `known` derivatives.
     fn raise(&mut self, of: Limited, rates: [f64; 3], limits: [f64; 3], known: usize) {
         for ((closest, value), limit) in self.0.iter_mut().zip(rates).zip(limits).take(known) {
             let share = value.abs() / limit;
@@ -123,37 +123,38 @@ impl Nearest {
     }
 }
 
-/// One executed motion. Until it has ended, the figures are those so far.
+/// One executed motion. Until it has ended, the values are those so far.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct MotionRecord {
-    /// Its running number, from 1; the rest of a gate that was looked at from above has the next one.
+    /// Running number, from 1; the rest of a gate that was looked at from above has the next one.
     pub number: u64,
-    /// Its program line.
+    /// Program line.
     pub line: u32,
-    /// Where it goes, and how.
+    /// The kind of motion.
     pub kind: MotionKind,
-    /// The programmed speed, under the override: % of the axes' limits on axis motions, else mm/s, or deg/s
-    /// where only the tool turns, and that of the external axes where they move alone; or the programmed duration in s.
+    /// The programmed speed, under the override: in % of the axes' limits for axis motions, else in mm/s, or in deg/s
+    /// where only the tool turns, or the speed of the external axes where they move alone; or the programmed duration
+    /// in s.
     pub programmed: Figure,
-    /// The highest speed in the same unit outside of the zones at both ends, and without what is laid over the path;
-    /// where the zones take all of the motion, that between them. For a duration, how long it took.
+    /// The highest speed, in the same unit, outside the zones at both ends and without overlays; where the zones take
+    /// all of the motion, the speed between them. For a motion with a duration, the time that it took.
     pub reached: f64,
-    /// When it began, in s of controller time; `None` when it has not.
+    /// When it began, in s of controller time; `None` where it has not begun.
     pub start: Option<f64>,
     /// How long it was executed, in s.
     pub duration: f64,
-    /// The path of the TCP against the workpiece, in mm.
+    /// Length of the path of the TCP relative to the workpiece, in mm.
     pub way: f64,
-    /// The zone at its end as it is planned, where one was asked for.
+    /// The zone at its end as planned, where one was requested.
     blend: Option<Rounding>,
-    /// Why the robot stops at its target though a zone was asked for.
+    /// Reason why the robot stops at its target although a zone was requested.
     pub unblended: Option<NoBlend>,
-    /// Where it passes so close to a singular point that it is slowed down to less than half of what was programmed.
+    /// Where it passes so close to a singular point that it is slowed down to less than half of the programmed speed.
     pub slowed: Option<NearSingular>,
-    /// Why a smaller zone than was asked for is used.
+    /// Reason why a smaller zone than requested is used.
     less: Option<NoBlend>,
-    /// Whether it goes on into the next motion without a corner, and whether it came to its end.
+    /// Whether it continues into the next motion without a corner, and whether it was completed.
     flows: bool,
     arrived: bool,
     speeds: Reached,
@@ -161,17 +162,18 @@ pub struct MotionRecord {
     tool: Nearest,
     carried: Carried,
     along_tool: bool,
-    /// Whose speed was programmed, and the programmed speeds of what else a motion along a path may move.
+    /// What the programmed speed refers to, and the programmed speeds of everything else that a motion along a path may
+    /// move.
     measure: Measure,
     speed: Speed,
-    /// Whether a blend with an axis motion is a part of it, in which the TCP's limits do not hold.
+    /// Whether a blend with an axis motion is a part of it, in which the limits of the TCP do not hold.
     mixed: bool,
     jerks: bool,
 }
 
 impl MotionRecord {
-    /// The limits of speed, acceleration and jerk that it came nearest to. Where a blend with an axis motion is a part
-    /// of it, those of the TCP do not hold and are left out; so is the jerk with the profile T.
+    /// The limits of speed, acceleration and jerk that the motion came nearest to. Where a blend with an axis motion is
+    /// a part of it, the limits of the TCP do not hold and are left out, as is the jerk with the profile T.
     pub fn closest(&self) -> [Option<Closest>; 3] {
         let with_tool = self.along_tool && !self.mixed;
         let mut found = [None; 3];
@@ -182,13 +184,14 @@ impl MotionRecord {
         found
     }
 
-    /// The zone at its end, where one was asked for. Nothing of it was used as long as the motion has not come there.
+    /// The zone at the end of the motion, where one was requested. None of it counts as used until the motion is
+    /// completed.
     pub fn zone(&self) -> Option<Rounding> {
         self.blend.map(|blend| Rounding { used: if self.arrived { blend.used } else { 0.0 }, ..blend })
     }
 
-    /// Why the zone at its end was not used as it was asked for: not at all, or only a part of it. `None`: it was, or
-    /// none was asked for.
+    /// The reason why the zone at its end was not used as requested: not at all, or only in part. `None` where it was,
+    /// or where none was requested.
     pub fn smaller_zone(&self) -> Option<SmallerZone> {
         let blend = self.zone().filter(|blend| blend.used < blend.asked * (1.0 - NO_PART))?;
         Some(match (&self.unblended, &self.less) {
@@ -201,8 +204,8 @@ impl MotionRecord {
         })
     }
 
-    /// What of a motion has the programmed speed: the robot's axes, or the TCP along a path; where that stays, the
-    /// tool's turning; where that stays, too, external axes.
+    /// What the programmed speed of a motion refers to: the robot's axes, or the TCP along a path; where the TCP does
+    /// not move, the tool's rotation; where that does not change either, external axes.
     fn measured_by(&self, robot: &Robot, motion: &Motion) -> (Measure, Figure) {
         let figure = |value: f64, unit: &'static str| Figure { value, unit };
         let moves = |linear: bool| {
@@ -224,21 +227,21 @@ impl MotionRecord {
     }
 }
 
-/// Watches planning and interpolation. Memory is taken when a motion is planned, never in a cycle.
+/// Records planning and interpolation. Memory is allocated when a motion is planned, never in a cycle.
 #[derive(Clone, Debug)]
 pub struct Recorder {
     robot: Arc<Robot>,
     records: Vec<MotionRecord>,
-    /// The place of the record of each motion, by its number, from the first one on.
+    /// Index of the record of each motion, by the motion's number, from the first one on.
     places: Vec<usize>,
-    /// The last motion that goes somewhere, and its number.
+    /// The last motion that goes somewhere, with its number.
     last: Option<(u64, Arc<Motion>)>,
     time: Elapsed,
-    /// The number of the motion executed last.
+    /// Number of the motion executed last.
     executed: u64,
-    /// How everything moves.
+    /// How axes and TCP move.
     derivatives: Derivatives,
-    /// For how many cycles jerks have been limited, and limits have been those of the robot file.
+    /// For how many cycles jerks have been limited, and for how many the limits have been those of the robot file.
     smooth: usize,
     plain: usize,
     /// For how many cycles no motion has been executed.
@@ -246,7 +249,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// A recorder of what this queue does from now on.
+    /// Creates a recorder of what this queue does from now on.
     pub fn new(robot: Arc<Robot>, queue: &mut Queue) -> Self {
         queue.watch();
         Self {
@@ -268,8 +271,8 @@ impl Recorder {
         &self.records
     }
 
-    /// Notes a motion that the queue has taken. Its way may become known only with the next one. The rest of a gate
-    /// belongs to the record of the gate.
+    /// Notes a motion that the queue has accepted. Its path may become known only with the next motion. The rest of a
+    /// gate belongs to the record of the gate.
     pub fn planned(&mut self, queue: &mut Queue, number: u64, command: &Command, settings: &Settings) {
         let is_rest = matches!(&command.target, Target::Gate { gate, .. } if gate.part == GatePart::Rest);
         let is_of_last = is_rest
@@ -311,7 +314,7 @@ impl Recorder {
         self.laid(queue);
     }
 
-    /// Notes what the queue has laid on the way.
+    /// Notes what the queue has laid on the path.
     fn laid(&mut self, queue: &mut Queue) {
         for LaidMotion { number, motion, left, unblended } in queue.take_laid() {
             let rounding = zone::rounding(&self.robot, &motion, 1.0);
@@ -350,11 +353,10 @@ impl Recorder {
         }
     }
 
-    /// Notes which motions have come to their ends in this cycle, or were left for a blend: several where they are
-    /// short.
+    /// Notes which motions were completed in this cycle, or were left for a blend: several where they are short.
     fn note_arrived(&mut self, queue: &Queue) {
         let here = queue.progress().filter(|progress| progress.share >= 1.0);
-        // What leads into a motion, or is the first part of it, is left behind before the motion is.
+        // What leads into a motion, or is its first part, is left behind before the motion is.
         let over = queue.left_behind().iter().filter(|left| queue.is_over(left.motion));
         for ended in over.chain(&here) {
             if let Some(record) = record_of(&mut self.records, &self.places, ended.motion) {
@@ -363,7 +365,7 @@ impl Recorder {
         }
     }
 
-    /// Notes what a cycle did, which the queue has just made.
+    /// Notes what a cycle did that the queue has just made.
     pub fn step(&mut self, queue: &mut Queue, step: &Step) {
         let period = queue.cycle();
         self.laid(queue);
@@ -372,7 +374,7 @@ impl Recorder {
         self.still = if step.motion == 0 { self.still + 1 } else { 0 };
         self.note_arrived(queue);
         let number = if step.motion == 0 { self.executed } else { step.motion };
-        // Who stands may be moved by others than a motion.
+        // A robot at rest may be moved by something other than a motion.
         let is_still = self.still >= DERIVATIVES;
         let Some(record) = record_of(&mut self.records, &self.places, number).filter(|_| !is_still) else {
             self.derivatives.without_tool(&step.joints, period);
@@ -387,7 +389,7 @@ impl Recorder {
             record.duration += period;
         }
         record.way += tool.way;
-        // Differences reach back two cycles: what was allowed there counts, too.
+        // Differences reach back two cycles: the limits that held there count, too.
         self.smooth = if record.jerks { self.smooth + 1 } else { 0 };
         self.plain = if queue.hardness() > 1.0 { 0 } else { self.plain + 1 };
         let derivatives = if self.smooth >= DERIVATIVES { DERIVATIVES } else { DERIVATIVES - 1 };
@@ -413,13 +415,13 @@ impl Recorder {
     }
 }
 
-/// Where an axis of [`Robot::axes`] is among all that there may be.
+/// The column of an axis of [`Robot::axes`] among all possible axes.
 fn column_of(robot: &Robot, at: usize) -> usize {
     let own = robot.own_axes().len();
     if at < own { at } else { at - own + ROBOT_AXES }
 }
 
-/// Speeds of what they are programmed of.
+/// Speeds of everything that a programmed speed can refer to.
 struct Speeds {
     /// mm/s
     tcp: f64,
@@ -430,7 +432,7 @@ struct Speeds {
 }
 
 impl Speeds {
-    /// That of what a motion is measured by, in its unit.
+    /// The speed of what a motion is measured by, in its unit.
     fn of(&self, measure: Measure, robot: &Robot) -> f64 {
         let axes = robot.axes.iter().enumerate().map(|(at, axis)| {
             let speed = self.axes.get(column_of(robot, at)).copied().unwrap_or_default();
@@ -455,14 +457,13 @@ impl Speeds {
 }
 
 impl MotionRecord {
-    /// Notes how fast it goes in this cycle: outside of a zone as is planned without what is laid over the path,
-    /// `within` one as it moves.
+    /// Notes the speed in this cycle: outside a zone as planned without overlays, within a zone as it moves.
     fn note_speed(&mut self, robot: &Robot, queue: &Queue, number: u64, within: &Speeds) {
         if self.measure == Measure::Duration {
             self.reached = self.duration;
             return;
         }
-        // Once the target is reached the path goes on with the next motion.
+        // Once the target is reached, the path continues with the next motion.
         let Some((segment, plain)) = queue.plain_speed().filter(|(segment, _)| segment.number == number) else {
             return;
         };
@@ -476,14 +477,14 @@ impl MotionRecord {
     }
 }
 
-/// The record of the motion with this number; numbers are without gaps.
+/// The record of the motion with this number; numbers have no gaps.
 fn record_of<'a>(records: &'a mut [MotionRecord], places: &[usize], number: u64) -> Option<&'a mut MotionRecord> {
     let first = records.first()?.number;
     let place = places.get(usize::try_from(number.checked_sub(first)?).ok()?)?;
     records.get_mut(*place)
 }
 
-/// What the programmed speed is measured by, and how much it is, as long as nothing is known of the way.
+/// What the programmed speed refers to, and its value, as long as nothing is known about the path.
 fn programmed(command: &Command, settings: &Settings, along_tool: bool) -> (Measure, Figure) {
     let (speed, share) = (&command.speed, settings.speed_percent / 100.0);
     if let Some(duration) = command.duration {

@@ -1,8 +1,8 @@
-//! Motion that is stopped and set aside, so that others come in between: `stopmove` and `startmove`.
+//! Motion that is stopped and suspended so that other motions can come in between: `stopmove` and `startmove`.
 //!
-//! What is set aside is the path itself, with the robot at rest on it. So going on after a return to that very place is
-//! going on along the same way. Only where motions are skipped, those behind them are planned anew, from the target
-//! that the robot goes to in their place.
+//! What is suspended is the path itself, with the robot at rest on it. So after a return to that very place the robot
+//! continues along the same path. Only where motions are skipped, those behind them are planned again, from the target
+//! that the robot goes to instead.
 
 mod way_back;
 
@@ -18,50 +18,51 @@ use crate::queue::layer::{Asked, Layer, RESERVED_SUSPENSIONS, Requests};
 use crate::queue::{Queue, Stop};
 use way_back::{ReturnMotion, Skipped};
 
-/// How near to the place of the stop a way back has to end, in deg (mm).
+/// How near to the place of the stop a return motion has to end, in deg (mm).
 const SAME_PLACE_DEG_OR_MM: f64 = 1e-6;
-/// How many motions are planned anew in a cycle.
+/// Number of motions that are planned again in a cycle.
 const REPLANNED_A_CYCLE: usize = 4;
-/// A stop on its path to rest.
+/// A stop in progress.
 #[derive(Clone, Debug)]
 struct Stopping {
     stop: Stop,
     level: u32,
-    /// How to go on with what was set aside before.
+    /// How to continue what was suspended before.
     starts: VecDeque<Start>,
     going: bool,
-    /// Whether nobody will go on with it.
+    /// Whether what is being stopped will be dropped rather than continued.
     drops: bool,
 }
 
-/// A stop that came while the robot was braking and was to go on then: at rest it comes before that.
+/// A stop requested while the robot was already braking and was to continue then. Once at rest, it takes effect before
+/// the robot continues.
 #[derive(Clone, Debug)]
 struct Again {
     level: u32,
-    /// How to go on with what was set aside before.
+    /// How to continue what was suspended before.
     starts: VecDeque<Start>,
 }
 
-/// How to go on with what was set aside last.
+/// How to continue what was suspended last.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Start {
-    /// How many motions are dropped, counted from the stopped one: the robot goes to the target of the last of them. 0:
-    /// to the place of the stop.
+    /// Number of motions that are dropped, counted from the stopped one: the robot goes to the target of the last of
+    /// them. 0: to the place of the stop.
     pub skip: u32,
-    /// Whether the way there is gone at manual speed.
+    /// Whether the robot goes there at manual speed.
     pub manual: bool,
     /// The program line, for the trace and for errors.
     pub line: u32,
 }
 
-/// Motion that was suspended at a stop.
+/// Motion that was suspended by a stop.
 #[derive(Clone, Debug)]
 struct SuspendedMotion {
-    /// The level of the program that stopped it.
+    /// The program level that stopped it.
     level: u32,
-    /// Where the robot stood.
+    /// Where the robot stopped.
     joints: Joints,
-    /// The running number of the motion that had been added last.
+    /// Running number of the motion that had been added last.
     added: u64,
     layer: Layer,
 }
@@ -71,9 +72,9 @@ struct SuspendedMotion {
 pub(crate) struct Suspension {
     stopping: Option<Stopping>,
     again: Vec<Again>,
-    /// What is suspended, the last one on top.
+    /// Suspended motions, the last one on top.
     suspended: Vec<SuspendedMotion>,
-    /// The way back that was planned last, where nobody has taken notice yet.
+    /// The return motion that was planned last, until a caller takes it.
     way_back: Option<(u64, Command, Settings)>,
     /// Whether more motions were to be dropped than there were.
     beyond: bool,
@@ -94,12 +95,12 @@ impl Default for Suspension {
 }
 
 impl Suspension {
-    /// How the robot is being stopped.
+    /// The kind of the stop in progress.
     pub(crate) fn stop(&self) -> Option<Stop> {
         self.stopping.as_ref().map(|stopping| stopping.stop)
     }
 
-    /// Whether something is set aside that nobody has asked yet to go on with.
+    /// Whether something is suspended that no caller has asked to continue yet.
     fn waits_for_start(&self, requests: &Requests) -> bool {
         let below = |suspended: &SuspendedMotion| suspended.layer.requests.starts.len();
         let stopping = self.stopping.as_ref().map_or(0, |stopping| stopping.starts.len());
@@ -116,7 +117,7 @@ impl Suspension {
         self.beyond = false;
     }
 
-    /// Whether a motion with a number up to that of the last one that has ended, has ended, too.
+    /// Whether a motion whose number is no higher than that of the last ended one has really ended.
     fn has_ended(&self, motion: u64, ended: impl Fn(&SuspendedMotion) -> u64) -> bool {
         let within = |early: &[(u64, u64)]| early.iter().any(|(from, to)| (*from..=*to).contains(&motion));
         self.suspended.iter().all(|suspended| {
@@ -126,12 +127,12 @@ impl Suspension {
 }
 
 impl Queue {
-    /// Whether nothing is set aside or about to be, nor to be gone on with.
+    /// Whether nothing is suspended, about to be suspended or to be continued.
     pub(crate) fn is_clear(&self) -> bool {
         self.suspension.suspended.is_empty() && self.is_settled()
     }
 
-    /// Whether nothing is about to be set aside or to be gone on with.
+    /// Whether nothing is about to be suspended or to be continued.
     fn is_settled(&self) -> bool {
         self.suspension.stopping.is_none()
             && self.layer.requests.starts.is_empty()
@@ -139,14 +140,13 @@ impl Queue {
             && !self.suspension.beyond
     }
 
-    /// Whether those of a level of the program may move the robot between what is set aside.
+    /// Whether a program level may move the robot while motions are suspended.
     fn is_open_to(&self, level: u32) -> bool {
         self.is_settled() && self.suspension.suspended.last().is_none_or(|suspended| level >= suspended.level)
     }
 
-    /// Brings the robot to rest on its path and sets its motions aside, so that others can be added that come before
-    /// they go on. Only those of the level `level` of the program, or of a higher one, may do that: see
-    /// [`Queue::takes`].
+    /// Brings the robot to rest on its path and suspends its motions, so that others can be added that come before they
+    /// continue. Only program level `level` or a higher one may add motions: see [`Queue::takes`].
     pub fn request_suspension(&mut self, stop: Stop, level: u32) {
         if let Some(stopping) = &mut self.suspension.stopping {
             if stop == Stop::Fast {
@@ -170,8 +170,8 @@ impl Queue {
         self.suspend_at_rest();
     }
 
-    /// Goes on with what was set aside last, once the robot rests and what was added since is done. Returns whether
-    /// anything was set aside that is not to be gone on with already.
+    /// Continues what was suspended last, once the robot is at rest and what was added since is done. Returns whether
+    /// anything was suspended that is not already to be continued.
     pub fn start_again(&mut self, start: Start) -> bool {
         if !self.suspension.waits_for_start(&self.layer.requests) {
             return false;
@@ -181,8 +181,8 @@ impl Queue {
         true
     }
 
-    /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on
-    /// its way goes on to rest.
+    /// Drops what is suspended, where no caller has asked to continue it; returns whether there was anything. A stop in
+    /// progress is completed.
     pub fn drop_suspended(&mut self) -> bool {
         let waits = self.suspension.waits_for_start(&self.layer.requests);
         if waits {
@@ -198,12 +198,12 @@ impl Queue {
         waits
     }
 
-    /// Whether motions are set aside, or about to be.
+    /// Whether motions are suspended, or about to be.
     pub fn is_suspended(&self) -> bool {
         self.suspension.stopping.is_some() || !self.suspension.suspended.is_empty()
     }
 
-    /// How many stops have set motions aside.
+    /// The number of stops that have suspended motions.
     pub fn depth(&self) -> usize {
         self.suspension.suspended.len()
     }
@@ -213,13 +213,12 @@ impl Queue {
         self.suspension.suspended.first().map_or(self.layer.finished, |suspended| suspended.layer.finished) + 1
     }
 
-    /// Whether a motion can be added now by those of a level of the program.
+    /// Whether a program level can add a motion now.
     pub fn takes(&self, level: u32) -> bool {
         self.is_open_to(level) && self.has_room() && !self.has_planned_enough()
     }
 
-    /// Whether nothing is left that those of a level of the program have to wait for: all motion, but for what was set
-    /// aside for them.
+    /// Whether nothing is left that a program level has to wait for: all motions except those suspended for it.
     pub fn idle_for(&self, level: u32) -> bool {
         if self.is_open_to(level) { self.is_layer_idle() } else { self.idle() }
     }
@@ -231,28 +230,28 @@ impl Queue {
         ended || self.layer.requests.ended_early(motion)
     }
 
-    /// Whether a motion is not executed any more: it has ended, or a blend leads away from it.
+    /// Whether a motion is no longer executed: it has ended, or a blend leads away from it.
     pub fn is_over(&self, motion: u64) -> bool {
         let over = motion <= self.layer.over && self.suspension.has_ended(motion, |suspended| suspended.layer.over);
         over || self.layer.requests.ended_early(motion)
     }
 
-    /// Whether, since this was asked last, more motions were to be dropped than there were. All of them were then.
+    /// Whether, since the last call, more motions were to be dropped than there were. In that case all were dropped.
     pub fn take_beyond(&mut self) -> bool {
         std::mem::take(&mut self.suspension.beyond)
     }
 
-    /// Why the robot cannot go to where [`Queue::start_again`] wanted it, since this was asked last.
+    /// Takes the reason why the robot cannot go to where [`Queue::start_again`] was to take it, since the last call.
     pub fn take_broken_start(&mut self) -> Option<PlanError> {
         self.suspension.broken.take()
     }
 
-    /// The motion that [`Queue::start_again`] has added, since this was asked last, and its running number.
+    /// Takes the return motion that [`Queue::start_again`] has added since the last call, with its running number.
     pub fn take_way_back(&mut self) -> Option<(u64, Command, Settings)> {
         self.suspension.way_back.take()
     }
 
-    /// Whether no motion is there, running or waiting, but for what is set aside.
+    /// Whether there is no motion being executed or waiting, apart from suspended ones.
     pub(crate) fn is_layer_idle(&self) -> bool {
         self.layer.finished == self.added
     }
@@ -268,20 +267,20 @@ impl Queue {
         self.layer.requests.asked.push_back(Asked { number, command, settings, start, end, led });
     }
 
-    /// Notes where a motion ends that had waited for the next one, now that it has been planned.
+    /// Notes where a motion ends that had waited for the next one and has now been planned.
     pub(crate) fn note_released(&mut self, number: u64) {
         if let Some(asked) = self.layer.requests.asked.iter_mut().rev().find(|asked| asked.number == number) {
             (asked.end, asked.led) = (self.layer.end, self.layer.led);
         }
     }
 
-    /// The motions of this layer that have been added and have not ended, the one being executed included.
+    /// The number of motions of this layer that have been added and have not ended, including the one being executed.
     pub(crate) fn unfinished(&self) -> usize {
         let asked = &self.layer.requests.asked;
         asked.len() - asked.partition_point(|asked| asked.number <= self.layer.finished)
     }
 
-    /// What there is to do about motions that are set aside, at the end of a cycle.
+    /// Handles suspended motions at the end of a cycle.
     pub(crate) fn advance_suspension(&mut self) {
         self.layer.requests.early.retain(|(_, to)| *to > self.layer.finished);
         self.suspend_at_rest();
@@ -289,9 +288,9 @@ impl Queue {
         self.go_on();
     }
 
-    /// Sets everything aside once the robot rests.
+    /// Suspends everything once the robot is at rest.
     fn suspend_at_rest(&mut self) {
-        if self.dropping || !self.rests() {
+        if self.halt.dropping || !self.rests() {
             return;
         }
         let Some(Stopping { level, starts, going, drops, .. }) = self.suspension.stopping.take() else { return };
@@ -304,21 +303,21 @@ impl Queue {
         }
         self.suspension.again.clear();
         self.forecast = None;
-        self.braking_hard = false;
-        self.waited = 0.0;
+        self.halt.braking_hard = false;
+        self.look_ahead.waited = 0.0;
         if drops {
             self.suspension.suspended.pop();
         }
     }
 
-    /// Sets everything aside.
+    /// Suspends the current layer.
     fn suspend(&mut self, level: u32, starts: VecDeque<Start>, going: bool) {
-        let layer = self.layer.suspend(self.joints, self.added, starts, going);
-        let suspended = SuspendedMotion { level, joints: self.joints, added: self.added, layer };
+        let layer = self.layer.suspend(self.commanded.joints, self.added, starts, going);
+        let suspended = SuspendedMotion { level, joints: self.commanded.joints, added: self.added, layer };
         self.suspension.suspended.push(suspended);
     }
 
-    /// Goes on with what was set aside, where the robot is there already; else adds the way to it.
+    /// Continues what was suspended, where the robot is already there; else adds the return motion.
     fn go_on(&mut self) {
         while let Some(start) = self.layer.requests.starts.front().copied() {
             if self.suspension.stopping.is_some()
@@ -333,14 +332,15 @@ impl Queue {
                 return;
             };
             if !self.layer.requests.going && start.skip > 0 && suspended.leads_on() {
-                // It was stopped on its path to another one, or before that, whose motions are meant.
+                // It was stopped on the path to another suspended motion, or before that: the motions to skip are those
+                // of the other.
                 self.pass_on(start);
                 continue;
             }
             let skipped = suspended.skipped(start.skip);
             if !self.layer.requests.going {
                 let way = match &skipped {
-                    Skipped::None => suspended.way_back(&self.robot, &self.joints),
+                    Skipped::None => suspended.way_back(&self.robot, &self.commanded.joints),
                     Skipped::To(last) => Some(last.way_to(&self.robot)),
                     Skipped::Beyond => {
                         self.suspension.beyond = true;
@@ -366,7 +366,7 @@ impl Queue {
         }
     }
 
-    /// Skips motions of what is below the one on top, to which the robot was on its path.
+    /// Skips motions of what is below the topmost suspended one, to which the robot was on its path.
     fn pass_on(&mut self, start: Start) {
         self.layer.requests.starts.pop_front();
         if let Some(mut suspended) = self.suspension.suspended.pop() {
@@ -377,7 +377,7 @@ impl Queue {
         }
     }
 
-    /// Adds the way to where it goes on.
+    /// Adds the motion to where the robot is to continue.
     fn go(&mut self, ReturnMotion { asked, command, end }: ReturnMotion, start: Start) -> Result<(), PlanError> {
         let plain = Settings { weave: None, compensation: None, ..asked };
         let settings = Settings { manual: plain.manual || start.manual, ..plain };
@@ -403,8 +403,8 @@ impl Queue {
         Ok(())
     }
 
-    /// Goes on with what was set aside last: where it was stopped, or behind the motion `skipped`, at whose end the
-    /// compensation stands so.
+    /// Continues what was suspended last: where it was stopped, or behind the motion `skipped`, with the state of the
+    /// compensation at its end.
     fn resume_suspended(&mut self, skipped: Option<(u64, Led)>) {
         let Some(SuspendedMotion { mut layer, added, .. }) = self.suspension.suspended.pop() else { return };
         self.layer.requests.take_over(std::mem::take(&mut layer.requests), (added + 1, self.added));
@@ -413,9 +413,9 @@ impl Queue {
             None => self.layer.resume(layer),
             Some((last, led)) => {
                 (self.layer.finished, self.layer.over) = (last, last);
-                (self.layer.end, self.layer.led) = (self.joints, led);
+                (self.layer.end, self.layer.led) = (self.commanded.joints, led);
                 self.layer.execution.started = None;
-                // What was to be planned anew and is dropped now was asked for last.
+                // What was still to be planned again when it was dropped was requested last.
                 let Requests { asked, anew, .. } = &mut self.layer.requests;
                 *anew = asked.iter().chain(&*anew).filter(|asked| asked.number > last).cloned().collect();
                 asked.retain(|asked| asked.number <= last);
@@ -425,21 +425,21 @@ impl Queue {
         self.plan_anew();
     }
 
-    /// Plans some of the motions anew that come behind those that were skipped.
+    /// Plans again some of the motions that come behind skipped ones.
     fn plan_anew(&mut self) {
         for _ in 0..REPLANNED_A_CYCLE {
             let Some(asked) = self.layer.requests.anew.pop_front() else { return };
             let before = self.layer.requests.asked.back().map(|before| (before.command.clone(), before.start));
             if let Err(error) = self.add_again(&asked, before) {
                 self.layer.requests.anew.clear();
-                self.broken = Some(PlanError::Earlier { line: asked.command.line, error: Box::new(error) });
+                self.notices.broken = Some(PlanError::Earlier { line: asked.command.line, error: Box::new(error) });
             }
         }
     }
 
-    /// Adds a motion once more, under its own number.
+    /// Adds a motion again, under its own number.
     fn add_again(&mut self, asked: &Asked, before: Option<(Command, Joints)>) -> Result<(), PlanError> {
-        // A circle goes on through the points of the one that was skipped.
+        // A circle continues through the points of the one that was skipped.
         let start = before
             .filter(|_| self.layer.held.is_none())
             .filter(|(before, _)| {

@@ -277,12 +277,12 @@ fn a_law_looks_at_both_sides_of_a_place_only_where_derivatives_jump() {
     let Blended { from, to, blend, .. } = blended(&robot, None, &from, &to).unwrap();
     let mut segments = SharedDeque::default();
     for first in [true, false] {
-        segments.push_back(Arc::new(Segment::half(&blend, (&from, &to), 1, first)));
+        segments.push_back(Arc::new(Segment::half(&blend, &from, &to, 1, first)));
     }
-    let end = segments.iter().map(|segment| segment.time).sum();
+    let part = Part::whole(segments);
+    let end = part.end;
     let near = from.curve.joints(&robot.kinematics, blend.leave, &from.end);
-    let part = Part { segments, from: 0, count: 2 };
-    let sampler = ConstraintSampler::new(&robot, part, 0.0, (end, true), (0.0, &near));
+    let sampler = ConstraintSampler::new(&robot, part, 0.0, &near);
     let way = sampler.look(end, 1.0, BoundaryState { vel: 0.5, acc: 0.0 }, BoundaryState::REST).unwrap().way;
     let jumps = (0..way.places().len()).filter(|index| way.jumps(*index)).count();
     // Between the parts, and at the end.

@@ -92,7 +92,7 @@ fn a_line_may_end_at_the_singularity_and_the_next_one_begin_there() {
         target: lin(frame_components(&(robot.kinematics.forward(&singular) * tool))).target,
         ..whole.clone()
     };
-    let rows = assert_passes(&robot, start, &[half, whole], "two circle_steps").unwrap();
+    let rows = assert_passes(&robot, start, &[half, whole], "two halves").unwrap();
     let rests = rows[2..rows.len() - 1].iter().filter(|row| row.rests).count();
     assert!(rests > 0, "it stops at the target between");
 }

@@ -1,4 +1,4 @@
-//! Looks along the path for a time law: how everything moves at places close enough together, and within which limits.
+//! Samples the path for a time law: how everything moves at places close enough together, and within which limits.
 
 use std::sync::Arc;
 
@@ -10,57 +10,69 @@ use crate::plan::constraints::{Constraints, PathLimits};
 use crate::time_optimal::solver::{BoundaryState, Row, Way, guess_steps, places, thinned};
 use arl_robot::robot::Robot;
 
-/// The longest time, in s, between two places, nominal or as far as that can be guessed, and how many places there are
-/// at least and at most.
+/// The longest time, in s, between two places, nominal or as estimated, and the least and the largest number of places.
 const LONGEST_SPACING_S: f64 = 0.008;
 const FEWEST_PLACES: f64 = 48.0;
 const MOST_EVEN_PLACES: f64 = 250.0;
 const MOST_PLACES: usize = 900;
-/// With so many times as many places, a way is looked at once more.
+/// Where more places by this factor are needed, a path is sampled once more.
 const WORTH_WALKING_AGAIN: f64 = 1.2;
-/// The density of places for a short part, and how many there are at most.
+/// The density of places for a short part, and their maximum number.
 const COARSE_DENSITY: f64 = 0.2;
 const MOST_COARSE_PLACES: usize = 40;
-/// Outside of blends two places are no closer than this part of the spacing.
+/// Outside blends, the least distance of two places, as a share of the spacing.
 const CLOSEST_SHARE_OF_SPACING: f64 = 1.0 / 256.0;
-/// A step as part of the path over which the motion changes.
+/// A step as a share of the path over which the motion changes.
 const STEP_SHARE_OF_SCALE: f64 = 0.06;
-/// The part of the highest speed before that still counts at the next place, for how far the motion changes: where
-/// everything turns back the speed is low for a moment, and the motion changes no faster for that.
+/// Share of the highest speed so far that still counts at the next place in finding how far the motion changes: where
+/// everything turns back, the speed is low for a moment, but the motion does not change faster because of that.
 const FORGOTTEN_SHARE: f64 = 0.7;
-/// So many places are in each part of a blend.
+/// Number of places in each part of a blend.
 const PLACES_OF_BLEND_PART: u32 = 3;
-/// By so much of the distance from a blend the places beside it may be farther apart than those in it: where it is
-/// sharp the robot is slow beside it, as beside a stop.
+/// The distance between places may grow by this share of their distance from a blend: where the blend is sharp, the
+/// robot is slow beside it, as beside a stop.
 const GROWTH_BESIDE_BLEND: f64 = 0.4;
-/// A start that is slower than this part of the full speed has its places as if it were as fast.
+/// A start that is slower than this share of the full speed gets places as if it had this speed.
 const SLOWEST_START: f64 = 1e-4;
-/// How far beside a place its sides are looked at, as part of the segment.
+/// Distance from a place at which its two sides are sampled, as a share of the segment.
 const BESIDE_SHARE: f64 = 1e-9;
-/// Places as near to each other, as part of the way, are the same.
+/// Places no farther apart than this, as a share of the spacing or of the path, are the same.
 const SAME_PLACE_SHARE: f64 = 1e-9;
-/// A law is found without places that are closer together than about so many s: set-points are a ms apart, but a sharp
-/// blend is passed in few.
+/// A law is found without places that are closer together than about this, in s: set-points are 1 ms apart, but a sharp
+/// blend is passed in few of them.
 const CLOSEST_S: f64 = 0.0004;
-/// The same where an acceleration may change at once.
+/// The same distance where an acceleration may change at once.
 const CLOSEST_WITHOUT_JERK_LIMITS_S: f64 = 0.0003;
-/// With more segments than this ahead, their ends are no places of their own; they are looked at where they are farther
-/// apart than this part of the spacing.
+/// With more segments than this ahead, their ends are not places of their own; ends are sampled where they are farther
+/// apart than this share of the spacing.
 const MOST_SEGMENTS_WITH_ENDS: usize = 150;
 const CLOSEST_ENDS_SHARE: f64 = 0.1;
-/// How often the end is brought nearer because there are too many places before it.
+/// Maximum number of times that the end is moved nearer because there are too many places before it.
 const MOST_SHORTENINGS: usize = 6;
 
-/// Segments that lie one behind the other.
+/// Segments in a row. Times are nominal, in s since the path began.
 #[derive(Debug)]
 pub(crate) struct Part {
     pub(crate) segments: SharedDeque<Segment>,
-    /// The index of the first one, and how many they are.
+    /// Index of the first segment.
     pub(crate) from: usize,
+    /// Number of segments.
     pub(crate) count: usize,
+    /// Where the first segment begins.
+    pub(crate) begin: f64,
+    /// Where the last segment ends.
+    pub(crate) end: f64,
+    /// Whether the robot has to stop there.
+    pub(crate) stops: bool,
 }
 
 impl Part {
+    /// A path of these segments, from rest to rest.
+    pub(crate) fn whole(segments: SharedDeque<Segment>) -> Self {
+        let end = segments.iter().map(|segment| segment.time).sum();
+        Self { from: 0, count: segments.len(), begin: 0.0, end, stops: true, segments }
+    }
+
     fn get(&self, index: usize) -> Option<&Segment> {
         if index < self.count { self.segments.get(self.from + index).map(|segment| &**segment) } else { None }
     }
@@ -70,62 +82,54 @@ impl Part {
     }
 }
 
-/// The path from a place on. Parameters are s of nominal time since the path began.
+/// The path from a place on. Parameters are in s of nominal time since the path began.
 pub(crate) struct ConstraintSampler {
-    /// The robot that goes.
+    /// The robot that moves.
     pub(crate) robot: Arc<Robot>,
-    segments: Part,
-    /// Where the first segment begins.
-    passed: f64,
-    /// Where to look from, and joints near there.
+    part: Part,
+    /// Where sampling begins, and joints near there.
     pub(crate) at: f64,
     near: Joints,
-    /// Where the last segment ends, and whether the robot has to stop there.
+    /// Where sampling ends, and whether the robot has to stop there.
     pub(crate) end: f64,
     pub(crate) stops: bool,
-    /// How long an acceleration takes to rise at least, in s, where the path is looked at for a stop: then each place
-    /// has limits of its own, along motions with a duration, too.
+    /// The least time, in s, that an acceleration takes to rise, where the path is sampled for a stop: then each place
+    /// has limits of its own, also along motions with a duration.
     rise: Option<f64>,
 }
 
 /// A part of the path that is ready to be timed.
 pub(crate) struct SampledPath {
     pub(crate) way: Way,
-    /// The same without places that are closer together in time than set-points show, if there are any.
+    /// The path without places that are closer together in time than set-points can show, if there are any.
     pub(crate) thinned: Option<Way>,
-    /// Where it ends; earlier than was asked for where there is too much to be seen.
+    /// Where it ends; earlier than requested where there are too many places.
     pub(crate) end: f64,
 }
 
 impl ConstraintSampler {
-    /// Looks from `at` on along segments of which the first begins at `passed`, and the last one ends at `end`, with
-    /// joints `near` there.
-    pub(crate) fn new(
-        robot: &Arc<Robot>,
-        segments: Part,
-        passed: f64,
-        (end, stops): (f64, bool),
-        (at, near): (f64, &Joints),
-    ) -> Self {
-        Self { robot: Arc::clone(robot), segments, passed, at, near: *near, end, stops, rise: None }
+    /// Samples a part of the path from `at` on, with the joints at `near` there.
+    pub(crate) fn new(robot: &Arc<Robot>, part: Part, at: f64, near: &Joints) -> Self {
+        let (end, stops) = (part.end, part.stops);
+        Self { robot: Arc::clone(robot), part, at, near: *near, end, stops, rise: None }
     }
 
-    /// How many segments it holds, those that it does not look at, too.
+    /// The number of segments that it holds, including those that it does not sample.
     pub(crate) fn segments(&self) -> usize {
-        self.segments.segments.len()
+        self.part.segments.len()
     }
 
-    /// Whether another one sees the same from the same place.
+    /// Whether another sampler samples the same path from the same place.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
-        let Self { robot, segments, passed, at, near, end, stops, rise } = self;
-        let place = (*passed, *at, *near, *end, *stops, *rise);
-        place == (other.passed, other.at, other.near, other.end, other.stops, other.rise)
-            && segments.count == other.segments.count
+        let Self { robot, part, at, near, end, stops, rise } = self;
+        let place = (part.begin, *at, *near, *end, *stops, *rise);
+        place == (other.part.begin, other.at, other.near, other.end, other.stops, other.rise)
+            && part.count == other.part.count
             && *robot == other.robot
-            && segments.iter().zip(other.segments.iter()).all(|(segment, other)| segment.is_like(other))
+            && part.iter().zip(other.part.iter()).all(|(segment, other)| segment.is_like(other))
     }
 
-    /// The same that ends at `end`, if that is nearer.
+    /// The sampler ending at `end`, if that is nearer.
     pub(crate) fn up_to(mut self, end: f64) -> Self {
         if end < self.end {
             (self.end, self.stops) = (end, false);
@@ -133,22 +137,22 @@ impl ConstraintSampler {
         self
     }
 
-    /// The same for a stop, where an acceleration takes `rise` s to rise at least.
+    /// The sampler for a stop, where an acceleration takes at least `rise` s to rise.
     pub(crate) fn for_stop(self, rise: f64) -> Self {
         Self { rise: Some(rise), ..self }
     }
 
-    /// The same from `at` on, which is farther.
+    /// The sampler from `at` on, which is farther ahead.
     pub(crate) fn behind(self, at: f64) -> Self {
         Self { at, ..self }
     }
 
-    /// The way to `to`, with `density` times as many places as it takes mostly.
+    /// Samples the path to `to`, with `density` times the usual number of places.
     pub(crate) fn look(&self, to: f64, density: f64, start: BoundaryState, end: BoundaryState) -> Option<SampledPath> {
-        self.look_at(to, (density, MOST_PLACES), [start, end], None)
+        self.look_at(to, density, MOST_PLACES, [start, end], None)
     }
 
-    /// The same where the parameter goes at about this speed, in the mean.
+    /// Samples the path to `to` where the parameter has about this mean speed.
     pub(crate) fn look_at_speed(
         &self,
         to: f64,
@@ -156,31 +160,32 @@ impl ConstraintSampler {
         edges: [BoundaryState; 2],
         speed: f64,
     ) -> Option<SampledPath> {
-        self.look_at(to, (density, MOST_PLACES), edges, Some((to - self.at) / speed))
+        self.look_at(to, density, MOST_PLACES, edges, Some((to - self.at) / speed))
     }
 
-    /// A short part of the path from rest on, up to `to` at most, at a few places.
+    /// Samples a short part of the path from rest on, up to `to` at most, at a few places.
     pub(crate) fn sample_short_part(&self, to: f64) -> Option<SampledPath> {
         let end = if to < self.end { BoundaryState { vel: 1.0, acc: 0.0 } } else { BoundaryState::REST };
-        self.look_at(to.min(self.end), (COARSE_DENSITY, MOST_COARSE_PLACES), [BoundaryState::REST, end], None)
+        self.look_at(to.min(self.end), COARSE_DENSITY, MOST_COARSE_PLACES, [BoundaryState::REST, end], None)
     }
 
-    /// Goes along the path by itself.
+    /// Returns a walk along the path that finds positions only.
     pub(crate) fn sample_coarsely(&self) -> Stroll<'_> {
-        Stroll { sampler: self, joints: self.near, index: 0, before: self.passed }
+        Stroll { sampler: self, joints: self.near, index: 0, before: self.part.begin }
     }
 
-    /// The way to `to`, which takes about `duration` s; that is guessed where it is not known.
+    /// Samples the path to `to`, which takes about `duration` s; where the duration is not known, it is estimated.
     fn look_at(
         &self,
         mut to: f64,
-        fineness: (f64, usize),
+        density: f64,
+        most: usize,
         edges: [BoundaryState; 2],
         mut duration: Option<f64>,
     ) -> Option<SampledPath> {
-        let is_fine = fineness.0 >= 1.0;
+        let is_fine = density >= 1.0;
         for _ in 0..MOST_SHORTENINGS {
-            match self.walk(to, duration.unwrap_or_default(), fineness, edges) {
+            match self.walk(to, duration.unwrap_or_default(), density, most, edges) {
                 Ok((way, many)) => {
                     let steps = if is_fine { guess_steps(&way, edges)? } else { Vec::new() };
                     if is_fine && duration.is_none() {
@@ -190,13 +195,13 @@ impl ConstraintSampler {
                             continue;
                         }
                     }
-                    // Where a singular point is all that is known of an end, no motion along the rest leads there.
+                    // Where a singular point is all that is known about an end, no motion along the rest leads there.
                     let [first, last] = [*way.places().first()?, *way.places().last()?];
                     if (first - self.at).max(to - last) > SAME_PLACE_SHARE * (to - self.at) {
                         return None;
                     }
                     let closest = if way.limits_jerk() { CLOSEST_S } else { CLOSEST_WITHOUT_JERK_LIMITS_S };
-                    let thinned = if is_fine && !many { thinned(&way, &steps, closest / fineness.0) } else { None };
+                    let thinned = if is_fine && !many { thinned(&way, &steps, closest / density) } else { None };
                     return Some(SampledPath { way, thinned, end: to });
                 }
                 Err(reached) => {
@@ -209,13 +214,14 @@ impl ConstraintSampler {
         None
     }
 
-    /// The way, which takes so many s at least, with a density of places, and whether it has too many segments for
-    /// places of their own; or how far it got with as many places as there may be.
+    /// Samples the path, which takes at least `duration` s, with a density of places; returns it with whether it has
+    /// too many segments for places of their own, or how far it got with the maximum number of places.
     fn walk(
         &self,
         to: f64,
         duration: f64,
-        (density, most): (f64, usize),
+        density: f64,
+        most: usize,
         [start, end]: [BoundaryState; 2],
     ) -> Result<(Way, bool), f64> {
         let count = (density * even_places(duration.max(to - self.at))) as usize;
@@ -247,7 +253,7 @@ impl ConstraintSampler {
                 }
                 let step = step.min(spacing_at(&grades, grade, at));
                 // Where too many segments meet for places of their own, those that are far enough from the last place
-                // are some all the same.
+                // become places nevertheless.
                 is_place |= at - way.places().last().copied().unwrap_or(self.at) >= step;
                 if is_place && !constraints.rows.is_empty() {
                     let rows = constraints.rows.drain(..).map(row);
@@ -268,13 +274,13 @@ impl ConstraintSampler {
         Ok((way, many))
     }
 
-    /// How far apart places may be where it begins, and where segments meet if there are not too many.
+    /// The permitted spacing of places at the start, and where segments meet if there are not too many.
     fn grades(&self, spacing: f64, start: BoundaryState, many: bool) -> Vec<Grade> {
-        // What begins slowly goes no farther from place to place at first than it takes time.
+        // After a slow start, places are initially no farther apart than in proportion to its speed.
         let slow = if start.vel > 0.0 { spacing * start.vel.clamp(SLOWEST_START, 1.0) } else { spacing };
         let mut grades = vec![Grade { at: self.at, spacing: slow }];
-        let (mut at, mut before) = (self.passed, spacing);
-        for segment in self.segments.iter().filter(|_| !many) {
+        let (mut at, mut before) = (self.part.begin, spacing);
+        for segment in self.part.iter().filter(|_| !many) {
             let own = if segment.parametrization.is_some() { spacing_in_blend(segment, spacing) } else { spacing };
             if let Some(start) = grades.last_mut() {
                 start.spacing = start.spacing.min(own).min(before);
@@ -298,13 +304,13 @@ impl ConstraintSampler {
         grades
     }
 
-    /// Where derivatives jump before `to`, between segments and within them, and for a fine look the places beside
-    /// singular points; and whether these are too many to be places, of which those are left out then that are nearer
-    /// to each other than `closest`.
+    /// Where derivatives jump before `to`, between segments and within them, and for fine sampling the places near
+    /// singular points; and whether there are too many of them to be places. In that case those nearer to each other
+    /// than `closest` are left out.
     fn joints(&self, to: f64, closest: f64, is_fine: bool) -> (Vec<f64>, bool) {
         let mut joints = Vec::new();
-        let (mut start, mut count) = (self.passed, 0);
-        for segment in self.segments.iter() {
+        let (mut start, mut count) = (self.part.begin, 0);
+        for segment in self.part.iter() {
             if start >= to {
                 break;
             }
@@ -328,19 +334,19 @@ impl ConstraintSampler {
     }
 }
 
-/// How many places are needed for a way that takes so many s.
+/// The number of places for a path that takes `time` s.
 fn even_places(time: f64) -> f64 {
     (time / LONGEST_SPACING_S).clamp(FEWEST_PLACES, MOST_EVEN_PLACES)
 }
 
-/// How far apart places may be where they are `at`.
+/// The permitted spacing of places at `at`.
 #[derive(Clone, Copy, Debug)]
 struct Grade {
     at: f64,
     spacing: f64,
 }
 
-/// How far behind `at`, which is behind the grade `index`, the next place may be.
+/// The permitted distance of the next place from `at`, which is behind the grade `index`.
 fn spacing_at(grades: &[Grade], index: usize, at: f64) -> f64 {
     let before = grades.get(index).map_or(f64::INFINITY, |grade| grade.spacing + GROWTH_BESIDE_BLEND * (at - grade.at));
     // The next place itself is nearer to what comes.
@@ -350,52 +356,52 @@ fn spacing_at(grades: &[Grade], index: usize, at: f64) -> f64 {
     before.min(behind)
 }
 
-/// How far apart places are in a blend.
+/// The spacing of places in a blend.
 fn spacing_in_blend(segment: &Segment, spacing: f64) -> f64 {
     (segment.time / f64::from(PLACES_OF_BLEND_PART * segment.bends())).min(spacing)
 }
 
-/// Goes along the path.
+/// The state of a walk along the path.
 struct Walk<'a> {
     sampler: &'a ConstraintSampler,
-    /// Whether there are so many segments that each of them is not worth places of its own.
+    /// Whether there are so many segments that they do not get places of their own.
     many: bool,
     joints: Joints,
-    /// The segment that was looked at last, and where it begins.
+    /// The segment that was sampled last, and where it begins.
     index: usize,
     before: f64,
-    /// Where derivatives jump: how many of the rows are those of the side before.
+    /// Where derivatives jump: the number of rows that belong to the side before.
     jump: Option<usize>,
-    /// How fast an axis is, by its highest speed, or was shortly before.
+    /// The speed of an axis relative to its highest speed, now or shortly before.
     fastest: f64,
 }
 
-/// Where the axes are at places of the path, one behind the other.
+/// Positions of the axes at consecutive places of the path.
 pub(crate) struct Stroll<'a> {
     sampler: &'a ConstraintSampler,
     joints: Joints,
-    /// The segment that was looked at last, and where it begins.
+    /// The segment that was reached last, and where it begins.
     index: usize,
     before: f64,
 }
 
-/// Where everything is at a place of the path.
+/// All positions at a place of the path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
     /// The parameter.
     pub(crate) at: f64,
     pub(crate) joints: Joints,
-    /// Of the motion there.
+    /// Limits of the motion there.
     pub(crate) pace: PathLimits,
-    /// The tool, if its way is limited.
+    /// The tool, if its path is limited.
     pub(crate) tool: Option<LedTool>,
 }
 
 impl Stroll<'_> {
-    /// The place `at`, which is not before the one that was asked for last, and close to it.
+    /// Moves on to the place `at`, which is not before the last one, and close to it.
     pub(crate) fn go_to(&mut self, at: f64) -> Point {
         let (mut pace, mut tool) = (PathLimits::FREE, None);
-        let segments = &self.sampler.segments;
+        let segments = &self.sampler.part;
         while let Some(segment) = segments.get(self.index) {
             let end = self.before + segment.time;
             if at < end || self.index + 1 == segments.count {
@@ -413,15 +419,15 @@ impl Stroll<'_> {
 
 impl<'a> Walk<'a> {
     fn new(sampler: &'a ConstraintSampler, many: bool) -> Self {
-        Self { sampler, many, joints: sampler.near, index: 0, before: sampler.passed, jump: None, fastest: 0.0 }
+        Self { sampler, many, joints: sampler.near, index: 0, before: sampler.part.begin, jump: None, fastest: 0.0 }
     }
 
-    /// Leaves segments behind that end before `at`: too many of them meet for places of their own there.
+    /// Leaves segments behind that end before `at`, where too many of them meet for places of their own.
     fn skip_to(&mut self, at: f64) {
-        while let Some(segment) = self.sampler.segments.get(self.index)
+        while let Some(segment) = self.sampler.part.get(self.index)
             && !segment.stops
             && self.before + segment.time < at
-            && self.index + 1 < self.sampler.segments.count
+            && self.index + 1 < self.sampler.part.count
         {
             (self.before, self.index) = (self.before + segment.time, self.index + 1);
         }
@@ -433,7 +439,7 @@ impl<'a> Walk<'a> {
         let mut step = spacing;
         self.jump = None;
         self.skip_to(at - SAME_PLACE_SHARE * spacing);
-        while let Some(segment) = self.sampler.segments.get(self.index) {
+        while let Some(segment) = self.sampler.part.get(self.index) {
             let here = (at - self.before).min(segment.time);
             self.joints = segment.joints_on(&self.sampler.robot.kinematics, here, &self.joints);
             // Where derivatives jump, those of both sides count.
@@ -448,15 +454,16 @@ impl<'a> Walk<'a> {
                     self.jump = Some(constraints.rows.len());
                 }
                 let at = at.clamp(0.0, segment.time);
-                let here = (at, &self.joints);
-                if let Some(rates) = segment.limit(&self.sampler.robot, here, self.sampler.rise, constraints) {
+                if let Some(rates) =
+                    segment.limit(&self.sampler.robot, at, &self.joints, self.sampler.rise, constraints)
+                {
                     let longest = (STEP_SHARE_OF_SCALE * scale(&self.sampler.robot, &rates, &mut self.fastest))
                         .max(CLOSEST_SHARE_OF_SPACING * spacing);
                     step = step.min(longest);
                 }
             }
             let end = self.before + segment.time;
-            if at < end || segment.stops || self.index + 1 == self.sampler.segments.count {
+            if at < end || segment.stops || self.index + 1 == self.sampler.part.count {
                 break;
             }
             (self.before, self.index) = (end, self.index + 1);
@@ -466,7 +473,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// The time over which the motion changes substantially; `fastest` is what is left of the speed before.
+/// The time over which the motion changes substantially; `fastest` is the decaying maximum of the speed so far.
 fn scale(robot: &Robot, rates: &[[f64; ALL]; 3], fastest: &mut f64) -> f64 {
     let own = robot.own_axes();
     let [first, second, third] = rates.map(|all| {

@@ -1,16 +1,16 @@
-//! How the robot goes along the path where time laws lead.
+//! How the robot moves along the path where time laws lead.
 //!
-//! Invariant: the law in hand leads the robot to rest on the path, within all limits, at whatever share of its speed it
-//! is followed. Another one takes its place only when it starts from the robot's very state; where none is found, the
-//! robot keeps to the one it has. So nothing that comes up, a motion, a stop or another override, can lead it off the
+//! Invariant: the current law brings the robot to rest on the path, within all limits, at whatever share of its speed
+//! it is followed. Another law takes its place only when it starts from exactly the state of the robot; where none is
+//! found, the robot keeps to the current one. So no motion, stop or change of the override can lead the robot off the
 //! path or beyond a limit.
 //!
-//! From rest the robot sets off before it has a law, on a ramp that would come to rest again: it joins the law on the
-//! way.
+//! From rest the robot starts before it has a law, on a ramp that would come to rest again, and joins the law while
+//! moving.
 //!
-//! Laws are found beside the cycle. What has to be done at once, stops and changes of the override, is done with the
-//! law in hand and with the limits that it was found from; where that makes a long stop, a shorter one is looked for
-//! beside the cycle.
+//! Laws are found in parallel with the cycle. What has to be done at once, stops and changes of the override, is done
+//! with the current law and with the limits that it was found from; where that makes a long stop, a shorter one is
+//! sought in parallel with the cycle.
 
 use std::sync::Arc;
 
@@ -22,37 +22,38 @@ use crate::time_optimal::ramp::Ramp;
 use crate::time_optimal::solver::{BoundaryState, Law, Moment};
 use crate::time_optimal::speed_scaling::{SpeedScaling, followed};
 
-/// A law of which a smaller part is left is made longer when there is more path.
+/// A law is renewed when less than this share of it is left, if there is more path.
 const RENEWED_AT_SHARE_LEFT: f64 = 0.5;
-/// It is made longer when no more than so many searches fit in what is left of it.
+/// A law is renewed when no more than this number of searches fit into what is left of it.
 const SEARCHES_LEFT: f64 = 2.0;
-/// A new law must be about as quick as the one in hand over the next part of that.
+/// A new law must be about as quick as the current one over this share of what is left of the current one.
 const COMPARED_SHARE: f64 = 0.3;
 const SLOWEST_RENEWAL_FACTOR: f64 = 1.1;
-/// After something was not found, the next attempt is made so many s later.
+/// Time in s until the next attempt after a search without a result.
 const RETRY_AFTER_S: f64 = 0.02;
-/// A stop that ends no more than so many s before the law does is that of the law.
+/// A stop that ends no more than this many s before the law does counts as the stop of the law.
 const SAME_STOP_S: f64 = 0.001;
-/// How many s a change of the override, or a stop for which no ramp is found, may take.
+/// Possible durations in s of a change of the override, or of a stop for which no ramp is found.
 const SCALING_DURATIONS_S: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
-/// A stop that takes longer, in s, is begun, and a shorter one looked for, which has to be shorter by so much.
+/// A stop that takes longer than this, in s, is begun, and a shorter one is sought, which has to save at least this
+/// much.
 const LONG_STOP_S: f64 = 0.05;
 const LEAST_GAIN_S: f64 = 0.004;
-/// A law is joined with this part of the acceleration and jerk, where that can be: between the places limits are not
-/// certain.
+/// A law is joined with this share of the acceleration and jerk where possible: between the places, limits are not
+/// exact.
 const JOINING_SHARE_OF_LIMITS: f64 = 0.985;
-/// So long may a change of the override take that follows the law in hand all the time, where there is another way.
+/// The longest time of a change of the override along the current law, where there is another possibility.
 const QUICK_SCALING_S: f64 = 0.25;
-/// What sets off from rest looks ahead for so many times the time in which it does.
+/// A start from rest looks ahead for this multiple of the time of speeding up.
 const SETTING_OFF_LOOK_FACTOR: f64 = 2.5;
-/// A rest of a duration or of the way, in s, that is none.
+/// A remainder of a duration or of a distance, in s, that counts as zero.
 const NO_TIME_S: f64 = 1e-9;
 
-/// Where the robot is on its law.
+/// The position of the robot on its law.
 #[derive(Clone, Debug)]
 struct Drive {
     found: Found,
-    /// s on the law.
+    /// Time on the law, in s.
     time: f64,
 }
 
@@ -65,7 +66,7 @@ impl Drive {
         self.left() <= NO_TIME_S
     }
 
-    /// Whether another law that starts here goes on about as quickly, before this one slows down for its end.
+    /// Whether another law that starts here is about as quick, before this one slows down for its end.
     fn is_as_quick(&self, other: &Found) -> bool {
         let later = COMPARED_SHARE * self.left();
         let there = self.found.law.at(self.time + later).at.min(other.end);
@@ -73,7 +74,8 @@ impl Drive {
         other.law.time_at(there) <= SLOWEST_RENEWAL_FACTOR * own
     }
 
-    /// A change of the share of its speed, from one with two derivatives, that keeps the limits, within `longest` s.
+    /// A change of the share of its speed, from a share with two derivatives, that keeps the limits, within `longest`
+    /// s.
     fn easing(&self, shares: [f64; 3], to: f64, stop_scale: f64, longest: f64) -> Option<Easing> {
         SCALING_DURATIONS_S.iter().take_while(|duration| **duration <= longest).find_map(|duration| {
             let easing = Easing { scaling: SpeedScaling::new(shares, to, *duration), time: 0.0, from: self.time };
@@ -87,12 +89,12 @@ impl Drive {
 struct Easing {
     scaling: SpeedScaling,
     time: f64,
-    /// The time on the law where it began.
+    /// Time on the law at which the change began.
     from: f64,
 }
 
 impl Easing {
-    /// How long it goes on, in s.
+    /// The remaining time, in s.
     fn left(&self) -> f64 {
         self.scaling.duration() - self.time
     }
@@ -125,22 +127,22 @@ impl Timed for Eased<'_> {
 }
 
 impl Eased<'_> {
-    /// The law at the same place.
+    /// The moment of the law at the same place.
     fn of_law(&self, time: f64) -> Moment {
         let Easing { scaling, time: begun, from } = self.easing;
         self.law.at(from + scaling.passed(begun + time))
     }
 }
 
-/// How the robot goes on if nothing comes up.
+/// How the robot continues if nothing else is requested.
 #[derive(Clone, Debug, Default)]
 struct Ahead {
     /// The law; `None` at rest.
     main: Option<Drive>,
-    /// The share of its speed at which it is followed, and the change of that.
+    /// The share of its speed at which the law is followed, and the change of that share.
     share: f64,
     easing: Option<Easing>,
-    /// What leads away from the law, to rest; the law is not followed any more then.
+    /// A ramp that leads away from the law, to rest; the law is then no longer followed.
     ramp: Option<Ramp>,
 }
 
@@ -148,39 +150,39 @@ struct Ahead {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LawFollower {
     ahead: Ahead,
-    /// s until another attempt is made.
+    /// The s until another attempt is made.
     pause: f64,
-    /// The same for another share of the speed.
+    /// The s until another attempt for another share of the speed is made.
     share_pause: f64,
-    /// The same for a shorter stop than the one in hand.
+    /// The s until another attempt for a shorter stop is made.
     stop_pause: f64,
-    /// How hard it brakes, where it does.
+    /// The scale of the limits with which it brakes, where it does.
     stop_scale: f64,
-    /// Whether there is no shorter way to rest than the one in hand.
+    /// Whether the current stop is already the shortest.
     shortest: bool,
-    /// Whether it last set off in vain.
+    /// Whether its last start was in vain.
     in_vain: bool,
 }
 
-/// The state from which another law is wanted, some cycles from now.
+/// The state from which another law is requested, some cycles from now.
 pub(crate) struct RenewalRequest {
-    /// Where, in s of nominal time.
+    /// Place, in s of nominal time.
     pub(crate) at: f64,
     pub(crate) start: BoundaryState,
     /// The law that leads there.
     pub(crate) law: Option<Arc<Law>>,
-    /// The share of its speed at which the law will be followed.
+    /// Share of its speed at which the law will be followed.
     pub(crate) share: f64,
-    /// How many cycles it is until then.
+    /// Number of cycles until then.
     pub(crate) cycles: u32,
 }
 
-/// The state from which a shorter stop is wanted, some cycles from now.
+/// The state from which a shorter stop is requested, some cycles from now.
 pub(crate) struct StopRequest {
-    /// Where, in s of nominal time.
+    /// Place, in s of nominal time.
     pub(crate) at: f64,
     pub(crate) start: BoundaryState,
-    /// How far it is to rest, if the limits there hold on, and where it has to rest at the farthest.
+    /// The distance to rest if the limits there stay the same, and the farthest place at which it has to be at rest.
     pub(crate) about: f64,
     pub(crate) end: f64,
 }
@@ -195,7 +197,7 @@ impl Ahead {
         self.easing.map_or([self.share, 0.0, 0.0], |easing| easing.scaling.at(easing.time))
     }
 
-    /// The limits along the path in hand, and where it ends; behind that the path may be another one by now.
+    /// The limits along the current path, and where it ends; behind its end the path may have changed meanwhile.
     fn limits(&self) -> Option<(&Arc<LimitCheck>, f64)> {
         match (&self.ramp, &self.main) {
             (Some(ramp), _) => Some((&ramp.check, ramp.end)),
@@ -214,7 +216,7 @@ impl Ahead {
         Some(State { at, vel, acc })
     }
 
-    /// Goes on for a cycle; returns where it has come to rest, if it has.
+    /// Advances by a cycle; returns where the robot has come to rest, if it has.
     fn advance(&mut self, cycle: f64) -> Option<f64> {
         if let Some(ramp) = &mut self.ramp {
             ramp.time += cycle;
@@ -249,28 +251,28 @@ impl Ahead {
 }
 
 impl LawFollower {
-    /// One that leads to rest, where the limits are those of the way times `stop_scale`.
+    /// A follower that leads to rest, within the limits of the path times `stop_scale`.
     pub(crate) fn resting(found: Found, stop_scale: f64) -> Self {
         let ahead = Ahead { ramp: Some(Ramp::along(found)), share: 1.0, ..Ahead::default() };
         Self { ahead, stop_scale, shortest: true, ..Self::default() }
     }
 
-    /// Whether it stands still.
+    /// Whether it is at rest.
     pub(crate) fn rests(&self) -> bool {
         self.ahead.rests()
     }
 
-    /// Whether it brakes for a stop, and will not go on by itself.
+    /// Whether it brakes for a stop, and will not continue by itself.
     pub(crate) fn brakes(&self) -> bool {
         self.ahead.ramp.is_some() || self.ahead.easing.as_ref().is_some_and(Easing::stops)
     }
 
-    /// The law in hand; `None` at rest, and before there is one.
+    /// The current law; `None` at rest, and before there is one.
     pub(crate) fn law(&self) -> Option<&Law> {
         self.ahead.main.as_ref().map(|main| &*main.found.law)
     }
 
-    /// How far the path is laid down by what is in hand.
+    /// The place up to which the current law or ramp depends on the path.
     pub(crate) fn end(&self) -> f64 {
         match (&self.ahead.ramp, &self.ahead.main) {
             (Some(ramp), _) => ramp.end,
@@ -279,8 +281,8 @@ impl LawFollower {
         }
     }
 
-    /// s until the parameter is at `at` at full speed, or at where the law is known to be followed to if that is
-    /// nearer, and where that is; `None` where it does not follow a law.
+    /// The s until the parameter reaches `at` at full speed, or the place up to which the law is certain to be followed
+    /// if that is nearer, with that place; `None` where no law is followed.
     pub(crate) fn time_to(&self, at: f64) -> Option<(f64, f64)> {
         let Drive { found: Found { law, end, stops, .. }, time } = self.ahead.main.as_ref()?;
         // What comes later will be another law, if there is one.
@@ -290,7 +292,7 @@ impl LawFollower {
         Some(((law.time_at(to) - time).max(0.0), to))
     }
 
-    /// The state a cycle later, in s of nominal time since the path began; `None` where it rests already.
+    /// The state a cycle later, in s of nominal time since the path began; `None` where it is already at rest.
     pub(crate) fn next(&mut self, cycle: f64) -> Option<State> {
         self.pause = (self.pause - cycle).max(0.0);
         self.share_pause = (self.share_pause - cycle).max(0.0);
@@ -301,13 +303,13 @@ impl LawFollower {
         }
     }
 
-    /// Goes off from rest.
+    /// Starts from rest along a law.
     pub(crate) fn start(&mut self, found: Found, share: f64) {
         self.ahead = Ahead { main: Some(Drive { found, time: 0.0 }), share, ..Ahead::default() };
     }
 
-    /// Sets off from rest before there is a law, for `time` s in which it is found, and would rest again soon if it
-    /// were not: not where it has just done so in vain.
+    /// Starts from rest before there is a law, for the `time` s in which it is found; comes to rest again soon after if
+    /// it is not found. Does not start where it has just done so in vain.
     pub(crate) fn set_off(&mut self, sampler: &ConstraintSampler, share: f64, time: f64) {
         if std::mem::take(&mut self.in_vain) {
             return;
@@ -317,15 +319,15 @@ impl LawFollower {
         let ramp = glimpsed.and_then(|SampledPath { way, end, .. }| {
             let mut ramp = Ramp::setting_off(start, &Arc::new(LimitCheck::new(way)), end, share, time)?;
             ramp.arrives = sampler.stops && sampler.end - ramp.end <= NO_TIME_S;
-            // It must not rest on its path before the law is there.
+            // It must not come to rest on its path before the law is there.
             (ramp.arrives || ramp.duration() > time).then_some(ramp)
         });
         (self.stop_scale, self.pause) = (0.0, 0.0);
         self.ahead = Ahead { ramp, share, ..Ahead::default() };
     }
 
-    /// Takes over the law that leads on from where it has set off, which it reaches smoothly; where it is not able to,
-    /// it comes to rest again.
+    /// Joins the law that leads on from where it has started, with a smooth transition; where that is not possible, it
+    /// comes to rest again.
     pub(crate) fn join(&mut self, found: Option<Found>) {
         let joined = found.zip(self.ahead.state()).and_then(|(found, now)| {
             let time = found.law.time_at(now.at);
@@ -343,13 +345,12 @@ impl LawFollower {
         }
     }
 
-    /// Whether the law in hand leads to where the robot has to stop.
+    /// Whether the current law leads to where the robot has to stop.
     pub(crate) fn stops(&self) -> bool {
         self.ahead.main.as_ref().is_some_and(|main| main.found.stops)
     }
 
-    /// The state after so many cycles from which the law is wanted that goes on behind the one in hand, if it is time
-    /// for that.
+    /// The state after `cycles` cycles from which a law behind the current one is needed, if it is time for that.
     pub(crate) fn renewal(&self, cycles: u32, cycle: f64) -> Option<RenewalRequest> {
         let main = self.ahead.main.as_ref()?;
         let search = f64::from(cycles) * cycle;
@@ -360,7 +361,7 @@ impl LawFollower {
         self.state_after(cycles, cycle)
     }
 
-    /// The state after so many cycles, for another law than the one in hand; `None` where it brakes.
+    /// The state after `cycles` cycles, for another law than the current one; `None` where it brakes.
     pub(crate) fn state_after(&self, cycles: u32, cycle: f64) -> Option<RenewalRequest> {
         if self.brakes() {
             return None;
@@ -377,8 +378,8 @@ impl LawFollower {
         })
     }
 
-    /// The state after so many cycles where it brakes, to go on at a share of the speed before it rests, or as soon as
-    /// it does.
+    /// The state after `cycles` cycles while it brakes, to continue at a share of the speed before it comes to rest, or
+    /// as soon as it does.
     pub(crate) fn renewal_after_stop(&self, cycles: u32, cycle: f64, share: f64) -> Option<RenewalRequest> {
         let ramp = self.ahead.ramp.as_ref().filter(|_| self.pause <= 0.0)?;
         let (end, cycles) = (ramp.end, cycles.max((ramp.calm() / cycle).ceil() as u32));
@@ -395,7 +396,7 @@ impl LawFollower {
         Some(RenewalRequest { at, start, law: None, share, cycles })
     }
 
-    /// How it will go on from after so many cycles on.
+    /// The state of following after `cycles` cycles.
     fn after(&self, cycles: u32, cycle: f64) -> Ahead {
         let mut then = self.ahead.clone();
         for _ in 0..cycles {
@@ -404,7 +405,8 @@ impl LawFollower {
         then
     }
 
-    /// Takes over the law for which there was a [`LawFollower::renewal`] so many cycles ago; returns whether it did.
+    /// Takes over the law that was requested by [`LawFollower::renewal`] a number of cycles ago; returns whether it
+    /// did.
     pub(crate) fn renew(&mut self, found: Option<Found>) -> bool {
         let Ahead { main: Some(main), easing, .. } = &mut self.ahead else { return false };
         let eased = easing.map(|easing| Easing { from: -easing.scaling.passed(easing.time), ..easing });
@@ -423,7 +425,7 @@ impl LawFollower {
         }
     }
 
-    /// The same for [`LawFollower::renewal_after_stop`].
+    /// Takes over the law that was requested by [`LawFollower::renewal_after_stop`].
     pub(crate) fn go_on(&mut self, found: Option<Found>, share: f64) {
         match found {
             Some(found) => self.start(found, share),
@@ -431,8 +433,8 @@ impl LawFollower {
         }
     }
 
-    /// Goes over to another share of the speed: along the law in hand, or, where that leaves too little of the limits,
-    /// by slowing down until another law begins, for which there is [`LawFollower::renewal_after_stop`]; that takes
+    /// Changes to another share of the speed: along the current law or, where that leaves too little of the limits, by
+    /// slowing down until another law begins, which is requested by [`LawFollower::renewal_after_stop`]; that takes
     /// `search` s.
     pub(crate) fn go_at(&mut self, share: f64, search: f64) {
         let Ahead { main: Some(main), easing, ramp: None, .. } = &self.ahead else { return };
@@ -459,8 +461,8 @@ impl LawFollower {
         }
     }
 
-    /// Brakes to rest, where the limits are those of the way times `stop_scale`, as can be done at once; returns
-    /// whether that is something new. There may be a shorter stop then: [`LawFollower::request_stop`].
+    /// Brakes to rest as is possible at once, within the limits of the path times `stop_scale`; returns whether this
+    /// changed anything. There may then be a shorter stop: [`LawFollower::request_stop`].
     pub(crate) fn brake(&mut self, stop_scale: f64) -> bool {
         if (self.brakes() && stop_scale <= self.stop_scale) || (self.stop_pause > 0.0 && stop_scale <= 1.0) {
             return false;
@@ -493,7 +495,7 @@ impl LawFollower {
         found
     }
 
-    /// The state after so many cycles for a shorter stop, if there may be one.
+    /// The state after `cycles` cycles for a shorter stop, if there may be one.
     pub(crate) fn request_stop(&self, cycles: u32, cycle: f64, stop_scale: f64) -> Option<StopRequest> {
         let known = self.shortest && stop_scale <= self.stop_scale;
         if known || self.stop_pause > 0.0 || self.stop_left() < LONG_STOP_S {
@@ -511,7 +513,8 @@ impl LawFollower {
         })
     }
 
-    /// Takes over the stop for which there was a [`LawFollower::request_stop`] so many cycles ago, if it is shorter.
+    /// Takes over the stop that was requested by [`LawFollower::request_stop`] a number of cycles ago, if it is
+    /// shorter.
     pub(crate) fn stop_along(&mut self, found: Option<Found>, stop_scale: f64) {
         match found.filter(|found| found.law.duration() < self.stop_left() - LEAST_GAIN_S) {
             Some(found) => {
@@ -526,14 +529,14 @@ impl LawFollower {
         }
     }
 
-    /// s until it rests; infinitely many where it neither brakes nor arrives.
+    /// The s until it is at rest; infinite where it neither brakes nor arrives at a stop.
     fn stop_left(&self) -> f64 {
         let easing = self.ahead.easing.filter(Easing::stops).map_or(f64::INFINITY, |easing| easing.left());
         self.ahead.ramp.as_ref().map_or(easing.min(self.arrives_in()), Ramp::left)
     }
 
-    /// s until the law leads to where the robot has to stop; infinitely many where it does not, or its speed changes
-    /// meanwhile.
+    /// The s until the law leads to where the robot has to stop; infinite where it does not, or where its share of the
+    /// speed is changing.
     fn arrives_in(&self) -> f64 {
         match &self.ahead {
             Ahead { main: Some(main), share, easing: None, ramp: None } if main.found.stops => main.left() / share,

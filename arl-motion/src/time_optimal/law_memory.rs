@@ -1,9 +1,9 @@
-//! Laws that were found before, for programs that do the same again and again.
+//! Laws that were found before, for programs that repeat the same motions.
 //!
-//! A law is a function of what it was found from, so one that is remembered is the one that would be found. What it was
-//! found from is known by a fingerprint of 128 bits: places, the derivatives and limits of all that moves there, the
-//! state at the start, and the law before. Two ways that are the same in all of these to the last bit, and yet another
-//! between the places, do not come up.
+//! A law is a function of what it was found from, so a remembered one is the one that would be found. What it was found
+//! from is identified by a fingerprint of 128 bits: places, the derivatives and limits of everything that moves there,
+//! the state at the start, and the law before. Two paths that agree in all of these to the last bit, yet differ between
+//! the places, do not occur.
 
 use std::collections::hash_map::DefaultHasher;
 use std::collections::{HashMap, VecDeque};
@@ -13,28 +13,28 @@ use std::sync::Arc;
 use crate::time_optimal::constraint_sampler::ConstraintSampler;
 use crate::time_optimal::solver::{BoundaryState, Law, Way};
 
-/// So many stretches are remembered of all laws together, of 80 bytes each.
+/// Maximum number of stretches that are remembered for all laws together, of 80 bytes each.
 const MOST_STRETCHES: usize = 60_000;
-/// What was not found takes as much room as a law of so many stretches.
+/// A search without a result takes as much room as a law of this many stretches.
 const ROOM_OF_NOTHING: usize = 10;
 
-/// So many requests are remembered with what was found, of no more segments than this each: a loop has some, a dense
-/// chain has thousands and is not gone twice.
+/// Maximum number of requests that are remembered with their results, and of segments in each: a loop has a few, while
+/// a dense chain has thousands and is not executed twice.
 const MOST_REQUESTS: usize = 1024;
 const MOST_SEGMENTS: usize = 512;
-/// So much room they take together, in rows of limits of 48 bytes.
+/// Maximum room of all requests, in rows of limits of 48 bytes.
 const MOST_ROOM: usize = 300_000;
-/// The room of a segment.
+/// The room of a segment, in such rows.
 const ROOM_OF_SEGMENT: usize = 10;
 
-/// A law, and how much its set-points use of the limits; `None` where there is none.
+/// A law, and the share of the limits that its set-points use; `None` where there is no law.
 pub(crate) type Answer = Option<(Arc<Law>, f64)>;
 
 /// The last laws that were found.
 #[derive(Debug, Default)]
 pub(crate) struct LawMemory {
     known: HashMap<u128, Remembered>,
-    /// How many stretches there are, and how often something was asked for.
+    /// Number of stretches, and number of requests so far.
     stretches: usize,
     asked: u64,
 }
@@ -42,12 +42,12 @@ pub(crate) struct LawMemory {
 #[derive(Debug)]
 struct Remembered {
     answer: Answer,
-    /// When it was asked for last.
+    /// When it was requested last.
     asked: u64,
 }
 
 impl LawMemory {
-    /// What was found from the same; else what `find` finds, which is remembered if it may be.
+    /// The result for the same key, else what `find` returns, which is remembered if it is final.
     pub(crate) fn recall(&mut self, key: u128, find: impl FnOnce() -> (Answer, bool)) -> Answer {
         self.asked += 1;
         if let Some(known) = self.known.get_mut(&key) {
@@ -63,7 +63,7 @@ impl LawMemory {
         answer
     }
 
-    /// Forgets what was not asked for for the longest time, until the rest is little enough.
+    /// Forgets the results that were not requested for the longest time, until the rest is small enough.
     fn forget(&mut self) {
         while self.stretches > MOST_STRETCHES
             && let Some(oldest) = self.known.iter().min_by_key(|(_, known)| known.asked).map(|(key, _)| *key)
@@ -74,12 +74,12 @@ impl LawMemory {
     }
 }
 
-/// The last requests for laws from a state on, where all that may be seen of the path is the same: then it is not
-/// looked at.
+/// The last requests for laws from a state on where everything that may be seen of the path is the same: then the path
+/// is not examined.
 #[derive(Default)]
 pub(crate) struct RequestMemory<F> {
     known: VecDeque<Request<F>>,
-    /// The room that they take together.
+    /// Room that they take together.
     room: usize,
 }
 
@@ -92,7 +92,7 @@ struct Request<F> {
 }
 
 impl<F: Clone> RequestMemory<F> {
-    /// What was found for the same request.
+    /// The result for the same request.
     pub(crate) fn recall(
         &self,
         sampler: &ConstraintSampler,
@@ -105,13 +105,15 @@ impl<F: Clone> RequestMemory<F> {
         self.known.iter().find(is_same).map(|known| known.found.clone())
     }
 
-    /// Remembers what was found for a request that was not known, if that takes little memory: as much as `rows` rows
-    /// of limits, beside the path.
+    /// Remembers the result of a request that was not known, if it takes little memory: that of `rows` rows of limits,
+    /// in addition to the path.
     pub(crate) fn remember(
         &mut self,
         sampler: ConstraintSampler,
-        (start, before): (BoundaryState, Option<Arc<Law>>),
-        (found, rows): (F, usize),
+        start: BoundaryState,
+        before: Option<Arc<Law>>,
+        found: F,
+        rows: usize,
     ) {
         if sampler.segments() > MOST_SEGMENTS {
             return;
@@ -133,7 +135,7 @@ fn room(answer: &Answer) -> usize {
 
 /// The fingerprint of what a law is found from.
 pub(crate) fn key(way: &Way, start: BoundaryState, before: Option<&Law>) -> u128 {
-    // The second one begins elsewhere, so that the two have nothing to do with each other.
+    // The second hasher starts differently, so that the two are independent.
     let mut halves = [DefaultHasher::new(), DefaultHasher::new()];
     halves[1].write_u64(1);
     let mut note = |number: u64| halves.iter_mut().for_each(|half| half.write_u64(number));
@@ -198,7 +200,7 @@ mod tests {
         memory.recall(0, || panic!("it is known"));
         memory.recall(most, || (law.clone(), true));
         assert!(memory.known.contains_key(&0) && !memory.known.contains_key(&1) && memory.stretches <= MOST_STRETCHES);
-        // What nobody wanted any more was not looked for to its end.
+        // A search that was abandoned is not remembered.
         memory.recall(most + 1, || (None, false));
         assert!(!memory.known.contains_key(&(most + 1)));
     }

@@ -1,8 +1,8 @@
-//! Finds laws beside the cycle: on a thread of its own, from a copy of what there is to know.
+//! Finds laws in parallel with the cycle: on a thread of its own, from a copy of the data it needs.
 //!
-//! A law is asked for in one cycle and taken over a fixed number of cycles later, whenever it was really found: so a
-//! run is the same at every clock, and on every machine. If it is not found by then, that cycle waits for it; but not
-//! in real time, where the robot does without it, and the next ones are asked for earlier.
+//! A law is requested in one cycle and taken over a fixed number of cycles later, no matter when it was really found:
+//! so a run is the same with every clock, and on every machine. If the law is not found by then, that cycle waits for
+//! it; but not in real time, where the robot does without it, and the next laws are requested earlier.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,47 +18,48 @@ use crate::time_optimal::set_points::used_by_set_points;
 use crate::time_optimal::solver::{BoundaryState, CREEPING, Law, Pace, Way, fastest, fastest_behind, fastest_near};
 use crate::time_optimal::stop_prediction::StopPrediction;
 
-/// How long finding a law may take, in s of controller time; and along very many motions.
+/// The time for finding a law, in s of controller time; and the time along very many motions.
 const SOLVING_TIME_S: f64 = 0.02;
 const SOLVING_TIME_ON_DENSE_CHAIN_S: f64 = 0.06;
-/// After one that came too late it may take this factor more, up to so many s; what it may take more gets less again
-/// with each one that came in time.
+/// After a law that came too late, the time grows by this factor, up to this many s; the excess decays by the last
+/// factor with each law that comes in time.
 const LATE_FACTOR: f64 = 2.0;
 const LONGEST_SOLVING_TIME_S: f64 = 0.3;
 const SLOWNESS_DECAY: f64 = 0.97;
-/// How many s of nominal time are looked ahead at first.
+/// The initial look-ahead in s of nominal time.
 pub(crate) const FIRST_LOOK_AHEAD_S: f64 = 2.0;
-/// A law takes so many s at least, if there is so much path; and about so many where it can be told by the law before.
+/// The least duration of a law in s, if there is enough path; and the intended duration where the law before allows an
+/// estimate.
 const LEAST_LAW_S: f64 = 1.5;
 const AIMED_LAW_S: f64 = 2.0;
-/// Behind another law, so many times as far as that leads.
+/// Behind another law, the look-ahead as a multiple of how far that law leads.
 const BEHIND_LAW_FACTOR: f64 = 1.2;
-/// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the
-/// limits: where they change much between the places, closer ones are needed.
+/// Shares of the path, and factors on the number of places, with which a law is sought until one keeps the limits:
+/// where the limits change much between the places, closer places are needed.
 const SHARES_AND_DENSITIES: [(f64, f64); 5] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0), (0.15, 6.0)];
-/// The same for all of the way, behind a first attempt.
+/// The same factors for the whole path, after a first attempt.
 const DENSITIES: [f64; 3] = [2.0, 3.0, 6.0];
-/// How often the limits are lowered where a law uses too much of them.
+/// Maximum number of times that the limits are lowered where a law uses too much of them.
 const MOST_TEMPERINGS: i32 = 6;
-/// So much of the limits a law may use; a stop may use a little more, so that there is one from any state of a law, and
-/// what uses more than that is not a law.
+/// The share of the limits that a law may use; a stop may use a little more, so that a stop exists from any state of a
+/// law, and what uses more than that is not a law.
 const TEMPERED_USE: f64 = 1.006;
-/// They are lowered by more than it takes, each time by the square of this more, where no more than so much of them is
-/// used.
+/// The limits are lowered by more than necessary, each time by the square of this factor more, unless more than the
+/// second value of them is used.
 const TEMPERED_SHARE: f64 = 0.998;
 const MOST_TEMPERED_USE: f64 = 4.0;
-/// A stop has a little more acceleration and jerk to go by than a law, so that there is one from any state of a law; it
-/// is looked for at so many places at most, so much farther ahead each time, until one is known to be so near the
-/// shortest.
+/// A stop has a little more acceleration and jerk available than a law, so that a stop exists from any state of a law.
+/// It is sought at no more than this many places, each farther ahead by this factor, until one is known to be within
+/// this share of the shortest.
 const STOP_LIMIT_FACTOR: f64 = 1.004;
 const MOST_STOP_PLACES_TRIED: usize = 12;
 const STOP_STEP_FACTOR: f64 = 1.4;
 const SHORTEST_STOP_SHARE: f64 = 0.96;
 const STOP_DENSITIES: [f64; 2] = [1.0, 2.0];
-/// With so many places on all the paths that were tried, it has to do what was found.
+/// With this many places on all the paths that were tried, the search ends with what was found.
 const MOST_STOP_SAMPLES: usize = 1500;
-/// A stop that the governor does within so many s is short; another one has to take less than this part of its time,
-/// and is looked for at this part of its path first.
+/// A stop of the governor within this many s is short; for a longer one, a shorter stop has to take less than this
+/// share of its time, and is first sought at this share of its distance.
 const SHORT_STOP_S: f64 = 0.1;
 const SHORTER_STOP_SHARE_OF_TIME: f64 = 0.8;
 const SHORTER_STOP_SHARE_OF_WAY: f64 = 0.5;
@@ -73,13 +74,13 @@ pub(crate) struct Found {
     pub(crate) stops: bool,
 }
 
-/// A law that is being looked for.
+/// A law that is being sought.
 #[derive(Clone, Debug)]
 pub(crate) struct Search {
     result: Arc<Outcome>,
-    /// How many cycles are left.
+    /// Number of cycles left.
     left: u32,
-    /// Whether it counts as one that came too late.
+    /// Whether it has been counted as too late.
     is_late: bool,
 }
 
@@ -89,12 +90,12 @@ struct Outcome {
     abandoned: AtomicBool,
 }
 
-/// What has become of a search.
+/// The state of a search.
 pub(crate) enum Status {
-    /// It is not time yet.
+    /// Not due yet.
     Running,
     Done(Option<Found>),
-    /// It is time, and the law is not there; only in real time.
+    /// Due, but the law is not there; only in real time.
     Late,
 }
 
@@ -104,40 +105,40 @@ struct Task {
     result: Arc<Outcome>,
 }
 
-/// What is looked for.
+/// What is sought.
 pub(crate) enum LawRequest {
-    /// The fastest law from a state to rest at the end of what the sampler sees or as far as is looked ahead, with the
-    /// law that leads to that state.
+    /// The fastest law from a state to rest, at the end of what the sampler covers or of the look-ahead, with the law
+    /// that leads to that state.
     Fastest(BoundaryState, Option<Arc<Law>>),
-    /// The shortest one from a state to rest, about so far ahead, with acceleration and jerk `stop_scale` times as
-    /// high.
+    /// The shortest law from a state to rest, at a distance of about `about`, with acceleration and jerk times
+    /// `stop_scale`.
     Shortest { start: BoundaryState, about: f64, stop_scale: f64 },
-    /// The shortest one to rest, from the state that the robot has so many cycles from now, if that is much sooner than
-    /// the governor would rest.
+    /// The shortest law to rest, from the state of the robot in this number of cycles, if it comes to rest much sooner
+    /// than the governor would.
     ShorterStop(Box<StopPrediction>, u32),
 }
 
-/// The thread that finds laws; it begins with the first one that is asked for.
+/// The thread that finds laws; it starts with the first request.
 #[derive(Debug, Default)]
 pub(crate) struct LawSolver {
     tasks: Option<Sender<Task>>,
-    /// Whether cycles take the time that they stand for.
+    /// Whether cycles run in real time.
     in_real_time: bool,
-    /// How many times longer finding a law may take, beyond once; 0 as long as none has come too late.
+    /// Relative excess of the time for finding a law; 0 as long as no law has come too late.
     slowness: f64,
-    /// How many came too late.
+    /// Number of laws that came too late.
     late: u64,
 }
 
 impl Clone for LawSolver {
-    /// Another one, with a thread of its own.
+    /// Creates another solver, with a thread of its own.
     fn clone(&self) -> Self {
         Self { in_real_time: self.in_real_time, ..Self::default() }
     }
 }
 
 impl LawSolver {
-    /// Whether cycles take the time that they stand for: then none waits for a law.
+    /// Sets whether cycles run in real time: then none waits for a law.
     pub(crate) fn follow_real_time(&mut self, in_real_time: bool) {
         self.in_real_time = in_real_time;
         if !in_real_time {
@@ -145,19 +146,20 @@ impl LawSolver {
         }
     }
 
-    /// How many laws came too late.
+    /// The number of laws that came too late.
     pub(crate) fn late(&self) -> u64 {
         self.late
     }
 
-    /// After how many cycles of `cycle` s a law can be taken over at the earliest, along a dense chain or another one.
+    /// The number of cycles of `cycle` s after which a law can be taken over at the earliest, along a dense chain or
+    /// not.
     pub(crate) fn cycles(&self, cycle: f64, is_dense: bool) -> u32 {
         let time = if is_dense { SOLVING_TIME_ON_DENSE_CHAIN_S } else { SOLVING_TIME_S };
         let time = (time * (1.0 + self.slowness)).min(LONGEST_SOLVING_TIME_S);
         (time / cycle - 1e-6).ceil().max(1.0) as u32
     }
 
-    /// Counts a cycle of a search, and looks what has become of it.
+    /// Counts a cycle of a search, and returns its state.
     pub(crate) fn look(&mut self, search: &mut Search) -> Status {
         search.left = search.left.saturating_sub(1);
         if search.left > 0 {
@@ -183,7 +185,7 @@ impl LawSolver {
         }
     }
 
-    /// Counts a law that the robot has to do without, or to wait for at rest, because it comes too late; once.
+    /// Counts a law as too late, once: the robot has to do without it, or has to wait for it at rest.
     pub(crate) fn note_late(&mut self, search: &mut Search) {
         if !std::mem::replace(&mut search.is_late, true) {
             self.late += 1;
@@ -192,7 +194,7 @@ impl LawSolver {
         }
     }
 
-    /// Begins to look for a law; it will be taken over after so many cycles.
+    /// Starts the search for a law, which will be taken over after `cycles` cycles.
     pub(crate) fn search(&mut self, sampler: ConstraintSampler, request: LawRequest, cycles: u32) -> Search {
         let result = Arc::new(Outcome::default());
         let task = Task { sampler, request, result: Arc::clone(&result) };
@@ -203,7 +205,7 @@ impl LawSolver {
             Some(tasks) => tasks.send(task).err().map(|refused| refused.0),
             None => Some(task),
         };
-        // Without a thread the law has to be found at once.
+        // Without a thread, the law has to be found at once.
         if let Some(task) = refused {
             self.tasks = None;
             task.run(&mut Memory::default());
@@ -213,13 +215,13 @@ impl LawSolver {
 }
 
 impl Search {
-    /// Says that the law is not needed any more.
+    /// Marks the law as no longer needed.
     pub(crate) fn cancel(&self) {
         self.result.abandoned.store(true, Ordering::Relaxed);
     }
 }
 
-/// Starts the thread; it ends when nobody can ask it any more.
+/// Starts the thread; it ends when no more tasks can be sent to it.
 fn begin() -> Option<Sender<Task>> {
     let (tasks, asked) = channel::<Task>();
     let work = move || {
@@ -230,28 +232,28 @@ fn begin() -> Option<Sender<Task>> {
     beside::spawn(thread::Builder::new().name("laws".into()), work).ok().map(|_| tasks)
 }
 
-/// What the thread remembers.
+/// The memory of the thread.
 #[derive(Default)]
 struct Memory {
     laws: LawMemory,
     requests: RequestMemory<Option<Found>>,
 }
 
-/// What threads remembered that have ended: the next run of this process may ask for the same. A request is known again
-/// by all that may be seen of the path, so that what is found depends on nothing that was before.
+/// What threads that have ended remembered: the next run of this process may request the same. A request is recognised
+/// by everything that may be seen of the path, so that results do not depend on what came before.
 static KEPT: KeptMemory = Mutex::new(Vec::new());
 type KeptMemory = Mutex<Vec<RequestMemory<Option<Found>>>>;
-/// So many of them are kept.
+/// Maximum number that is kept.
 const MOST_KEPT: usize = 4;
 
 impl Memory {
-    /// With what the thread before remembered that ended last.
+    /// Starts with the memory of the thread that ended last.
     fn begun(left: &KeptMemory) -> Self {
         let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
         Self { laws: LawMemory::default(), requests: left.pop().unwrap_or_default() }
     }
 
-    /// Leaves it to the next thread.
+    /// Leaves the memory to the next thread.
     fn leave(self, left: &KeptMemory) {
         let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
         if left.len() < MOST_KEPT {
@@ -265,22 +267,20 @@ impl Task {
         let Self { sampler, request, result } = self;
         let wanted = || !result.abandoned.load(Ordering::Relaxed);
         let find = || match request {
-            LawRequest::Fastest(start, law) => recall_or_find(sampler, (start, law), memory, wanted),
-            LawRequest::Shortest { start, about, stop_scale } => {
-                find_stop(&sampler, start, (about, stop_scale), wanted)
-            }
+            LawRequest::Fastest(start, law) => recall_or_find(sampler, start, law, memory, wanted),
+            LawRequest::Shortest { start, about, stop_scale } => find_stop(&sampler, start, about, stop_scale, wanted),
             LawRequest::ShorterStop(prediction, cycles) => find_shorter_stop(sampler, *prediction, cycles, wanted),
         };
-        // Whoever waits has to get an answer in any case.
+        // A waiting cycle has to get a result in any case.
         let found = catch_unwind(AssertUnwindSafe(find)).unwrap_or(None);
-        // Nobody else sets it.
+        // Nothing else sets it.
         let _ = result.found.set(found);
     }
 }
 
 #[cfg(test)]
 impl LawSolver {
-    /// Has the thread never find anything.
+    /// Makes the thread never find anything.
     pub(crate) fn find_nothing(&mut self) {
         let (tasks, asked) = channel();
         std::mem::forget(asked);
@@ -298,34 +298,36 @@ impl Search {
 
 #[cfg(test)]
 thread_local! {
-    /// How many laws this thread has looked for.
+    /// Number of laws that this thread has sought.
     pub(crate) static FOUND_HERE: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
-    /// How many answers this thread has waited for, and how many of them were that there is no law.
+    /// Number of results that this thread has waited for, and how many of them were that there is no law.
     pub(crate) static ANSWERS: std::cell::Cell<[u32; 2]> = const { std::cell::Cell::new([0, 0]) };
 }
 
-/// The fastest law from a state on, which may be known.
+/// The fastest law from a state on, remembered or found now.
 fn recall_or_find(
     sampler: ConstraintSampler,
-    (start, before): (BoundaryState, Option<Arc<Law>>),
+    start: BoundaryState,
+    before: Option<Arc<Law>>,
     memory: &mut Memory,
     wanted: impl Fn() -> bool,
 ) -> Option<Found> {
     if let Some(known) = memory.requests.recall(&sampler, start, before.as_ref()) {
         return known;
     }
-    let found = find(&sampler, (start, before.as_deref()), &mut memory.laws, &wanted);
+    let found = find(&sampler, start, before.as_deref(), &mut memory.laws, &wanted);
     if wanted() {
         let rows = found.as_ref().map_or(0, |found| 2 * found.law.stretches() + found.check.rows());
-        memory.requests.remember(sampler, (start, before), (found.clone(), rows));
+        memory.requests.remember(sampler, start, before, found.clone(), rows);
     }
     found
 }
 
-/// The fastest law from a state on.
+/// Finds the fastest law from a state on.
 fn find(
     sampler: &ConstraintSampler,
-    (start, before): (BoundaryState, Option<&Law>),
+    start: BoundaryState,
+    before: Option<&Law>,
     memory: &mut LawMemory,
     wanted: impl Fn() -> bool,
 ) -> Option<Found> {
@@ -333,7 +335,7 @@ fn find(
     FOUND_HERE.with(|count| count.set(count.get() + 1));
     let stop = sampler.end;
     let speed = before.map(Law::mean_speed).filter(|speed| *speed > 0.0);
-    // No nearer than the law before leads: the robot may not be able to rest there.
+    // No nearer than the law before leads: the robot may not be able to come to rest there.
     let known = before.map_or(0.0, |law| law.end() - sampler.at);
     let mut window = speed.map_or(FIRST_LOOK_AHEAD_S, |speed| AIMED_LAW_S * speed).max(BEHIND_LAW_FACTOR * known);
     let mut found = None;
@@ -347,13 +349,13 @@ fn find(
             }?;
             let sparse = thinned.as_ref().unwrap_or(&way);
             let found = || {
-                let found = law_within_limits(sampler, sparse, (start, before), &wanted);
+                let found = law_within_limits(sampler, sparse, start, before, &wanted);
                 (found.map(|(law, used)| (Arc::new(law), used)), wanted())
             };
             let (law, used) = memory.recall(key(sparse, start, before), found)?;
             Some((way, end, law, used))
         };
-        // Between the places a law may ask for more than there is: a little is better than none.
+        // Between the places, a law may require more than is available: a small excess is acceptable.
         let mut best: Option<(Way, f64, Arc<Law>, f64)> = None;
         for attempt in SHARES_AND_DENSITIES.iter().take_while(|_| wanted()).filter_map(&mut attempt) {
             if best.as_ref().is_none_or(|(.., least)| attempt.3 < *least) {
@@ -370,14 +372,14 @@ fn find(
         if end < to || to >= stop || ahead >= LEAST_LAW_S {
             return found;
         }
-        // Nominal times are short where constant limits are low: far enough, and not much farther.
+        // Nominal times are short where constant limits are low: look far enough, but not much farther.
         window *= (1.5 * LEAST_LAW_S / ahead).clamp(1.5, 8.0);
     }
     None
 }
 
-/// How long the fastest motion along all that the sampler sees takes, from rest to rest, in s, looked for at the places
-/// of `first`, which go to the end, then at closer ones; `None` where no law keeps the limits.
+/// The duration of the fastest motion along everything that the sampler covers, from rest to rest, in s: sought at the
+/// places of `first`, which reach the end, then at closer places; `None` where no law keeps the limits.
 pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: SampledPath) -> Option<f64> {
     let closer = DENSITIES.iter().filter_map(|density| {
         let prospect = sampler.look(sampler.end, *density, BoundaryState::REST, BoundaryState::REST)?;
@@ -385,17 +387,18 @@ pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: SampledPath) 
     });
     [first].into_iter().chain(closer).find_map(|prospect| {
         let sparse = prospect.thinned.as_ref().unwrap_or(&prospect.way);
-        let (law, used) = law_within_limits(sampler, sparse, (BoundaryState::REST, None), &|| true)?;
+        let (law, used) = law_within_limits(sampler, sparse, BoundaryState::REST, None, &|| true)?;
         (used <= MOST_USED_SHARE).then(|| law.duration())
     })
 }
 
-/// The fastest law along a path that keeps the limits by its places, with the share of them that its set-points use.
+/// The fastest law along a path that keeps the limits at its places, with the share of them that its set-points use.
 /// Where that is a little too much, the limits are lowered.
 fn law_within_limits(
     sampler: &ConstraintSampler,
     way: &Way,
-    (start, before): (BoundaryState, Option<&Law>),
+    start: BoundaryState,
+    before: Option<&Law>,
     wanted: &impl Fn() -> bool,
 ) -> Option<(Law, f64)> {
     let mut limits = way.clone();
@@ -408,11 +411,11 @@ fn law_within_limits(
             None => fastest_behind(&limits, start, BoundaryState::REST, before),
         };
         let Some(law) = solved.ok().filter(|_| wanted()) else { break };
-        // Lower limits cost little, but where the search has lost its way.
+        // Lower limits cost little time unless the search fails.
         if law.duration() > CREEPING * *longest.get_or_insert(law.duration()) {
             break;
         }
-        // Always that of the first law: what is lowered for one parameter is lowered for it.
+        // Always the pace of the first law: limits that are lowered for one parameter hold for that parameter.
         pace = pace.or_else(|| law.pace());
         let mut used = used_by_law(way, &law, TEMPERED_USE)?;
         if used.most <= MOST_USED_SHARE {
@@ -433,14 +436,14 @@ fn law_within_limits(
     best
 }
 
-/// The shortest law from a state on to rest, which is about so far ahead, with acceleration and jerk times
-/// `stop_scale`.
+/// The shortest law from a state to rest at a distance of about `about`, with acceleration and jerk times `stop_scale`.
 ///
-/// Whether there is a law to rest at a place is what the solver tells; nearer than the shortest stop there is none.
+/// Whether there is a law to rest at a place is decided by the solver; there is none nearer than the shortest stop.
 fn find_stop(
     sampler: &ConstraintSampler,
     start: BoundaryState,
-    (about, stop_scale): (f64, f64),
+    about: f64,
+    stop_scale: f64,
     wanted: impl Fn() -> bool,
 ) -> Option<Found> {
     let farthest = sampler.end - sampler.at;
@@ -491,7 +494,8 @@ fn find_stop(
     found.map(|(law, _)| law)
 }
 
-/// The same from the state that the governor's stop leads to within so many cycles, if it rests much sooner than that.
+/// The shortest stop from the state that the governor's stop leads to within `cycles` cycles, if it takes much less
+/// time than the governor's stop.
 fn find_shorter_stop(
     sampler: ConstraintSampler,
     mut prediction: StopPrediction,
@@ -506,7 +510,7 @@ fn find_shorter_stop(
         return None;
     }
     let sampler = sampler.behind(at).up_to(at + way);
-    let found = find_stop(&sampler, start, (SHORTER_STOP_SHARE_OF_WAY * way, stop_scale), wanted)?;
+    let found = find_stop(&sampler, start, SHORTER_STOP_SHARE_OF_WAY * way, stop_scale, wanted)?;
     (found.law.duration() < SHORTER_STOP_SHARE_OF_TIME * time).then_some(found)
 }
 
@@ -535,7 +539,7 @@ mod tests {
         for expected in [40, 80, 160, 300, 300] {
             let mut late = search(false);
             assert!(matches!(solver.look(&mut late), Status::Late));
-            // It is told once, however long the robot waits for it.
+            // It is counted once, however long the robot waits for it.
             solver.note_late(&mut late);
             solver.note_late(&mut late);
             assert_eq!(solver.cycles(0.001, false), expected);
@@ -549,7 +553,7 @@ mod tests {
         assert_eq!(solver.cycles(0.001, false), 20);
     }
 
-    /// What a way of the axes, at a share of the speed, looks like from its start; its segment has this number.
+    /// A sampler of a motion of the axes, at a share of the speed, from its start; its segment has this number.
     fn sampler(robot: &Arc<Robot>, number: u64, percent: f64) -> ConstraintSampler {
         let start = crate::tests::axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
         let plain: Command =
@@ -558,9 +562,7 @@ mod tests {
         let motion = plan(robot, &start, &command, &Settings::default()).unwrap();
         let mut segments = SharedDeque::default();
         segments.push_back(Arc::new(Segment::part(&motion, motion.limits.unwrap(), number, 0.0, 1.0)));
-        let end = segments.front().unwrap().time;
-        let part = Part { segments, from: 0, count: 1 };
-        ConstraintSampler::new(robot, part, 0.0, (end, true), (0.0, &start))
+        ConstraintSampler::new(robot, Part::whole(segments), 0.0, &start)
     }
 
     #[test]
@@ -569,7 +571,7 @@ mod tests {
         let mut memory = Memory::default();
         let mut law = |number: u64, percent: f64, start: BoundaryState, before: Option<Arc<Law>>| {
             let asked = FOUND_HERE.get();
-            let found = recall_or_find(sampler(&robot, number, percent), (start, before), &mut memory, || true);
+            let found = recall_or_find(sampler(&robot, number, percent), start, before, &mut memory, || true);
             (FOUND_HERE.get() - asked, found.map(|found| found.law))
         };
         let (_, first) = law(1, 50.0, BoundaryState::REST, None);
@@ -581,9 +583,9 @@ mod tests {
         let state = BoundaryState { vel: state.vel, acc: state.acc };
         assert_eq!(law(7, 50.0, state, None).0, 1);
         assert_eq!(law(7, 50.0, BoundaryState::REST, Some(first)).0, 1);
-        // What nobody wanted any more is not remembered.
+        // A search that was abandoned is not remembered.
         let mut memory = Memory::default();
-        recall_or_find(sampler(&robot, 1, 50.0), (BoundaryState::REST, None), &mut memory, || false);
+        recall_or_find(sampler(&robot, 1, 50.0), BoundaryState::REST, None, &mut memory, || false);
         assert!(memory.requests.recall(&sampler(&robot, 1, 50.0), BoundaryState::REST, None).is_none());
     }
 
@@ -594,7 +596,7 @@ mod tests {
         let law = |speed| {
             let mut memory = Memory::begun(&left);
             let asked = FOUND_HERE.get();
-            let found = recall_or_find(sampler(&robot, 1, speed), (BoundaryState::REST, None), &mut memory, || true);
+            let found = recall_or_find(sampler(&robot, 1, speed), BoundaryState::REST, None, &mut memory, || true);
             memory.leave(&left);
             (FOUND_HERE.get() - asked, found.unwrap().law)
         };
@@ -603,7 +605,7 @@ mod tests {
         assert_eq!(law(40.0).0, 1);
         let (asked, again) = law(50.0);
         assert!(asked == 0 && Arc::ptr_eq(&first, &again));
-        // Robots beside each other have memories of their own.
+        // Robots that run at the same time have memories of their own.
         let [one, other] = [Memory::begun(&left), Memory::begun(&left)];
         let known =
             |memory: &Memory| memory.requests.recall(&sampler(&robot, 1, 50.0), BoundaryState::REST, None).is_some();
@@ -617,8 +619,7 @@ mod tests {
     fn a_way_that_was_gone_before_is_not_timed_again() {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
         let mut memory = LawMemory::default();
-        let mut law =
-            || find(&sampler(&robot, 1, 50.0), (BoundaryState::REST, None), &mut memory, || true).unwrap().law;
+        let mut law = || find(&sampler(&robot, 1, 50.0), BoundaryState::REST, None, &mut memory, || true).unwrap().law;
         assert!(Arc::ptr_eq(&law(), &law()));
     }
 }

@@ -3,18 +3,19 @@
 use crate::limits::profile::Limits;
 use crate::time_optimal::solver::{Law, Moment, Row, Way};
 
-/// A motion is looked at every so many s, and may use so much of the limits.
+/// The interval in s at which a motion is checked, and the share of the limits that it may use.
 const SAMPLE_S: f64 = 0.001;
 pub(crate) const MOST_USED_SHARE: f64 = 1.008;
-/// By the limits at its places a motion that is known to be within them may use so much: set-points smear out what is
-/// shorter than they are apart.
+/// The share that a motion may use by the limits at its places if it is known to be within them: set-points smear out
+/// what is shorter than their distance.
 const MOST_KNOWN_SHARE: f64 = 1.0095;
-/// Beside its ends, for so many s, a law is looked at closer by this factor, for what is far beyond the limits: where
-/// it rests, what changes most does so within less than a set-point, and nobody sees it before the next law goes off.
+/// Near its ends, for this many s, a law is checked at intervals shorter by this factor for uses beyond this share of
+/// the limits: where it is at rest, rapid changes take less than a set-point, and would not be noticed before the next
+/// law starts.
 const BESIDE_END_S: f64 = 0.004;
 const CLOSER_BESIDE_END: u32 = 10;
 const FAR_BEYOND: f64 = 1.1;
-/// A speed below zero, in s of nominal time per s, that is rounding.
+/// A negative speed, in s of nominal time per s, that is due to rounding.
 const BACKWARDS_ROUNDING: f64 = 1e-9;
 /// No limits.
 const NO_LIMITS: Limits = Limits { vel: f64::INFINITY, acc: f64::INFINITY, jerk: f64::INFINITY };
@@ -23,28 +24,28 @@ const NO_LIMITS: Limits = Limits { vel: f64::INFINITY, acc: f64::INFINITY, jerk:
 #[derive(Debug)]
 pub(crate) struct LimitCheck {
     way: Way,
-    /// What the parameter may have at each place where it hardly moves.
+    /// The limits of the parameter at each place where it hardly moves.
     straight: Vec<Limits>,
 }
 
-/// How much of the limits a motion uses.
+/// The share of the limits that a motion uses.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Used {
     /// The largest share.
     pub(crate) most: f64,
-    /// What it may be.
+    /// The permitted share.
     allowed: f64,
-    /// From where to where it is more than it may be, and how much.
+    /// Intervals in which the share is higher than permitted, with the share.
     pub(crate) beyond: Vec<([f64; 2], f64)>,
 }
 
 impl Used {
-    /// Nothing so far, of a motion that may use so much.
+    /// Nothing used so far, by a motion that may use `allowed`.
     pub(crate) fn of(allowed: f64) -> Self {
         Self { most: 0.0, allowed, beyond: Vec::new() }
     }
 
-    /// Between two places it is `share`.
+    /// Notes that the share between two places is `share`.
     pub(crate) fn note(&mut self, between: [f64; 2], share: f64) {
         let share = if share.is_nan() { f64::INFINITY } else { share };
         self.most = self.most.max(share);
@@ -59,7 +60,7 @@ pub(crate) trait Timed {
     fn at(&self, time: f64) -> Moment;
     fn duration(&self) -> f64;
 
-    /// Another motion at the same place, which is known to be within the limits.
+    /// Another motion at the same place, known to be within the limits.
     fn known(&self, _time: f64) -> Option<Moment> {
         None
     }
@@ -76,7 +77,7 @@ impl Timed for Law {
 }
 
 impl LimitCheck {
-    /// How many rows of limits it has.
+    /// The number of rows of limits.
     pub(crate) fn rows(&self) -> usize {
         self.way.row_count()
     }
@@ -102,12 +103,12 @@ impl LimitCheck {
         keeps(&Look { way: &self.way, stop_scale, between: Between::Even }, motion)
     }
 
-    /// The same for a motion that does not follow a law.
+    /// Whether a motion that does not follow a law keeps the limits.
     pub(crate) fn surely_keeps(&self, motion: &impl Timed, stop_scale: f64) -> bool {
         keeps(&Look { way: &self.way, stop_scale, between: Between::Most }, motion)
     }
 
-    /// The limits that the parameter has all the way between two places where it hardly moves.
+    /// The limits that the parameter has everywhere between two places where it hardly moves.
     pub(crate) fn straight(&self, from: f64, to: f64) -> Limits {
         let places = self.way.places();
         let first = places.partition_point(|place| *place <= from).saturating_sub(1);
@@ -118,23 +119,23 @@ impl LimitCheck {
             acc: least.acc.min(here.acc),
             jerk: least.jerk.min(here.jerk),
         });
-        // Without any limit of its own a ramp takes a few cycles.
+        // Without any limit of its own, a ramp takes a few cycles.
         Limits { vel, acc, jerk: jerk.min(1e3 * acc) }
     }
 }
 
-/// What counts between two places of a path.
+/// Which use counts between two places of a path.
 #[derive(Clone, Copy)]
 enum Between {
-    /// The less that is used of the limits of either, for a law: it was found for what lies between.
+    /// The lower use of the two places, for a law: it was found for what lies between.
     Least,
-    /// What lies between what is used of the limits of both: derivatives change evenly from place to place.
+    /// The use interpolated between the two places: derivatives change evenly from place to place.
     Even,
-    /// The more.
+    /// The higher use of the two places.
     Most,
 }
 
-/// The share of the limits, those of acceleration and jerk times `stop_scale`, that a motion uses.
+/// The share of the limits that a motion uses, those of acceleration and jerk times `stop_scale`.
 fn used(rows: &[Row], now: &Moment, stop_scale: f64) -> f64 {
     rows.iter().fold(0.0_f64, |used, row| {
         let acc = row.first * now.acc + row.second * now.vel * now.vel;
@@ -145,8 +146,8 @@ fn used(rows: &[Row], now: &Moment, stop_scale: f64) -> f64 {
     })
 }
 
-/// How much of the limits a law uses, of `allowed`, along the path that it was found for; `None` where it goes
-/// backwards.
+/// The share of the limits that a law uses, of `allowed`, along the path that it was found for; `None` where the law
+/// moves backwards.
 pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
     let looked = Look { way, stop_scale: 1.0, between: Between::Least };
     let mut used = Used::of(allowed);
@@ -165,12 +166,13 @@ pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
     Some(used)
 }
 
-/// Whether a law along `way` goes forwards and keeps the limits, those of acceleration and jerk times `stop_scale`.
+/// Whether a law along `way` only moves forwards and keeps the limits, those of acceleration and jerk times
+/// `stop_scale`.
 pub(crate) fn law_keeps(way: &Way, law: &Law, stop_scale: f64) -> bool {
     keeps(&Look { way, stop_scale, between: Between::Least }, law)
 }
 
-/// Whether a motion goes forwards and keeps the limits.
+/// Whether a motion only moves forwards and keeps the limits.
 fn keeps(looked: &Look, motion: &impl Timed) -> bool {
     moments(motion.duration()).all(|time| {
         let now = motion.at(time);
@@ -183,23 +185,23 @@ fn keeps(looked: &Look, motion: &impl Timed) -> bool {
     })
 }
 
-/// When to look at a motion that takes so many s.
+/// The times at which a motion of `duration` s is checked.
 fn moments(duration: f64) -> impl Iterator<Item = f64> {
     let count = (duration / SAMPLE_S).clamp(16.0, 4000.0) as u32;
     (0..=count).map(move |step| duration * f64::from(step) / f64::from(count))
 }
 
-/// When to look at a motion closer, close to its start and its end.
+/// The additional times at which a motion is checked close to its start and its end.
 fn moments_beside_ends(duration: f64) -> impl Iterator<Item = f64> {
     let step = SAMPLE_S / f64::from(CLOSER_BESIDE_END);
     let count = (BESIDE_END_S.min(0.5 * duration) / step) as u32;
     (1..count).map(move |index| f64::from(index) * step).flat_map(move |time| [time, duration - time])
 }
 
-/// How the limits along a path are looked at.
+/// How the limits along a path are checked.
 struct Look<'a> {
     way: &'a Way,
-    /// How many times as high limits of acceleration and jerk are.
+    /// Factor on the limits of acceleration and jerk.
     stop_scale: f64,
     between: Between,
 }

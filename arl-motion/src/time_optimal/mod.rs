@@ -1,4 +1,4 @@
-//! The fastest motion along the path ahead, and the thread that finds it beside the cycle.
+//! The fastest motion along the path ahead, and the thread that finds it in parallel with the cycle.
 
 pub(crate) mod constraint_sampler;
 pub(crate) mod law_follower;

@@ -1,5 +1,5 @@
-//! Ramps beside time laws: ways to rest with constant limits, which need neither a look along the path nor a solver;
-//! and in their place the shortest way to rest, where it has been found.
+//! Ramps in addition to time laws: stops with constant limits, which need neither samples of the path nor a solver; and
+//! in their place the shortest stop, where it has been found.
 
 use std::sync::Arc;
 
@@ -11,19 +11,19 @@ use crate::time_optimal::solver::{Law, Moment};
 /// Shares of the acceleration and the jerk at rest that are tried.
 const TRIED_SHARES_OF_LIMITS: [f64; 14] =
     [1.0, 0.95, 0.9, 0.85, 0.8, 0.72, 0.64, 0.56, 0.48, 0.4, 0.32, 0.24, 0.16, 0.08];
-/// A law that begins while the robot is slowed down begins at this part of the speed of the law in hand, there and so
-/// many s later.
+/// A law that begins while the robot is slowed down begins at this share of the speed of the current law, there and
+/// this many s later.
 const LATER_LAW_SHARE_OF_SPEED: f64 = 0.9;
 const LATER_LAW_AFTER_S: f64 = 0.15;
-/// A robot that sets off uses so much of the speed, the acceleration and the jerk at most, a little less than the law
-/// that it will join; and so many shares of these are tried.
+/// A robot that starts uses at most these shares of the speed, the acceleration and the jerk, a little less than the
+/// law that it will join; and the number of shares that are tried.
 const MOST_SHARE_OF_SPEED: f64 = 0.9;
 const MOST_SHARE_OF_ACCELERATION: f64 = 0.95;
 const MOST_SHARE_OF_JERK: f64 = 0.98;
 const TRIED_SHARES: usize = 6;
-/// How often the path is measured anew over which a ramp needs its limits.
+/// Maximum number of times that the limits are found again for the path that a ramp covers.
 const MOST_MEASUREMENTS: usize = 8;
-/// Halvings of the time for which it speeds up on a short way: as many as it takes to end it exactly.
+/// Number of bisections of the time of speeding up on a short path: as many as are needed to end exactly.
 const TIME_HALVINGS: u32 = 52;
 
 /// A change of speed with constant limits.
@@ -48,13 +48,13 @@ impl Leg {
         Moment { at, vel, acc, jerk: self.change.jerk(time) }
     }
 
-    /// The state after `time` s, behind its end at the speed that it led to.
+    /// The state after `time` s; behind its end, at the speed that it led to.
     fn after(&self, time: f64) -> State {
         self.change.after(self.start, time)
     }
 }
 
-/// What leads to rest.
+/// What brings the robot to rest.
 #[derive(Clone, Debug)]
 enum Stopping {
     Leg(Leg),
@@ -77,20 +77,20 @@ impl Timed for Stopping {
     }
 }
 
-/// A way to rest.
+/// A stop.
 #[derive(Clone, Debug)]
 pub(crate) struct Ramp {
-    /// What leads to another speed first, and for how many s this goes on.
+    /// The change to another speed that comes first, and for how many s it is followed.
     first: Option<(Leg, f64)>,
-    /// What leads to rest.
+    /// What brings the robot to rest.
     stopping: Stopping,
-    /// From which time in s on another law can begin on it.
+    /// Time in s from which another law can begin on it.
     calm: f64,
-    /// How many s of it are over.
+    /// Time that has passed, in s.
     pub(crate) time: f64,
     /// Where it ends.
     pub(crate) end: f64,
-    /// Whether it leads to where the robot has to stop.
+    /// Whether it ends where the robot has to stop.
     pub(crate) arrives: bool,
     /// The limits that it was found from.
     pub(crate) check: Arc<LimitCheck>,
@@ -104,13 +104,13 @@ impl Ramp {
         Self { first, stopping, calm: 0.0, time: 0.0, end, arrives: false, check: Arc::clone(check) }
     }
 
-    /// The way to rest that a law leads.
+    /// The stop along a law.
     pub(crate) fn along(Found { law, check, end, stops }: Found) -> Self {
         Self { first: None, stopping: Stopping::Law(law), calm: 0.0, time: 0.0, end, arrives: stops, check }
     }
 
-    /// One that sets off from rest, speeds up for `time` s, or as long as the way up to `end` allows, and rests before
-    /// `end`: with the limits of the path at a share of the speed.
+    /// A ramp that starts from rest, speeds up for `time` s, or as long as the path up to `end` permits, and comes to
+    /// rest before `end`: with the limits of the path at a share of the speed.
     pub(crate) fn setting_off(start: State, check: &Arc<LimitCheck>, end: f64, share: f64, time: f64) -> Option<Self> {
         let sets_off = |hardness: &f64| {
             let ramp = |limits: &Limits, time: f64| {
@@ -143,10 +143,10 @@ impl Ramp {
         TRIED_SHARES_OF_LIMITS.iter().take(TRIED_SHARES).find_map(sets_off)
     }
 
-    /// The hardest one that keeps the limits times `stop_scale` and rests before `end`.
+    /// The hardest ramp that keeps the limits times `stop_scale` and comes to rest before `end`.
     pub(crate) fn hardest(start: State, check: &Arc<LimitCheck>, end: f64, stop_scale: f64) -> Option<Self> {
         let limits = braking(start, check, end, stop_scale);
-        // What brakes harder already would have to turn back.
+        // A state that already brakes harder would have to turn back.
         let turns = |limits: &Limits| start.acc < 0.0 && start.acc * start.acc > 2.0 * limits.jerk * start.vel;
         let scales =
             TRIED_SHARES_OF_LIMITS.iter().map(|hardness| scaled(limits, *hardness)).filter(|limits| !turns(limits));
@@ -154,13 +154,13 @@ impl Ramp {
         ramps.find(|ramp| ramp.will_do(check, end, stop_scale))
     }
 
-    /// How far it is to rest if the limits at the start, acceleration and jerk times `stop_scale`, hold on.
+    /// The distance to rest if the limits at the start, acceleration and jerk times `stop_scale`, stay the same.
     pub(crate) fn way(start: State, check: &LimitCheck, stop_scale: f64) -> f64 {
         Leg::new(start, 0.0, &scaled(check.straight(start.at, start.at), stop_scale)).end() - start.at
     }
 
-    /// The hardest one that first leads to a speed at which another law can begin, `search` s from now at the earliest,
-    /// at a share of its speed; from `time` s on the law `found`.
+    /// The hardest ramp that first leads to a speed at which another law can begin, `search` s from now at the
+    /// earliest, at a share of its speed. The current law is `found`, at `time` s.
     pub(crate) fn slower(start: State, found: &Found, time: f64, share: f64, search: f64) -> Option<Self> {
         let Found { law, check, end, .. } = found;
         let limits = braking(start, check, *end, 1.0);
@@ -168,7 +168,7 @@ impl Ramp {
             let limits = scaled(limits, *hardness);
             let mut goal = share * law.at(time).vel;
             let mut leg = Leg::new(start, goal, &limits);
-            // The law's speed is that of the place where the new one begins.
+            // The law's speed is that at the place where the new one begins.
             for _ in 0..3 {
                 let time = law.time_at(leg.after(leg.change.duration().max(search)).at);
                 goal = share * LATER_LAW_SHARE_OF_SPEED * law.at(time).vel.min(law.at(time + LATER_LAW_AFTER_S).vel);
@@ -183,17 +183,17 @@ impl Ramp {
         TRIED_SHARES_OF_LIMITS.iter().filter_map(ramp).find(|ramp| ramp.will_do(check, *end, 1.0))
     }
 
-    /// s until another law can begin on it.
+    /// The s until another law can begin on it.
     pub(crate) fn calm(&self) -> f64 {
         (self.calm - self.time).max(0.0)
     }
 
-    /// s until it rests.
+    /// The s until it comes to rest.
     pub(crate) fn left(&self) -> f64 {
         self.duration() - self.time
     }
 
-    /// Whether it rests before `end` and keeps the limits times `stop_scale`.
+    /// Whether it comes to rest before `end` and keeps the limits times `stop_scale`.
     fn will_do(&self, check: &LimitCheck, end: f64, stop_scale: f64) -> bool {
         let stop = self.at(self.duration());
         stop.vel.abs() <= 1e-9 * self.stopping.at(0.0).vel && self.end <= end && check.surely_keeps(self, stop_scale)
@@ -214,8 +214,8 @@ impl Timed for Ramp {
     }
 }
 
-/// Acceleration and jerk for braking to rest, times `stop_scale`: those of the whole way to rest, and not of what lies
-/// behind it.
+/// Acceleration and jerk for braking to rest, times `stop_scale`: those that hold over the whole distance to rest, and
+/// not those of what lies behind it.
 fn braking(start: State, check: &LimitCheck, end: f64, stop_scale: f64) -> Limits {
     let over = |to: f64| scaled(check.straight(start.at, to), stop_scale);
     let mut limits = over(start.at);

@@ -1,4 +1,4 @@
-//! What the set-points along a law use of the limits: what a trace would show.
+//! How much of the limits set-points along a law use: what a trace would show.
 
 use std::collections::VecDeque;
 
@@ -10,24 +10,23 @@ use crate::time_optimal::constraint_sampler::{ConstraintSampler, Point};
 use crate::time_optimal::limit_check::Used;
 use crate::time_optimal::solver::Law;
 
-/// s between two set-points.
+/// Time between two set-points, in s.
 const SET_POINT_CYCLE_S: f64 = 0.001;
-/// The robot may come to a law at any time within a cycle: so many of them are looked at.
+/// The robot may reach a law at any time within a cycle: number of phases that are checked.
 const PHASES_OF_CYCLE: usize = 2;
-/// So many set-points at rest tell how a motion begins and ends.
+/// Number of set-points at rest that are needed to check how a motion begins and ends.
 const SET_POINTS_AT_REST: i32 = 3;
 
 /// Limits of speed, acceleration and jerk.
 type Limits = [f64; 3];
 
-/// The share of what motions may have of speed, acceleration and jerk, the latter two `stop_scale` times as high, that
-/// set-points along a law use, by their differences: of each axis, and of the TCP along its path and its turning where
-/// that is led.
+/// The share of the permitted speed, acceleration and jerk, the latter two times `stop_scale`, that set-points along a
+/// law use, by their differences: for each axis, and for the TCP along its path and its rotation where the TCP is led.
 pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, stop_scale: f64, allowed: f64) -> Used {
     let mut sample_coarsely = sampler.sample_coarsely();
     let mut last: VecDeque<Point> = VecDeque::with_capacity(3 * PHASES_OF_CYCLE + 1);
     let mut used = Used::of(allowed);
-    // Where it stands before or behind, set-points are those of a robot at rest.
+    // Where the law starts or ends at rest, the set-points before or behind it are those of a robot at rest.
     let first = if law.at(0.0).vel == 0.0 { -SET_POINTS_AT_REST } else { 0 };
     let end = (law.duration() / SET_POINT_CYCLE_S) as i32 + SET_POINTS_AT_REST;
     for step in first * PHASES_OF_CYCLE as i32..=end * PHASES_OF_CYCLE as i32 {
@@ -67,7 +66,7 @@ fn used_by_axes(sampler: &ConstraintSampler, points: [&Point; 4], stop_scale: f6
     })
 }
 
-/// The same of the TCP's limits; nothing where it is not led all along, or another one is.
+/// The largest share of the TCP's limits; 0 where the TCP is not led at all four points, or another one is.
 fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], stop_scale: f64) -> f64 {
     let [Some(a), Some(b), Some(c), Some(d)] = points.map(|point| point.tool) else { return 0.0 };
     if [b, c, d].iter().any(|other| other.carried != a.carried) {
@@ -85,8 +84,8 @@ fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], stop_scale: f6
     by_way.max(used_along(turns, highest(limits), stop_scale))
 }
 
-/// The share of limits along a path that three steps in a row use. Where a path all but turns back, its speed falls and
-/// rises at once, and has no jerk to speak of: the part of the jerk along the path counts where that is smaller, as in
+/// The share of limits along a path that three consecutive steps use. Where a path all but turns back, its speed falls
+/// and rises at once, with hardly any jerk: the component of the jerk along the path counts where it is smaller, as in
 /// [`Constraints`].
 ///
 /// [`Constraints`]: crate::plan::constraints::Constraints
@@ -97,17 +96,17 @@ fn used_along(ways: [Vector3<f64>; 3], limits: Limits, stop_scale: f64) -> f64 {
     used_with(steps, if along.abs() < of_speed.abs() { along } else { of_speed }, limits, stop_scale)
 }
 
-/// The share of limits that three steps in a row use.
+/// The share of limits that three consecutive steps use.
 fn used(steps: [f64; 3], limits: Limits, stop_scale: f64) -> f64 {
     used_with(steps, jerk_of(steps), limits, stop_scale)
 }
 
-/// How much more the last of three steps in a row rises than the one before.
+/// The third difference of three consecutive steps.
 fn jerk_of([first, second, third]: [f64; 3]) -> f64 {
     third - 2.0 * second + first
 }
 
-/// The share of limits that three steps in a row with this jerk use.
+/// The share of limits that three consecutive steps with this jerk use.
 fn used_with([_, second, third]: [f64; 3], jerk: f64, [most_vel, most_acc, most_jerk]: Limits, stop_scale: f64) -> f64 {
     const S: f64 = SET_POINT_CYCLE_S;
     let by_vel = third / S / most_vel;
@@ -138,7 +137,7 @@ mod tests {
         // Slowing down evenly, through rest and back: the speed along the path falls and rises.
         let turned = along([1.5e-4, 0.5e-4, -0.5e-4]);
         assert!(turned < 1e-3, "{turned}");
-        // The same on the way.
+        // The same values without turning back.
         let jolted = along([1.5e-4, 0.5e-4, 0.5e-4]);
         assert!((jolted - 10.0).abs() < 1e-9, "{jolted}");
     }

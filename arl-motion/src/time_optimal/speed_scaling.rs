@@ -1,8 +1,8 @@
-//! How a law is followed at a share of its speed that changes: smoothly, from a share that may be changing already.
+//! Following a law at a changing share of its speed: smoothly, from a share that may be changing already.
 
 use crate::time_optimal::solver::Moment;
 
-/// A share of the speed that goes to another one: a polynomial of the fifth degree of the time.
+/// A share of the speed that changes to another one: a polynomial of the fifth degree in time.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct SpeedScaling {
     factors: [f64; 6],
@@ -14,7 +14,7 @@ impl SpeedScaling {
     /// From a share with its first two derivatives, per s and s2, to another one within `duration` s.
     pub(crate) fn new([share, rate, change]: [f64; 3], to: f64, duration: f64) -> Self {
         let time = duration;
-        // What is left to do for the terms of higher degree: value, first and second derivative at the end.
+        // What remains for the terms of higher degree: value, first and second derivative at the end.
         let value = to - share - time * (rate + time * change / 2.0);
         let first = -(rate + time * change) * time;
         let second = -change * time * time;
@@ -53,7 +53,7 @@ impl SpeedScaling {
         ]
     }
 
-    /// By how much the time on the law goes on within `time` s.
+    /// How far the time on the law advances within `time` s.
     pub(crate) fn passed(&self, time: f64) -> f64 {
         let [a, b, c, d, e, f] = self.factors;
         let t = time.min(self.duration);
@@ -84,7 +84,7 @@ mod tests {
         for (found, wanted) in scaling.at(0.0).iter().zip(start) {
             assert!((found - wanted).abs() < 1e-12);
         }
-        // Just before its end it is where it leads.
+        // Just before its end it has reached its goal.
         for (found, wanted) in scaling.at(0.3 - 1e-9).iter().zip([0.25, 0.0, 0.0]) {
             assert!((found - wanted).abs() < 1e-5, "{found}");
         }

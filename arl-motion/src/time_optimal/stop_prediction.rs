@@ -1,14 +1,14 @@
-//! What the governor will do at a stop, foreseen: so that a shorter one can be looked for beside the cycle.
+//! Predicts what the governor will do at a stop, so that a shorter stop can be sought in parallel with the cycle.
 
 use crate::follow::governor::{Governor, Pacing};
 use crate::follow::timing::Timing;
 use crate::limits::profile::{Change, State};
 use crate::time_optimal::solver::BoundaryState;
 
-/// A stop that takes more cycles is not looked at.
+/// A stop that takes more cycles than this is not considered.
 const MOST_PREDICTED_CYCLES: u32 = 20_000;
 
-/// The governor with a copy of all it knows.
+/// The governor with a copy of everything it knows.
 #[derive(Clone, Debug)]
 pub(crate) struct StopPrediction {
     timing: Timing,
@@ -19,22 +19,23 @@ pub(crate) struct StopPrediction {
 }
 
 impl StopPrediction {
-    /// Of a stop with so many times the acceleration and jerk, which begins with this state.
+    /// Predicts a stop with acceleration and jerk times `stop_scale`, which begins in this state.
     pub(crate) fn new(timing: Timing, state: State, backup: Change, cycle: f64, stop_scale: f64) -> Self {
         Self { timing, state, backup, cycle, stop_scale }
     }
 
-    /// How many times the acceleration and jerk.
+    /// The factor on acceleration and jerk.
     pub(crate) fn stop_scale(&self) -> f64 {
         self.stop_scale
     }
 
-    /// How the robot moves, in s of nominal time.
+    /// The motion of the robot, in s of nominal time.
     pub(crate) fn edge(&self) -> BoundaryState {
         BoundaryState { vel: self.state.vel, acc: self.state.acc }
     }
 
-    /// Brakes for so many cycles; how far that leads, in s of nominal time. `None` where it rests by then.
+    /// Brakes for `cycles` cycles; returns the distance covered, in s of nominal time. `None` where the robot is at
+    /// rest by then.
     pub(crate) fn brake(&mut self, cycles: u32) -> Option<f64> {
         let mut way = 0.0;
         for _ in 0..cycles {
@@ -46,8 +47,8 @@ impl StopPrediction {
         Some(way)
     }
 
-    /// How far it still is to rest, in s of nominal time, and how many s that takes. `None` where nobody wants to know
-    /// any more.
+    /// The remaining distance to rest, in s of nominal time, and the s that it takes. `None` where the result is no
+    /// longer `wanted`.
     pub(crate) fn rest(mut self, wanted: impl Fn() -> bool) -> Option<[f64; 2]> {
         let mut way = 0.0;
         for cycles in 1..MOST_PREDICTED_CYCLES {
@@ -62,7 +63,7 @@ impl StopPrediction {
         None
     }
 
-    /// Goes on for a cycle; returns how far.
+    /// Advances by a cycle; returns the distance covered.
     fn step(&mut self) -> f64 {
         let governor = Governor { stretches: &self.timing.stretches, cycle: self.cycle };
         let next = governor.next(&self.state, &mut self.backup, Pacing::Stop(self.stop_scale));

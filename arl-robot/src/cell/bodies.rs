@@ -1,4 +1,4 @@
-//! What stands in a cell or is carried by its robots: `[[body]]` of a cell file.
+//! Objects in a cell or carried by its robots: `[[body]]` of a cell file.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -26,62 +26,62 @@ const BODY: &[&str] = &[
     "count",
     "may_touch",
 ];
-/// The forms of which a body has one.
+/// The possible forms of a body, which has one of them.
 const FORMS: [&str; 5] = ["box", "cylinder", "sphere", "mesh", "urdf"];
-/// What a body may be fixed to, besides carriers.
+/// The holders to which a body may be fixed, besides carriers.
 const HOLDERS: &[&str] = &["world", "flange"];
-/// No cell is larger, in mm.
+/// The largest size of a cell, in mm.
 pub const LARGEST_MM: f64 = 1e6;
-/// Nothing is turned farther, in deg.
+/// The largest turn, in deg.
 const LARGEST_DEG: f64 = 1e6;
-/// So many of a kind are enough for a cell.
+/// The most bodies of a kind in a cell.
 const MOST_OF_A_KIND: f64 = 1000.0;
-/// How near the TCP has to be to what it grips, in mm, where nobody says it.
+/// The default distance within which the TCP must be to grip a body, in mm.
 const WITHIN_MM: f64 = 5.0;
 
 /// A body.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Body {
-    /// What people call it.
+    /// The name.
     pub name: String,
-    /// What all of its kind are called, where the cell has several of them: `part` of `part 1`.
+    /// The name of its kind, if the cell has several of them: `part` of `part 1`.
     pub kind: Option<String>,
     /// Its form.
     pub form: Form,
-    /// Where its middle is (the origin of a mesh), in what it is fixed to, translation in mm.
+    /// The frame of its centre (of the origin of a mesh) relative to its holder, translation in mm.
     pub at: Frame,
-    /// What it is fixed to.
+    /// The holder to which it is fixed.
     pub holder: Holder,
-    /// It is there only while this digital input or output has this level; what a robot takes along, until it is taken
-    /// for the first time.
+    /// The body exists only while this digital input or output has this level; for a body that a robot can take, this
+    /// applies until it is taken for the first time.
     pub when: Option<(Signal, bool)>,
-    /// How it is taken along by a robot and put down again, if it is. It stands in the world at first.
+    /// How a robot takes the body and puts it down again, if it can be taken. At first it is in the world.
     pub grip: Option<Grip>,
-    /// The names of bodies and of their kinds, and of parts of robots, that it may touch.
+    /// The names of bodies, kinds of bodies, and parts of robots that it may touch.
     pub may_touch: Vec<String>,
 }
 
-/// What a body is fixed to.
+/// The holder to which a body is fixed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Holder {
-    /// It stands in the world.
+    /// Fixed in the world.
     World,
     /// The flange of the robot of a channel, from 1.
     Flange(u32),
-    /// One of the cell's carriers, by its place in their list.
+    /// One of the cell's carriers, by its index in their list.
     Carrier(usize),
 }
 
-/// When a robot takes a body along.
+/// The conditions under which a robot takes a body.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Grip {
     /// The digital input or output of the gripper, and the level at which it holds.
     pub by: (Signal, bool),
-    /// The channel, from 1, whose robot it is.
+    /// The channel of the robot, from 1.
     pub channel: u32,
-    /// How far its TCP is from the body at most when it takes it, in mm.
+    /// The largest distance between the TCP and the body at which it is taken, in mm.
     pub within: f64,
-    /// It is there once the body before it was taken.
+    /// The body appears once the previous one was taken.
     pub follows: bool,
 }
 
@@ -90,7 +90,7 @@ pub struct Grip {
 pub enum Form {
     /// One solid, around the body's middle.
     Solid(Solid),
-    /// All links of a URDF file, with its joints at 0, from its root on.
+    /// All links of a URDF file, from its root, with its joints at 0.
     Urdf(PathBuf),
 }
 
@@ -112,17 +112,19 @@ pub enum Solid {
     Mesh {
         /// The file.
         file: PathBuf,
-        /// How many mm its unit is, along x, y and z.
+        /// The length of its unit in mm, along x, y and z.
         scale: [f64; 3],
     },
 }
 
 impl Body {
-    /// The bodies of a cell file that lies in `folder`.
+    /// The bodies of a cell file in `folder`.
     pub(super) fn read_all(
         top: &Section<'_>,
-        (channels, names): (&Channels, &Names),
-        (foreground, carriers): (u32, &[Carrier]),
+        channels: &Channels,
+        names: &Names,
+        foreground: u32,
+        carriers: &[Carrier],
         folder: &Path,
     ) -> Result<Vec<Self>, SettingsError> {
         let tables = super::tables(top, "body", "tables that begin with [[body]]")?;
@@ -132,7 +134,7 @@ impl Body {
         for value in tables {
             let section = table(top.source, value, "[[body]]", BODY)?;
             sections.push(section);
-            let body = Self::read(&section, value, (channels, names), (foreground, carriers), folder)?;
+            let body = Self::read(&section, value, channels, names, foreground, carriers, folder)?;
             let count = count(&section)?;
             let of_kind = count.map(|_| body.name.clone());
             let all = all_of_a_kind(body, count);
@@ -152,8 +154,10 @@ impl Body {
     fn read(
         section: &Section<'_>,
         value: &Value<'_>,
-        (channels, names): (&Channels, &Names),
-        (foreground, carriers): (u32, &[Carrier]),
+        channels: &Channels,
+        names: &Names,
+        foreground: u32,
+        carriers: &[Carrier],
         folder: &Path,
     ) -> Result<Self, SettingsError> {
         let lacks = |what: &str| section.source.error(value.span(), format!("this [[body]] lacks {what}"));
@@ -174,14 +178,14 @@ impl Body {
             form: form(section, folder)?.ok_or_else(|| lacks(&format!("its form: {}", forms())))?,
             at: place(section, "at")?.map_or_else(Frame::identity, frame),
             holder,
-            when: level(section, "when", (channels, names))?,
-            grip: grip(section, (channels, names), channel)?,
+            when: level(section, "when", channels, names)?,
+            grip: grip(section, channels, names, channel)?,
             may_touch: may_touch(section)?,
         })
     }
 }
 
-/// The channel of a robot: the first one where nobody says it.
+/// The channel of a robot; the first one by default.
 pub(super) fn channel(section: &Section<'_>, foreground: u32, what: &str) -> Result<u32, SettingsError> {
     let Some(found) = section.find("channel") else { return Ok(1) };
     let is_one = |channel: &f64| channel.fract() == 0.0 && (1.0..=f64::from(foreground)).contains(channel);
@@ -191,7 +195,7 @@ pub(super) fn channel(section: &Section<'_>, foreground: u32, what: &str) -> Res
     }
 }
 
-/// What a body is fixed to.
+/// The holder to which a body is fixed.
 fn holder(section: &Section<'_>, channel: u32, carriers: &[Carrier]) -> Result<Holder, SettingsError> {
     let expected = "\"world\", \"flange\", or the axis of a [[carrier]]";
     let (Some(on), Some(found)) = (section.text("on", expected)?, section.find("on")) else { return Ok(Holder::World) };
@@ -215,7 +219,7 @@ fn holder(section: &Section<'_>, channel: u32, carriers: &[Carrier]) -> Result<H
     }
 }
 
-/// How many of a kind there are, if that is said.
+/// The number of bodies of a kind, if given.
 fn count(section: &Section<'_>) -> Result<Option<u32>, SettingsError> {
     let count = section.number("count", "how many of these bodies come one after another", 1.0, MOST_OF_A_KIND)?;
     let (Some(count), Some(found)) = (count, section.find("count")) else { return Ok(None) };
@@ -229,7 +233,7 @@ fn count(section: &Section<'_>) -> Result<Option<u32>, SettingsError> {
     Ok(Some(count as u32))
 }
 
-/// A body, or so many of its kind with numbers behind their name.
+/// A body, or `count` bodies of its kind with numbers after their name.
 fn all_of_a_kind(body: Body, count: Option<u32>) -> Vec<Body> {
     let Some(count) = count else { return vec![body] };
     let numbered = |number: u32| Body {
@@ -241,13 +245,13 @@ fn all_of_a_kind(body: Body, count: Option<u32>) -> Vec<Body> {
     (1..=count).map(numbered).collect()
 }
 
-/// The forms, as a sentence has them.
+/// The forms, listed for a sentence.
 fn forms() -> String {
     let [others @ .., last] = FORMS.map(|form| format!("`{form}`"));
     format!("{} or {last}", others.join(", "))
 }
 
-/// The form: one of them.
+/// Reads the form of a body; only one is allowed.
 fn form(section: &Section<'_>, folder: &Path) -> Result<Option<Form>, SettingsError> {
     let mut found = None;
     for key in FORMS {
@@ -309,7 +313,7 @@ fn lengths(value: &Value<'_>) -> Option<Vec<f64>> {
     all.iter().all(|length| is_length(*length)).then_some(all)
 }
 
-/// Where something is: x, y, z in mm, a, b, c in deg.
+/// Reads a position: x, y, z in mm, a, b, c in deg.
 pub(super) fn place(section: &Section<'_>, key: &str) -> Result<Option<[f64; 6]>, SettingsError> {
     let Some(value) = section.find(key) else { return Ok(None) };
     let all: Option<Vec<f64>> =
@@ -337,8 +341,8 @@ fn is_near(values: &[f64], most: f64) -> bool {
     values.iter().all(|value| value.abs() <= most)
 }
 
-/// What the parts of robots are called in a cell with so many of them. Where there are several, a name without a
-/// channel is that part of all.
+/// The names of the parts of robots in a cell with this number of robots. With several robots, a name without a channel
+/// means that part of all of them.
 fn parts_of_robots(robots: u32) -> impl Iterator<Item = String> {
     let channels = if robots > 1 { robots } else { 0 };
     let of_channel = |channel: u32| LIMB_NAMES.iter().map(move |name| format!("{name} of channel {channel}"));
@@ -347,7 +351,7 @@ fn parts_of_robots(robots: u32) -> impl Iterator<Item = String> {
 
 const MAY_TOUCH: &str = "the names of bodies and of parts of robots, like [\"table\", \"the hand\"]";
 
-/// The names of what a body may touch, each with its value.
+/// The names in `may_touch` of a body, each with its value.
 fn names_in<'a>(section: &Section<'a>) -> Result<Vec<(&'a str, &'a Value<'a>)>, SettingsError> {
     let Some(value) = section.find("may_touch") else { return Ok(Vec::new()) };
     let name = |one: &'a Value<'a>| Some((one.get_ref().as_str()?, one));
@@ -359,7 +363,7 @@ fn may_touch(section: &Section<'_>) -> Result<Vec<String>, SettingsError> {
     Ok(names_in(section)?.into_iter().map(|(name, _)| name.to_owned()).collect())
 }
 
-/// That there is everything that a body may touch.
+/// Checks that everything that a body may touch exists.
 fn are_known(section: &Section<'_>, known: &HashSet<String>) -> Result<(), SettingsError> {
     let unknown = names_in(section)?.into_iter().find(|(name, _)| !known.contains(*name));
     let Some((name, value)) = unknown else { return Ok(()) };
@@ -370,11 +374,16 @@ fn are_known(section: &Section<'_>, known: &HashSet<String>) -> Result<(), Setti
     Err(section.source.error(value.span(), text))
 }
 
-/// How the robot of a channel takes it along, if it does.
-fn grip(section: &Section<'_>, io: (&Channels, &Names), channel: u32) -> Result<Option<Grip>, SettingsError> {
+/// Reads how the robot of a channel takes the body, if it does.
+fn grip(
+    section: &Section<'_>,
+    channels: &Channels,
+    names: &Names,
+    channel: u32,
+) -> Result<Option<Grip>, SettingsError> {
     let within =
         section.number("within", "the largest distance of the TCP at which the body is taken, in mm,", 0.0, 1e4)?;
-    let Some(by) = level(section, "gripped_by", io)? else {
+    let Some(by) = level(section, "gripped_by", channels, names)? else {
         return match section.find("within") {
             Some(found) => {
                 let text = "`within` says how near the TCP must be when a body is taken; this one lacks `gripped_by`";
@@ -390,11 +399,12 @@ fn grip(section: &Section<'_>, io: (&Channels, &Names), channel: u32) -> Result<
     Ok(Some(Grip { by, channel, within: within.unwrap_or(WITHIN_MM), follows: false }))
 }
 
-/// A digital input or output, and the level that it is to have.
+/// Reads a digital input or output, and its required level.
 fn level(
     section: &Section<'_>,
     key: &str,
-    (channels, names): (&Channels, &Names),
+    channels: &Channels,
+    names: &Names,
 ) -> Result<Option<(Signal, bool)>, SettingsError> {
     let expected = "a digital input or output, like \"do.1\", or \"!do.1\" where it is to be off";
     let (Some(text), Some(value)) = (section.text(key, expected)?, section.find(key)) else { return Ok(None) };

@@ -9,9 +9,9 @@ use crate::settings::{Section, SettingsError};
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct BusSettings {
-    /// How many bytes the simulated DeviceNet bus exchanges; another one knows that itself.
+    /// The number of bytes that the simulated DeviceNet bus exchanges; other buses have their own size.
     pub devicenet: usize,
-    /// The controller's Modbus TCP server, where the cell has one.
+    /// The controller's Modbus TCP server, if the cell has one.
     pub modbus_tcp: Option<ModbusTcpSettings>,
 }
 
@@ -25,9 +25,9 @@ impl Default for BusSettings {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct ModbusTcpSettings {
-    /// Where it listens.
+    /// The address on which the server listens.
     pub address: SocketAddr,
-    /// How many clients it serves at once.
+    /// The most clients served at once.
     pub connections: usize,
 }
 
@@ -40,10 +40,10 @@ impl Default for ModbusTcpSettings {
 const MODBUS_TCP: &[&str] = &["address", "port", "connections"];
 
 impl BusSettings {
-    /// Reads them from the cell file.
+    /// Reads the settings from the cell file.
     ///
     /// # Errors
-    /// What stands there are no buses.
+    /// The values are not settings of buses.
     pub fn read(top: &Section<'_>) -> Result<Self, SettingsError> {
         let modbus_tcp = top.table("modbus_tcp", "[modbus_tcp]", MODBUS_TCP)?;
         let devicenet = outline::devicenet(top)? as usize;
@@ -65,7 +65,7 @@ fn modbus_tcp_server(section: &Section<'_>) -> Result<ModbusTcpSettings, Setting
     Ok(settings)
 }
 
-/// An IP address, if it is there.
+/// An IP address, if given.
 fn address(section: &Section<'_>, key: &str) -> Result<Option<IpAddr>, SettingsError> {
     const WHAT: &str = "an IP address of this computer, like \"127.0.0.1\", or \"0.0.0.0\" for all of them";
     let Some(text) = section.text(key, WHAT)? else { return Ok(None) };

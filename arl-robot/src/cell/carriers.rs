@@ -1,4 +1,4 @@
-//! What external axes move: `[[carrier]]` of a cell file, with the bodies that lie there.
+//! Objects moved by external axes, with the bodies on them: `[[carrier]]` of a cell file.
 
 use super::bodies::{channel, place};
 use crate::kinematics::{Frame, LinkJoint, frame};
@@ -7,29 +7,29 @@ use crate::settings::{Section, SettingsError, Value, hint, table};
 
 const CARRIER: &[&str] = &["axis", "channel", "at", "on"];
 
-/// What an external axis moves: a turntable, a tilting table, a slide.
+/// An object moved by an external axis: a turntable, a tilting table, a slide.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Carrier {
     /// The name of the axis: `ej1` and so on.
     pub axis: String,
-    /// Which of the external axes that is, from 0.
+    /// The index of that external axis, from 0.
     pub number: usize,
     /// The channel, from 1, of the robot that has the axis.
     pub channel: u32,
-    /// Where it is while the axis is at 0, in the world or in what it is on, translation in mm. It turns about z, or
-    /// slides along z where the axis is linear.
+    /// The frame while the axis is at 0, in the world or relative to the carrier below, translation in mm. It turns
+    /// about z, or slides along z if the axis is linear.
     pub at: Frame,
-    /// Which of the cell's carriers it is on, one that comes before it; `None`: it is fixed to the world.
+    /// The index of the carrier below, which precedes it in the list; `None` if it is fixed to the world.
     pub on: Option<usize>,
 }
 
 impl Carrier {
-    /// How the axis moves it in what it is on.
+    /// The joint by which the axis moves it relative to what it is on.
     pub fn joint(&self, linear: bool) -> LinkJoint {
         LinkJoint { origin: self.at, axis: nalgebra::Vector3::z_axis(), linear }
     }
 
-    /// The carriers that the one at a place in the list is on, from the world on, and itself at last.
+    /// The chain of carriers from the world to the one with this index, which is the last.
     pub fn chain(all: &[Carrier], at: usize) -> Vec<&Carrier> {
         let below = |carrier: &&Carrier| carrier.on.and_then(|on| all.get(on));
         let mut chain: Vec<&Carrier> = std::iter::successors(all.get(at), below).collect();
@@ -37,7 +37,7 @@ impl Carrier {
         chain
     }
 
-    /// The carrier with this axis of the robot of a channel, as its place in the list.
+    /// The index in the list of the carrier with this axis of the robot of a channel.
     pub(super) fn find(all: &[Carrier], axis: &str, channel: u32) -> Option<usize> {
         all.iter().position(|carrier| carrier.axis == axis && carrier.channel == channel)
     }
@@ -47,7 +47,7 @@ impl Carrier {
         all.iter().filter(move |carrier| carrier.channel == channel).map(|carrier| &*carrier.axis)
     }
 
-    /// The carriers of a cell file with so many channels that have robots.
+    /// The carriers of a cell file with this number of channels that have robots.
     pub(super) fn read_all(top: &Section<'_>, foreground: u32) -> Result<Vec<Carrier>, SettingsError> {
         let mut carriers = Vec::new();
         for value in super::tables(top, "carrier", "tables that begin with [[carrier]]")? {

@@ -1,5 +1,5 @@
-//! What moves a robot: `[driver]` of a cell file, or of one of its channels. It counts only where a run is told to
-//! drive robots; otherwise they are simulated.
+//! The driver of a robot: `[driver]` of a cell file, or of one of its channels. It applies only to runs that are to
+//! drive robots; otherwise robots are simulated.
 
 use std::net::IpAddr;
 
@@ -7,47 +7,47 @@ use crate::settings::{Section, SettingsError};
 
 const KEYS: &[&str] = &["protocol", "address", "listen", "time"];
 
-/// How a robot is reached.
+/// The connection to a robot.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct DriverSettings {
-    /// What is spoken.
+    /// The protocol of the robot.
     pub protocol: Protocol,
-    /// Whose time counts.
+    /// The clock of the run.
     pub time: DriverTime,
 }
 
-/// What is spoken with a robot.
+/// The protocol of a robot.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Protocol {
     /// Packets of set-points over UDP, `docs/udp-and-rsi.md`.
     Udp {
-        /// Where the arm listens: host and port.
+        /// The address on which the arm listens: host and port.
         address: String,
     },
     /// XML over UDP, as KUKA's RobotSensorInterface sends it.
     Rsi {
-        /// The address and port of this computer that the robot's controller sends to.
+        /// The address and port of this computer to which the robot's controller sends.
         listen: String,
-        /// The robot's controller: a host, with the port that it sends from where that is fixed. `None`: whoever sends
-        /// first.
+        /// The robot's controller: a host, with the port from which it sends if that is fixed. `None`: the first
+        /// sender.
         address: Option<String>,
     },
 }
 
-/// Whose time counts while a robot is driven.
+/// The clock while a robot is driven.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub enum DriverTime {
-    /// That of the world.
+    /// Real time.
     #[default]
     World,
-    /// That of the robot, which is simulated: each cycle waits for it, and none waits for anything else.
+    /// The time of a simulated robot: each cycle waits for the robot, and for nothing else.
     Robot,
 }
 
 impl DriverSettings {
-    /// `[driver]` of a cell file or of a channel, if it is there.
+    /// Reads `[driver]` of a cell file or of a channel, if it exists.
     pub(super) fn read(above: &Section<'_>, name: &str) -> Result<Option<Self>, SettingsError> {
         let (Some(section), Some(value)) = (above.table("driver", name, KEYS)?, above.find("driver")) else {
             return Ok(None);
@@ -92,7 +92,7 @@ enum Spoken {
     Rsi,
 }
 
-/// A text that has to be right, if it is there.
+/// A text that has to be valid, if given.
 fn text(
     section: &Section<'_>,
     key: &str,
@@ -106,13 +106,13 @@ fn text(
     }
 }
 
-/// Whether it is a host, with or without a port.
+/// Whether the text is a host, with or without a port.
 fn is_host(text: &str) -> bool {
     let is_name = |host: &str| !host.is_empty() && !host.contains([':', ' ', '/']);
     text.parse::<IpAddr>().is_ok() || is_name(text) || is_place(text)
 }
 
-/// Whether it is a host with a port.
+/// Whether the text is a host with a port.
 fn is_place(text: &str) -> bool {
     text.rsplit_once(':').is_some_and(|(host, port)| !host.is_empty() && port.parse::<u16>().is_ok())
 }

@@ -3,20 +3,20 @@
 use crate::channels::Channels;
 use crate::settings::{Section, SettingsError, Value, number};
 
-/// What a key means.
+/// The meaning of a key.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Kind {
-    /// A digital input, or so many in a row as the program number has.
+    /// A digital input, or a row of as many as the program number has.
     Input { row: bool },
     /// The input of the parity: negative for odd.
     Parity,
-    /// A digital output, and how many in a row it begins.
+    /// A digital output, the first of a row.
     Output { row: Row },
     /// A number in this range.
     Number(i32, i32),
 }
 
-/// How many outputs belong together.
+/// The number of outputs in a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Row {
     One,
@@ -25,7 +25,7 @@ enum Row {
     Number,
 }
 
-/// A key of `[external]`: the name of a system variable in small letters.
+/// A key of `[external]`: the name of a system variable in lower case.
 struct Key {
     name: &'static str,
     kind: Kind,
@@ -70,7 +70,7 @@ const AT_HOME: &str = "at_home_do";
 /// How a PLC is wired to the controller.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Wiring {
-    /// Whether there is external control at all.
+    /// Whether external control is enabled at all.
     pub enabled: bool,
     /// Keys and their values.
     given: Vec<(&'static str, Vec<i32>)>,
@@ -86,7 +86,7 @@ impl Wiring {
     /// Reads `[external]` of a cell with these channels.
     ///
     /// # Errors
-    /// What stands there is no wiring, or a channel that the cell does not have.
+    /// The values are not a wiring, or a channel does not exist in the cell.
     pub fn read(top: &Section<'_>, channels: &Channels) -> Result<Wiring, SettingsError> {
         let known: Vec<&str> = std::iter::once("enabled").chain(KEYS.iter().map(|key| key.name)).collect();
         let Some(section) = top.table("external", "[external]", &known)? else { return Ok(Wiring::default()) };
@@ -104,7 +104,7 @@ impl Wiring {
         Ok(wiring)
     }
 
-    /// The system variables that are set, by their names in small letters, each with its value; `at_home_do` has up to
+    /// The system variables that are set, by their names in lower case, each with its value; `at_home_do` has up to
     /// five.
     pub fn given(&self) -> impl Iterator<Item = (&'static str, &[i32])> {
         self.given.iter().map(|(name, values)| (*name, values.as_slice()))
@@ -114,7 +114,7 @@ impl Wiring {
         self.given.iter().find(|(known, _)| *known == name).and_then(|(_, values)| values.first().copied())
     }
 
-    /// Whether all channels exist, and no output is driven twice.
+    /// Checks that all channels exist, and that no output is driven twice.
     fn check(&self, section: &Section<'_>, channels: &Channels) -> Result<(), SettingsError> {
         let length = self.value("pgno_length").unwrap_or(8);
         let mut driven: Vec<(i64, &str)> = Vec::new();
@@ -184,7 +184,7 @@ fn values(section: &Section<'_>, key: &Key, value: &Value<'_>) -> Result<Vec<i32
     list.iter().map(|item| whole(number(item.get_ref())).ok_or_else(wrong)).collect()
 }
 
-/// More than any cell has.
+/// The highest channel number, more than any cell has.
 const MAX_CHANNELS: i32 = 10_000;
 
 #[cfg(test)]

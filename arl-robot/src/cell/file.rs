@@ -1,4 +1,4 @@
-//! The cell file: what stands around the robot. Everything has a sensible value where the file says nothing.
+//! The cell file: the surroundings of the robot. All settings have sensible defaults.
 //!
 //! ```toml
 //! urdf = "arm.urdf"            # how the robot looks: without it as capsules along its links
@@ -117,39 +117,38 @@ const TOP: &[&str] = &[
 ];
 const CONTROLLER: &[&str] = &["cycle", "late", "late_limit"];
 
-/// What stands around the robot.
+/// The surroundings of the robot.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Cell {
     /// The length of the control cycle.
     pub rate: Rate,
-    /// What becomes of cycles that are late.
+    /// The handling of late cycles.
     pub late: LateCycles,
-    /// The channels of io.
+    /// The I/O channels.
     pub channels: Channels,
-    /// What signals are called.
+    /// The names of signals.
     pub names: Names,
-    /// Where programs listen.
+    /// The addresses on which programs listen.
     pub network: NetworkSettings,
     /// The home points of the first channel's robot.
     pub homes: Homes,
     /// How a PLC is wired to the controller.
     pub external: Wiring,
-    /// The conditions of `startdetect` of the first channel's robot by their numbers; of those that are not there, 20
-    /// %.
+    /// The conditions of `startdetect` of the first channel's robot, by number; missing ones have 20 %.
     pub collisions: Vec<(u8, Sensitivity)>,
     /// The field buses.
     pub buses: BusSettings,
-    /// The servers of Modbus TCP that have inputs and outputs of the cell.
+    /// The Modbus TCP servers with inputs and outputs of the cell.
     pub islands: Vec<Island>,
-    /// How the first channel's robot looks, and where it stands.
+    /// The shape of the first channel's robot, and its base in the world.
     pub stands: Stands,
-    /// What moves the first channel's robot; none: it is simulated.
+    /// The driver of the first channel's robot; `None` if it is simulated.
     pub driver: Option<DriverSettings>,
-    /// What external axes of its robots move.
+    /// The objects moved by external axes of its robots.
     pub carriers: Vec<Carrier>,
-    /// What stands in the cell, or is carried.
+    /// The objects in the cell, or carried by robots.
     pub bodies: Vec<Body>,
-    /// The channels beside the first one: what the command line of a program runs, too.
+    /// The channels besides the first one, which the command for a program runs, too.
     pub programs: Programs,
 }
 
@@ -157,15 +156,15 @@ impl Cell {
     /// Reads a cell file.
     ///
     /// # Errors
-    /// The file cannot be read, or what it says is not a cell.
+    /// The file cannot be read, or its content is not a cell.
     pub fn load(path: &Path) -> Result<Cell, SettingsError> {
         Cell::load_with(path, &Changes::default())
     }
 
-    /// The same with other values at some places.
+    /// Like `load`, with changed values at some places.
     ///
     /// # Errors
-    /// As for [`load`](Self::load), or the file has no such place.
+    /// As for [`load`](Self::load); or the file does not have one of the places.
     pub fn load_with(path: &Path, changes: &Changes) -> Result<Cell, SettingsError> {
         let name = path.display().to_string();
         let text = regular_file::read_text(path)
@@ -201,7 +200,7 @@ impl Cell {
         let others = cell.programs.channels.iter().filter(|channel| !channel.background).count();
         let foreground = 1 + others as u32;
         cell.carriers = Carrier::read_all(&top, foreground)?;
-        cell.bodies = Body::read_all(&top, (&cell.channels, &cell.names), (foreground, &cell.carriers), folder)?;
+        cell.bodies = Body::read_all(&top, &cell.channels, &cell.names, foreground, &cell.carriers, folder)?;
         cell.external = Wiring::read(&top, &cell.channels)?;
         cell.homes = Homes::of_cell(&top)?;
         cell.collisions = collisions(&top)?;

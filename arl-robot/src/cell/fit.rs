@@ -1,12 +1,12 @@
-//! Whether what a cell says of a robot is for that robot.
+//! Checks that a cell's settings for a robot match that robot.
 
 use super::{Homes, Sensitivity};
 use crate::robot::Robot;
 
-/// Holds home points and conditions of collisions against their robot: each has a value for each axis.
+/// Checks home points and collision conditions against their robot: each must have a value for each axis.
 ///
 /// # Errors
-/// What does not fit, in a sentence.
+/// Returns the mismatch as a sentence.
 pub fn fit(homes: &Homes, collisions: &[(u8, Sensitivity)], robot: &Robot) -> Result<(), String> {
     let (name, axes, own) = (&robot.name, robot.axes.len(), robot.own_axes().len());
     if let Some(home) = homes.points.iter().flatten().find(|home| home.len() != axes) {

@@ -1,31 +1,31 @@
-//! What becomes of cycles that are late: part of `[controller]` of a cell file.
+//! The handling of late cycles: part of `[controller]` of a cell file.
 
 use crate::settings::{Section, SettingsError};
 
-/// What becomes of the points of time at which cycles begin where one is a whole cycle late, or more, since the one
-/// before took too long or the computer did something else. Cycles whose points have passed are lost and not made up
-/// for: nothing comes faster than it should, and the time of the controller lags behind that of the world.
+/// The start times of cycles after one that is late by a whole cycle or more, because the previous cycle took too long
+/// or the computer was busy. Cycles whose start times have passed are lost and not made up for: nothing runs faster
+/// than it should, and controller time lags behind real time.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 #[non_exhaustive]
 pub enum Late {
-    /// They stay a grid: for drives that have a clock of their own.
+    /// The start times stay on their grid: for drives that have a clock of their own.
     #[default]
     HoldGrid,
-    /// The grid begins anew where the late cycle begins.
+    /// The grid begins again at the start of the late cycle.
     Skip,
 }
 
-/// What is said of late cycles.
+/// The settings for late cycles.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct LateCycles {
-    /// What becomes of them; `None`: what the clock does by itself.
+    /// The handling of late cycles; `None` for the default of the clock.
     pub late: Option<Late>,
-    /// How many cycles may be lost within a second, before the robots are stopped; `None`: 20 where a robot is driven,
-    /// any number where it is simulated.
+    /// The number of cycles that may be lost within a second before the robots are stopped; `None`: 20 for a driven
+    /// robot, any number for a simulated one.
     pub limit: Option<u32>,
 }
 
-/// No limit is larger.
+/// The largest limit.
 const MOST: f64 = 1e6;
 
 impl LateCycles {

@@ -1,4 +1,4 @@
-//! The cell file: the command compiles by it, and the runtime runs by it.
+//! The cell file: used by the command for compiling and by the runtime for running.
 
 mod bodies;
 mod buses;
@@ -53,30 +53,30 @@ const HOMES: [&str; 4] = ["home2", "home3", "home4", "home5"];
 const POSITIONS: &str = "axis positions in deg, like [0, -90, 90, 0, 0, 0]";
 const TORQUES: &str = "a torque above 0 in Nm for each axis, like [60, 60, 40, 15, 15, 10]";
 
-/// How many programs with a robot run beside each other at most.
+/// The most programs with a robot that run in parallel.
 pub const MOST_FOREGROUND: usize = 6;
 
-/// The programs beside the one of the command line.
+/// The programs besides the one of the command line.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Programs {
-    /// The channels beside the first one.
+    /// The channels besides the first one.
     pub channels: Vec<CellChannel>,
     /// The programs that `switcharl` can load into the first channel.
     pub load: Vec<String>,
 }
 
-/// A channel beside the first one.
+/// A channel besides the first one.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CellChannel {
-    /// Where its table begins in the cell file: the line, from 1.
+    /// The line, from 1, at which its table begins in the cell file.
     pub line: u32,
     /// The program's file, as the cell file names it.
     pub program: String,
-    /// The robot's name or file; none: the default one.
+    /// The robot's name or file; `None` for the default one.
     pub robot: Option<String>,
-    /// How its robot looks and where it stands.
+    /// The shape of its robot, and its base in the world.
     pub stands: Stands,
-    /// What moves its robot; none: it is simulated.
+    /// The driver of its robot; `None` if it is simulated.
     pub driver: Option<DriverSettings>,
     /// Whether it has no robot.
     pub background: bool,
@@ -88,12 +88,12 @@ pub struct CellChannel {
     pub collisions: Vec<(u8, Sensitivity)>,
 }
 
-/// How a robot looks, and where it stands.
+/// The shape of a robot, and its base in the world.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Stands {
-    /// The URDF file that has its shape.
+    /// The URDF file with its shape.
     pub urdf: Option<PathBuf>,
-    /// Its base in the world, x, y, z in mm, a, b, c in deg: what `$BASE[0]` is at the start.
+    /// Its base in the world, x, y, z in mm, a, b, c in deg: the start value of `$BASE[0]`.
     pub base: Option<[f64; 6]>,
 }
 
@@ -101,36 +101,37 @@ impl Stands {
     /// `urdf` and `base` of a cell file in `folder`, or of a channel.
     ///
     /// # Errors
-    /// What stands there is no file, or no place.
+    /// The values are not a file or not a position.
     fn read(section: &Section<'_>, folder: &Path) -> Result<Self, SettingsError> {
         let urdf = section.text("urdf", "a URDF file, like \"arm.urdf\"")?;
         Ok(Self { urdf: urdf.map(|file| folder.join(file)), base: bodies::place(section, "base")? })
     }
 }
 
-/// The home points of a robot beside the one in its own file.
+/// The home points of a robot besides the one in its own file.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Homes {
     /// Home points 2 to 5: axis positions in deg (mm where linear).
     pub points: [Option<Vec<f64>>; 4],
-    /// How near to a home point is at home, in deg (mm); none: as at the first robot, and there 0.1.
+    /// The distance from a home point that counts as at home, in deg (mm); `None`: as for the first robot, and for that
+    /// 0.1.
     pub tolerance: Option<f64>,
 }
 
-/// By how much the torques of the axes may differ from what the model asks for before that counts as a collision.
+/// The deviation of the axes' torques from the model above which it counts as a collision.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Sensitivity {
-    /// Percent of what each axis of the robot, without load, needs at most.
+    /// Percent of the largest torque that each axis of the robot needs without load.
     Percent(f64),
     /// Nm (N of linear axes), for each of the robot's own axes.
     Torques(Vec<f64>),
 }
 
 impl Programs {
-    /// The programs of a cell file. Robots are files in `folder`, where there are such, else names.
+    /// The programs of a cell file. Robots are files in `folder` if these exist, otherwise names.
     ///
     /// # Errors
-    /// What stands there are no channels.
+    /// The values are not channels.
     pub fn read(top: &Section<'_>, folder: &Path) -> Result<Self, SettingsError> {
         let tables = tables(top, "channel", "tables that begin with [[channel]]")?;
         let mut channels = Vec::new();
@@ -150,10 +151,10 @@ impl Programs {
 }
 
 impl Homes {
-    /// `[home]` of a cell file.
+    /// Reads `[home]` of a cell file.
     ///
     /// # Errors
-    /// What stands there are no home points.
+    /// The values are not home points.
     pub fn of_cell(top: &Section<'_>) -> Result<Self, SettingsError> {
         top.table("home", "[home]", HOME)?.map_or(Ok(Self::default()), |home| Self::read(&home))
     }
@@ -168,16 +169,16 @@ impl Homes {
     }
 }
 
-/// `[[collision]]` of a cell file, or of a channel.
+/// Reads `[[collision]]` of a cell file, or of a channel.
 ///
 /// # Errors
-/// What stands there are no conditions.
+/// The values are not conditions.
 pub fn collisions(section: &Section<'_>) -> Result<Vec<(u8, Sensitivity)>, SettingsError> {
     let tables = tables(section, "collision", "tables that begin with [[collision]]")?;
     tables.iter().map(|value| collision(section.source, value)).collect()
 }
 
-/// The items of a list of tables; none where it is not there.
+/// The items of a list of tables; empty if it is missing.
 fn tables<'a>(section: &Section<'a>, key: &str, what: &str) -> Result<&'a [Value<'a>], SettingsError> {
     let Some(found) = section.find(key) else { return Ok(&[]) };
     found.get_ref().as_array().map(|array| &array[..]).ok_or_else(|| section.wrong(key, found, what))

@@ -15,13 +15,13 @@ pub enum SignalKind {
     AnalogInput,
     /// An analog output: `ao`.
     AnalogOutput,
-    /// What `getintdi` reads: `internal`.
+    /// An internal input, read by `getintdi`: `internal`.
     InternalInput,
-    /// What `getintdo` reads: `internal_do`.
+    /// An internal output, read by `getintdo`: `internal_do`.
     InternalOutput,
 }
 
-/// How files call the kinds.
+/// The names of the kinds in files.
 const KINDS: [(&str, SignalKind); 6] = [
     ("di", SignalKind::DigitalInput),
     ("do", SignalKind::DigitalOutput),
@@ -32,17 +32,17 @@ const KINDS: [(&str, SignalKind); 6] = [
 ];
 
 impl SignalKind {
-    /// All of them, in the order of files.
+    /// All kinds, in the order of files.
     pub fn all() -> impl Iterator<Item = Self> {
         KINDS.into_iter().map(|(_, kind)| kind)
     }
 
-    /// How files call it: `di`.
+    /// The name of the kind in files: `di`.
     pub fn text(self) -> &'static str {
         KINDS.iter().find(|(_, kind)| *kind == self).map_or("", |(text, _)| text)
     }
 
-    /// How many of them a cell has.
+    /// The number of such signals in a cell.
     pub fn count(self, channels: &Channels) -> u32 {
         match self {
             Self::DigitalInput => channels.di,
@@ -64,7 +64,7 @@ pub struct Signal {
 }
 
 impl Signal {
-    /// The signal that a file writes so.
+    /// Parses the notation of a signal in files.
     ///
     /// ```
     /// use arl_robot::cell::{Signal, SignalKind};
@@ -92,7 +92,7 @@ impl fmt::Display for Signal {
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Names(Vec<(Signal, String)>);
 
-/// What no signal can be called: scenarios have these words for something else.
+/// Names that no signal can have: keywords of scenarios.
 const TAKEN: [&str; 20] = [
     "after",
     "ai",
@@ -116,14 +116,14 @@ const TAKEN: [&str; 20] = [
     "when",
 ];
 
-/// What a name of a signal may be.
+/// The form of the name of a signal, for messages.
 const FORM: &str = "a name of letters, digits and `_` that does not begin with a digit, like \"part_present\"";
 
 impl Names {
-    /// `[names]` of a cell file.
+    /// Reads `[names]` of a cell file.
     ///
     /// # Errors
-    /// A signal that the cell does not have, a name that is none or stands twice.
+    /// A signal does not exist in the cell, or a name is invalid or occurs twice.
     pub fn read(top: &Section<'_>, channels: &Channels) -> Result<Self, SettingsError> {
         let Some(table) = top.free_table("names", "[names]")? else { return Ok(Self::default()) };
         let source = top.source;

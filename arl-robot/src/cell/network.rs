@@ -4,27 +4,27 @@ use crate::outline;
 use crate::settings::{Section, SettingsError};
 use std::collections::BTreeMap;
 
-/// The address on which programs listen where the cell says nothing: this computer only.
+/// The default address on which programs listen: only this computer.
 const LOOPBACK: &str = "127.0.0.1";
 
-/// What the cell says of the network: `[network]`.
+/// The network settings of the cell: `[network]`.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
 pub struct NetworkSettings {
-    /// Where `accept` listens.
+    /// The address on which `accept` listens.
     pub listen: Listen,
-    /// The names of serial lines in programs, and the devices that they stand for: `[serial]`.
+    /// The names of serial lines in programs, and their devices: `[serial]`.
     pub devices: BTreeMap<String, String>,
 }
 
-/// Where `accept` listens.
+/// The address on which `accept` listens.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
 pub enum Listen {
-    /// On the loopback address, whatever the program says: only programs of this computer can connect.
+    /// On the loopback address, whatever address the program gives: only programs of this computer can connect.
     #[default]
     Loopback,
     /// On the address that the program gives.
     Program,
-    /// On this address, whatever the program says.
+    /// On this address, whatever address the program gives.
     Address(String),
 }
 
@@ -34,19 +34,19 @@ impl NetworkSettings {
     /// Reads `[network]` and `[serial]` of a cell file.
     ///
     /// # Errors
-    /// What stands there is neither an address nor a list of devices.
+    /// The values are neither an address nor a list of devices.
     pub fn read(top: &Section<'_>) -> Result<Self, SettingsError> {
         let network = top.table("network", "[network]", NETWORK)?;
         let listen = network.map_or(Ok(Listen::default()), |network| listen(&network))?;
         Ok(Self { listen, devices: outline::lines(top)? })
     }
 
-    /// The path of the device that a program calls so.
+    /// The path of the device with this name in a program.
     pub fn device(&self, name: &str) -> String {
         self.devices.get(name).map_or(name, String::as_str).to_owned()
     }
 
-    /// The address to listen on where the program says this one.
+    /// The address to listen on if the program gives this one.
     pub fn listen(&self, program: &str) -> String {
         match &self.listen {
             Listen::Loopback => LOOPBACK.into(),

@@ -1,4 +1,4 @@
-//! What stands between a programmed pose and the flange: tool, workpiece, base.
+//! The frames between a programmed pose and the flange: tool, workpiece, base.
 
 mod rig;
 mod setting;

@@ -1,25 +1,25 @@
-//! What the robot carries, and where it stands: from a way of the TCP to the flange.
+//! What the robot carries, and where its base is: from a path of the TCP to the flange.
 
 use nalgebra::Vector3;
 
 use super::setting::Mount;
 use crate::kinematics::{Frame, Twist};
 
-/// What is on the flange and meets the other: the tool, or the workpiece that is held to a tool that stands.
+/// What is on the flange: the tool, or the workpiece that is held to a stationary tool.
 ///
-/// A way of the TCP is the tool's frame seen from whatever the workpiece stands still in: from the robot's base where
-/// the robot carries the tool, from the flange where it carries the workpiece. So speeds along a way are those of the
-/// TCP against the workpiece. Translations are mm.
+/// A path of the TCP is the tool's frame relative to the frame in which the workpiece is at rest: the robot's base if
+/// the robot carries the tool, the flange if it carries the workpiece. Thus speeds along a path are those of the TCP
+/// relative to the workpiece. Translations are in mm.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Carried {
     /// The tool, at this frame of the flange.
     Tool(Frame),
-    /// The workpiece; the tool stands at this frame of the robot's base.
+    /// The workpiece; the tool is at this frame of the robot's base.
     Workpiece(Frame),
 }
 
 impl Carried {
-    /// Where the flange is in the robot's base when the tool's frame on its way is `way`.
+    /// The flange in the robot's base when the tool's frame on its path is `way`.
     pub fn flange_at(&self, way: &Frame) -> Frame {
         match self {
             Carried::Tool(tool) => way * tool.inverse(),
@@ -27,7 +27,7 @@ impl Carried {
         }
     }
 
-    /// The tool's frame on its way when the flange is at `flange` of the robot's base.
+    /// The tool's frame on its path when the flange is at `flange` in the robot's base.
     pub fn way_at(&self, flange: &Frame) -> Frame {
         match self {
             Carried::Tool(tool) => flange * tool,
@@ -35,7 +35,7 @@ impl Carried {
         }
     }
 
-    /// Two frames that meet when the tool's frame on its way is `way`: one of the robot's base, one of the flange.
+    /// Two frames that coincide when the tool's frame on its path is `way`: one in the robot's base, one on the flange.
     pub fn meeting(&self, way: &Frame) -> (Frame, Frame) {
         match self {
             Carried::Tool(tool) => (*way, *tool),
@@ -43,12 +43,13 @@ impl Carried {
         }
     }
 
-    /// How the flange moves in the robot's base when the tool's frame on its way is `way` and moves there with the
-    /// first three derivatives `moving` of its place (mm per unit of the path parameter, its square, its cube) while it
-    /// turns with the speed and its first two derivatives `turning` (rad).
+    /// The motion of the flange in the robot's base when the tool's frame on its path is `way` and moves there with the
+    /// first three derivatives `moving` of its position (mm per unit of the path parameter, its square, its cube) while
+    /// it turns with `turning`, the speed and its first two derivatives (rad).
     pub fn twist(&self, way: &Frame, moving: &[Vector3<f64>; 3], turning: &[Vector3<f64>; 3]) -> Twist {
         let Carried::Workpiece(_) = self else { return Twist::of_point(&way.translation.vector, moving, turning) };
-        // The tool stands; the flange goes the opposite way. Its origin, along its own axes, which move with it.
+        // The tool is at rest; the flange moves the opposite way. The motion of its origin is given along its own axes,
+        // which move with it.
         let flange = self.flange_at(way);
         let p = way.translation.vector;
         let ([v, a, j], [w, w1, w2]) = (*moving, *turning);
@@ -63,7 +64,7 @@ impl Carried {
     }
 }
 
-/// What the robot carries, and where its base stands in the world.
+/// What the robot carries, and where its base is in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Rig {
     /// What is on the flange.
@@ -75,12 +76,12 @@ pub struct Rig {
 }
 
 impl Rig {
-    /// A bare flange of a robot that stands at the origin of the world.
+    /// A bare flange of a robot whose base is at the origin of the world.
     pub fn bare() -> Self {
         Self::with_tool(Frame::identity())
     }
 
-    /// A tool at this frame of the flange of a robot that stands at the origin of the world.
+    /// A tool at this frame of the flange of a robot whose base is at the origin of the world.
     pub fn with_tool(tool: Frame) -> Self {
         Self {
             carried: Carried::Tool(tool),
@@ -89,7 +90,7 @@ impl Rig {
         }
     }
 
-    /// The TCP's frame in the world when the flange is at `flange` of the robot's base.
+    /// The TCP's frame in the world when the flange is at `flange` in the robot's base.
     pub fn tcp_at(&self, flange: &Frame) -> Frame {
         match self.carried {
             Carried::Tool(tool) => self.base * flange * tool,
@@ -97,7 +98,7 @@ impl Rig {
         }
     }
 
-    /// The workpiece's frame in the world when the flange is at `flange` of the robot's base.
+    /// The workpiece's frame in the world when the flange is at `flange` in the robot's base.
     pub fn workpiece_at(&self, flange: &Frame) -> Frame {
         let Mount { frame, on_flange } = self.workpiece;
         if on_flange { self.base * flange * frame } else { frame }

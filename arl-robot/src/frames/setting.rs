@@ -1,5 +1,5 @@
-//! What carries what: the tool on the flange or standing in the world, the workpiece in the world or held by the robot,
-//! the base under the robot, and the offsets of all tools and workpieces.
+//! The arrangement of frames: the tool on the flange or stationary in the world, the workpiece in the world or held by
+//! the robot, the base of the robot, and the offsets of all tools and workpieces.
 
 use std::fmt;
 
@@ -9,17 +9,17 @@ use crate::kinematics::{Frame, frame};
 /// A tool or a workpiece: its frame, and whether the robot carries it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Mount {
-    /// Seen from the flange where the robot carries it, else in the world; translation in mm.
+    /// Relative to the flange if the robot carries it, otherwise in the world; translation in mm.
     pub frame: Frame,
     /// Whether it is on the flange.
     pub on_flange: bool,
 }
 
-/// The frames between a programmed pose and the flange. Translations are mm, as in all frames.
+/// The frames between a programmed pose and the flange. Translations are in mm, as in all frames.
 ///
-/// A pose is the tool's frame seen from the workpiece frame. `tool` is seen from the flange, or in the world where the
-/// tool is stationary; `wobj` is in the world, or seen from the flange where the robot holds the workpiece; `base` is
-/// where the robot stands in the world.
+/// A pose is the tool's frame relative to the workpiece frame. `tool` is relative to the flange, or to the world if the
+/// tool is stationary; `wobj` is in the world, or relative to the flange if the robot holds the workpiece; `base` is
+/// the robot's base in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Setting {
     tool: Frame,
@@ -29,12 +29,12 @@ pub struct Setting {
     base: Frame,
 }
 
-/// Tool and workpiece do not move against each other, so that no motion of the robot leads to a pose.
+/// Tool and workpiece do not move relative to each other, so that no motion of the robot reaches a pose.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Unmoved {
     /// Both are on the flange.
     BothHeld,
-    /// Neither is.
+    /// Neither is on the flange.
     NeitherHeld,
 }
 
@@ -56,7 +56,7 @@ impl fmt::Display for Unmoved {
 impl std::error::Error for Unmoved {}
 
 impl Setting {
-    /// Tool and workpiece as a program gives them, and where the base stands in the world (`$BASE`).
+    /// A setting with the tool and workpiece of a program, and the base in the world (`$BASE`).
     pub fn new(tool: impl Into<Mount>, wobj: impl Into<Mount>, base: impl Into<Frame>) -> Self {
         let (tool, wobj) = (tool.into(), wobj.into());
         Self {
@@ -68,16 +68,16 @@ impl Setting {
         }
     }
 
-    /// With `$TOOL_OFFSET` and `$WOBJ_OFFSET` (mm, deg), which motions add and queries do not: each shifts and turns
-    /// its frame along and about that frame's own axes.
+    /// The setting with `$TOOL_OFFSET` and `$WOBJ_OFFSET` (mm, deg), which apply to motions, but not to queries: each
+    /// shifts and turns its frame along and about that frame's own axes.
     pub fn with_offsets(self, tool: &[f64; 6], wobj: &[f64; 6]) -> Self {
         Self { tool: self.tool * frame(*tool), wobj: self.wobj * frame(*wobj), ..self }
     }
 
-    /// Whether tool and workpiece move against each other.
+    /// Checks that tool and workpiece move relative to each other.
     ///
     /// # Errors
-    /// They do not.
+    /// They do not move relative to each other.
     pub fn check(&self) -> Result<(), Unmoved> {
         match (self.stationary, self.held) {
             (false, false) | (true, true) => Ok(()),
@@ -86,7 +86,7 @@ impl Setting {
         }
     }
 
-    /// What the robot carries to the tool or to the workpiece, and where it stands.
+    /// What the robot carries, and where its base is.
     pub fn rig(&self) -> Rig {
         let base = self.base;
         let carried =
@@ -94,21 +94,21 @@ impl Setting {
         Rig { carried, base, workpiece: Mount { frame: self.wobj, on_flange: self.held } }
     }
 
-    /// The workpiece frame seen from what ways of the TCP are seen from (see [`Carried`]).
+    /// The workpiece frame in the frame in which paths of the TCP are given (see [`Carried`]).
     pub fn workpiece(&self) -> Frame {
         if self.held { self.wobj } else { self.base.inverse() * self.wobj }
     }
 
-    /// Where the flange is, seen from the robot's base, when the tool is at `pose` of the workpiece.
+    /// The flange in the robot's base when the tool is at `pose` in the workpiece frame.
     ///
     /// # Errors
-    /// Tool and workpiece do not move against each other.
+    /// Tool and workpiece do not move relative to each other.
     pub fn flange_of(&self, pose: &Frame) -> Result<Frame, Unmoved> {
         self.check()?;
         Ok(self.rig().carried.flange_at(&(self.workpiece() * pose)))
     }
 
-    /// The tool's frame in the workpiece frame when the flange is at `flange`, seen from the robot's base.
+    /// The tool's frame in the workpiece frame when the flange is at `flange` in the robot's base.
     pub fn pose_of(&self, flange: &Frame) -> Frame {
         let wobj = if self.held { self.base * flange * self.wobj } else { self.wobj };
         wobj.inverse() * self.rig().tcp_at(flange)
@@ -140,7 +140,7 @@ mod tests {
     fn a_rig_knows_where_the_workpiece_is() {
         let flange = frame([700.0, 20.0, 400.0, 10.0, 170.0, 5.0]);
         let (stand, part) = (base([100.0, 200.0, 0.0, 30.0, 0.0, 0.0]), [50.0, 0.0, 10.0, 0.0, 0.0, 45.0]);
-        // Where tool and workpiece do not fit each other, too: a motion of the axes does not care.
+        // Also if tool and workpiece do not match: this does not matter to a motion of the axes.
         for stationary in [false, true] {
             let setting =
                 |held| Setting::new(tool([0.0, 0.0, 90.0, 0.0, 0.0, 0.0], stationary), wobj(part, held), stand);
@@ -163,7 +163,7 @@ mod tests {
         close(&plain.pose_of(&moved), [450.0, 50.0, 850.0, 0.0, 0.0, 0.0]);
         let moved = plain.with_offsets(&[50.0, 0.0, 0.0, 0.0, 0.0, 0.0], &NOWHERE).flange_of(&target).unwrap();
         close(&plain.pose_of(&moved), [350.0, 0.0, 800.0, 0.0, 0.0, 0.0]);
-        // Offsets go along the axes of their own frames.
+        // Offsets are along the axes of their own frames.
         let turned = Setting::new(tool(NOWHERE, false), wobj([0.0, 0.0, 0.0, 90.0, 0.0, 0.0], false), base(NOWHERE));
         let moved = turned.with_offsets(&NOWHERE, &[10.0, 0.0, 0.0, 0.0, 0.0, 0.0]).flange_of(&Frame::identity());
         close(&moved.unwrap(), [0.0, 10.0, 0.0, 90.0, 0.0, 0.0]);
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn the_base_is_under_the_robot() {
-        // The robot hangs head down, 2 m above the floor.
+        // The robot hangs upside down, 2 m above the floor.
         let hanging = base([0.0, 0.0, 2000.0, 0.0, 0.0, 180.0]);
         let setting = Setting::new(tool([0.0, 0.0, 100.0, 0.0, 0.0, 0.0], false), wobj(NOWHERE, false), hanging);
         let flange = setting.flange_of(&frame([500.0, 200.0, 900.0, 0.0, 0.0, 180.0])).unwrap();
@@ -181,13 +181,13 @@ mod tests {
 
     #[test]
     fn a_held_workpiece_goes_to_the_tool_that_stands() {
-        // A grinder stands at x 1000; the corner of the part is 200 in front of the flange.
+        // A grinder is at x 1000; the corner of the part is 200 in front of the flange.
         let grinder = tool([1000.0, 0.0, 500.0, 0.0, 0.0, 0.0], true);
         let part = wobj([0.0, 0.0, 200.0, 0.0, 0.0, 0.0], true);
         let setting = Setting::new(grinder, part, base(NOWHERE));
         let flange = setting.flange_of(&Frame::identity()).unwrap();
         close(&flange, [1000.0, 0.0, 300.0, 0.0, 0.0, 0.0]);
-        // 50 further along the part: the part goes back by 50.
+        // 50 further along the part: the part moves back by 50.
         let flange = setting.flange_of(&frame([50.0, 0.0, 0.0, 0.0, 0.0, 0.0])).unwrap();
         close(&flange, [950.0, 0.0, 300.0, 0.0, 0.0, 0.0]);
         close(&setting.pose_of(&flange), [50.0, 0.0, 0.0, 0.0, 0.0, 0.0]);

@@ -1,4 +1,4 @@
-//! Whether a robot can follow a straight line of the TCP, told without planning it.
+//! Checks whether a robot can follow a straight line of the TCP, without planning it.
 
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -6,23 +6,23 @@ use super::Carried;
 use crate::kinematics::{Axes, CLEAR_OF_SINGULAR, Frame, Rates, SHORTEST_STEP_S, lowest_pace, outruns, wrap_degrees};
 use crate::robot::Robot;
 
-/// Where a way is far from singular points at so many places, and at its start, it is not looked at closely.
+/// A path that is far from singular points at this many places, and at its start, is not examined closely.
 const GLANCES: u32 = 16;
-/// Close to a singular point the steps are this part of what the axes' motion changes over, so that none is stepped
-/// over.
+/// Close to a singular point the steps are this part of the distance over which the axes' motion changes, so that no
+/// singular point is stepped over.
 const STEP_OF_SCALE: f64 = 0.04;
 const LONGEST_STEP: f64 = 1.0 / 16.0;
-/// Nearer to a singular point than this rounding spoils the derivatives.
+/// Nearer to a singular point than this, rounding spoils the derivatives.
 const SPOILT: f64 = 1e-5;
-/// A step where the derivatives of the axes are not known.
+/// The step where the derivatives of the axes are not known.
 const BLIND_STEP: f64 = 1e-3;
-/// A place with less than this margin of speed (see [`Rates::speed_margin`]) is singular without doubt: the planner's
-/// walk looks at other places, which differ by less.
+/// A place with a speed margin below this (see [`Rates::speed_margin`]) is certainly singular: the planner examines
+/// other places, but they differ by less.
 const SURE: f64 = 0.99;
-/// An axis that is so far (deg) from where it was a step before has not turned but jumped.
+/// An axis that is farther than this (deg) from its position a step before has not turned but jumped.
 const JUMP: f64 = 90.0;
 
-/// A straight way of the TCP, along which the tool turns evenly about one line.
+/// A straight path of the TCP, along which the tool turns uniformly about one line.
 #[derive(Clone, Copy, Debug)]
 pub struct StraightWay {
     carried: Carried,
@@ -32,16 +32,16 @@ pub struct StraightWay {
 }
 
 impl StraightWay {
-    /// The way from `start` to `end`, both seen from where ways of the TCP are (see [`Carried`]), translations in mm.
+    /// The path from `start` to `end`, both in the frame of paths of the TCP (see [`Carried`]), translations in mm.
     pub fn new(carried: Carried, start: Frame, end: &Frame) -> Self {
         let travel = end.translation.vector - start.translation.vector;
         let turning = (end.rotation * start.rotation.inverse()).scaled_axis();
         Self { carried, start, travel, turning }
     }
 
-    /// Where the way passes a singular point, as part of it, and the axes there: surely, so that no robot goes along it
-    /// but with another orientation. `start` are the axes where it begins, in configuration `cfg`. `None` says little:
-    /// only ways that come near a singular point are looked at closely.
+    /// Where the path certainly passes a singular point, as part of the path, and the axes there: the robot cannot
+    /// follow it except with another orientation. `start` are the axes at its start, in configuration `cfg`. `None` is
+    /// not a guarantee: only paths that come near a singular point are examined closely.
     pub fn singular_point(&self, robot: &Robot, cfg: u8, start: &Axes) -> Option<(f64, Axes)> {
         let mut near = *start;
         let mut clear = |at: f64| {
@@ -61,22 +61,16 @@ impl StraightWay {
             if at >= 1.0 {
                 return None;
             }
-            (at, near) = match self.step(robot, cfg, (at, &near), (at + step).min(1.0))? {
+            (at, near) = match self.step(robot, cfg, at, &near, (at + step).min(1.0))? {
                 Ok(place) => place,
                 Err(jump) => return Some((jump, near)),
             };
         }
     }
 
-    /// Goes on to `next`, or less far where an axis jumps on the way there; or says where the axis has to turn at once:
-    /// in the very singular point, which the way meets as straight as that the axes stand still in it.
-    fn step(
-        &self,
-        robot: &Robot,
-        cfg: u8,
-        (at, near): (f64, &Axes),
-        mut next: f64,
-    ) -> Option<Result<(f64, Axes), f64>> {
+    /// Continues to `next`, or less far if an axis jumps before it; or returns where the axis would have to turn at
+    /// once: exactly in the singular point, which the path meets so straight that the axes are at rest in it.
+    fn step(&self, robot: &Robot, cfg: u8, at: f64, near: &Axes, mut next: f64) -> Option<Result<(f64, Axes), f64>> {
         loop {
             let found = self.axes(robot, cfg, next, near)?;
             if !jumps(near, &found) {
@@ -90,7 +84,7 @@ impl StraightWay {
         }
     }
 
-    /// The axes at a part of the way, no farther than half a turn from `near`.
+    /// The axes at a part of the path, no farther than half a turn from `near`.
     fn axes(&self, robot: &Robot, cfg: u8, at: f64, near: &Axes) -> Option<Axes> {
         let mut axes = robot.kinematics.inverse(&self.flange(at), cfg, near)?;
         for (value, near) in axes.iter_mut().zip(near) {
@@ -99,7 +93,7 @@ impl StraightWay {
         Some(axes)
     }
 
-    /// The TCP at a part of the way.
+    /// The TCP at a part of the path.
     fn way(&self, at: f64) -> Frame {
         let turned = UnitQuaternion::from_scaled_axis(self.turning * at) * self.start.rotation;
         Frame::from_parts((self.start.translation.vector + self.travel * at).into(), turned)
@@ -119,7 +113,7 @@ impl StraightWay {
         robot.kinematics.rates(axes, &twist)
     }
 
-    /// s for all of it at the lowest speed that makes sense.
+    /// The time of the whole path at the lowest sensible speed, in s.
     fn pace(&self) -> f64 {
         lowest_pace(&self.travel, &self.turning)
     }

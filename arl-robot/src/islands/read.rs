@@ -1,4 +1,4 @@
-//! From the tables of the cell file to islands.
+//! Reads islands from the tables of the cell file.
 
 use std::collections::HashSet;
 use std::net::{IpAddr, SocketAddr};
@@ -11,7 +11,7 @@ use crate::settings::{Section, SettingsError, Source, Value, number, table};
 const ISLAND: &[&str] =
     &["name", "address", "port", "unit", "poll", "timeout", "lost", "inputs", "end", "di", "do", "ai", "ao"];
 
-/// The keys of an entry of `di`, `do`, `ai` or `ao`: the tables that it may name, and what else.
+/// The keys of an entry of `di`, `do`, `ai` or `ao`: the tables that it may name, and further keys.
 struct Direction {
     key: &'static str,
     name: &'static str,
@@ -44,14 +44,14 @@ const AO: Direction = Direction {
     known: &["channel", "count", "raw", "holding_register"],
 };
 
-/// How many coils or registers a table can have.
+/// The most coils or registers of a table.
 const ADDRESSES: u32 = 1 << 16;
 
 impl Island {
     /// The islands of a cell file with these channels.
     ///
     /// # Errors
-    /// What stands there are no islands, or they have channels that the cell does not have.
+    /// The values are not islands, or they have channels that the cell does not have.
     pub fn read_all(
         source: Source<'_>,
         islands: Option<&Value<'_>>,
@@ -66,13 +66,13 @@ impl Island {
     }
 }
 
-/// What may be there once only.
+/// Names and signals that must be unique.
 #[derive(Default)]
 struct Taken {
     names: HashSet<String>,
-    /// Input channels, of whatever island.
+    /// The input channels of all islands.
     inputs: HashSet<(&'static str, usize)>,
-    /// What this island's outputs write: table, address, bit; a whole register has all its bits.
+    /// The places that this island's outputs write: table, address, bit; a whole register counts with all its bits.
     written: HashSet<(Table, u16, u8)>,
 }
 
@@ -139,7 +139,7 @@ fn entries<'a>(
     list.iter().map(|value| Ok((value, table(section.source, value, direction.name, direction.known)?))).collect()
 }
 
-/// Where an entry's channels and addresses begin, and how many channels there are.
+/// The first channel and address of an entry, and its number of channels.
 struct Stretch {
     channel: usize,
     count: u32,
@@ -178,7 +178,7 @@ fn stretch(
     Ok(Stretch { channel: channel as usize - 1, count, table, address })
 }
 
-/// An address, where the table has it.
+/// An address, if the table has it.
 fn at(entry: &Section<'_>, value: &Value<'_>, table: Table, address: u32) -> Result<u16, SettingsError> {
     u16::try_from(address).map_err(|_| {
         let message = format!("the {}s end at address {}: there is no {address}", table.singular(), ADDRESSES - 1);
@@ -242,7 +242,7 @@ fn analogs(
     Ok(all)
 }
 
-/// An input has one source, and what an output writes nobody else does.
+/// Checks that an input has one source, and that no two outputs write the same place.
 fn claim(
     entry: &Section<'_>,
     value: &Value<'_>,

@@ -1,8 +1,8 @@
 //! Sines, cosines and arc tangents of several angles at once, in deg.
 //!
-//! The loops have no branches, so that the compiler handles several angles with one instruction; that is most of the
-//! speed of the closed forms. Results are within 2 units in the last place, exact at multiples of 90 deg, and, other
-//! than those of the system's functions, the same on every machine.
+//! The loops have no branches, so that the compiler handles several angles with one instruction; this gives most of the
+//! speed of the closed forms. Results are within 2 units in the last place, exact at multiples of 90 deg, and, unlike
+//! those of the system's functions, the same on every machine.
 
 /// Polynomials in the square of the angle (rad), lowest power first, interpolated at the Chebyshev points of 0 to 45
 /// deg (arc tangent: of 0 to tan 22.5 deg): sine = r + r^3 S, cosine = 1 - r^2 / 2 + r^4 C, arc tangent = r + r^3 T.
@@ -39,16 +39,15 @@ mod polynomials {
 }
 use polynomials::{C, S, T};
 
-/// Adding and subtracting it rounds to a whole number; in between, the lowest bits hold that number.
+/// Adding and subtracting this constant rounds to a whole number; in between, the lowest bits contain that number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 const RADIAN: f64 = 180.0 / std::f64::consts::PI;
-/// The tangent of 22.5 deg: up to it the polynomial serves, above it the angle to 45 deg is taken.
+/// The tangent of 22.5 deg: up to it the polynomial is used directly, above it for the difference from 45 deg.
 const EIGHTH: f64 = 0.414_213_562_373_095_05;
 
-/// The powers are dealt out to `WAYS` (2 or 4) sums that do not wait for each other: the processor works at all at
-/// once.
+/// The powers are distributed over `WAYS` (2 or 4) independent sums, which the processor computes in parallel.
 #[inline(always)]
 fn polynomial<const WAYS: usize, const N: usize>(coefficients: &[f64; N], at: f64) -> f64 {
     let square = at * at;
@@ -59,7 +58,7 @@ fn polynomial<const WAYS: usize, const N: usize>(coefficients: &[f64; N], at: f6
     if WAYS == 2 { low } else { low + square * (sum(2) + at * sum(3)) }
 }
 
-/// Takes `yes` where all bits of `mask` are set, `no` where none is.
+/// Returns `yes` if all bits of `mask` are set, `no` if none is.
 #[inline(always)]
 fn either(mask: u64, yes: f64, no: f64) -> f64 {
     f64::from_bits((yes.to_bits() & mask) | (no.to_bits() & !mask))
@@ -83,7 +82,7 @@ pub fn sin_cos<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
     (sines, cosines)
 }
 
-/// The angles in deg, within -180 to 180, whose sines and cosines are as `y` to `x`; 0 where both are 0.
+/// The angles in deg, within -180 to 180, whose sines and cosines are in the ratio of `y` to `x`; 0 if both are 0.
 #[inline(always)]
 pub(super) fn atan2<const N: usize>(y: [f64; N], x: [f64; N]) -> [f64; N] {
     let mut angles = [0.0; N];
@@ -103,7 +102,7 @@ pub(super) fn atan2<const N: usize>(y: [f64; N], x: [f64; N]) -> [f64; N] {
     angles
 }
 
-/// The angles (deg) in (-180, 180].
+/// The angles (deg) wrapped to (-180, 180].
 #[inline(always)]
 pub(super) fn wrap<const N: usize>(mut angles: [f64; N]) -> [f64; N] {
     for angle in &mut angles {
@@ -125,7 +124,7 @@ mod tests {
         for _ in 0..100_000 {
             let angle = random.between(-2000.0, 2000.0);
             let ([sine, _], [cosine, _]) = sin_cos([angle, 0.0]);
-            // Whole turns are taken off first: the function of the system sees rounding noise of the angle in rad.
+            // Whole turns are subtracted first: the system's function is subject to rounding of the angle in rad.
             let (s, c) = (angle % 360.0).to_radians().sin_cos();
             assert!((sine - s).abs() < 1e-15 && (cosine - c).abs() < 1e-15, "{angle}: {sine} {s} {cosine} {c}");
         }

@@ -1,4 +1,4 @@
-//! Which of several joint vectors for one pose is meant: `cfg`, `turn`, axis limits, nearness.
+//! The choice among several joint vectors for one pose: by `cfg`, `turn`, axis limits and distance.
 
 use std::fmt;
 
@@ -6,42 +6,42 @@ use super::frame::Frame;
 use super::{Axes, Kinematics, wrap_degrees};
 use crate::robot::Axis;
 
-/// Which solution of a pose is wanted.
+/// The wanted solution of a pose.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Wanted {
-    /// The configuration; `None`: the one whose axes are nearest to the start.
+    /// The configuration; `None` for the one whose axes are nearest to the start.
     pub cfg: Option<u8>,
-    /// -1: every axis as near to the start as its range allows. Else bit i asks axis i + 1 for an angle below 0 (set)
-    /// or from 0 on (clear), which matters where whole turns leave a choice.
+    /// -1: every axis as near to the start as its range allows. Otherwise bit i requests an angle of axis i + 1 below 0
+    /// (set) or from 0 on (clear), which matters if whole turns leave a choice.
     pub turn: i32,
 }
 
-/// What `cfg` may be, in words.
+/// The possible values of `cfg`, in words.
 pub const CONFIGURATIONS: &str = "a six-axis robot has 0 to 7, a SCARA robot has 0 (right-handed) and 4 (left-handed)";
 
-/// Why no joint vector for a pose was found.
+/// The reason why no joint vector for a pose was found.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Refusal {
-    /// The configuration is none of this robot's.
+    /// The robot does not have this configuration.
     NoSuchCfg {
-        /// What was asked for.
+        /// The requested configuration.
         cfg: u8,
     },
     /// The pose is out of reach.
     Unreachable {
-        /// How far the arm falls short, in mm; 0 where it is the configuration that does not fit.
+        /// The missing reach of the arm, in mm; 0 if the configuration is the reason.
         beyond: f64,
     },
-    /// The flange would have to tilt, which a SCARA cannot.
+    /// The flange would have to tilt, which a SCARA robot cannot do.
     Tilted {
-        /// By how much, in deg.
+        /// The tilt, in deg.
         by: f64,
     },
-    /// The pose is reached with an axis outside its range only.
+    /// The pose can only be reached with an axis outside its range.
     AxisLimit {
         /// The axis, counted from 0.
         axis: usize,
-        /// Where it would have to stand, in deg (mm).
+        /// The position that it would need, in deg (mm).
         value: f64,
     },
 }
@@ -63,10 +63,10 @@ impl fmt::Display for Refusal {
 impl std::error::Error for Refusal {}
 
 impl Kinematics {
-    /// The joint vector for `flange` that is wanted, within the ranges of `axes`, the robot's own.
+    /// The wanted joint vector for `flange`, within the ranges of `axes`, the robot's own.
     ///
     /// # Errors
-    /// None is found; the reason is that of the configuration asked for, or that of the nearest one.
+    /// None is found; the reason is that of the requested configuration, or that of the nearest one.
     pub fn choose(&self, flange: &Frame, wanted: Wanted, axes: &[Axis], near: &Axes) -> Result<Axes, Refusal> {
         let one = |cfg: u8| {
             let solution = self.inverse(flange, cfg, near).ok_or_else(|| self.refusal(flange))?;
@@ -85,7 +85,7 @@ impl Kinematics {
                         best = Some((far, found));
                     }
                 }
-                // A limit tells more than a configuration that does not reach.
+                // A limit is more informative than a configuration that does not reach the pose.
                 Err(found @ Refusal::AxisLimit { .. }) => refusal = Some(found),
                 Err(found) => {
                     refusal.get_or_insert(found);
@@ -96,7 +96,7 @@ impl Kinematics {
     }
 }
 
-/// Adds whole turns so that every axis is in its range, has the side that `turn` asks for where it can, and is near.
+/// Adds whole turns so that every axis is in its range, has the sign that `turn` requests if possible, and is near.
 fn turn(solution: &Axes, turn: i32, axes: &[Axis], near: &Axes) -> Result<Axes, Refusal> {
     let mut chosen = *solution;
     for (index, ((value, axis), near)) in chosen.iter_mut().zip(axes).zip(near).enumerate() {
@@ -109,7 +109,7 @@ fn turn(solution: &Axes, turn: i32, axes: &[Axis], near: &Axes) -> Result<Axes, 
     Ok(chosen)
 }
 
-/// Positions this little (deg, mm) outside a range are brought into it.
+/// Positions outside a range by at most this (deg, mm) are clamped to it.
 pub const RANGE_SLACK: f64 = 1e-6;
 
 fn with_turns(value: f64, below: Option<bool>, axis: &Axis, near: f64) -> Option<f64> {

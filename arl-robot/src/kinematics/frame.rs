@@ -43,7 +43,7 @@ pub fn frame_components(frame: &Frame) -> [f64; 6] {
     [x, y, z, half_turn(a.to_degrees()), b.to_degrees(), half_turn(c.to_degrees())]
 }
 
-/// Half a turn is 180, whatever side rounding has put it on.
+/// Returns half a turn as 180, whatever its sign after rounding.
 fn half_turn(angle: f64) -> f64 {
     if angle <= -180.0 + 1e-10 { angle + 360.0 } else { angle }
 }

@@ -1,27 +1,27 @@
 //! The links of a robot as a chain of joints: for pictures, shapes and robot descriptions.
 //!
-//! Six axes: at zero of all inner angles (see [`Opw`]) every link's frame points as the base; link 1 has its origin on
-//! axis 1 at the height of axis 2, link 2 on axis 2 in the arm's plane, link 3 on axis 3, links 4 to 6 in the wrist
-//! centre. SCARA: x points along the arm; link 1 has its origin on axis 1 at the height of the base, link 2 on axis 2
-//! at that height, links 3 and 4 in the flange.
+//! Six axes: at zero of all inner angles (see [`Opw`]) every link's frame is oriented like the base; link 1 has its
+//! origin on axis 1 at the height of axis 2, link 2 on axis 2 in the arm's plane, link 3 on axis 3, links 4 to 6 in the
+//! wrist centre. SCARA: x points along the arm; link 1 has its origin on axis 1 at the height of the base, link 2 on
+//! axis 2 at that height, links 3 and 4 in the flange.
 
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::{Frame, Kinematics};
 
-/// The joint that moves a link against the one before, the first one against the base.
+/// The joint that moves a link relative to the previous one, or the first link relative to the base.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct LinkJoint {
-    /// The link's frame in that of the link before where the axis is at 0, translation in mm.
+    /// The link's frame in that of the previous link while the axis is at 0, translation in mm.
     pub origin: Frame,
-    /// What it turns about, or moves along, in the link's frame.
+    /// The axis about which it turns, or along which it moves, in the link's frame.
     pub axis: Unit<Vector3<f64>>,
-    /// Whether it moves along its axis.
+    /// Whether the joint moves along its axis.
     pub linear: bool,
 }
 
 impl LinkJoint {
-    /// The link's frame in that of the link before at `value` deg (mm) of the axis.
+    /// The link's frame in that of the previous link at `value` deg (mm) of the axis.
     pub fn at(&self, value: f64) -> Frame {
         let moved = if self.linear {
             Frame::from_parts(Translation3::from(self.axis.into_inner() * value), UnitQuaternion::identity())
@@ -44,7 +44,7 @@ impl LinkJoint {
 }
 
 impl Kinematics {
-    /// The joints of its axes, from the base on, and the flange's frame in the last link's, translation in mm.
+    /// The joints of the axes, from the base on, and the flange's frame in that of the last link, translation in mm.
     ///
     /// ```
     /// # #[cfg(feature = "files")] {

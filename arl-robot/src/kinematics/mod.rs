@@ -1,6 +1,6 @@
 //! Kinematics: axes to pose and back, in closed form.
 //!
-//! Lengths are mm and angles deg at the border of this module; inside it computes in m.
+//! Lengths are in mm and angles in deg in the interface of this module; internally it computes in m.
 
 mod angles;
 mod choose;
@@ -58,8 +58,9 @@ impl Kinematics {
         }
     }
 
-    /// The axes that bring the flange to `flange` in configuration `cfg`, each within (-180, 180] deg; what the pose
-    /// leaves open at a singular point stays as in `near`. `None`: the pose is out of reach in this configuration.
+    /// The axes that bring the flange to `flange` in configuration `cfg`, each within (-180, 180] deg; axes that the
+    /// pose leaves open at a singular point stay as in `near`. `None` if the pose is out of reach in this
+    /// configuration.
     pub fn inverse(&self, flange: &Frame, cfg: u8, near: &Axes) -> Option<Axes> {
         match self {
             Kinematics::SixAxis(opw) => opw.inverse(flange, cfg, near),
@@ -67,7 +68,7 @@ impl Kinematics {
         }
     }
 
-    /// Why no configuration, or none of those asked for, reaches `flange`.
+    /// The reason why no configuration, or none of the requested ones, reaches `flange`.
     pub fn refusal(&self, flange: &Frame) -> Refusal {
         match self {
             Kinematics::Scara(scara) if scara.tilt(flange) > 0.0 => Refusal::Tilted { by: scara.tilt(flange) },
@@ -83,8 +84,8 @@ impl Kinematics {
         }
     }
 
-    /// How far, in mm, the pose is from what the arm can reach in any configuration; 0 where the length of the arm is
-    /// not what hinders.
+    /// The distance, in mm, of the pose from the reach of the arm in any configuration; 0 if the length of the arm is
+    /// not the reason.
     pub fn beyond_reach(&self, flange: &Frame) -> f64 {
         match self {
             Kinematics::SixAxis(opw) => opw.beyond_reach(flange),
@@ -93,7 +94,7 @@ impl Kinematics {
     }
 }
 
-/// The angle in (-180, 180].
+/// The angle wrapped to (-180, 180].
 pub fn wrap_degrees(angle: f64) -> f64 {
     let [wrapped] = angles::wrap([angle]);
     wrapped

@@ -1,9 +1,9 @@
 //! Six axes with a spherical wrist, described by the seven OPW lengths.
 //!
-//! At zero of all inner angles the arm stands straight up and the flange frame points as the base. Axis 1 turns about
-//! z, axes 2 and 3 about y, the wrist about z, y, z. The wrist centre, seen in the plane that axis 1 turns, lies `a1`
-//! in front and `c1` above the base, then `c2` along the upper arm, then `c3` along and `a2` beside the forearm; the
-//! whole plane is `b` off axis 1. An axis angle is sign * (inner angle + offset).
+//! At zero of all inner angles the arm points straight up and the flange frame is oriented like the base. Axis 1 turns
+//! about z, axes 2 and 3 about y, the wrist about z, y, z. The wrist centre, seen in the plane that axis 1 turns, lies
+//! `a1` in front and `c1` above the base, then `c2` along the upper arm, then `c3` along and `a2` beside the forearm;
+//! the whole plane is `b` off axis 1. An axis angle is sign * (inner angle + offset).
 
 use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
@@ -17,7 +17,7 @@ use super::wrist::{Hand, hand};
 pub struct OpwParameters {
     /// Axis 1 to axis 2, forwards.
     pub a1: f64,
-    /// Axis 3 to the wrist centre, at right angles to the forearm; negative where the forearm is above axis 3.
+    /// Axis 3 to the wrist centre, at right angles to the forearm; negative if the forearm is above axis 3.
     pub a2: f64,
     /// Sideways distance of the arm's plane from axis 1.
     pub b: f64,
@@ -29,9 +29,9 @@ pub struct OpwParameters {
     pub c3: f64,
     /// Wrist centre to flange.
     pub c4: f64,
-    /// Angles of the axes where the inner angles are 0, times the sign.
+    /// Angles of the axes at inner angles of 0, times the sign.
     pub offsets: [f64; 6],
-    /// 1, or -1 where an axis turns the other way.
+    /// 1, or -1 if an axis turns in the opposite direction.
     pub signs: [f64; 6],
 }
 
@@ -47,12 +47,12 @@ pub struct Opw {
     pub(super) c2: f64,
     pub(super) c3: f64,
     pub(super) c4: f64,
-    /// Axis 3 to the wrist centre, straight.
+    /// The straight distance from axis 3 to the wrist centre.
     k: f64,
     /// Angle between that line and the forearm, in deg.
     psi: f64,
     psi_sin_cos: (f64, f64),
-    /// 1 by twice the product of the two arms.
+    /// 1 divided by twice the product of the two arm lengths.
     by_arms: f64,
 }
 
@@ -64,22 +64,21 @@ pub struct Solutions {
 }
 
 impl Solutions {
-    /// The axes in deg, each within (-180, 180], in configuration `cfg` (0 to 7); `None` where it does not reach the
-    /// pose.
+    /// The axes in deg, each within (-180, 180], in configuration `cfg` (0 to 7); `None` if it does not reach the pose.
     pub fn get(&self, cfg: u8) -> Option<&Axes> {
         if cfg < 8 && self.found & (1 << cfg) != 0 { self.axes.get(usize::from(cfg)) } else { None }
     }
 
-    /// All that reach the pose, with their `cfg`.
+    /// All solutions that reach the pose, with their `cfg`.
     pub fn iter(&self) -> impl Iterator<Item = (u8, &Axes)> {
         (0..8).filter_map(|cfg| self.get(cfg).map(|axes| (cfg, axes)))
     }
 }
 
-/// Where axes lose a direction in which they can move the flange.
+/// A singularity: the axes lose a direction in which they can move the flange.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Singularity {
-    /// Axes 4 and 6 turn about one line.
+    /// Axes 4 and 6 turn about the same line.
     Wrist,
     /// The arm is stretched, or folded upon itself.
     Elbow,
@@ -87,15 +86,15 @@ pub enum Singularity {
     Shoulder,
 }
 
-/// Where in the arm's plane the wrist centre is: the two halves of `cfg` above its lowest bit.
+/// The position of the wrist centre in the arm's plane: the two bits of `cfg` above the lowest one.
 #[derive(Clone, Copy)]
 struct Arm {
     front: bool,
     right: bool,
 }
 
-/// Axis 1 has turned the arm's plane: where the wrist centre is in it, seen from axis 2 (m), and sine and cosine of the
-/// bend of the elbow that reaches so far, to the right. Without meaning where it is not reached.
+/// The state after axis 1 has turned the arm's plane: the wrist centre in it, relative to axis 2 (m), and sine and
+/// cosine of the elbow angle, to the right, for this distance. Without meaning if it is not reached.
 #[derive(Clone, Copy)]
 struct Shoulder {
     reached: bool,
@@ -103,13 +102,13 @@ struct Shoulder {
     cos1: f64,
     x: f64,
     z: f64,
-    /// 1 by the square of the distance.
+    /// 1 divided by the square of the distance.
     by_reach: f64,
     sine: f64,
     cosine: f64,
 }
 
-/// Sine and cosine of the inner angle of axis 2, and of the angle that the wrist is carried at.
+/// Sine and cosine of the inner angle of axis 2, and of the angle of the forearm that carries the wrist.
 #[derive(Clone, Copy)]
 struct Elbow {
     sin2: f64,
@@ -117,7 +116,7 @@ struct Elbow {
     t23_sin_cos: (f64, f64),
 }
 
-/// The arm of `cfg / 2`, by the table of configurations.
+/// The arm for `cfg / 2`, according to the table of configurations.
 const ARMS: [Arm; 4] = [
     Arm { front: true, right: true },
     Arm { front: true, right: false },
@@ -125,7 +124,7 @@ const ARMS: [Arm; 4] = [
     Arm { front: false, right: true },
 ];
 
-/// A sine or length (m) this little below zero still counts as zero.
+/// A sine or length (m) below zero by at most this counts as zero.
 const ZERO: f64 = 1e-9;
 
 impl Opw {
@@ -179,7 +178,7 @@ impl Opw {
     /// The flange's frame in the base, translation in mm.
     pub fn forward(&self, axes: &Axes) -> Frame {
         let [t1, t2, t3, t4, t5, t6] = self.inner(axes);
-        // Half angles give the rotation as a quaternion; the full ones follow from them.
+        // Half angles give the rotation as a quaternion; the full angles follow from them.
         let halves = [0.5 * t1, 0.5 * (t2 + t3), 0.5 * t5, 0.5 * (t4 + t6), 0.5 * (t6 - t4), t2];
         let ([h1, h23, h5, h46, h64, s2], [g1, g23, g5, g46, g64, c2]) = sin_cos(halves);
         let (s1, c1) = (2.0 * h1 * g1, 1.0 - 2.0 * h1 * h1);
@@ -204,13 +203,13 @@ impl Opw {
         flange.translation.vector / 1000.0 - rotation.column(2) * self.c4
     }
 
-    /// How axis 1 brings the wrist centre into the arm's plane, before or behind itself.
+    /// The angle of axis 1 that brings the wrist centre into the arm's plane, in front of or behind the axis.
     #[inline]
     fn shoulder(&self, centre: &Vector3<f64>, front: bool, near1: f64) -> Shoulder {
         let square = centre.x * centre.x + centre.y * centre.y;
         let (depth, beside) = square_root(square - self.b * self.b);
         let x = if front { depth } else { -depth };
-        // On axis 1 any angle of it will do.
+        // If it is on axis 1, any angle of the axis is possible.
         let (sin1, cos1) = if square < 1e-20 {
             let ([sine], [cosine]) = sin_cos([near1]);
             (sine, cosine)
@@ -225,13 +224,13 @@ impl Opw {
         Shoulder { reached: beside && within, sin1, cos1, x, z, by_reach: 1.0 / reach, sine, cosine }
     }
 
-    /// How axes 2 and 3 bring the wrist centre to its place in the arm's plane.
+    /// The angles of axes 2 and 3 that bring the wrist centre to its position in the arm's plane.
     #[inline]
     fn elbow(&self, shoulder: &Shoulder, right: bool) -> Elbow {
         let Shoulder { x, z, by_reach, sine, cosine, .. } = *shoulder;
         let sine = if right { sine } else { -sine };
         let (along, beside) = (self.c2 + self.k * cosine, self.k * sine);
-        // An arm that is folded upon itself points anywhere; upwards, then.
+        // An arm that is folded upon itself may point anywhere; upwards is chosen.
         let (sin2, cos2) = if by_reach > 1e20 {
             (0.0, 1.0)
         } else {
@@ -242,13 +241,13 @@ impl Opw {
         Elbow { sin2, cos2, t23_sin_cos: (sin * cos_psi - cos * sin_psi, cos * cos_psi + sin * sin_psi) }
     }
 
-    /// The lowest bit of `cfg` that the solution with a positive inner angle 5 has.
+    /// The lowest bit of `cfg` of the solution with a positive inner angle 5.
     fn wrist_bit(&self) -> u8 {
         let [_, _, _, _, sign5, _] = self.parameters.signs;
         u8::from(sign5 < 0.0)
     }
 
-    /// All solutions of a pose, up to eight; what the pose leaves open at a singular point stays as in `near`.
+    /// All solutions of a pose, up to eight; axes that the pose leaves open at a singular point stay as in `near`.
     pub fn solutions(&self, flange: &Frame, near: &Axes) -> Solutions {
         let rotation = flange.rotation.to_rotation_matrix().into_inner();
         let centre = self.wrist_centre(flange, &rotation);
@@ -281,14 +280,14 @@ impl Opw {
         solutions
     }
 
-    /// The one solution of configuration `cfg`; see [`super::Kinematics::inverse`].
+    /// The solution of configuration `cfg`; see [`super::Kinematics::inverse`].
     pub fn inverse(&self, flange: &Frame, cfg: u8, near: &Axes) -> Option<Axes> {
         let arm = ARMS.get(usize::from(cfg >> 1))?;
         let rotation = flange.rotation.to_rotation_matrix().into_inner();
         let centre = self.wrist_centre(flange, &rotation);
         let [near1, _, _, near4, _, _] = self.inner(near);
         let flipped = cfg & 1 != self.wrist_bit();
-        // The flipped solution's axis 4 stands half a turn on.
+        // Axis 4 of the flipped solution is half a turn further.
         let near4 = if flipped { near4 - 180.0 } else { near4 };
         let shoulder = self.shoulder(&centre, arm.front, near1);
         if !shoulder.reached {
@@ -328,7 +327,7 @@ impl Opw {
         [wrist.abs(), bend.abs(), depth.abs() / (self.c2 + self.k)]
     }
 
-    /// The singular point that the axes are nearest to, by the measure of [`Opw::clearance`].
+    /// The singularity that the axes are nearest to, by the measure of [`Opw::clearance`].
     pub fn nearest_singularity(&self, axes: &Axes) -> Singularity {
         let [wrist, elbow, shoulder] = self.clearances(axes);
         if wrist <= elbow.min(shoulder) {
@@ -346,7 +345,7 @@ impl Opw {
         Stance { depth: self.a1 + self.c2 * s2 + self.c3 * s23 + self.a2 * c23, bend, wrist }
     }
 
-    /// How far, in mm, the wrist centre is from what the arm reaches in any configuration.
+    /// The distance, in mm, of the wrist centre from the reach of the arm in any configuration.
     pub fn beyond_reach(&self, flange: &Frame) -> f64 {
         let rotation = flange.rotation.to_rotation_matrix().into_inner();
         let centre = self.wrist_centre(flange, &rotation);
@@ -364,7 +363,7 @@ impl Opw {
     }
 }
 
-/// How far (m) the wrist centre is in front of axis 1, the sine of the bend at the elbow, to the right, and the sine of
+/// The distance (m) of the wrist centre in front of axis 1, the sine of the elbow angle, to the right, and the sine of
 /// the wrist's middle angle.
 struct Stance {
     depth: f64,
@@ -372,7 +371,7 @@ struct Stance {
     wrist: f64,
 }
 
-/// The square root, where a value that rounding put below zero counts as zero; and whether there is one.
+/// The square root, and whether it exists; a value below zero by rounding counts as zero.
 #[inline]
 fn square_root(value: f64) -> (f64, bool) {
     (value.max(0.0).sqrt(), value > -1e-13)

@@ -1,7 +1,7 @@
-//! Passing the wrist singularity: where the middle axis of the wrist stands near 0, axes 4 and 6 turn about nearly the
-//! same line, and an exact orientation would have axis 4 swing round at once. A passage leads axis 4 evenly from where
-//! it stands before that stretch to where it has to be behind it; the TCP stays exactly on its path, and the
-//! orientation gives way by at most as much as the middle axis is away from 0.
+//! Passing the wrist singularity: where the middle axis of the wrist is near 0, axes 4 and 6 turn about nearly the same
+//! line, and an exact orientation would make axis 4 swing round at once. A passage leads axis 4 smoothly from its
+//! position before that section to the one needed after it; the TCP stays exactly on its path, and the orientation
+//! deviates by at most the distance of the middle axis from 0.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
@@ -10,37 +10,37 @@ use super::frame::Frame;
 use super::{Axes, Kinematics, Opw, wrap_degrees};
 use crate::robot::Axis;
 
-/// A passage is where the sine of the wrist's middle axis is below this: 4 deg, the most that the orientation gives
-/// way.
+/// A passage is where the sine of the wrist's middle axis is below this: 4 deg, the largest deviation of the
+/// orientation.
 pub const PASSAGE: f64 = 0.07;
 
-/// Below this part of that, axis 4 stands where a path begins or ends.
+/// Below this part of `PASSAGE`, axis 4 is at rest where a path begins or ends.
 const STILL: f64 = 0.4;
 
-/// How fine a path is looked at, as part of it.
+/// The step at which a path is examined, as part of it.
 const STEP: f64 = 1.0 / 512.0;
-/// Over so much of the path differences tell derivatives.
+/// The part of the path over which differences approximate derivatives.
 const DIFFERENCE: f64 = 1e-4;
 /// The TCP counts as exact within this, in mm; the orientation's two exact components in rad.
 const EXACT: f64 = 1e-9;
 const EXACT_TURN: f64 = 1e-12;
 const MOST_STEPS: usize = 30;
 
-/// A stretch of a path that passes the wrist singularity.
+/// A section of a path that passes the wrist singularity.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Passage {
-    /// The stretch, as path parameters within 0 to 1.
+    /// The start of the section, as a path parameter within 0 to 1.
     pub from: f64,
-    /// Its end.
+    /// The end of the section.
     pub to: f64,
-    /// Coefficients of axis 4 (deg) by the part of the stretch, lowest power first.
+    /// Coefficients of axis 4 (deg) over the part of the section, lowest power first.
     axis4: [f64; 6],
-    /// The configuration behind the stretch: the middle axis may have gone through 0.
+    /// The configuration after the section: the middle axis may have passed through 0.
     pub cfg_behind: u8,
 }
 
 impl Passage {
-    /// Where axis 4 (deg) is led to at a path parameter within the stretch.
+    /// The position of axis 4 (deg) at a path parameter within the section.
     pub fn axis4(&self, at: f64) -> f64 {
         let part = ((at - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
         self.axis4.iter().rev().fold(0.0, |sum, coefficient| sum * part + coefficient)
@@ -48,10 +48,10 @@ impl Passage {
 }
 
 impl Kinematics {
-    /// The axes with axis 4 at `axis4` (deg) that bring the TCP of `tool` (seen from the flange) to the place of `tcp`
-    /// (in the base) exactly, and its orientation as near as that axis allows: what is missing is a turn about the line
-    /// that is at right angles to axes 5 and 6. `near` are the axes shortly before; the result is the one that
-    /// continues them. `None` for a SCARA, and where no axes lead there.
+    /// The axes with axis 4 at `axis4` (deg) that bring the TCP of `tool` (relative to the flange) to the position of
+    /// `tcp` (in the base) exactly, and its orientation as near as that axis allows: the deviation is a turn about the
+    /// line at right angles to axes 5 and 6. `near` are the axes shortly before; the result is the solution that
+    /// continues them. `None` for a SCARA, and if no axes lead there.
     pub fn inverse_at_axis4(&self, tcp: &Frame, tool: &Frame, axis4: f64, near: &Axes) -> Option<Axes> {
         let Kinematics::SixAxis(_) = self else { return None };
         let mut axes = *near;
@@ -67,7 +67,7 @@ impl Kinematics {
             if off.norm() < EXACT && fifth.dot(&turn).abs().max(sixth.dot(&turn).abs()) < EXACT_TURN {
                 return Some(axes);
             }
-            // Rows: the TCP in m, the two components of the orientation, and axis 4 stays.
+            // Rows: the TCP in m, the two components of the orientation, and axis 4, which stays.
             let mut matrix = Matrix6::zeros();
             for column in 0..6 {
                 let moving: Vector3<f64> = screws.fixed_view::<3, 1>(3, column) / 1000.0;
@@ -87,10 +87,10 @@ impl Kinematics {
         None
     }
 
-    /// The stretches of a path that pass the wrist singularity, in order. `flange` gives the frame of the flange in the
-    /// base for a path parameter from 0 to 1, `start` are the axes where the path begins, in configuration `cfg`, and
-    /// `axes` the robot's own, within whose ranges axis 4 is led. On a path that has none, and with a SCARA, there are
-    /// none.
+    /// The sections of a path that pass the wrist singularity, in order. `flange` returns the frame of the flange in
+    /// the base for a path parameter from 0 to 1, `start` are the axes where the path begins, in configuration `cfg`,
+    /// and `axes` are the robot's own, within whose ranges axis 4 is led. Empty for a path without such sections, and
+    /// for a SCARA.
     pub fn passages(&self, flange: impl Fn(f64) -> Frame, cfg: u8, start: &Axes, axes: &[Axis]) -> Vec<Passage> {
         let Kinematics::SixAxis(opw) = self else { return Vec::new() };
         let range = axes.get(3).map_or((f64::NEG_INFINITY, f64::INFINITY), |axis| (axis.min, axis.max));
@@ -134,7 +134,7 @@ fn set_axis4(axes: &mut Axes, to: f64) {
     *axis4 = to;
 }
 
-/// A path whose passages are looked for.
+/// The search for passages on a path.
 struct PassageSearch<'a, F> {
     opw: &'a Opw,
     /// The frame of the flange in the base for a path parameter from 0 to 1.
@@ -151,7 +151,7 @@ impl<F: Fn(f64) -> Frame> PassageSearch<'_, F> {
         self.opw.inverse(&(self.flange)(at), cfg, near)
     }
 
-    /// The sine of the wrist's middle axis, without its sign.
+    /// The absolute sine of the wrist's middle axis.
     fn wrist_sine(&self, axes: &Axes) -> f64 {
         let [_, _, _, _, fifth, _] = self.opw.inner(axes);
         fifth.to_radians().sin().abs()
@@ -161,7 +161,7 @@ impl<F: Fn(f64) -> Frame> PassageSearch<'_, F> {
         self.exact(at, cfg, near).is_some_and(|axes| self.wrist_sine(&axes) < PASSAGE)
     }
 
-    /// The border of a passage between two places of which one is inside.
+    /// The border of a passage between a place outside and one inside.
     fn border(&self, mut outside: f64, mut within: f64, cfg: u8, near: &Axes) -> f64 {
         for _ in 0..50 {
             let middle = 0.5 * (outside + within);
@@ -170,8 +170,8 @@ impl<F: Fn(f64) -> Frame> PassageSearch<'_, F> {
         outside
     }
 
-    /// The passage over a stretch, and where axis 4 is behind it. `near` are the axes shortly before. `None` where no
-    /// axes lead to its end.
+    /// The passage over a section, and the position of axis 4 after it. `near` are the axes shortly before. `None` if
+    /// no axes lead to its end.
     fn passage(&self, from: f64, to: f64, cfg: u8, near: &Axes) -> Option<(Passage, f64)> {
         let end = axis4(&self.exact(to, cfg, near)?);
         let first = if from == 0.0 { axis4(self.start) } else { axis4(near) };
@@ -185,7 +185,8 @@ impl<F: Fn(f64) -> Frame> PassageSearch<'_, F> {
         Some((Passage { from, to, axis4, cfg_behind }, least))
     }
 
-    /// The value of axis 4 at a border of the passage, with its first and second derivative by the path parameter.
+    /// The value of axis 4 at a border of the passage, with its first and second derivative with respect to the path
+    /// parameter.
     fn derivatives(&self, border: f64, value: f64, cfg: u8, near: &Axes) -> [f64; 3] {
         if border <= 0.0 || border >= 1.0 {
             let [first, second] = self.derivatives_at_end(border, cfg, near).unwrap_or_default();
@@ -199,8 +200,9 @@ impl<F: Fn(f64) -> Frame> PassageSearch<'_, F> {
         [value, (after - before) / (2.0 * DIFFERENCE), (after + before) / (DIFFERENCE * DIFFERENCE)]
     }
 
-    /// The derivatives of axis 4 at an end of the path: as it would go exactly, less the nearer the middle axis is to
-    /// 0. What the path goes on with there does the same.
+    /// The derivatives of axis 4 at an end of the path: those of the exact motion, reduced the nearer the middle axis
+    /// is to
+    /// 0. An adjoining path does the same there.
     fn derivatives_at_end(&self, end: f64, cfg: u8, near: &Axes) -> Option<[f64; 2]> {
         let here = self.exact(end, cfg, near)?;
         let share = share_kept(self.wrist_sine(&here));
@@ -218,19 +220,19 @@ impl<F: Fn(f64) -> Frame> PassageSearch<'_, F> {
     }
 }
 
-/// How much of its exact motion axis 4 keeps where the path begins or ends inside a passage: all of it at the border,
-/// none near the singular point.
+/// The share of its exact motion that axis 4 keeps where the path begins or ends inside a passage: 1 at the border, 0
+/// near the singular point.
 fn share_kept(sine: f64) -> f64 {
     let part = ((sine / PASSAGE - STILL) / (1.0 - STILL)).clamp(0.0, 1.0);
     part * part * (3.0 - 2.0 * part)
 }
 
-/// How far the exact axis 4 is from `value`, whole turns left out.
+/// The distance of the exact axis 4 from `value`, without whole turns.
 fn from_exact(axes: Option<Axes>, value: f64) -> f64 {
     axes.map_or(0.0, |axes| wrap_degrees(axis4(&axes) - value))
 }
 
-/// The angle half turns away from `end` that is nearest to `start` and within the range.
+/// The angle that differs from `end` by half turns, is nearest to `start` and within the range.
 fn end_of_axis4(end: f64, start: f64, (min, max): (f64, f64)) -> f64 {
     let first = end + 180.0 * ((start - end) / 180.0).round();
     let all = [first, first - 180.0, first + 180.0];
@@ -238,7 +240,7 @@ fn end_of_axis4(end: f64, start: f64, (min, max): (f64, f64)) -> f64 {
     fits.min_by(|a, b| (a - start).abs().total_cmp(&(b - start).abs())).unwrap_or(first)
 }
 
-/// The coefficients by the part of a stretch of length `length` that begins and ends with these values, first and
+/// The coefficients over the part of a section of length `length` that begins and ends with these values, first and
 /// second derivatives.
 fn quintic(start: [f64; 3], end: [f64; 3], length: f64) -> [f64; 6] {
     let [p, v, a] = start;
@@ -270,7 +272,7 @@ mod tests {
     }
 
     /// Follows a line of the TCP with its passages; returns the largest jump of an axis from one place to the next, the
-    /// largest change of a jump, and how far the orientation gave way at most (rad).
+    /// largest change of a jump, and the largest deviation of the orientation (rad).
     fn follow(robot: &Robot, tcp: &dyn Fn(f64) -> Frame, tool: &Frame, start: &Axes, places: i32) -> (f64, f64, f64) {
         let kinematics = &robot.kinematics;
         let passages = all(robot, tcp, tool, start);
@@ -309,7 +311,7 @@ mod tests {
         (most, bend, gave)
     }
 
-    /// A line whose flange keeps its orientation; at its middle the axes stand at `middle`.
+    /// A line whose flange keeps its orientation; at its middle the axes are at `middle`.
     fn through(robot: &Robot, middle: &Axes, tool: &Frame, travel: Vector3<f64>) -> impl Fn(f64) -> Frame + use<> {
         let pose = robot.kinematics.forward(middle) * tool;
         move |at: f64| {
@@ -339,7 +341,8 @@ mod tests {
             assert_eq!(passages.len(), 1, "{fifth}: {passages:?}");
             let (most, bend, gave) = follow(&robot, &tcp, &tool, &start, 1000);
             let (finer, finer_bend, _) = follow(&robot, &tcp, &tool, &start, 4000);
-            // Steps shrink with the distance of the places, their changes with its square: position and speed are even.
+            // Steps shrink with the distance of the places, their changes with its square: position and speed are
+            // continuous.
             assert!(most < 3.0 && finer < 0.3 * most, "{fifth}: {most} {finer}");
             assert!(finer_bend < 0.1 * bend + 1e-6, "{fifth}: {bend} {finer_bend}");
             assert!(gave < 1.01 * PASSAGE, "{fifth}: {gave}");
@@ -368,7 +371,7 @@ mod tests {
                 else {
                     continue;
                 };
-                // Only what the arm itself passes without a singular point of its own, and within its ranges.
+                // Only lines that the arm itself can follow without another singular point, and within its ranges.
                 let fits = |at: f64| {
                     let found = kinematics.inverse(&(tcp(at) * tool.inverse()), kinematics.cfg(&middle), &middle);
                     found.is_some_and(|[_, _, third, ..]| (third - j3).abs() < 30.0)

@@ -1,4 +1,4 @@
-//! How axes and tool move together: speeds, and along a path the first three derivatives of the axes.
+//! The relation between the motion of axes and tool: speeds, and the first three derivatives of the axes along a path.
 
 use nalgebra::{Matrix6, Vector3};
 
@@ -16,7 +16,7 @@ pub struct Twist {
     third: Screw,
 }
 
-/// A turn (rad) about the base's origin over a move (m) of what is there: how a rigid body moves, in the base.
+/// The motion of a rigid body in the base: a turn (rad), and a translation (m) of the point at the base's origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Screw {
     pub(super) turning: Vector3<f64>,
@@ -47,8 +47,8 @@ impl Twist {
 }
 
 impl Twist {
-    /// The first three derivatives (mm per unit of the path parameter, its square, its cube) of the place of what is at
-    /// `point` (mm) and moves along.
+    /// The first three derivatives (mm per unit of the path parameter, its square, its cube) of the position of a point
+    /// that is at `point` (mm) and moves with the body.
     pub fn of_place(&self, point: &Vector3<f64>) -> [Vector3<f64>; 3] {
         let p = point / 1000.0;
         let v = self.first.at(&p);
@@ -69,28 +69,28 @@ pub struct Rates {
     pub third: Axes,
 }
 
-/// The lowest speed of the TCP (mm/s) and of the tool's turning (deg/s) that makes sense along a path: a place that the
-/// axes cannot pass even so slowly is singular. A path that moves and turns the tool is as slow as that where neither
-/// is faster.
+/// The lowest speed of the TCP (mm/s) and of the tool's turning (deg/s) that is sensible along a path: a place that the
+/// axes cannot pass even at this speed is singular. For a path that moves and turns the tool, it is the speed at which
+/// neither is faster.
 pub const LOWEST_TRAVEL_MM_S: f64 = 1.0;
 /// See [`LOWEST_TRAVEL_MM_S`].
 pub const LOWEST_TURNING_DEG_S: f64 = 0.1;
-/// Farther from singular points than this (see [`Kinematics::clearance`]) every place is passed at the lowest speed
-/// that makes sense.
+/// Farther from singular points than this (see [`Kinematics::clearance`]) every place can be passed at the lowest
+/// sensible speed.
 pub const CLEAR_OF_SINGULAR: f64 = 0.15;
-/// Over less time than this (s) at the lowest speed that makes sense no way is looked at: an axis that has jumped by
-/// then would have to turn infinitely fast.
+/// The shortest step, as time (s) at the lowest sensible speed, in which a path is examined: an axis that jumps within
+/// it would have to turn infinitely fast.
 pub const SHORTEST_STEP_S: f64 = 1e-3;
 
-/// How long a path takes at the lowest speed that makes sense (see [`LOWEST_TRAVEL_MM_S`]), in s per unit of its
-/// parameter, at a place where the TCP goes by `travel` (mm) and the tool turns by `turning` (rad) per unit. However a
-/// way is cut into paths, this is the same for the same piece of it.
+/// The time of a path at the lowest sensible speed (see [`LOWEST_TRAVEL_MM_S`]), in s per unit of its parameter, at a
+/// place where the TCP moves by `travel` (mm) and the tool turns by `turning` (rad) per unit. However a path is divided
+/// into segments, the time of the same piece is the same.
 pub fn lowest_pace(travel: &Vector3<f64>, turning: &Vector3<f64>) -> f64 {
     (travel.norm() / LOWEST_TRAVEL_MM_S).max(turning.norm().to_degrees() / LOWEST_TURNING_DEG_S)
 }
 
 impl Rates {
-    /// Over which part of the path the motion of `axes`, the robot's, changes substantially: infinity where it does
+    /// The part of the path over which the motion of `axes`, the robot's, changes substantially: infinity if it does
     /// not.
     pub fn scale(&self, axes: &[Axis]) -> f64 {
         let size = |rates: &Axes| {
@@ -102,9 +102,9 @@ impl Rates {
         if scale.is_nan() { f64::INFINITY } else { scale }
     }
 
-    /// How many times faster than at the lowest speed that makes sense `axes`, the robot's, can follow by their speeds
-    /// and accelerations, where these are the rates of a straight path with this [`lowest_pace`]: below 1 the place is
-    /// singular in that direction. With the axis that has the least margin.
+    /// How many times faster than the lowest sensible speed `axes`, the robot's, can follow according to their speeds
+    /// and accelerations, if these are the rates of a straight path with this [`lowest_pace`]: below 1 the place is
+    /// singular in that direction. Also returns the axis with the least margin.
     pub fn speed_margin(&self, axes: &[Axis], pace: f64) -> (f64, usize) {
         let rates = self.first.iter().zip(&self.second).zip(axes);
         let margin = |(rates, axis): ((&f64, &f64), &Axis)| {
@@ -116,8 +116,8 @@ impl Rates {
     }
 }
 
-/// Whether one of `axes`, the robot's, would have to be faster than it can to go from `from` to `to` (deg or mm) in so
-/// many s.
+/// Whether one of `axes`, the robot's, would have to exceed its speed to move from `from` to `to` (deg or mm) in
+/// `seconds`.
 pub fn outruns(axes: &[Axis], from: &Axes, to: &Axes, seconds: f64) -> bool {
     axes.iter().zip(from.iter().zip(to)).any(|(axis, (from, to))| (to - from).abs() > axis.vel * seconds)
 }
@@ -134,7 +134,7 @@ impl Screw {
         Self { turning: self.turning + other.turning * times, moving: self.moving + other.moving * times }
     }
 
-    /// How it changes when it is carried by a body that moves with `by`: the Lie bracket of two twists.
+    /// The change of this screw when it is carried by a body that moves with `by`: the Lie bracket of two twists.
     fn carried(&self, by: &Screw) -> Self {
         Self {
             turning: by.turning.cross(&self.turning),
@@ -142,21 +142,21 @@ impl Screw {
         }
     }
 
-    /// The velocity (m) of what is at `point` (m).
+    /// The velocity (m) of the point at `point` (m).
     fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
         self.moving + self.turning.cross(point)
     }
 }
 
 /// The derivatives of `N` axes (rad or m) whose screws, from the base on, are `screws`, when the last body moves with
-/// `twist`. `solve` says how fast the axes move when that body moves with a screw.
+/// `twist`. `solve` returns the speeds of the axes when that body moves with a screw.
 fn derivatives<const N: usize>(
     screws: &[Screw; N],
     twist: &Twist,
     solve: impl Fn(&Screw) -> Option<[f64; N]>,
 ) -> Option<[[f64; N]; 3]> {
     let first = solve(&twist.first)?;
-    // Each axis is carried by the ones below it: that is how its screw changes along the path.
+    // Each axis is carried by the ones below it, which changes its screw along the path.
     let mut screws1 = [Screw::REST; N];
     let (mut below, mut rest) = (Screw::REST, twist.second);
     for ((screw, screw1), first) in screws.iter().zip(&mut screws1).zip(first) {
@@ -181,7 +181,7 @@ struct Stance {
     screws: [Screw; 6],
     sin_cos: ([f64; 6], [f64; 6]),
     centre: Vector3<f64>,
-    /// The wrist centre seen from axes 1, 2 and 3 in the arm's plane: in front and above.
+    /// The wrist centre relative to axes 1, 2 and 3 in the arm's plane: in front and above.
     from1: f64,
     from2: (f64, f64),
     from3: (f64, f64),
@@ -216,7 +216,8 @@ impl Opw {
     pub fn rates(&self, axes: &Axes, twist: &Twist) -> Option<Rates> {
         let Stance { screws, sin_cos, centre, from1, from2, from3 } = self.stance_at(axes);
         let ([s1, _, s23, s4, s5, _], [c1, _, c23, c4, c5, _]) = sin_cos;
-        // Axes 1 to 3 alone move the wrist centre, two of them in the arm's plane; the other three turn what is left.
+        // Only axes 1 to 3 move the wrist centre, two of them in the arm's plane; the other three produce the remaining
+        // turn.
         let (by_from1, by_s5) = (1.0 / from1, 1.0 / s5);
         let by_plane = 1.0 / (from2.1 * from3.0 - from2.0 * from3.1);
         let solve = |body: &Screw| {
@@ -244,11 +245,11 @@ impl Opw {
     }
 }
 
-/// A flange that tilts faster than this (rad per unit), as part of all it does, is not a SCARA's.
+/// A flange that tilts faster than this (rad per unit), as part of its whole motion, is not that of a SCARA.
 const UPRIGHT: f64 = 1e-6;
 
 impl Scara {
-    /// The screws of the four axes, and elbow and flange from axis 1 (m).
+    /// The screws of the four axes, and elbow and flange relative to axis 1 (m).
     fn screws(&self, axes: &Axes) -> ([Screw; 4], Vector3<f64>, Vector3<f64>) {
         let [j1, j2, ..] = *axes;
         let ([s1, s12], [c1, c12]) = sin_cos([j1, j1 + j2]);
@@ -291,8 +292,8 @@ impl Scara {
 
 impl Kinematics {
     /// The derivatives of the axes when the flange moves with `twist`; the unused axes of a SCARA stay at rest. `None`
-    /// at a singular point (near one the rates are large: see [`Kinematics::clearance`]), and where a SCARA would have
-    /// to tilt its flange.
+    /// at a singular point (near one the rates are large: see [`Kinematics::clearance`]), and if a SCARA would have to
+    /// tilt its flange.
     pub fn rates(&self, axes: &Axes, twist: &Twist) -> Option<Rates> {
         match self {
             Kinematics::SixAxis(opw) => opw.rates(axes, twist),
@@ -300,9 +301,10 @@ impl Kinematics {
         }
     }
 
-    /// How a body on the flange moves when each axis moves alone: column i is what axis i + 1 does, its speed being 1
-    /// rad (1 mm where linear). The first three rows are the turning (rad) in the base, the last three the velocity
-    /// (mm) of `point` (mm, given in the base, fixed to the flange). The columns of axes that a SCARA has not are zero.
+    /// The motion of a body on the flange when each axis moves alone: column i is for axis i + 1 at a speed of 1 rad (1
+    /// mm for a linear axis). The first three rows are the turning (rad) in the base, the last three the velocity (mm)
+    /// of `point` (mm, given in the base, fixed to the flange). The columns of axes that a SCARA does not have are
+    /// zero.
     pub fn jacobian(&self, axes: &Axes, point: &Vector3<f64>) -> Matrix6<f64> {
         let mut jacobian = Matrix6::zeros();
         let point = point / 1000.0;
@@ -321,8 +323,8 @@ impl Kinematics {
         moving + turning.cross(point)
     }
 
-    /// How a body on the flange moves when the axes move by `rates` (deg or mm per unit): its turning (rad per unit) in
-    /// the base, and the velocity (mm per unit) of what is at the base's origin.
+    /// The motion of a body on the flange when the axes move by `rates` (deg or mm per unit): its turning (rad per
+    /// unit) in the base, and the velocity (mm per unit) of the point at the base's origin.
     pub fn velocity(&self, axes: &Axes, rates: &Axes) -> (Vector3<f64>, Vector3<f64>) {
         let mut sum = Screw::REST;
         self.each_screw(axes, |column, screw, linear| {
@@ -332,7 +334,8 @@ impl Kinematics {
         (sum.turning, sum.moving * 1000.0)
     }
 
-    /// Hands over the screw (rad, m) of every axis, with the sense of the axis, and whether it is linear.
+    /// Passes the screw (rad, m) of every axis, with the axis's direction of rotation, and whether it is linear, to
+    /// `take`.
     fn each_screw(&self, axes: &Axes, mut take: impl FnMut(usize, &Screw, bool)) {
         match self {
             Kinematics::SixAxis(opw) => {
@@ -358,7 +361,7 @@ impl Kinematics {
         }
     }
 
-    /// The singular point that the axes are nearest to, by the measure of [`Kinematics::clearance`].
+    /// The singularity that the axes are nearest to, by the measure of [`Kinematics::clearance`].
     pub fn nearest_singularity(&self, axes: &Axes) -> Singularity {
         match self {
             Kinematics::SixAxis(opw) => opw.nearest_singularity(axes),

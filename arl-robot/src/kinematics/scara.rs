@@ -6,18 +6,18 @@ use super::angles::{atan2, sin_cos, wrap};
 use super::frame::Frame;
 use super::{Axes, wrap_degrees};
 
-/// The geometry of a SCARA robot in mm. At zero its flange frame points as the base.
+/// The geometry of a SCARA robot in mm. At zero its flange frame is oriented like the base.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Scara {
     /// Length of the first arm.
     pub l1: f64,
     /// Length of the second arm.
     pub l2: f64,
-    /// Height of the flange where j3 is 0.
+    /// Height of the flange when j3 is 0.
     pub z0: f64,
 }
 
-/// Beyond this tilt (sine of half of it) a pose does not stand upright.
+/// Beyond this tilt (sine of half of it) a pose is not upright.
 const UPRIGHT: f64 = 5e-7;
 
 impl Scara {
@@ -31,14 +31,14 @@ impl Scara {
         )
     }
 
-    /// 0 where j2 is 0 or more, else 4.
+    /// 0 if j2 is 0 or more, otherwise 4.
     pub fn cfg(&self, axes: &Axes) -> u8 {
         let [_, j2, ..] = *axes;
         if wrap_degrees(j2) < -1e-9 { 4 } else { 0 }
     }
 
-    /// The axes for a flange frame (translation in mm) with hand `cfg`, 0 or 4; where the arm is folded upon itself,
-    /// axis 1 stays as in `near`. `None`: out of reach, or not upright.
+    /// The axes for a flange frame (translation in mm) with hand `cfg`, 0 or 4; if the arm is folded upon itself, axis
+    /// 1 stays as in `near`. `None` if the frame is out of reach or not upright.
     pub fn inverse(&self, flange: &Frame, cfg: u8, near: &Axes) -> Option<Axes> {
         if self.tilt(flange) > 0.0 || !matches!(cfg, 0 | 4) {
             return None;
@@ -62,14 +62,14 @@ impl Scara {
         Some([j1, j2, z - self.z0, j4, 0.0, 0.0])
     }
 
-    /// By how much, in deg, a flange frame tilts from upright; 0 where that is rounding only.
+    /// The tilt of a flange frame from upright, in deg; 0 if it is only rounding.
     pub fn tilt(&self, flange: &Frame) -> f64 {
         let q = flange.rotation.quaternion();
         let half = (q.i * q.i + q.j * q.j).sqrt();
         if half <= UPRIGHT { 0.0 } else { 2.0 * half.atan2((q.w * q.w + q.k * q.k).sqrt()).to_degrees() }
     }
 
-    /// How far, in mm, the pose is outside or inside the ring that the arms reach.
+    /// The distance, in mm, of the pose outside or inside the ring that the arms reach.
     pub fn beyond_reach(&self, flange: &Frame) -> f64 {
         let distance = flange.translation.vector.xy().norm();
         (distance - (self.l1 + self.l2)).max((self.l1 - self.l2).abs() - distance).max(0.0)

@@ -1,4 +1,4 @@
-//! Kinematics in closed form against products of transforms, there and back.
+//! Kinematics in closed form compared with products of transforms, forward and inverse.
 
 use nalgebra::{Matrix4, Rotation3, Translation3, UnitQuaternion, Vector3};
 
@@ -24,7 +24,7 @@ fn random_axes(robot: &Robot, random: &mut Random) -> Axes {
     axes
 }
 
-/// Forward kinematics as a plain product of matrices, one a step of the arm.
+/// Forward kinematics as a plain product of matrices, one for each step along the arm.
 fn chain(p: &OpwParameters, axes: &Axes) -> Matrix4<f64> {
     let angle = |i: usize| (axes[i] * p.signs[i] - p.offsets[i]).to_radians();
     let y = |i| Rotation3::from_axis_angle(&Vector3::y_axis(), angle(i)).to_homogeneous();
@@ -68,9 +68,9 @@ fn known_poses_of_the_default_robot() {
             assert!((a - b).abs() < 1e-9, "{axes:?}: {found:?}");
         }
     };
-    // Upper arm up, forearm forwards: 150 + 660 + 80 in front, 450 + 610 + 20 high.
+    // Upper arm up, forearm forwards: 150 + 660 + 80 forwards, 450 + 610 + 20 high.
     near([0.0, -90.0, 90.0, 0.0, 0.0, 0.0], [890.0, 0.0, 1080.0, 0.0, 90.0, 0.0]);
-    // Axis 1 turns against z, the hand points down.
+    // Axis 1 turns in the negative sense about z, the hand points down.
     near([90.0, -90.0, 90.0, 0.0, 90.0, 0.0], [0.0, -810.0, 1000.0, 90.0, 0.0, 180.0]);
 }
 
@@ -106,7 +106,7 @@ fn hundred_thousand_poses_have_all_their_solutions() {
     assert!(worst < 1e-7, "1e-10 m: {worst} mm, {worst_angle} rad");
 }
 
-/// How many of the four arm positions reach a pose, by the triangle rule alone.
+/// The number of the four arm positions that reach a pose, by the triangle rule alone.
 fn reachable_arms(p: &OpwParameters, pose: &Frame) -> usize {
     let centre = (pose * Translation3::new(0.0, 0.0, -p.c4)).translation.vector;
     let across = centre.x.hypot(centre.y);
@@ -136,7 +136,7 @@ fn cfg_follows_the_table() {
     assert_eq!(cfg([0.0, -150.0, -60.0, 0.0, -30.0, 0.0]), 5);
     assert_eq!(cfg([0.0, -180.0, 90.0, 0.0, 30.0, 0.0]), 6);
     assert_eq!(cfg([0.0, -180.0, 90.0, 0.0, -30.0, 0.0]), 7);
-    // Zero counts as positive, with the dust of rounding on it, too.
+    // Zero counts as positive, even with rounding errors.
     assert_eq!(cfg([0.0, -90.0, 90.0, 0.0, -1e-12, 0.0]), 0);
 }
 
@@ -153,7 +153,7 @@ fn open_axes_stay_where_they_were_at_singular_points() {
             assert!((a - b).abs() < 1e-6, "{name}: {found:?} {flipped:?}");
         }
     }
-    // Wrist centre on axis 1: any angle of axis 1 will do.
+    // Wrist centre on axis 1: any angle of axis 1 is possible.
     let robot = Robot::builtin("tx2-60").unwrap();
     let without_width = Opw::new(OpwParameters { b: 0.0, ..*opw(&robot).parameters() });
     let near = [33.0, 0.0, 0.0, 10.0, 20.0, 30.0];
@@ -189,7 +189,7 @@ fn turn_picks_whole_turns_and_ranges_hold() {
     };
     close(choose(Some(0), -1, &start).unwrap(), goal);
     close(choose(Some(0), -1, &[0.0, 0.0, 0.0, 0.0, 0.0, -100.0]).unwrap(), [10.0, -80.0, 80.0, 20.0, 45.0, -190.0]);
-    // Bit 5 asks for axis 6 below 0; axis 2 cannot be above 0 although its bit asks for it.
+    // Bit 5 requests axis 6 below 0; axis 2 cannot be above 0 although its bit requests it.
     close(choose(Some(0), 0b10_0000, &start).unwrap(), [10.0, -80.0, 80.0, 20.0, 45.0, -190.0]);
     close(choose(Some(0), 0, &[0.0, 0.0, 0.0, 0.0, 0.0, -100.0]).unwrap(), goal);
     // No cfg: the nearest one.
@@ -197,7 +197,7 @@ fn turn_picks_whole_turns_and_ranges_hold() {
     assert_eq!(choose(Some(8), -1, &start), Err(Refusal::NoSuchCfg { cfg: 8 }));
     let far = frame([3000.0, 0.0, 500.0, 0.0, 90.0, 0.0]);
     let refused = robot.kinematics.choose(&far, Wanted { cfg: Some(0), turn: -1 }, &robot.axes, &start);
-    // Wrist centre 2920 away from the base: 2770.45 from axis 2, which the arm follows for 1270.303.
+    // Wrist centre 2920 away from the base: 2770.45 from axis 2, of which the arm reaches 1270.303.
     assert!(matches!(refused, Err(Refusal::Unreachable { beyond }) if (beyond - 1500.147).abs() < 0.01), "{refused:?}");
 }
 
@@ -266,7 +266,7 @@ fn a_scara_says_why_it_refuses() {
     let close = choose([0.0, 60.0, 300.0, 0.0, 0.0, 0.0], Some(4));
     assert!(matches!(close, Err(Refusal::Unreachable { beyond }) if (beyond - 40.0).abs() < 1e-9), "{close:?}");
     assert_eq!(choose([400.0, 0.0, 300.0, 0.0, 0.0, 0.0], Some(1)), Err(Refusal::NoSuchCfg { cfg: 1 }));
-    // Where the whole arm is folded upon itself, axis 1 stays.
+    // If the whole arm is folded upon itself, axis 1 stays.
     let folding = Scara { l1: 300.0, l2: 300.0, z0: 0.0 };
     let found = folding.inverse(&frame([0.0; 6]), 0, &[25.0; 6]).unwrap();
     assert!((found[0] - 25.0).abs() < 1e-9 && (found[1] - 180.0).abs() < 1e-9, "{found:?}");
@@ -306,7 +306,7 @@ fn at_gimbal_lock_c_is_zero_and_the_rotation_right() {
     }
 }
 
-/// Flange frames along a straight line with an even turn.
+/// Flange frames along a straight line with a uniform turn.
 fn along(start: &Frame, travel: &Vector3<f64>, turning: &Vector3<f64>, u: f64) -> Frame {
     let rotation = UnitQuaternion::from_scaled_axis(turning * u) * start.rotation;
     Frame::from_parts(Translation3::from(start.translation.vector + travel * u), rotation)
@@ -330,7 +330,7 @@ fn rates_are_the_derivatives_of_the_axes_along_a_line() {
             let turning = if upright { Vector3::new(0.0, 0.0, turning.z) } else { turning };
             let twist = Twist::straight(&pose.translation.vector, &travel, &turning);
             let Some(rates) = kinematics.rates(&axes, &twist) else { continue };
-            // Away from singular points, so that differences tell the derivative.
+            // Away from singular points, so that differences approximate the derivative.
             if rates.third.iter().any(|third| third.abs() > 3e3) {
                 continue;
             }
@@ -360,7 +360,7 @@ fn rates_are_the_derivatives_of_the_axes_along_a_line() {
     }
 }
 
-/// The jacobian is what differences of the forward kinematics give, and the rates of a curved path keep to it.
+/// The jacobian matches differences of the forward kinematics, and the rates of a curved path are consistent with it.
 #[test]
 fn the_jacobian_tells_how_a_point_on_the_flange_moves() {
     let mut random = Random::new(7);
@@ -393,7 +393,7 @@ fn the_jacobian_tells_how_a_point_on_the_flange_moves() {
 
 #[test]
 fn rates_of_a_curved_path_follow_it() {
-    // The point of a tool runs around a circle while the tool turns ever faster.
+    // The tip of a tool moves around a circle while the tool turns ever faster.
     let robot = Robot::builtin("irb2400-10").unwrap();
     let start = [10.0, 20.0, -15.0, 30.0, 50.0, -40.0];
     let pose = robot.kinematics.forward(&start);

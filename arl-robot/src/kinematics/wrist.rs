@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::angles::sin_cos;
 
-/// Below this sine of the middle angle the first angle is open, and stays where it was.
+/// Below this sine of the middle angle the first angle is open, and keeps its value.
 const SINGULAR: f64 = 1e-10;
 
 /// The three wrist angles, each as sine and cosine (or a multiple of them): the solution whose middle angle is
@@ -14,12 +14,12 @@ pub(super) struct Hand {
     pub(super) t4: (f64, f64),
     pub(super) t5: (f64, f64),
     pub(super) t6: (f64, f64),
-    /// Whether the first angle is open: then it is `near4`, and the third belongs to that.
+    /// Whether the first angle is open: then it is `near4`, and the third angle belongs to that.
     pub(super) open: bool,
 }
 
-/// The wrist angles for `rotation` behind an arm that stands at `t1` (about z) and `t23` (about y), each given by sine
-/// and cosine. `near4` (deg) is the first angle where the middle one is 0.
+/// The wrist angles for `rotation` on an arm at `t1` (about z) and `t23` (about y), each given by sine and cosine.
+/// `near4` (deg) is the first angle if the middle one is 0.
 #[inline]
 pub(super) fn hand(rotation: &Matrix3<f64>, t1: (f64, f64), t23: (f64, f64), near4: f64) -> Hand {
     let ((s1, c1), (s23, c23)) = (t1, t23);
@@ -39,8 +39,7 @@ pub(super) fn hand(rotation: &Matrix3<f64>, t1: (f64, f64), t23: (f64, f64), nea
         let by_sine = 1.0 / sine;
         (third.y * by_sine, third.x * by_sine)
     };
-    // The other two angles belong to the t4 that was taken, so that together they are exact also near the singular
-    // point.
+    // The other two angles belong to the chosen t4, so that together they are exact also near the singular point.
     Hand {
         t4: (s4, c4),
         t5: (c4 * third.x + s4 * third.y, third.z),

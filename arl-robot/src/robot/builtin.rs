@@ -1,4 +1,4 @@
-//! The robots that are built in.
+//! The built-in robots.
 
 use super::RobotError;
 use crate::settings::nearest;

@@ -1,12 +1,12 @@
-//! What a robot is made of, and whether that is a robot.
+//! The description of a robot, and the check that it is valid.
 
 use super::{
     Axis, DriveLimits, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, axis_name, own_axes,
 };
 use crate::kinematics::{Kinematics, Opw, Scara};
 
-/// What a robot is made of: plain data, which [`Robot::new`] checks. Whoever wants a robot of other values takes the
-/// description of one, changes that, and makes another robot of it:
+/// The parameters of a robot: plain data, checked by [`Robot::new`]. To get a robot with other values, take the
+/// description of one, change it, and create another robot from it:
 ///
 /// ```
 /// # #[cfg(feature = "files")] {
@@ -29,9 +29,9 @@ use crate::kinematics::{Kinematics, Opw, Scara};
 pub struct Description {
     /// The robot's name.
     pub name: String,
-    /// Its build.
+    /// The kind of robot.
     pub family: Family,
-    /// The velocity profile that motion has by default.
+    /// The default velocity profile of motions.
     pub profile: VelocityProfile,
     /// Its geometry, ready to compute with.
     pub kinematics: Kinematics,
@@ -39,23 +39,23 @@ pub struct Description {
     pub tcp: TcpLimits,
     /// The robot's own axes (six, or four), then the external ones (up to six).
     pub axes: Vec<Axis>,
-    /// What its drives are held against.
+    /// The limits for monitoring its drives.
     pub drives: DriveLimits,
-    /// The links, where the file has them: as many as the robot has own axes, or none.
+    /// The links, if the file has them: one for each of the robot's own axes, or none.
     pub links: Vec<Link>,
-    /// Where the simulated robot starts: one position for each of `axes`, in deg (mm).
+    /// The start position of the simulated robot: one value for each of `axes`, in deg (mm).
     pub home: Vec<f64>,
 }
 
-/// No length, angle or position of a robot is larger, in mm or deg.
+/// The largest length, angle or position of a robot, in mm or deg.
 pub(super) const LARGEST: f64 = 1e6;
-/// No speed, acceleration, jerk, mass or inertia is larger, in the unit of its key.
+/// The largest speed, acceleration, jerk, mass or inertia, in the unit of its key.
 pub(super) const LARGEST_LIMIT: f64 = 1e12;
-/// No limit and no mass is smaller: time at such a speed would never end.
+/// The smallest limit or mass: at a lower speed a motion would never end.
 pub(super) const SMALLEST: f64 = 1e-6;
 
 impl Description {
-    /// Whether it is a robot; what is wrong else, in a sentence.
+    /// Checks that the description is a valid robot; the error is a sentence.
     pub(super) fn check(&self) -> Result<(), RobotError> {
         let checked = self
             .check_geometry()
@@ -163,7 +163,7 @@ impl Description {
     }
 }
 
-/// Whether an axis, from 0, is the one that lifts.
+/// Whether an axis, from 0, is the lift axis.
 pub(super) fn lifts(family: Family, at: usize) -> bool {
     family == Family::Scara && at == 2
 }
@@ -203,17 +203,17 @@ fn all_positive(of: &str, values: &[(&str, f64, &str)], most: f64) -> Result<(),
 }
 
 impl Robot {
-    /// The robot that a description is of.
+    /// The robot with this description.
     ///
     /// # Errors
-    /// It is not a robot: a length or an angle is beyond 1e6 mm (deg), a limit, a mass or the length of an arm is not
-    /// above 1e-6 or too large, a range is empty, or there are too few or too many of something.
+    /// The description is not a valid robot: a length or an angle is beyond 1e6 mm (deg), a limit, a mass or the length
+    /// of an arm is not above 1e-6 or too large, a range is empty, or there are too few or too many of something.
     pub fn new(description: Description) -> Result<Robot, RobotError> {
         description.check()?;
         Ok(Robot(description))
     }
 
-    /// What it is made of, to be changed.
+    /// The description of the robot, to be changed.
     pub fn into_description(self) -> Description {
         self.0
     }

@@ -1,4 +1,4 @@
-//! What can be wrong with a robot file.
+//! Errors of robot files.
 
 use std::fmt;
 #[cfg(feature = "files")]
@@ -7,17 +7,17 @@ use std::ops::Range;
 #[cfg(feature = "files")]
 use crate::settings::SettingsError;
 
-/// What is wrong with a robot file, and where; or with the description of a robot.
+/// An error in a robot file, with its position, or in the description of a robot.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct RobotError {
-    /// The file, or the name that was asked for or described.
+    /// The file, or the requested or described name.
     pub file: String,
-    /// Line from 1; 0 where the whole file is meant.
+    /// Line from 1; 0 for the whole file.
     pub line: u32,
-    /// Column from 1, in characters; 0 where the whole file is meant.
+    /// Column from 1, in characters; 0 for the whole file.
     pub column: u32,
-    /// What is wrong and what would be right.
+    /// The problem, and what would be right.
     pub message: String,
 }
 

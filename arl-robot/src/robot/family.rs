@@ -1,6 +1,6 @@
-//! The builds of robots, where there is no language that has programs for them: otherwise they are those of `arl-lang`.
+//! The kinds of robots, if the crate is compiled without the language: otherwise they are those of `arl-lang`.
 
-/// The build of a robot.
+/// The kind of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Family {
     /// Six axes with a spherical wrist.

@@ -1,19 +1,19 @@
-//! The shape of a robot where nobody gives a better one: capsules along its links, as thick as robots of its size are.
+//! The default shape of a robot: capsules along its links, as thick as those of robots of its size.
 
 use nalgebra::Vector3;
 
 use super::Robot;
 use crate::kinematics::Kinematics;
 
-/// Radii as parts of the length of the arm: of the column, the upper arm, the forearm, and the hand.
+/// Radii of column, upper arm, forearm and hand, as parts of the length of the arm.
 const COLUMN: f64 = 0.07;
 const UPPER_ARM: f64 = 0.05;
 const FOREARM: f64 = 0.045;
 const HAND: f64 = 0.03;
-/// How far a SCARA's arms are above the highest place of its flange, as part of the stroke.
+/// The distance of a SCARA's arms above the highest position of its flange, as part of the stroke.
 const ABOVE_STROKE: f64 = 0.25;
 
-/// All names of limbs: those of six-axis robots, then those of SCARA robots that they do not share.
+/// All names of limbs: those of six-axis robots, then those that only SCARA robots have.
 pub const LIMB_NAMES: [&str; 9] = [
     "the base",
     "the shoulder",
@@ -26,11 +26,10 @@ pub const LIMB_NAMES: [&str; 9] = [
     "the spindle",
 ];
 
-/// A capsule that belongs to a link: all places that are no farther than `radius` from the straight line between its
-/// ends.
+/// A capsule that belongs to a link: all points no farther than `radius` from the straight line between its ends.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Limb {
-    /// What people call it: `the forearm`.
+    /// The name for people: `the forearm`.
     pub name: &'static str,
     /// The link, from 1; 0 is the base.
     pub link: usize,
@@ -41,7 +40,8 @@ pub struct Limb {
 }
 
 impl Robot {
-    /// Its limbs, from the base to the flange, beyond which the last one does not reach. Neighbours overlap.
+    /// The limbs of the robot, from the base to the flange, beyond which the last one does not extend. Adjacent limbs
+    /// overlap.
     pub fn limbs(&self) -> Vec<Limb> {
         let limb = |name, link: usize, from: [f64; 3], to: [f64; 3], radius: f64| Limb {
             name,

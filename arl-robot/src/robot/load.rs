@@ -1,4 +1,4 @@
-//! Robots that are built in, and robots from files.
+//! Built-in robots, and robots from files.
 
 use std::borrow::Cow;
 use std::io::ErrorKind;
@@ -9,7 +9,7 @@ use crate::changes::{Changes, Part};
 use crate::regular_file;
 
 impl Robot {
-    /// The names of the robots that are built in; the first is the default.
+    /// The names of the built-in robots; the first is the default.
     pub fn builtin_names() -> impl Iterator<Item = &'static str> {
         builtin::ROBOTS.iter().map(|(name, _)| *name)
     }
@@ -17,7 +17,7 @@ impl Robot {
     /// The built-in robot of this name, whatever its case.
     ///
     /// # Errors
-    /// There is no robot of this name built in.
+    /// There is no built-in robot of this name.
     pub fn builtin(name: &str) -> Result<Robot, RobotError> {
         let text = Robot::text(name).ok_or_else(|| builtin::unknown(name))?;
         Robot::parse(name, text)
@@ -31,24 +31,25 @@ impl Robot {
     /// The built-in robot of this name, or else the robot file at this path.
     ///
     /// # Errors
-    /// Nothing of this name is built in and no such file can be read, or the file is wrong: then with line and column.
+    /// No robot of this name is built in and the file cannot be read; or the file has an error, reported with line and
+    /// column.
     pub fn load(name_or_path: &str) -> Result<Robot, RobotError> {
         Robot::load_with(name_or_path, &Changes::default())
     }
 
-    /// The same with other values at some places.
+    /// Like `load`, with changed values at some places.
     ///
     /// # Errors
-    /// As for [`load`](Self::load), or the file has no such place.
+    /// As for [`load`](Self::load); or the file does not have one of the places.
     pub fn load_with(name_or_path: &str, changes: &Changes) -> Result<Robot, RobotError> {
         let text = changes.apply(Part::Robot, name_or_path, Robot::source(name_or_path)?.into_owned())?;
         Robot::parse(name_or_path, &text)
     }
 
-    /// The text of the robot file of a robot that is built in, or of that at this path.
+    /// The text of the robot file of a built-in robot, or of the file at this path.
     ///
     /// # Errors
-    /// Nothing of this name is built in, and no such file can be read.
+    /// No robot of this name is built in, and the file cannot be read.
     pub fn source(name_or_path: &str) -> Result<Cow<'static, str>, RobotError> {
         if let Some(text) = Robot::text(name_or_path) {
             return Ok(Cow::Borrowed(text));
@@ -66,7 +67,7 @@ impl Robot {
     /// The robot that `text` describes; `file` names the text in errors.
     ///
     /// # Errors
-    /// The text is not TOML, or no robot: with line, column and what was expected.
+    /// The text is not TOML, or not a robot: with line, column and what was expected.
     pub fn parse(file: &str, text: &str) -> Result<Robot, RobotError> {
         read::robot(file, text)
     }

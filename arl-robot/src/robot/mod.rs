@@ -1,4 +1,4 @@
-//! The robot: its axes, limits and geometry, as it was described, built in, or read from a robot file.
+//! The robot: its axes, limits and geometry, from a description, built in, or read from a robot file.
 
 #[cfg(feature = "files")]
 mod builtin;
@@ -27,12 +27,12 @@ pub use limbs::{LIMB_NAMES, Limb};
 
 use std::ops::Deref;
 
-/// How many axes a joint vector holds at most: six of the robot.
+/// The most axes in a joint vector: the robot's own six.
 pub const ROBOT_AXES: usize = 6;
-/// How many external axes there are at most.
+/// The most external axes.
 pub const EXTERNAL_AXES: usize = 6;
 
-/// The number of axes of a robot of this family, the external ones left out.
+/// The number of axes of a robot of this family, without external ones.
 pub const fn own_axes(family: Family) -> usize {
     match family {
         Family::SixAxis => 6,
@@ -46,7 +46,7 @@ fn axis_name(family: Family, at: usize) -> String {
     if at < own { format!("j{}", at + 1) } else { format!("ej{}", at + 1 - own) }
 }
 
-/// How the speed of a motion rises and falls.
+/// The velocity profile of a motion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum VelocityProfile {
     /// Trapezoidal: acceleration limited.
@@ -57,7 +57,7 @@ pub enum VelocityProfile {
     O,
 }
 
-/// The limits of one axis, in deg, deg/s, deg/s2, deg/s3; mm instead of deg where the axis is linear.
+/// The limits of one axis, in deg, deg/s, deg/s2, deg/s3; mm instead of deg for a linear axis.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Axis {
     /// `j1`.. or `ej1`...
@@ -77,8 +77,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// The position nearest to the range among those that differ from `value` by whole turns only, and how far beyond
-    /// the range it is; 0 within. A linear axis has no other position.
+    /// The position nearest to the range among those that differ from `value` by whole turns, and its distance from the
+    /// range; 0 within it. A linear axis has no other position.
     pub fn nearest_to_range(&self, value: f64) -> (f64, f64) {
         let beyond = |value: f64| (self.min - value).max(value - self.max).max(0.0);
         if self.linear {
@@ -86,21 +86,21 @@ impl Axis {
         }
         let middle = 0.5 * (self.min + self.max);
         let nearest = middle + crate::kinematics::wrap_degrees(value - middle);
-        // Of two positions at the same distance the given one is what a reader knows.
+        // Of two positions at the same distance the given one is preferred, as the reader knows it.
         if beyond(value) <= beyond(nearest) { (value, beyond(value)) } else { (nearest, beyond(nearest)) }
     }
 }
 
-/// What the drives of a robot are held against while it moves.
+/// The limits for monitoring the drives of a robot while it moves.
 #[derive(Clone, PartialEq, Debug)]
 pub struct DriveLimits {
-    /// How far each axis, the external ones behind the robot's own, may be from its set-point, in deg (mm).
+    /// The largest distance of each axis from its set-point, in deg (mm); the external axes follow the robot's own.
     pub following: Vec<f64>,
-    /// For how long no position may come from the robot, in s.
+    /// The longest time without a position from the robot, in s.
     pub feedback: f64,
-    /// How long it may take to come to rest on its set-point once that stands, in s.
+    /// The longest time to come to rest at the set-point once that is at rest, in s.
     pub settling: f64,
-    /// How near to its set-point an axis must be to count as settled, in deg (mm).
+    /// The distance from its set-point at which an axis counts as settled, in deg (mm).
     pub settled: f64,
 }
 
@@ -136,8 +136,8 @@ pub struct Link {
     pub torque_constant: f64,
 }
 
-/// A robot, checked: whatever its [`Description`] holds can be computed with, and every axis can move. It reads as its
-/// description does (`robot.axes`), and cannot be changed.
+/// A checked robot: all values of its [`Description`] are suitable for computing, and every axis can move. Its fields
+/// are those of the description (`robot.axes`), and cannot be changed.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Robot(Description);
 

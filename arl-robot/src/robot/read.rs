@@ -19,12 +19,12 @@ const AXIS: &[&str] = &["name", "linear", "min", "max", "vel", "acc", "jerk", "f
 const DRIVES: &[&str] = &["feedback", "settled", "settling"];
 const LINK: &[&str] = &["mass", "com", "inertia", "gear", "torque_constant"];
 
-/// How far an axis may be from its set-point where nobody says it: as far as it goes at full speed in so many s.
+/// The default of the largest distance of an axis from its set-point: the distance at full speed in this time, s.
 const FOLLOWING_S: f64 = 0.1;
-/// For how long no position may come where nobody says it, and how long settling may take, in ms.
+/// The default of the longest time without a position, and of the longest settling time, in ms.
 const FEEDBACK_MS: f64 = 20.0;
 const SETTLING_MS: f64 = 2000.0;
-/// How near to its set-point an axis has settled where nobody says it, in deg (mm).
+/// The default distance from its set-point at which an axis counts as settled, in deg (mm).
 const SETTLED: f64 = 0.001;
 
 const FAMILIES: [(&str, Family); 2] = [("six-axis", Family::SixAxis), ("scara", Family::Scara)];
@@ -50,7 +50,7 @@ pub(super) fn robot(file: &str, text: &str) -> Result<Robot, RobotError> {
     let drives = drives(&top, &axes)?;
     let links = links(&top, family)?;
     let home = home(&top, family, &axes)?;
-    // What is wrong was told with its place; nothing else becomes a robot all the same.
+    // Errors have been reported with their position; `new` rejects other invalid descriptions.
     Robot::new(Description { name, family, profile, kinematics, tcp, axes, drives, links, home })
 }
 
@@ -186,7 +186,7 @@ fn axis(table: &RobotSection<'_>, at: usize, family: Family) -> Result<Axis, Rob
     })
 }
 
-/// What the drives are held against.
+/// Reads the limits for monitoring the drives.
 fn drives(top: &RobotSection<'_>, axes: &[Axis]) -> Result<DriveLimits, RobotError> {
     let of_axis = |(table, axis): (&RobotSection<'_>, &Axis)| match table.find("following") {
         Some(_) => table.positive("following", "a distance in deg (mm) from its set-point"),
@@ -227,7 +227,7 @@ fn links(top: &RobotSection<'_>, family: Family) -> Result<Vec<Link>, RobotError
     tables.iter().map(read).collect()
 }
 
-/// The start position: as given, or every axis at 0, brought into its range.
+/// The start position: as given, or every axis at 0, clamped to its range.
 fn home(top: &RobotSection<'_>, family: Family, axes: &[Axis]) -> Result<Vec<f64>, RobotError> {
     let mut home: Vec<f64> = axes.iter().map(|axis| 0.0_f64.clamp(axis.min, axis.max)).collect();
     let what = "positions in deg (mm), one for each axis";

@@ -9,7 +9,7 @@ use super::RobotError;
 use super::description::{LARGEST, LARGEST_LIMIT, SMALLEST};
 use crate::settings::{hint, kind, number};
 
-/// The text that spans point into.
+/// The text that spans refer to.
 #[derive(Clone, Copy)]
 pub(super) struct RobotSource<'a> {
     pub(super) file: &'a str,
@@ -22,7 +22,7 @@ impl RobotSource<'_> {
     }
 }
 
-/// A table with its place and the name it has in messages.
+/// A table with its position and its name in messages.
 #[derive(Clone, Copy)]
 pub(super) struct RobotSection<'a> {
     pub(super) source: RobotSource<'a>,
@@ -33,7 +33,7 @@ pub(super) struct RobotSection<'a> {
 
 type Value<'a> = Spanned<DeValue<'a>>;
 
-/// A number and its place.
+/// A number and its position.
 type Placed = (f64, Range<usize>);
 
 impl<'a> RobotSection<'a> {
@@ -54,7 +54,7 @@ impl<'a> RobotSection<'a> {
         Ok(Self { source, name, span_start: span.start, table })
     }
 
-    /// The place of the section itself: its first character.
+    /// The position of the section itself: its first character.
     pub(super) fn place(&self) -> Range<usize> {
         self.span_start..self.span_start
     }
@@ -122,7 +122,7 @@ impl<'a> RobotSection<'a> {
         Err(self.source.error(self.span_of(key), message))
     }
 
-    /// All numbers of an array, each with its place; an absent key gives nothing.
+    /// All numbers of an array, each with its position; `None` if the key is missing.
     pub(super) fn numbers(&self, key: &str, what: &str) -> Result<Option<Vec<Placed>>, RobotError> {
         let Some(value) = self.find(key) else { return Ok(None) };
         let array = value.get_ref().as_array().ok_or_else(|| self.wrong(key, value, what))?;

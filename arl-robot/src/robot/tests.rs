@@ -1,4 +1,4 @@
-//! Robot files: what is read, and what is refused.
+//! Robot files: valid and invalid ones.
 
 use super::*;
 use crate::kinematics::{Kinematics, Opw, OpwParameters};
@@ -46,7 +46,7 @@ fn robots_that_would_be_stretched_out_at_zeros_stand_bent_at_home() {
         let down = flange.rotation * nalgebra::Vector3::z();
         let (at, arm) = (flange.translation.vector, robot.limbs());
         assert!(at.y.abs() < 100.0 && at.x > 150.0, "{name}: in front of its base, not {at}");
-        // What is stretched out has no place to go to along its arm.
+        // A stretched arm cannot move further along itself.
         let length =
             |limb: &Limb| (nalgebra::Vector3::from(limb.ends[1]) - nalgebra::Vector3::from(limb.ends[0])).norm();
         let reach: f64 =
@@ -138,7 +138,7 @@ fn any_text_is_refused_without_a_panic() {
     }
 }
 
-/// Something of a description is given a value.
+/// Sets a value of a description.
 type Put = fn(&mut Description, f64);
 
 #[test]
@@ -191,7 +191,7 @@ fn what_is_changed_is_checked_as_a_file_is() {
     }
 }
 
-/// The geometry of a robot with six axes, changed.
+/// The changed geometry of a six-axis robot.
 fn lengths(robot: &Description, change: impl FnOnce(&mut OpwParameters)) -> Kinematics {
     let Kinematics::SixAxis(opw) = &robot.kinematics else { panic!("{} has other axes", robot.name) };
     let mut parameters = *opw.parameters();

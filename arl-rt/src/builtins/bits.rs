@@ -27,7 +27,7 @@ macro_rules! bits {
         /// Sets bit `pos` to 0.
         ///
         /// # Errors
-        /// [`Fault::Domain`] where there is no such bit.
+        /// [`Fault::Domain`] if the bit does not exist.
         pub fn $clear(data: &mut $ty, pos: i32) -> Result<(), Fault> {
             *data &= !(mask("bitclear", pos, <$ty>::BITS)? as $ty);
             Ok(())
@@ -36,7 +36,7 @@ macro_rules! bits {
         /// Sets bit `pos` to 1.
         ///
         /// # Errors
-        /// [`Fault::Domain`] where there is no such bit.
+        /// [`Fault::Domain`] if the bit does not exist.
         pub fn $set(data: &mut $ty, pos: i32) -> Result<(), Fault> {
             *data |= mask("bitset", pos, <$ty>::BITS)? as $ty;
             Ok(())
@@ -45,7 +45,7 @@ macro_rules! bits {
         /// Whether bit `pos` is 1.
         ///
         /// # Errors
-        /// [`Fault::Domain`] where there is no such bit.
+        /// [`Fault::Domain`] if the bit does not exist.
         pub fn $check(data: $ty, pos: i32) -> Result<bool, Fault> {
             Ok(data & mask("bitcheck", pos, <$ty>::BITS)? as $ty != 0)
         }

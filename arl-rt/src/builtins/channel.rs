@@ -1,5 +1,4 @@
-//! What programs ask about a foreground channel: where its robot is, how it moves, what it feels, and where its program
-//! stands.
+//! Queries of a foreground channel: position, motion and forces of its robot, and the position of its program.
 
 use std::cell::Ref;
 use std::rc::Rc;
@@ -17,12 +16,12 @@ use arl_robot::robot::Axis;
 
 /// A foreground channel, as all channels see it.
 struct Foreground<'a> {
-    /// The channel's own.
+    /// The channel's own context.
     cx: &'a Cx,
     unit: Ref<'a, Unit>,
 }
 
-/// Looks at the channel with this number, from 1.
+/// Calls `look` with the channel of this number, from 1.
 fn foreground<T>(
     cx: &Cx,
     function: &'static str,
@@ -37,7 +36,7 @@ fn foreground<T>(
     }
 }
 
-/// The number of a foreground channel, as functions take it that need not find one there.
+/// The number of a foreground channel that need not exist.
 pub(crate) fn number(function: &'static str, channel: u32) -> Result<i32, Fault> {
     match i32::try_from(channel) {
         Ok(number) if (1..=MOST_FOREGROUND as i32).contains(&number) => Ok(number),
@@ -48,9 +47,8 @@ pub(crate) fn number(function: &'static str, channel: u32) -> Result<i32, Fault>
     }
 }
 
-/// `switcharl`: ends the program of a foreground channel, whose robot stops on its path, and starts another one of
-/// those that the controller can load there; true if it worked. It does so at once, and goes on when the other program
-/// is there.
+/// `switcharl`: ends the program of a foreground channel, whose robot stops on its path, and starts another loadable
+/// program there; true on success. It acts at once, and continues as soon as the other program is loaded.
 ///
 /// # Errors
 /// The channel is not within 1 to 6, or this is not a background channel.
@@ -75,7 +73,7 @@ pub async fn switcharl(cx: &Cx, channel: u32, file_name: &Str) -> Result<bool, F
     }
 }
 
-/// Tells the channel with this number to load another program; `Err`: why it does not.
+/// Lets the channel with this number load another program; `Err` is the reason why it does not.
 fn begin_to_switch(cx: &Cx, number: i32, name: &str) -> Result<Rc<Cx>, String> {
     let there = cx.programs().foreground(number).ok_or_else(|| no_such(cx, number))?;
     let program = cx.programs().loadable.load(name);
@@ -84,13 +82,13 @@ fn begin_to_switch(cx: &Cx, number: i32, name: &str) -> Result<Rc<Cx>, String> {
     Ok(there)
 }
 
-/// Warns of a function that is false for this reason.
+/// Warns that a function returns false, with the reason.
 pub(crate) fn warn_of(cx: &Cx, function: &str, why: &str) {
     let (file, line) = cx.place();
     cx.shared().warn(format!("{}:{line}: {function}: {why}", file.name()));
 }
 
-/// That there is no foreground channel with this number.
+/// The message that a foreground channel with this number does not exist.
 pub(crate) fn no_such(cx: &Cx, number: i32) -> String {
     match cx.programs().foreground_count() {
         1 => format!("there is no foreground channel {number}, only channel 1"),
@@ -107,7 +105,7 @@ impl Foreground<'_> {
         pose(self.cx, &self.unit, &joints.axes, &joint(joints), tool, wobj)
     }
 
-    /// What needs the masses of the robot.
+    /// Returns a result that needs the masses of the robot, or the fault that they are missing.
     fn known<T>(&self, function: &'static str, found: Option<T>) -> Result<T, Fault> {
         found.ok_or_else(|| Fault::NoMasses { function, robot: self.unit.robot().name.as_str().into() })
     }
@@ -117,7 +115,7 @@ impl Foreground<'_> {
         self.known(function, self.unit.torques(commanded))
     }
 
-    /// Values of the robot's own axes for a program: those that the robot does not have are unset.
+    /// Values of the robot's own axes for a program: axes that the robot does not have are unset.
     fn own(&self, values: Axes) -> [f64; 6] {
         let mut own = [UNSET; 6];
         let there = self.unit.robot().own_axes().len();
@@ -125,14 +123,14 @@ impl Foreground<'_> {
         own
     }
 
-    /// Where the motion stands that is being executed, or was last, if only before the controller was switched on.
+    /// The position of the current or else the last motion, even from before the controller was switched on.
     fn motion_pointer(&self) -> CodePosition {
         let kept = || self.cx.channel_state().kept().motion.clone();
         let now = self.unit.motion_pointer().map(CodePosition::from);
         now.or_else(kept).unwrap_or_else(|| (self.cx.program(), 0).into())
     }
 
-    /// Where the program stands, or stood before the controller was switched on.
+    /// The position of the program now, or before the controller was switched on.
     fn program_pointer(&self) -> CodePosition {
         let channel_state = self.cx.channel_state();
         let kept = channel_state.kept().program.clone().filter(|_| !channel_state.begun.get());
@@ -140,11 +138,11 @@ impl Foreground<'_> {
     }
 }
 
-/// `cjttq`: the torques of the axes in Nm (N of linear axes), as the motion is commanded or as they are measured. Those
-/// of external axes are unset: their masses are not known.
+/// `cjttq`: the torques of the axes in Nm (N of linear axes), as commanded or as measured. Those of external axes are
+/// unset: their masses are not known.
 ///
 /// # Errors
-/// There is no such channel, or the robot file has no masses.
+/// The channel does not exist, or the robot file has no masses.
 pub fn cjttq(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jttq, Fault> {
     const FUNCTION: &str = "cjttq";
     foreground(cx, FUNCTION, chan_no, |channel| {
@@ -153,11 +151,10 @@ pub fn cjttq(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jttq, Fault> {
     })
 }
 
-/// `cjtci`: the currents of the motors in A, as the motion is commanded or as they are measured. Those of external axes
-/// are unset.
+/// `cjtci`: the currents of the motors in A, as commanded or as measured. Those of external axes are unset.
 ///
 /// # Errors
-/// There is no such channel, or the robot file has no masses.
+/// The channel does not exist, or the robot file has no masses.
 pub fn cjtci(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jtci, Fault> {
     const FUNCTION: &str = "cjtci";
     foreground(cx, FUNCTION, chan_no, |channel| {
@@ -167,19 +164,19 @@ pub fn cjtci(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jtci, Fault> {
     })
 }
 
-/// `channeltojoint`: the axes (deg, mm) of the target of the motion that is being executed; without one, of the last.
+/// `channeltojoint`: the axes (deg, mm) at the target of the current motion; without one, of the last.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub fn channeltojoint(cx: &Cx, chan_no: i32) -> Result<Joint, Fault> {
     foreground(cx, "channeltojoint", chan_no, |channel| Ok(joint(channel.unit.current_target())))
 }
 
-/// `channeltopose`: the pose (mm, deg) of the tool in the workpiece frame at the target of the motion that is being
-/// executed; without one, of the last.
+/// `channeltopose`: the pose (mm, deg) of the tool in the workpiece frame at the target of the current motion; without
+/// one, of the last.
 ///
 /// # Errors
-/// There is no such channel, or the tool or the workpiece frame holds what is not a number.
+/// The channel does not exist, or the tool or the workpiece frame contains a value that is not a number.
 pub fn channeltopose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     known("channeltopose", &t, w)?;
     foreground(cx, "channeltopose", chan_no, |channel| Ok(channel.pose(channel.unit.current_target(), t, w)))
@@ -188,7 +185,7 @@ pub fn channeltopose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Pose, F
 /// `channeljoint`: the axes (deg, mm) now, as commanded or as the robot reports them.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub fn channeljoint(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Joint, Fault> {
     foreground(cx, "channeljoint", chan_no, |channel| Ok(joint(channel.positions(ls_cmd))))
 }
@@ -196,7 +193,7 @@ pub fn channeljoint(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Joint, Fault>
 /// `channelpose`: the pose (mm, deg) of the tool in the workpiece frame now, as commanded or as the robot reports it.
 ///
 /// # Errors
-/// There is no such channel, or the tool or the workpiece frame holds what is not a number.
+/// The channel does not exist, or the tool or the workpiece frame contains a value that is not a number.
 pub fn channelpose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<Pose, Fault> {
     known("channelpose", &t, w)?;
     foreground(cx, "channelpose", chan_no, |channel| Ok(channel.pose(channel.positions(ls_cmd), t, w)))
@@ -205,7 +202,7 @@ pub fn channelpose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Re
 /// `channeljointvel`: the speeds of the axes in rad/s (mm/s of linear axes), as commanded or as the robot reports them.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub fn channeljointvel(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jvel, Fault> {
     foreground(cx, "channeljointvel", chan_no, |channel| {
         let robot = channel.unit.robot();
@@ -223,7 +220,7 @@ pub fn channeljointvel(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jvel, Faul
 /// `channeltcpvel`: the speed of the tool in the workpiece frame in mm/s, as commanded or as the robot reports it.
 ///
 /// # Errors
-/// There is no such channel, or the tool or the workpiece frame holds what is not a number.
+/// The channel does not exist, or the tool or the workpiece frame contains a value that is not a number.
 pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<f64, Fault> {
     known("channeltcpvel", &t, w)?;
     foreground(cx, "channeltcpvel", chan_no, |channel| {
@@ -234,12 +231,12 @@ pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> 
     })
 }
 
-/// `ctcpforce`: the force (N) and the torque (Nm) with which the robot presses on what is outside, at the TCP and along
-/// the axes of the workpiece frame. What the axes cannot feel at a singular point is 0.
+/// `ctcpforce`: the force (N) and the torque (Nm) that the robot exerts on its surroundings, at the TCP and along the
+/// axes of the workpiece frame. Components that the axes cannot sense at a singular point are 0.
 ///
 /// # Errors
-/// There is no such channel, the robot file has no masses, or the tool or the workpiece frame holds what is not a
-/// number.
+/// The channel does not exist, the robot file has no masses, or the tool or the workpiece frame contains a value that
+/// is not a number.
 pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, Fault> {
     const FUNCTION: &str = "ctcpforce";
     known(FUNCTION, &t, w)?;
@@ -253,7 +250,7 @@ pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, F
         let tcp = rig.tcp_at(&flange);
         let point = (rig.base.inverse() * tcp).translation.vector;
         let pressing = model.pressing(axes, &surplus, &point).unwrap_or_else(|| model.felt(axes, &surplus, &point));
-        // From the base by the world and the TCP to the workpiece.
+        // From the base via the world and the TCP to the workpiece.
         let turn = setting.pose_of(&flange).rotation * tcp.rotation.inverse() * rig.base.rotation;
         let [fx, fy, fz]: [f64; 3] = (turn * pressing.force).into();
         let [tx, ty, tz]: [f64; 3] = (turn * pressing.torque).into();
@@ -262,29 +259,29 @@ pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, F
     })
 }
 
-/// `curmpfile`: the file of the motion that is being executed, or was last, if only before the controller was switched
-/// on; before the first one ever the program's own.
+/// `curmpfile`: the file of the current or else the last motion, even from before the controller was switched on;
+/// before the very first motion the program's own.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub fn curmpfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
     foreground(cx, "curmpfile", channel_index, |channel| Ok(channel.motion_pointer().file))
 }
 
-/// `curmpline`: the line of the motion that is being executed, or was last, if only before the controller was switched
-/// on; before the first one ever 0.
+/// `curmpline`: the line of the current or else the last motion, even from before the controller was switched on;
+/// before the very first motion 0.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub fn curmpline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
     foreground(cx, "curmpline", channel_index, |channel| Ok(channel.motion_pointer().line as i32))
 }
 
-/// `curppfile`: the file that the program stands in; until it runs, the one in which the channel's program stood when
+/// `curppfile`: the file in which the program stands; until it runs, the one in which the channel's program stood when
 /// the controller was switched off.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub fn curppfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
     foreground(cx, "curppfile", channel_index, |channel| Ok(channel.program_pointer().file))
 }
@@ -293,7 +290,7 @@ pub fn curppfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
 /// the controller was switched off.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub fn curppline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
     foreground(cx, "curppline", channel_index, |channel| Ok(channel.program_pointer().line as i32))
 }

@@ -10,7 +10,7 @@ use crate::context::shown::Shown;
 pub struct Clock {
     /// Cycles before the last start.
     counted: Cell<u64>,
-    /// The cycle of the last start; none while the clock stands still.
+    /// The cycle of the last start; `None` while the clock stands still.
     since: Cell<Option<u64>>,
 }
 
@@ -37,7 +37,7 @@ impl Shown for Clock {
     }
 }
 
-/// Starts a clock; one that was stopped goes on counting, one that runs goes on running.
+/// Starts a clock; a stopped clock continues counting, a running one is not affected.
 pub fn clkstart(cx: &Cx, c: &Clock) {
     if c.since.get().is_none() {
         c.since.set(Some(cx.cycle()));
@@ -58,7 +58,7 @@ pub fn clkreset(cx: &Cx, c: &Clock) {
     }
 }
 
-/// What a clock shows, in s.
+/// The value of a clock, in s.
 pub fn clkread(cx: &Cx, c: &Clock) -> f64 {
     cx.goes_on();
     cx.shared().rate.time(c.cycles(cx.cycle()))

@@ -1,4 +1,4 @@
-//! Conversions that a program asks for. Bytes stand for numbers with the lowest byte first.
+//! Explicit conversions of programs. Bytes represent numbers with the lowest byte first.
 
 use crate::fault::Fault;
 use crate::values::text::scan;
@@ -25,16 +25,16 @@ pub fn toint_double(d: f64) -> Result<i32, Fault> {
 /// The int in four bytes.
 ///
 /// # Errors
-/// [`Fault::Domain`] where the array does not have them.
+/// [`Fault::Domain`] if the array does not have them.
 pub fn toint_bytes(data: &[u8], start: i32) -> Result<i32, Fault> {
     Ok(i32::from_le_bytes(taken("toint", data, start)?))
 }
 
-/// The int that a text stands for, in decimal or in hexadecimal (with or without a final `h`; up to eight digits are a
+/// The int that a text represents, in decimal or in hexadecimal (with or without a final `h`; up to eight digits are a
 /// bit pattern). Blanks around it are ignored.
 ///
 /// # Errors
-/// [`Fault::Text`] where the text is not such a number.
+/// [`Fault::Text`] if the text is not such a number.
 pub fn toint_string(number_string: &Str, number_base: NumBase) -> Result<i32, Fault> {
     let text = number_string.as_bytes();
     let number = match number_base {
@@ -47,7 +47,7 @@ pub fn toint_string(number_string: &Str, number_base: NumBase) -> Result<i32, Fa
 /// The double in eight bytes.
 ///
 /// # Errors
-/// [`Fault::Domain`] where the array does not have them.
+/// [`Fault::Domain`] if the array does not have them.
 pub fn todouble(data: &[u8], start: i32) -> Result<f64, Fault> {
     Ok(f64::from_le_bytes(taken("todouble", data, start)?))
 }
@@ -55,15 +55,15 @@ pub fn todouble(data: &[u8], start: i32) -> Result<f64, Fault> {
 /// The number in four bytes of single precision.
 ///
 /// # Errors
-/// [`Fault::Domain`] where the array does not have them.
+/// [`Fault::Domain`] if the array does not have them.
 pub fn tofloat(data: &[u8], start: i32) -> Result<f64, Fault> {
     Ok(f64::from(f32::from_le_bytes(taken("tofloat", data, start)?)))
 }
 
-/// Writes the bytes of a text, without anything behind them.
+/// Writes the bytes of a text, without a terminator.
 ///
 /// # Errors
-/// [`Fault::Domain`] where they do not fit the array.
+/// [`Fault::Domain`] if they do not fit the array.
 pub fn tobytes_string(src: &Str, dest: &mut [u8], start: i32) -> Result<(), Fault> {
     put("tobytes", src.as_bytes(), dest, start)
 }
@@ -71,7 +71,7 @@ pub fn tobytes_string(src: &Str, dest: &mut [u8], start: i32) -> Result<(), Faul
 /// Writes the four bytes of an int.
 ///
 /// # Errors
-/// [`Fault::Domain`] where they do not fit the array.
+/// [`Fault::Domain`] if they do not fit the array.
 pub fn tobytes_int(src: i32, dest: &mut [u8], start: i32) -> Result<(), Fault> {
     put("tobytes", &src.to_le_bytes(), dest, start)
 }
@@ -79,7 +79,7 @@ pub fn tobytes_int(src: i32, dest: &mut [u8], start: i32) -> Result<(), Fault> {
 /// Writes the eight bytes of a double.
 ///
 /// # Errors
-/// [`Fault::Domain`] where they do not fit the array.
+/// [`Fault::Domain`] if they do not fit the array.
 pub fn tobytes_double(src: f64, dest: &mut [u8], start: i32) -> Result<(), Fault> {
     put("tobytes", &src.to_le_bytes(), dest, start)
 }
@@ -87,7 +87,7 @@ pub fn tobytes_double(src: f64, dest: &mut [u8], start: i32) -> Result<(), Fault
 /// Writes a number as four bytes of single precision.
 ///
 /// # Errors
-/// [`Fault::Domain`] where they do not fit the array.
+/// [`Fault::Domain`] if they do not fit the array.
 pub fn ftobytes(src: f64, data: &mut [u8], start: i32) -> Result<(), Fault> {
     put("ftobytes", &(src as f32).to_le_bytes(), data, start)
 }
@@ -97,12 +97,12 @@ pub fn tostr(v: &dyn Print) -> Str {
     v.printed(&Style::START)
 }
 
-/// An int in a base.
+/// An int as text in a base.
 pub fn tostr_base(v: i32, number_base: NumBase) -> Str {
     v.printed(&Style { base: Some(number_base), ..Style::START })
 }
 
-/// A double with this many significant digits.
+/// A double as text with this many significant digits.
 ///
 /// # Errors
 /// [`Fault::Domain`] for a negative number of digits.

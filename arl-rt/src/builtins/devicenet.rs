@@ -4,17 +4,17 @@ use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::fieldbus::devicenet::ErrorCode;
 
-/// Offset or length lie outside the buffer.
+/// Offset or length are outside the buffer.
 const OUTSIDE_BUFFER: i32 = 1;
 
-/// The program's array has fewer bytes than the length says.
+/// The program's array has fewer bytes than the length.
 const ARRAY_TOO_SHORT: i32 = 2;
 
 /// Writes bytes into the bus's buffer. 0: done; 1: offset or length outside the buffer; 2: the array is shorter than
-/// the length; others: the bus's own.
+/// the length; other codes come from the bus.
 ///
 /// # Errors
-/// None: what goes wrong is told by the result.
+/// None: errors are reported by the result.
 pub async fn dnwrite(cx: &Cx, offset: i32, len: i32, data: &[u8]) -> Result<i32, Fault> {
     cx.motion_end().await;
     let mut bus = cx.shared().buses.devicenet();
@@ -23,10 +23,10 @@ pub async fn dnwrite(cx: &Cx, offset: i32, len: i32, data: &[u8]) -> Result<i32,
     Ok(code(bus.write(offset, data)))
 }
 
-/// Reads bytes from the bus's buffer; the rest of the array stays. The result is that of [`dnwrite`].
+/// Reads bytes from the bus's buffer; the rest of the array stays. The result codes are those of [`dnwrite`].
 ///
 /// # Errors
-/// None: what goes wrong is told by the result.
+/// None: errors are reported by the result.
 pub async fn dnread(cx: &Cx, offset: i32, len: i32, data: &mut [u8]) -> Result<i32, Fault> {
     cx.motion_end().await;
     let mut bus = cx.shared().buses.devicenet();

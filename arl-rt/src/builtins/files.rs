@@ -15,8 +15,8 @@ const USB: &str = "USB";
 /// A line of a text file, without its end; lines count from 1. `external_file` looks below `USB`.
 ///
 /// # Errors
-/// 10064: there is no such file, or it cannot be read; 10065: it has no such line; a path that leads out of the script
-/// directory.
+/// 10064: the file does not exist or cannot be read; 10065: it does not have the line; a path that leads out of the
+/// script directory.
 pub async fn gettextstr(cx: &Cx, file_path: &Str, line_no: i32, external_file: bool) -> Result<Str, Fault> {
     cx.motion_end().await;
     let inner = Path::new(if external_file { USB } else { "" });
@@ -35,7 +35,7 @@ pub async fn gettextstr(cx: &Cx, file_path: &Str, line_no: i32, external_file: b
 /// The size of a file in bytes.
 ///
 /// # Errors
-/// There is no such file, or its path leads out of the script directory.
+/// The file does not exist, or its path leads out of the script directory.
 pub async fn filesize(cx: &Cx, file_name: &Str) -> Result<i32, Fault> {
     cx.motion_end().await;
     let path = cx.shared().scripts.file(file_name)?;
@@ -45,7 +45,7 @@ pub async fn filesize(cx: &Cx, file_name: &Str) -> Result<i32, Fault> {
     }
 }
 
-/// Gives a file another name; true if it worked. A file that has the new name already stays as it is: false.
+/// Gives a file another name; true on success. False if a file with the new name already exists, which stays as it is.
 ///
 /// # Errors
 /// A path leads out of the script directory.
@@ -56,7 +56,7 @@ pub async fn renamefile(cx: &Cx, file_name: &Str, new_file_name: &Str) -> Result
     Ok(from.is_file() && !to.exists() && fs::rename(from, to).is_ok())
 }
 
-/// Deletes a file; true if it worked.
+/// Deletes a file; true on success.
 ///
 /// # Errors
 /// The path leads out of the script directory.

@@ -47,7 +47,7 @@ pub struct WaitUntil<'a> {
 }
 
 impl<'a> WaitUntil<'a> {
-    /// The longest time to wait, in s, counted from the end of the motion before.
+    /// The longest time to wait, in s, counted from the end of the previous motion.
     pub fn maxtime(mut self, seconds: f64) -> Self {
         self.maxtime = Some(seconds);
         self
@@ -109,7 +109,7 @@ impl Pause {
     }
 }
 
-/// `assert`: an alarm where `x` is false.
+/// `assert`: an alarm if `x` is false.
 ///
 /// # Errors
 /// [`Fault::Assertion`].
@@ -118,7 +118,7 @@ pub fn assert(x: bool) -> Result<(), Fault> {
     if x { Ok(()) } else { Err(Fault::Assertion) }
 }
 
-/// How many cycles a program waits that gives this time.
+/// The number of cycles that a program waits for this time.
 ///
 /// # Errors
 /// The time is negative or not a number.

@@ -1,7 +1,7 @@
 //! Frames and poses as transforms: products, inverses, displacements.
 //!
 //! A frame's angles are in deg: a about z, b about the new y, c about the new x. A component that depends on an unset
-//! one of a pose is unset.
+//! component of a pose is unset.
 
 use crate::motion::is_unset;
 use crate::values::{Frame, Pose, Tool, UNSET, Wobj};
@@ -11,7 +11,7 @@ use std::ops::Mul;
 
 pub use arl_robot::frames::{Carried, Mount, Rig, Setting, Unmoved};
 
-/// Whether nothing can be computed from a component.
+/// Whether a component is unset or not finite, so that nothing can be computed from it.
 pub(crate) fn is_open(component: f64) -> bool {
     is_unset(component) || !component.is_finite()
 }
@@ -72,7 +72,7 @@ pub fn angles(rotation: &Matrix3<f64>) -> [f64; 3] {
     let (a, b, c) = if level < GIMBAL_LOCK {
         ((-r(0, 1)).atan2(r(1, 1)), (-r(2, 0)).signum() * std::f64::consts::FRAC_PI_2, 0.0)
     } else {
-        // With a turned back first, an imprecise a near the lock does not spoil the rotation.
+        // As a is turned back first, an imprecise a near the lock does not spoil the rotation.
         let a = r(1, 0).atan2(r(0, 0));
         let (sa, ca) = a.sin_cos();
         (a, (-r(2, 0)).atan2(level), (sa * r(0, 2) - ca * r(1, 2)).atan2(ca * r(1, 1) - sa * r(0, 1)))
@@ -107,7 +107,7 @@ impl Transform {
         Self { place: place.map(Vector3::from), turn: turn.map(rotation) }
     }
 
-    /// The other one, seen through this one.
+    /// The other transform, seen through this one.
     fn then(&self, other: &Transform) -> Transform {
         let place = match (self.place, self.turn, other.place) {
             (Some(origin), Some(turn), Some(place)) => Some(moved(&origin, &turn, &place)),
@@ -129,12 +129,12 @@ impl Transform {
     }
 }
 
-/// The three components, where all of them are set.
+/// The three components, if all of them are set.
 fn set(components: [f64; 3]) -> Option<[f64; 3]> {
     if components.contains(&UNSET) { None } else { Some(components) }
 }
 
-/// `origin + turn * place`, where what is left of terms that cancel each other is zero.
+/// `origin + turn * place`; the remainder of terms that cancel each other becomes zero.
 fn moved(origin: &Vector3<f64>, turn: &Matrix3<f64>, place: &Vector3<f64>) -> Vector3<f64> {
     let sum = origin + turn * place;
     let size = origin.abs() + turn.abs() * place.abs();

@@ -8,17 +8,17 @@ fn domain(function: &'static str, problem: String) -> Fault {
     Fault::Domain { function, problem: problem.into() }
 }
 
-/// The size of an int; the least int stays as it is.
+/// The absolute value of an int; the least int stays as it is.
 pub fn abs_int(x: i32) -> i32 {
     x.wrapping_abs()
 }
 
-/// The size of a number.
+/// The absolute value of a number.
 pub fn abs_double(x: f64) -> f64 {
     x.abs()
 }
 
-/// Functions that Rust has and that are defined everywhere.
+/// Functions of Rust that are defined everywhere.
 macro_rules! everywhere {
     ($($(#[$doc:meta])* $name:ident($first:ident $(, $second:ident)?) = $how:expr;)*) => { $(
         $(#[$doc])*
@@ -55,7 +55,7 @@ everywhere! {
     floor(x) = x.floor();
     /// The smallest whole number that is not below x.
     ceil(x) = x.ceil();
-    /// The hypotenuse over two legs.
+    /// The hypotenuse of two legs.
     hypot(x, y) = x.hypot(y);
 }
 
@@ -114,7 +114,7 @@ pub fn frexp_int(val: f64, exp: &mut i32) -> f64 {
     fraction
 }
 
-/// As [`frexp_int`], for an exponent in a double.
+/// Like [`frexp_int`], with the exponent in a double.
 pub fn frexp_double(val: f64, exp: &mut f64) -> f64 {
     let (fraction, power) = split(val);
     *exp = f64::from(power);
@@ -137,7 +137,8 @@ fn split(val: f64) -> (f64, i32) {
 
 /// `val` times 2 to the power of `exp`, rounded once.
 pub fn ldexp(val: f64, exp: i32) -> f64 {
-    // A factor holds exponents -1022 to 1023 only. Steps down leave 53 bits of room, so that the last one alone rounds.
+    // A factor can only have exponents -1022 to 1023. Steps down leave 53 bits of room, so that only the last one
+    // rounds.
     const UP: i32 = 1023;
     const DOWN: i32 = -1022 + 53;
     let (mut scaled, mut left) = (val, exp);
@@ -153,7 +154,7 @@ pub fn ldexp(val: f64, exp: i32) -> f64 {
     scaled * 2f64.powi(left.clamp(-1022, 1023))
 }
 
-/// The remainder of the quotient cut towards zero, with the sign of `x`.
+/// The remainder of the quotient truncated towards zero, with the sign of `x`.
 ///
 /// # Errors
 /// [`Fault::Domain`] for a zero `y`.
@@ -164,7 +165,7 @@ pub fn fmod(x: f64, y: f64) -> Result<f64, Fault> {
 /// Splits a number into its whole part and the fraction, both with its sign.
 ///
 /// # Errors
-/// [`Fault::Domain`] where the whole part is outside the range of int.
+/// [`Fault::Domain`] if the whole part is outside the range of int.
 pub fn modf_int(x: f64, y: &mut i32) -> Result<f64, Fault> {
     let whole = x.trunc();
     if !(-2_147_483_648.0..=2_147_483_647.0).contains(&whole) {
@@ -174,7 +175,7 @@ pub fn modf_int(x: f64, y: &mut i32) -> Result<f64, Fault> {
     Ok((x - whole).copysign(x))
 }
 
-/// As [`modf_int`], for a whole part in a double.
+/// Like [`modf_int`], with the whole part in a double.
 pub fn modf_double(x: f64, y: &mut f64) -> f64 {
     *y = x.trunc();
     if x.is_infinite() { 0f64.copysign(x) } else { (x - *y).copysign(x) }
@@ -185,9 +186,9 @@ pub fn norm(p: Pos) -> f64 {
     p.x.hypot(p.y).hypot(p.z)
 }
 
-/// Keeps `n` digits behind the decimal point; the rest is cut off or, with `round`, rounded half away from zero.
+/// Keeps `n` digits after the decimal point; the rest is cut off or, with `round`, rounded half away from zero.
 ///
-/// The digits are those of the shortest decimal number that stands for the double, so that 2.3 cut to one digit is 2.3.
+/// The digits are those of the shortest decimal number that represents the double, so that 2.3 cut to one digit is 2.3.
 ///
 /// # Errors
 /// [`Fault::Domain`] for a negative `n`.
@@ -219,7 +220,7 @@ pub fn trunc(num: f64, n: i32, round: bool) -> Result<f64, Fault> {
     Ok(number.parse().map_or(num, |size: f64| size.copysign(num)))
 }
 
-/// `rand`: a number from 0 to 2147483647. The row follows from the controller's seed.
+/// `rand`: a number from 0 to 2147483647. The sequence is determined by the controller's seed.
 pub fn rand(cx: &Cx) -> i32 {
     cx.goes_on();
     cx.shared().random.next()

@@ -1,7 +1,7 @@
 //! The functions and instructions that programs in ARL call.
 //!
-//! Whatever takes a [`Cx`](crate::Cx) and is called by programs is here, and what is pure as well; state is in the
-//! rooms below. It imports all rooms but `controller` and `command`.
+//! This module contains everything that programs call with a [`Cx`](crate::Cx), and pure functions; state is in the
+//! modules below. It imports all modules except `controller` and `command`.
 
 pub mod bits;
 pub mod calibration;

@@ -8,7 +8,7 @@ use crate::values::Str;
 /// Reads `len` registers from `start` on as a text of two bytes a register, zeros included.
 ///
 /// # Errors
-/// None: false where the registers do not exist.
+/// None: false if the registers do not exist.
 pub async fn readregisters_string(cx: &Cx, data: &mut Str, start: i32, len: i32) -> Result<bool, Fault> {
     let read = with_registers(cx, "readregisters", start, len, |registers| Ok(Str::from(&*registers))).await;
     Ok(read.map(|text| *data = text).is_some())
@@ -17,7 +17,7 @@ pub async fn readregisters_string(cx: &Cx, data: &mut Str, start: i32, len: i32)
 /// Reads `len` registers from `start` on as two bytes each; the rest of the array stays.
 ///
 /// # Errors
-/// None: false where the registers do not exist, or the array has no room for them.
+/// None: false if the registers do not exist, or the array has no room for them.
 pub async fn readregisters_bytes(cx: &Cx, data: &mut [u8], start: i32, len: i32) -> Result<bool, Fault> {
     let size = data.len();
     let read = with_registers(cx, "readregisters", start, len, |registers| {
@@ -28,11 +28,11 @@ pub async fn readregisters_bytes(cx: &Cx, data: &mut [u8], start: i32, len: i32)
     Ok(read.await.is_some())
 }
 
-/// Writes a text into registers from `start` on, two bytes a register: all of it, or as much as `len` registers take;
-/// what is left of the last ones becomes 0.
+/// Writes a text into registers from `start` on, two bytes a register: all of it, or as much as fits into `len`
+/// registers; the remaining bytes of these become 0.
 ///
 /// # Errors
-/// None: false where the registers do not exist.
+/// None: false if the registers do not exist.
 pub async fn writeregisters_string(cx: &Cx, data: &Str, start: i32, len: Option<i32>) -> Result<bool, Fault> {
     let all = i32::try_from(data.as_bytes().len().div_ceil(2)).unwrap_or(i32::MAX);
     let written = with_registers(cx, "writeregisters", start, len.unwrap_or(all), |registers| {
@@ -45,7 +45,7 @@ pub async fn writeregisters_string(cx: &Cx, data: &Str, start: i32, len: Option<
 /// Writes two bytes each into `len` registers from `start` on.
 ///
 /// # Errors
-/// None: false where the registers do not exist, or the array has too few bytes.
+/// None: false if the registers do not exist, or the array has too few bytes.
 pub async fn writeregisters_bytes(cx: &Cx, data: &[u8], start: i32, len: i32) -> Result<bool, Fault> {
     let written = with_registers(cx, "writeregisters", start, len, |registers| {
         registers.copy_from_slice(data.get(..registers.len()).ok_or_else(|| short(registers.len(), data.len()))?);
@@ -54,11 +54,11 @@ pub async fn writeregisters_bytes(cx: &Cx, data: &[u8], start: i32, len: i32) ->
     Ok(written.await.is_some())
 }
 
-/// Reads `length` coils from `start` on, eight a byte, the first in the lowest bit; bits left over become 0, the rest
-/// of the array stays.
+/// Reads `length` coils from `start` on, eight a byte, the first in the lowest bit; surplus bits become 0, the rest of
+/// the array stays.
 ///
 /// # Errors
-/// None: false where the coils do not exist, or the array has no room for them.
+/// None: false if the coils do not exist, or the array has no room for them.
 pub async fn readcoils(cx: &Cx, data: &mut [u8], start: i32, length: i32) -> Result<bool, Fault> {
     let size = data.len();
     let read = with_coils(cx, "readcoils", start, length, |tables, start, count| {
@@ -70,7 +70,7 @@ pub async fn readcoils(cx: &Cx, data: &mut [u8], start: i32, length: i32) -> Res
 /// Sets `length` coils from `start` on, eight a byte, the first from the lowest bit.
 ///
 /// # Errors
-/// None: false where the coils do not exist, or the array has too few bytes.
+/// None: false if the coils do not exist, or the array has too few bytes.
 pub async fn writecoils(cx: &Cx, data: &[u8], start: i32, length: i32) -> Result<bool, Fault> {
     let written = with_coils(cx, "writecoils", start, length, |tables, start, count| {
         tables.write_coils(start, count, data).ok_or_else(|| short(count.div_ceil(8), data.len()))
@@ -78,7 +78,7 @@ pub async fn writecoils(cx: &Cx, data: &[u8], start: i32, length: i32) -> Result
     Ok(written.await.is_some())
 }
 
-/// Does something with the bytes of registers.
+/// Calls `act` with the bytes of registers.
 async fn with_registers<R>(
     cx: &Cx,
     function: &'static str,
@@ -87,13 +87,13 @@ async fn with_registers<R>(
     act: impl FnOnce(&mut [u8]) -> Result<R, String>,
 ) -> Option<R> {
     exchange(cx, function, "register", start, len, |tables, start, count| {
-        // They have been checked to be there.
+        // They have been checked to exist.
         act(tables.registers_mut(start, count).unwrap_or_default())
     })
     .await
 }
 
-/// Does something with coils.
+/// Calls `act` with coils.
 async fn with_coils(
     cx: &Cx,
     function: &'static str,
@@ -104,7 +104,8 @@ async fn with_coils(
     exchange(cx, function, "coil", start, len, act).await
 }
 
-/// Does something with the tables, once all motion has ended; nothing where it is not possible, which is reported.
+/// Calls `act` with the tables, once all motion has ended; if that is not possible, reports the problem and returns
+/// `None`.
 async fn exchange<R>(
     cx: &Cx,
     function: &'static str,
@@ -120,7 +121,7 @@ async fn exchange<R>(
         Ok((start, count)) => loop {
             match shared.try_lock() {
                 Some(mut tables) => break act(&mut tables, start, count),
-                // A condition is looked at now or never.
+                // A condition must be evaluated at once.
                 None if cx.level() == Level::LOOKING => return None,
                 None => cx.next_cycle().await,
             }
@@ -129,7 +130,7 @@ async fn exchange<R>(
     done.map_err(|problem| report(cx, format!("{function}: {problem}"))).ok()
 }
 
-/// Start and count, where these registers or coils exist.
+/// Start and count, if these registers or coils exist.
 fn range(what: &str, start: i32, count: i32) -> Result<(usize, usize), String> {
     if count < 0 {
         return Err(format!("the number of {what}s is {count}, but must be 0 or more"));
@@ -148,7 +149,7 @@ fn short(needed: usize, size: usize) -> String {
     format!("{needed} bytes are needed, but the array has {size}")
 }
 
-/// Says why a function gives false, with its place in the program; the same thing once only, as programs try again in
+/// Warns why a function returns false, with its place in the program; each message only once, as programs try again in
 /// each cycle.
 fn report(cx: &Cx, problem: String) {
     let shared = cx.shared();
@@ -159,7 +160,7 @@ fn report(cx: &Cx, problem: String) {
     }
 }
 
-/// `len` bytes of a text; behind its end zeros.
+/// `len` bytes of a text; zeros after its end.
 fn padded(text: &Str, len: usize) -> Vec<u8> {
     let mut bytes = text.as_bytes().to_vec();
     bytes.resize(len, 0);

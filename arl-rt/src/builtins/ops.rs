@@ -7,7 +7,7 @@ use std::ops::{Add, Neg, Sub};
 /// Appends to a string.
 ///
 /// # Errors
-/// [`Fault::TooLong`] where it would become longer than [`Str::MOST`]; then nothing is appended.
+/// [`Fault::TooLong`] if the string would become longer than [`Str::MOST`]; then nothing is appended.
 #[inline]
 pub fn append(text: &mut Str, more: impl AsRef<[u8]>) -> Result<(), Fault> {
     let more = more.as_ref();
@@ -16,17 +16,17 @@ pub fn append(text: &mut Str, more: impl AsRef<[u8]>) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The same string.
+/// Returns the string unchanged.
 ///
 /// # Errors
-/// [`Fault::TooLong`] where it is longer than [`Str::MOST`].
+/// [`Fault::TooLong`] if the string is longer than [`Str::MOST`].
 #[inline]
 pub fn fits(text: Str) -> Result<Str, Fault> {
     within(text.len()).map(|()| text)
 }
 
-/// About how many steps make up a way: as many as there are, at most twice as many. A division would take longer than
-/// the short loops whose rounds are counted by it.
+/// About how many steps make up a distance: at least the real number, at most twice as many. A division would take
+/// longer than the short loops whose iterations are counted with it.
 #[inline]
 pub fn steps(way: i32, step: i32) -> i32 {
     way >> (31 - (step | 1).leading_zeros())
@@ -41,13 +41,13 @@ fn within(length: usize) -> Result<(), Fault> {
 pub trait Integer: Copy {
     /// The width in bits.
     const WIDTH: u8;
-    /// The quotient, cut towards zero; `None` for a zero divisor. The least int by -1 wraps.
+    /// The quotient, truncated towards zero; `None` for a zero divisor. The least int by -1 wraps.
     fn quotient(self, by: Self) -> Option<Self>;
     /// The remainder, with the sign of the dividend; `None` for a zero divisor.
     fn remainder(self, by: Self) -> Option<Self>;
-    /// All bits moved up; `None` where the count is not below the width.
+    /// All bits shifted up; `None` if the count is not below the width.
     fn up(self, count: u32) -> Option<Self>;
-    /// All bits moved down, the sign kept; `None` where the count is not below the width.
+    /// All bits shifted down, the sign kept; `None` if the count is not below the width.
     fn down(self, count: u32) -> Option<Self>;
 }
 
@@ -99,7 +99,7 @@ pub fn rem<T: Integer>(a: T, b: T) -> Result<T, Fault> {
     a.remainder(b).ok_or_else(by_zero)
 }
 
-/// `a % b` of doubles: the remainder of the quotient cut towards zero, with the sign of `a`.
+/// `a % b` of doubles: the remainder of the quotient truncated towards zero, with the sign of `a`.
 ///
 /// # Errors
 /// [`Fault::DivideByZero`]
@@ -108,9 +108,9 @@ pub fn rem_double(a: f64, b: f64) -> Result<f64, Fault> {
     if b == 0.0 { Err(by_zero()) } else { Ok(a % b) }
 }
 
-/// What a shift counts with: int or uint.
+/// The type of a shift count: int or uint.
 pub trait Count: Copy {
-    /// The places to shift by; a negative count is a large one.
+    /// The places to shift by; a negative count becomes a large one.
     fn places(self) -> u32;
     /// The number itself.
     fn number(self) -> i64;
@@ -156,21 +156,21 @@ pub fn shr<T: Integer>(value: T, count: impl Count) -> Result<T, Fault> {
     value.down(count.places()).ok_or_else(|| too_far(count, T::WIDTH))
 }
 
-/// The place of an element in an array of one dimension.
+/// The position of an element in an array of one dimension.
 ///
 /// # Errors
-/// [`Fault::Index`] where the index is negative or not below the size.
+/// [`Fault::Index`] if the index is negative or not below the size.
 #[inline]
 pub fn index(index: i32, size: usize) -> Result<usize, Fault> {
-    // A negative index is a large one.
+    // A negative index becomes a large one.
     let at = index as u32 as usize;
     if at < size { Ok(at) } else { Err(outside(index, size)) }
 }
 
-/// The place of an element in an array of several dimensions, with their sizes, outermost first.
+/// The position of an element in an array of several dimensions with these sizes, outermost first.
 ///
 /// # Errors
-/// [`Fault::Index`] where an index is negative or not below its size.
+/// [`Fault::Index`] if an index is negative or not below its size.
 #[inline]
 pub fn index2<const D: usize>(indices: [i32; D], sizes: [usize; D]) -> Result<usize, Fault> {
     let mut place = 0;
@@ -180,7 +180,7 @@ pub fn index2<const D: usize>(indices: [i32; D], sizes: [usize; D]) -> Result<us
     Ok(place)
 }
 
-// Faults are made apart from the code that has none: only there the compiler may forget about them.
+// Faults are created in separate functions, so that the compiler can keep them out of the code that does not fail.
 
 #[cold]
 fn by_zero() -> Fault {
@@ -197,7 +197,7 @@ fn outside(index: i32, size: usize) -> Fault {
     Fault::Index { index, size: u32::try_from(size).unwrap_or(u32::MAX) }
 }
 
-/// What a system variable with a range can be given: a number, or an array of them.
+/// A value for a system variable with a range: a number, or an array of numbers.
 pub trait Ranged {
     /// The first number that is not within `low` to `high`.
     fn beyond(&self, low: f64, high: f64) -> Option<f64>;
@@ -223,7 +223,7 @@ impl<T: Ranged, const N: usize, S: Store<T, N>> Ranged for Array<T, N, S> {
     }
 }
 
-/// A value for a system variable that takes `low` to `high`, of each element where it is an array.
+/// Checks a value for a system variable that takes `low` to `high`; in an array, each element.
 ///
 /// # Errors
 /// [`Fault::Range`]
@@ -235,9 +235,9 @@ pub fn in_range<T: Ranged>(value: T, low: f64, high: f64) -> Result<T, Fault> {
     }
 }
 
-/// What a system variable that takes some texts only can be given: a text, or an array of them.
+/// A value for a system variable that takes only certain texts: a text, or an array of texts.
 pub trait Worded {
-    /// The first text that is none of these.
+    /// The first text that is not one of these.
     fn other_than(&self, words: &[&str]) -> Option<&Str>;
 }
 
@@ -253,7 +253,7 @@ impl<T: Worded, const N: usize, S: Store<T, N>> Worded for Array<T, N, S> {
     }
 }
 
-/// A value for a system variable that takes these texts only, for each element where it is an array.
+/// Checks a value for a system variable that takes only these texts; in an array, each element.
 ///
 /// # Errors
 /// [`Fault::Word`]
@@ -297,7 +297,7 @@ macro_rules! joints {
 
 joints!(Joint: 12 JointScara: 10);
 
-/// The result, where both operands are set.
+/// The result if both operands are set; otherwise unset.
 fn both(a: f64, b: f64, result: f64) -> f64 {
     if a == UNSET || b == UNSET { UNSET } else { result }
 }

@@ -1,4 +1,4 @@
-//! `savearl`, `savefilepose` and `savefilejoint` (manual 5.11): program files are copied, points are written into data
+//! `savearl`, `savefilepose` and `savefilejoint` (manual 5.11): copies of program files, and points written into data
 //! files.
 
 mod now;
@@ -18,8 +18,9 @@ use crate::fault::Fault;
 use crate::values::{Joint, Pose, Str, UNSET};
 use arl_robot::atomic_file;
 
-/// Copies a program file in the script directory; true if it worked. A kill at any moment leaves the old or the new
-/// copy, whole. The work is done beside the cycle, and the program goes on when it is.
+/// Copies a program file in the script directory; true on success. If the process is killed at any moment, either the
+/// old or the new copy is there, complete. The file is copied outside the cycle, and the program continues once that is
+/// done.
 ///
 /// # Errors
 /// A path leads out of the script directory.
@@ -31,7 +32,7 @@ pub async fn savearl(cx: &Cx, file_src: &Str, file_dst: &Str, mode: bool) -> Res
     Ok(is_done(cx, "savearl", done(work, cx).await))
 }
 
-/// Whether work with the disk has succeeded; warns of what went wrong, if that is more than what was asked for.
+/// Whether a disk job has succeeded; warns of errors, but not of a requested refusal.
 fn is_done(cx: &Cx, function: &str, done: Option<Result<(), Failure>>) -> bool {
     match done {
         Some(Ok(())) => true,
@@ -43,21 +44,21 @@ fn is_done(cx: &Cx, function: &str, done: Option<Result<(), Failure>>) -> bool {
     }
 }
 
-/// Why nothing was written.
+/// The reason why nothing was written.
 #[derive(Debug)]
 enum Failure {
-    /// So it was asked for.
+    /// Refused as requested.
     Refused,
-    /// What is wrong.
+    /// An error.
     Problem(String),
 }
 
-/// What is wrong with a file.
+/// The error of a file.
 fn problem(path: &Path, what: impl std::fmt::Display) -> Failure {
     Failure::Problem(format!("{} {what}", path.display()))
 }
 
-/// Copies a file; refuses to replace one where it shall not.
+/// Copies a file; refuses to replace an existing one unless `replaces` is set.
 fn copy(from: &Path, to: &Path, replaces: bool) -> Result<(), Failure> {
     if to.exists() && !replaces {
         return Err(Failure::Refused);
@@ -71,13 +72,13 @@ fn copy(from: &Path, to: &Path, replaces: bool) -> Result<(), Failure> {
     })
 }
 
-/// Clears the directory of a file of what the dead have left.
+/// Clears the directory of a file of leftovers of killed processes.
 fn clear_beside(path: &Path) {
     atomic_file::remove_leftovers(atomic_file::directory_of(path));
 }
 
-/// Writes a pose to a point of a data file, whose other text stays as it is; true if it worked. It counts from the next
-/// load on.
+/// Writes a pose to a point of a data file, whose other text stays as it is; true on success. It takes effect from the
+/// next load on.
 ///
 /// # Errors
 /// The path leads out of the script directory.
@@ -91,7 +92,7 @@ fn of_pose(p: Pose) -> Components {
     let mut value = Components::new();
     value.numbers(&[("x", x), ("y", y), ("z", z), ("a", a), ("b", b), ("c", c)]);
     value.whole("cfg", cfg);
-    // Without it the nearest solution is meant.
+    // Without `turn` the nearest solution is meant.
     if turn != -1 {
         value.whole("turn", turn);
     }
@@ -99,7 +100,7 @@ fn of_pose(p: Pose) -> Components {
     value
 }
 
-/// Writes a joint to a point of a data file, whose other text stays as it is; true if it worked. It counts from the
+/// Writes a joint to a point of a data file, whose other text stays as it is; true on success. It takes effect from the
 /// next load on.
 ///
 /// # Errors
@@ -117,7 +118,7 @@ fn of_joint(j: Joint) -> Components {
     value
 }
 
-/// What is wrong with a point that has an inf or a nan.
+/// The error of a point with an infinite or NaN component.
 const NO_LITERAL: &str = "a component of the point is not a number";
 
 async fn save(
@@ -139,10 +140,10 @@ async fn save(
     Ok(is_done(cx, function, done(work, cx).await))
 }
 
-/// A structure's literal in the making.
+/// The literal of a structure, under construction.
 struct Components {
     text: String,
-    /// Whether all numbers so far are ones that a literal can name.
+    /// Whether a literal can represent all numbers so far.
     finite: bool,
 }
 
@@ -151,7 +152,7 @@ impl Components {
         Self { text: String::new(), finite: true }
     }
 
-    /// Components that are set.
+    /// Adds the components that are set.
     fn numbers(&mut self, components: &[(&str, f64)]) {
         for (name, value) in components.iter().filter(|(_, value)| *value != UNSET) {
             self.finite &= value.is_finite();
@@ -174,8 +175,8 @@ impl Components {
     }
 }
 
-/// Puts a value in place of the one that a variable of this type has in a file. Fails where there is no such file or
-/// variable, where the file has mistakes, and where it cannot be written.
+/// Replaces the value of a variable of this type in a file. Fails if the file or the variable does not exist, if the
+/// file has errors, and if it cannot be written.
 fn replace(path: &Path, ty: &str, variable: &str, value: &str) -> Result<(), Failure> {
     clear_beside(path);
     let changed = atomic_file::change(path, |content| arl_lang::with_value(content, ty, variable, value));

@@ -1,4 +1,4 @@
-//! `cjoint`, `cpose`, `getpose` and `getjoint`: where the robot is, and where it would be.
+//! `cjoint`, `cpose`, `getpose` and `getjoint`: the robot's current position, and conversions between poses and axes.
 
 pub use crate::builtins::frames::{offset, poseinv, reltool};
 
@@ -10,7 +10,7 @@ use crate::unit::{Unit, joint, tidy};
 use crate::values::{Joint, Pose, Tool, Wobj};
 use arl_robot::kinematics::{Axes, CONFIGURATIONS, Refusal, frame_components};
 
-/// The axes as the robot reports them now, in deg (mm); external axes that are not there are unset.
+/// The axes as the robot reports them now, in deg (mm); external axes that do not exist are unset.
 pub fn cjoint(cx: &Cx) -> Joint {
     match cx.channel_state().robot() {
         Some(unit) => joint(unit.feedback()),
@@ -21,7 +21,7 @@ pub fn cjoint(cx: &Cx) -> Joint {
 /// The pose of the tool in the workpiece frame as the robot reports it now, in mm and deg, with the external axes.
 ///
 /// # Errors
-/// The tool or the workpiece frame holds what is not a number.
+/// The tool or the workpiece frame contains a value that is not a number.
 pub fn cpose(cx: &Cx, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     let unit = cx.channel_state().unit("cpose")?;
     known("cpose", &t, w)?;
@@ -32,7 +32,7 @@ pub fn cpose(cx: &Cx, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
 /// The pose of `$DFTOOL` in `$DFWOBJ` as the robot reports it now, in mm and deg, with the external axes.
 ///
 /// # Errors
-/// As [`cpose`].
+/// Those of [`cpose`].
 pub fn cpose_default(cx: &Cx) -> Result<Pose, Fault> {
     cpose(cx, cx.system().dftool.get(), &cx.system().dfwobj.get())
 }
@@ -40,7 +40,7 @@ pub fn cpose_default(cx: &Cx) -> Result<Pose, Fault> {
 /// The pose of the tool in the workpiece frame for given axes.
 ///
 /// # Errors
-/// Axes of the robot are unset, or they, the tool or the workpiece frame hold what is not a number.
+/// Axes of the robot are unset; or the axes, the tool or the workpiece frame contain a value that is not a number.
 pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     let unit = cx.channel_state().unit("getpose")?;
     known("getpose", &t, w)?;
@@ -53,12 +53,12 @@ pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     Ok(pose(cx, &unit, &axes, &j, t, w))
 }
 
-/// The axes that bring the tool to a pose in the workpiece frame, in the configuration that the pose names; its
-/// external axes stay.
+/// The axes that bring the tool to a pose in the workpiece frame, in the configuration of the pose; the external axes
+/// are those of the pose.
 ///
 /// # Errors
-/// Components of the pose are unset, it, the tool or the workpiece frame hold what is not a number, or it cannot be
-/// reached so.
+/// Components of the pose are unset; the pose, the tool or the workpiece frame contain a value that is not a number; or
+/// the pose cannot be reached in this configuration.
 pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     let components = p.components();
     if components.iter().any(|component| is_open(*component)) {
@@ -79,7 +79,7 @@ pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     Ok(joint)
 }
 
-/// The pose of the tool in the workpiece frame for axes of the robot, with these external axes.
+/// The pose of the tool in the workpiece frame for the robot's axes, with these external axes.
 pub(crate) fn pose(cx: &Cx, unit: &Unit, axes: &Axes, external: &Joint, t: Tool, w: &Wobj) -> Pose {
     let kinematics = &unit.robot().kinematics;
     let [x, y, z, a, b, c] = frame_components(&setting(cx, &t, w).pose_of(&kinematics.forward(axes))).map(tidy);
@@ -88,13 +88,13 @@ pub(crate) fn pose(cx: &Cx, unit: &Unit, axes: &Axes, external: &Joint, t: Tool,
     Pose { x, y, z, a, b, c, cfg, turn: -1, ej1, ej2, ej3, ej4, ej5, ej6 }
 }
 
-/// The frames between poses and the flange; `$TOOL_OFFSET` and `$WOBJ_OFFSET` are the motions' alone.
+/// The frames between poses and the flange; `$TOOL_OFFSET` and `$WOBJ_OFFSET` apply to motions only.
 pub(crate) fn setting(cx: &Cx, tool: &Tool, wobj: &Wobj) -> Setting {
     let base = cx.system().base.with(|base| base.first().map_or_else(Default::default, |base| base.w_frame));
     Setting::new(tool, wobj, &base)
 }
 
-/// Whether the frames of tool and workpiece are numbers.
+/// Checks that the frames of tool and workpiece contain numbers only.
 pub(crate) fn known(function: &'static str, tool: &Tool, wobj: &Wobj) -> Result<(), Fault> {
     for (name, frame) in [("tool", tool.t_frame), ("workpiece", wobj.w_frame)] {
         if let Some(value) = frame.components().into_iter().find(|component| is_open(*component)) {

@@ -1,11 +1,11 @@
-//! Waiting for what is stored beside the cycle.
+//! Waiting for jobs that store data outside the cycle.
 
 use crate::context::cx::Cx;
 use crate::storage::disk::{Stage, Work};
 use crate::storage::state::{Saved, StateError};
 
-/// Waits for the end of a piece of work, one cycle at least, while the robots go on. On the virtual clock it is one
-/// cycle, however long the work takes. `None`: it has panicked.
+/// Waits for the end of a job, at least one cycle, while the robots continue. On the virtual clock this is one cycle,
+/// however long the job takes. `None` if the job has panicked.
 pub(super) async fn done<T>(work: Work<T>, cx: &Cx) -> Option<T> {
     loop {
         cx.shared().disk.wait_for();
@@ -18,10 +18,10 @@ pub(super) async fn done<T>(work: Work<T>, cx: &Cx) -> Option<T> {
     }
 }
 
-/// Waits until a value is stored: one cycle at least.
+/// Waits until a value is stored, at least one cycle.
 ///
 /// # Errors
-/// It cannot be stored; the old one is still there.
+/// The value cannot be stored; the old one is still there.
 pub(super) async fn saved(saved: Saved, cx: &Cx) -> Result<(), StateError> {
     loop {
         cx.shared().disk.wait_for();

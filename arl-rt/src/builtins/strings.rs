@@ -7,17 +7,17 @@ fn domain(function: &'static str, problem: String) -> Fault {
     Fault::Domain { function, problem: problem.into() }
 }
 
-/// How many bytes the string has.
+/// The length of the string in bytes.
 #[inline]
 pub fn strlen(s: &Str) -> i32 {
     i32::try_from(s.len()).unwrap_or(i32::MAX)
 }
 
-/// The part of `len` bytes from `startpos` (from 0) on; what reaches beyond the end is left out, and without `len` it
-/// goes to the end.
+/// The part of `len` bytes from `startpos` (from 0) on; it is cut at the end of the string, and without `len` it
+/// extends to the end.
 ///
 /// # Errors
-/// [`Fault::Domain`] for a start outside the string and a negative length.
+/// [`Fault::Domain`] for a start outside the string or a negative length.
 #[inline]
 pub fn substr(s: &Str, startpos: i32, len: Option<i32>) -> Result<Str, Fault> {
     let bytes = s.as_bytes();

@@ -1,4 +1,4 @@
-//! `savesv` and `init`: system variables are saved, and set to what was saved.
+//! `savesv` and `init`: save system variables and restore the saved values.
 
 use crate::builtins::storing;
 use crate::context::cx::Cx;
@@ -6,11 +6,11 @@ use crate::context::{system, wiring};
 use crate::fault::Fault;
 use crate::values::Str;
 
-/// `savesv`: saves a system variable, so that its value is there again at the next start. It is stored beside the
-/// cycle, and the program goes on when it is; robots go on meanwhile.
+/// `savesv`: saves a system variable, so that its value is restored at the next start. It is stored outside the cycle,
+/// and the program continues once that is done; robots continue meanwhile.
 ///
 /// # Errors
-/// There is no such variable, it is none of those that are saved, or it cannot be written.
+/// The variable does not exist, is not one of those that are saved, or cannot be written.
 pub async fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
     let text = svname.to_text();
     let name = text.strip_prefix('$').unwrap_or(&text);
@@ -32,7 +32,7 @@ pub async fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
     saved.map_err(|error| Fault::Domain { function: "savesv", problem: error.to_string().into() })
 }
 
-/// `init`: sets the variables of chapter 10.2 to their defaults, and those of chapter 10.1 to what was saved last.
+/// `init`: sets the variables of chapter 10.2 to their defaults, and those of chapter 10.1 to the values saved last.
 pub fn init(cx: &Cx) {
     let (channel_state, system) = (cx.channel_state(), cx.system());
     let current = system.cjoint.get();

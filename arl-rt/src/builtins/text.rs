@@ -1,4 +1,4 @@
-//! `print`: puts values together to a message and sends it to the operator panel, the terminal, a file or a string.
+//! `print`: composes a message of values and sends it to the operator panel, the terminal, a file or a string.
 
 use crate::context::cx::Cx;
 use crate::context::output::Targets;
@@ -7,12 +7,12 @@ use crate::values::{NumBase, Printto, Str};
 
 pub use crate::values::text::{Nested, Print, Style, Typed, nested, scan};
 
-/// `print`: puts values together to one message and sends it where `to` says, or writes it to a string.
+/// `print`: composes one message of values and sends it to the targets of `to`, or writes it to a string.
 pub fn print<'a>() -> PrintMessage<'a> {
     PrintMessage { to: None, tostr: None, filepath: None, style: Style::START, text: Str::new(), problem: None }
 }
 
-/// A message on its way together. Values take the style that stands before them.
+/// A message under construction. Values use the style set before them.
 #[derive(Debug)]
 #[must_use = "an instruction does nothing until it is run"]
 pub struct PrintMessage<'a> {
@@ -25,8 +25,8 @@ pub struct PrintMessage<'a> {
 }
 
 impl<'a> PrintMessage<'a> {
-    /// Sends this message and those after it here, beside what other `to` of this message say; `off` cancels the ones
-    /// before it.
+    /// Sends this message and those after it to this target, besides the targets of other `to` of this message; `off`
+    /// cancels the ones before it.
     pub fn to(mut self, target: Printto) -> Self {
         self.to = Some(self.to.unwrap_or(Targets::NONE).with(target));
         self
@@ -38,7 +38,7 @@ impl<'a> PrintMessage<'a> {
         self
     }
 
-    /// The file below the script directory for `to:file`; it holds for the messages after this one, too.
+    /// The file in the script directory for `to:file`; it applies to the messages after this one, too.
     pub fn filepath(mut self, path: &Str) -> Self {
         self.filepath = Some(path.clone());
         self
@@ -62,7 +62,7 @@ impl<'a> PrintMessage<'a> {
         self
     }
 
-    /// A value.
+    /// Appends a value.
     pub fn argtoprint(mut self, value: &dyn Print) -> Self {
         value.print(&mut self.text, &self.style);
         self
@@ -71,7 +71,7 @@ impl<'a> PrintMessage<'a> {
     /// Sends the message.
     ///
     /// # Errors
-    /// A file that has no name or cannot be written, or a negative precision.
+    /// The file has no name or cannot be written, or the precision is negative.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         if let Some(problem) = self.problem {
             return Err(problem);

@@ -5,7 +5,7 @@ use crate::values::Str;
 
 const SECONDS_PER_DAY: i64 = 86_400;
 
-/// 2000-01-01 00:00:00, in s since 1970: the date at which a run begins where nobody says otherwise.
+/// 2000-01-01 00:00:00, in s since 1970: the date at which a run begins by default.
 pub(crate) const YEAR_2000: i64 = 946_684_800;
 
 /// The time of day as `hh:mm:ss`.
@@ -25,7 +25,7 @@ fn now(cx: &Cx) -> i64 {
     cx.shared().start_date.saturating_add(cx.time() as i64)
 }
 
-/// The time of the world, in s since 1970 (UTC).
+/// The real time, in s since 1970 (UTC).
 pub(crate) fn of_the_world() -> i64 {
     let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
     since.map_or(YEAR_2000, |since| since.as_secs() as i64)
@@ -52,7 +52,7 @@ fn numbers(text: &str, between: char) -> Option<[i64; 3]> {
     parts.try_into().ok()
 }
 
-/// Days since 1970-01-01. Years begin in March here, so that the day that some have more comes last.
+/// Days since 1970-01-01. Years begin in March here, so that the leap day comes last.
 fn days(year: i64, month: i64, day: i64) -> i64 {
     let year = if month <= 2 { year - 1 } else { year };
     let (era, of_era) = (year.div_euclid(400), year.rem_euclid(400));

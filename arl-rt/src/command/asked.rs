@@ -1,11 +1,11 @@
-//! What the condition of a line asks of the signals, for programs that wait in vain.
+//! The signals that the condition of a line reads, for programs that wait in vain.
 
 use arl_lang::catalog::{self, Space};
 use arl_lang::lexer::{Lexeme, lexemes};
 use arl_lang::number::NumberValue;
 use arl_robot::cell::{Names, Signal, SignalKind};
 
-/// What a lexeme is to the search.
+/// The meaning of a lexeme in the search.
 #[derive(Clone, Copy)]
 enum Part<'a> {
     Word(&'a str),
@@ -34,7 +34,7 @@ fn parts(text: &str) -> Vec<Part<'_>> {
 /// The signals that a line of a program reads, by their numbers or by constants of its file, each once.
 pub(super) fn signals(line: &str, file: &str) -> Vec<Signal> {
     let mut found = Vec::new();
-    // What is calculated, or a whole range, is left out: only what is surely asked for is told.
+    // Calculated channels, and ranges, are left out: only signals that the line certainly reads are reported.
     for four in parts(line).windows(4) {
         let [Part::Word(function), Part::Open, number, Part::Close] = *four else { continue };
         let Some(kind) = catalog::functions(function).first().and_then(|entry| kind(entry.space()?)) else { continue };
@@ -49,7 +49,7 @@ pub(super) fn signals(line: &str, file: &str) -> Vec<Signal> {
     found
 }
 
-/// The number of a constant of a file.
+/// The value of a constant of a file.
 fn constant(name: &str, file: &str) -> Option<u32> {
     parts(file).windows(5).find_map(|five| match *five {
         [Part::Word(first), Part::Word(_), Part::Word(word), Part::Assign, Part::Number(value)]
@@ -71,7 +71,7 @@ fn kind(space: Space) -> Option<SignalKind> {
     }
 }
 
-/// A signal with its name and what it is: `di.12 (part_present) is off`.
+/// A signal with its name and its value: `di.12 (part_present) is off`.
 pub(super) fn told(signal: Signal, names: &Names, value: Option<String>) -> String {
     let name = names.of(signal).map(|name| format!(" ({name})")).unwrap_or_default();
     match value {

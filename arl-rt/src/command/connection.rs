@@ -1,23 +1,23 @@
-//! The connection of a run to who listens to it or debugs it. Any user of the computer may connect to a port, or open
-//! one: so both prove that they belong together before anything else is said.
+//! The connection of a run to its listener or debugger. Any user of the computer may connect to a port, or open one: so
+//! both sides prove that they belong together before anything else is sent.
 //!
-//! Who starts the run hands over a secret in its environment, `ARL2RS_SECRET`: two words with a colon between, which
-//! other users do not see. The run says the first one in a line, and who listens answers with the second one in a line.
-//! Without a secret nothing of this is said: a host listens as it likes.
+//! The process that starts the run passes a secret in its environment, `ARL2RS_SECRET`: two words separated by a colon,
+//! which other users cannot see. The run sends the first word in a line, and the listener answers with the second one
+//! in a line. Without a secret none of this is sent: a host may listen without it.
 
 use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::net::TcpStream;
 use std::time::Duration;
 
-/// The variable of the environment that has the secret.
+/// The environment variable with the secret.
 const SECRET: &str = "ARL2RS_SECRET";
-/// How long who listens may take for his answer.
+/// How long the listener may take to answer.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// Connects to who listens at an address.
+/// Connects to the listener at an address.
 ///
 /// # Errors
-/// Nobody does, or it is not who started this run.
+/// There is no listener, or the listener did not start this run.
 pub(super) fn connect(address: &str) -> Result<TcpStream> {
     let mut stream = TcpStream::connect(address)?;
     if let Ok(secret) = std::env::var(SECRET) {
@@ -26,7 +26,7 @@ pub(super) fn connect(address: &str) -> Result<TcpStream> {
     Ok(stream)
 }
 
-/// Says the one word, and expects the other.
+/// Sends the first word, and expects the second one.
 fn greet(stream: &mut TcpStream, secret: &str) -> Result<()> {
     let (own, other) = secret.split_once(':').unwrap_or((secret, ""));
     stream.write_all(format!("{own}\n").as_bytes())?;
@@ -45,7 +45,7 @@ mod tests {
     use super::*;
     use std::net::TcpListener;
 
-    /// What comes of a greeting that is answered like this, and what was said.
+    /// The result of a greeting with this answer, and what was sent.
     fn greeted(answer: &str) -> (Result<()>, String) {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap();

@@ -17,7 +17,7 @@ use crate::fault::Alarm;
 /// How often the statements of a program ran, by file and line.
 type Counts = BTreeMap<(&'static str, u32), u64>;
 
-/// The counts of a program: it is told by the folder of its files and its main file.
+/// The counts of a program, which is identified by the folder of its files and its main file.
 struct Program {
     folder: PathBuf,
     main: &'static str,
@@ -57,7 +57,7 @@ impl Watcher for Counter {
     fn alarm(&self, _: &Alarm) {}
 }
 
-/// Writes what was counted at the end of the run.
+/// Writes the counts at the end of the run.
 struct Coverage {
     counter: Rc<Counter>,
     file: File,
@@ -77,7 +77,7 @@ impl Between for Coverage {
 }
 
 impl Coverage {
-    /// A line for each statement that ran: folder and main file of its program, file, line, how often; then the same
+    /// Writes a line for each statement that ran: folder and main file of its program, file, line, count; then the same
     /// for functions, with the name in place of the line.
     fn write(&mut self) -> std::io::Result<()> {
         let mut out = BufWriter::new(&self.file);
@@ -93,7 +93,7 @@ impl Coverage {
     }
 }
 
-/// Counts the statements of a run, for a file that is written at its end.
+/// Counts the statements of a run; the file is written at its end.
 pub(crate) fn count(controller: &Controller, path: &Path) -> std::io::Result<Box<dyn Between>> {
     let (counter, file) = (Rc::new(Counter::default()), File::create(path)?);
     controller.watch(Rc::<Counter>::clone(&counter));

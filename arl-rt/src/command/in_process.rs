@@ -1,4 +1,4 @@
-//! A compiled program as a part of another process, which goes on as far as it is told, and is asked from outside.
+//! A compiled program as a part of another process, which steps it and queries it from outside.
 
 use std::cell::RefCell;
 use std::ffi::OsString;
@@ -17,46 +17,46 @@ use crate::context::program::Program;
 use crate::controller::{Controller, Outcome, trace};
 use crate::fault::{Alarm, File};
 
-/// A run of a program in this process. All of it happens on the thread that makes it.
+/// A run of a program in this process. Everything happens on the thread that creates it.
 pub struct Run {
     controller: Controller,
-    /// Lines that nobody has taken yet.
+    /// Lines that have not been taken yet.
     said: Rc<RefCell<String>>,
-    /// After how many s its time is over, where it is limited, and the cycle in which that is.
+    /// The time limit in s, if any, and the cycle in which it is reached.
     max_time: Option<f64>,
     last: u64,
-    /// Why it ends before its programs do.
+    /// The reason why it ends before its programs do.
     cut: Option<Ending>,
     /// How it ended, once it is over.
     ended: Option<Ending>,
-    /// All alarms.
+    /// All alarms so far.
     alarms: Vec<Alarm>,
     observation: Observation,
-    /// Whether it was asked to be in real time.
+    /// Whether it was requested to run in real time.
     is_real: bool,
-    /// The trace of the first robot, where it is asked for: rows that nobody has taken yet.
+    /// The trace of the first robot, where it is requested: rows that have not been taken yet.
     rows: Option<Vec<f64>>,
-    /// The files that rows name by their places here, where they do.
+    /// The files that rows refer to by their index here, where they do.
     files: Option<Vec<File>>,
-    /// Whether somebody wants it to end.
+    /// Whether the run is requested to end.
     stops: Arc<AtomicBool>,
-    /// Who listens, until it is over.
+    /// The connection to a listener, until the run is over.
     recording: Option<Recording>,
 }
 
-/// Who else may change something while a run goes on.
+/// Whether anything outside may change something while a run goes on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Outside {
-    /// Nobody: programs that all wait in vain end it.
+    /// Nothing: programs that all wait in vain end the run.
     Nobody,
-    /// Whoever has it.
+    /// The host may change something.
     Somebody,
 }
 
 impl Run {
     /// How many columns a row of the trace has.
     pub const COLUMNS: usize = trace::COLUMNS;
-    /// Their names, with commas between.
+    /// The names of the columns, separated by commas.
     pub const HEADER: &str = trace::HEADER;
 
     /// A run at the start of its first cycle. The arguments are those of a compiled program's command line;
@@ -64,7 +64,7 @@ impl Run {
     /// robot.
     ///
     /// # Errors
-    /// What is wrong with the arguments, or why there is no controller, in words.
+    /// The error in the arguments, or the reason why there is no controller, in words.
     pub fn begin(
         program: Box<dyn Program>,
         others: &[Other],
@@ -76,7 +76,7 @@ impl Run {
         let lines = Rc::clone(&said);
         let output = move |message: &Message<'_>| lines.borrow_mut().push_str(&message_line(message));
         let InProcess { controller, max_time, is_real, trace_columns, recording } =
-            program_main::in_process(program, (others, script_dir), arguments, output)?;
+            program_main::in_process(program, others, script_dir, arguments, output)?;
         recording.iter().for_each(|recording| recording.begin(&controller));
         let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
         let (rows, stops, observation) = (traced.then(Vec::new), Arc::default(), Observation::default());
@@ -97,12 +97,13 @@ impl Run {
         })
     }
 
-    /// What ends the programs once it is true, the robots at rest on their paths: any thread may set it.
+    /// A flag that ends the programs once it is true, with the robots at rest on their paths: any thread may set it.
     pub fn stops(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.stops)
     }
 
-    /// Goes on for so many cycles, or until it is over: then its exit code, which is that of the command.
+    /// Goes on for `cycles` cycles, or until the run is over: then it returns the exit code, which is that of the
+    /// command.
     pub fn go_on(&mut self, cycles: u64, outside: Outside) -> Option<u8> {
         for _ in 0..cycles {
             if self.ended.is_some() || self.conclude() {
@@ -127,12 +128,12 @@ impl Run {
                 self.cut(Ending::Stuck, &format!("nothing can change any more: {}", listed(&waiting).join("; ")));
             }
         }
-        // Who asks for no cycle wants to know, too.
+        // A call with 0 cycles gets the exit code, too.
         let _ = self.ended.is_some() || self.conclude();
         self.code()
     }
 
-    /// Keeps the row of a cycle, where the trace is asked for.
+    /// Keeps the row of a cycle, where the trace is requested.
     fn keep_row(&mut self) {
         let Some(rows) = self.rows.as_mut().filter(|_| self.controller.first_ran()) else { return };
         rows.extend(self.controller.trace_row());
@@ -151,10 +152,10 @@ impl Run {
         self.controller.stop();
     }
 
-    /// Finds out whether it is over.
+    /// Checks whether the run is over, and completes it then.
     fn conclude(&mut self) -> bool {
         let is_over = match self.cut {
-            // Who was told to stop does not begin again.
+            // A run that was stopped does not begin again.
             Some(_) => self.controller.outcome().is_some(),
             None => self.controller.is_over(),
         };
@@ -191,10 +192,10 @@ impl Run {
         self.said.borrow_mut().push_str(line);
     }
 
-    /// Does what an event of a scenario does: see [`Controller::order`].
+    /// Carries out the words of a scenario's event: see [`Controller::order`].
     ///
     /// # Errors
-    /// It is not an order, or the run is over; then nothing was done.
+    /// The text is not an order, or the run is over; then nothing was done.
     pub fn order(&mut self, text: &str) -> Result<(), String> {
         if self.ended.is_some() {
             return Err("the run is over".into());
@@ -202,55 +203,56 @@ impl Run {
         self.controller.order(text).map_err(|error| error.to_string())
     }
 
-    /// What was said since the last call: messages, warnings and alarms, a JSON object a line, as `--live` says them.
+    /// The messages, warnings and alarms since the last call, one JSON object per line, as `--live` writes them.
     pub fn take_said(&mut self) -> String {
         std::mem::take(&mut self.said.borrow_mut())
     }
 
-    /// How everything stands, a JSON object as `--live` says it.
+    /// The state of the controller, a JSON object as `--live` writes it.
     pub fn state(&self) -> String {
         let mut line = String::new();
         push_state(&mut line, &self.controller, self.controller.time());
         line
     }
 
-    /// The rows of the trace since the last call, one behind the other; axes that are not there are no numbers. With
-    /// `--trace-columns file` each has one number more at its end: which of [`files`](Self::files) its line is of, from
-    /// 0; no number where no motion is executed.
+    /// The rows of the trace since the last call, one after the other; the values of axes that do not exist are NaN.
+    /// With `--trace-columns file` each row has one more number at its end: the index, from 0, in
+    /// [`files`](Self::files) of the file that its line belongs to; NaN where no motion is executed.
     pub fn take_rows(&mut self) -> Vec<f64> {
         self.rows.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
-    /// The names of the files that rows of the trace have named so far.
+    /// The names of the files that rows of the trace refer to so far.
     pub fn files(&self) -> Vec<&'static str> {
         self.files.iter().flatten().map(|file| file.name()).collect()
     }
 
-    /// What came of it, or how far it is: a JSON object with the outcome, the exit code, the cycle time in s, the
-    /// alarms, and with `--report` what the motions of the first robot were together.
+    /// The result of the run, or its progress: a JSON object with the outcome, the exit code, the cycle time in s, the
+    /// alarms, and with `--report` the totals of the first robot's motions.
     pub fn summary(&self) -> String {
         summary(&self.controller, self.ended, &self.alarms)
     }
 
-    /// What each motion did, a JSON object a line, where `--report` asked for it.
+    /// What each motion did, one JSON object per line, where `--report` was given.
     pub fn report(&self) -> String {
         report::all_json(&self.controller.recorded())
     }
 
-    /// Which signals and global variables [`observe`](Self::observe) tells, a name a line: `do.1`, `global.placed`.
+    /// Sets the signals and global variables that [`observe`](Self::observe) returns, one name per line: `do.1`,
+    /// `global.placed`.
     ///
     /// # Errors
-    /// Something is not there, or no number; then nothing changes.
+    /// One of them does not exist, or is not a number; then nothing changes.
     pub fn watch(&mut self, names: &str) -> Result<(), String> {
         self.observation.watch(names, &self.controller)
     }
 
-    /// How many numbers [`observe`](Self::observe) has.
+    /// How many numbers [`observe`](Self::observe) fills in.
     pub fn observed(&self) -> usize {
         self.observation.count()
     }
 
-    /// The row of the trace that the last cycle has, and behind it what is watched.
+    /// Fills in the row of the trace of the last cycle, followed by the watched values.
     pub fn observe(&self, numbers: &mut [f64]) {
         self.observation.fill(numbers, &self.controller);
     }
@@ -258,7 +260,7 @@ impl Run {
     /// The value of a global variable, as a literal.
     ///
     /// # Errors
-    /// There is none of this name.
+    /// There is no variable of this name.
     pub fn global(&self, name: &str) -> Result<String, String> {
         self.controller.global(name).map_err(|error| error.to_string())
     }
@@ -266,7 +268,7 @@ impl Run {
     /// Gives a global variable a value, between two cycles.
     ///
     /// # Errors
-    /// There is none of this name, or the value does not fit.
+    /// There is no variable of this name, or the value does not fit.
     pub fn set_global(&mut self, name: &str, literal: &str) -> Result<(), String> {
         self.controller.set_global(name, literal).map_err(|error| error.to_string())
     }
@@ -277,7 +279,7 @@ impl Run {
     }
 }
 
-/// Where a file is among those that are known; new ones come behind.
+/// The index of a file among the known ones; a new one is appended.
 fn place(files: &mut Vec<File>, file: File) -> usize {
     let known = files.iter().position(|known| *known == file);
     known.unwrap_or_else(|| {

@@ -1,24 +1,24 @@
-//! JSON is written by hand: strings, numbers and arrays.
+//! Writes JSON by hand: strings, numbers and arrays.
 
 use std::fmt::Write;
 
 pub(crate) use arl_robot::settings::quoted;
 
-/// Millionths up to this many fit into whole numbers.
+/// The numbers below this, in millionths, fit into whole numbers.
 const LARGEST_OF_MILLIONTHS: f64 = 9e9;
 
-/// A number with six decimals; null where it is none.
+/// A number with six decimals; null where it is not finite.
 pub(crate) fn number(value: f64) -> String {
     let mut out = String::new();
     push_number(&mut out, value);
     out
 }
 
-/// Adds a number with six decimals; null where it is none.
+/// Adds a number with six decimals; null where it is not finite.
 pub(crate) fn push_number(out: &mut String, value: f64) {
     let size = value.abs();
     let _ = if size < LARGEST_OF_MILLIONTHS {
-        // Several times as fast as the formatter: in each cycle there are some.
+        // Several times as fast as the formatter, which matters in each cycle.
         let millionths = (size * 1e6).round() as u64;
         if value.is_sign_negative() {
             out.push('-');

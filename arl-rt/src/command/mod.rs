@@ -1,6 +1,6 @@
 //! A compiled program as a command: its command line, a run that another program drives, and reports.
 //!
-//! It imports everything, and nothing imports it but `lib.rs`.
+//! It may import from every module, and only `lib.rs` imports from it.
 
 mod asked;
 mod between;

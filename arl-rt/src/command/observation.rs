@@ -1,11 +1,11 @@
-//! What a host looks at after each step, as numbers.
+//! The values that a host observes after each step, as numbers.
 
 use crate::context::named::{self, with_variable};
 use crate::context::program::Program;
 use crate::controller::{Controller, trace};
 use arl_robot::cell::{Signal, SignalKind};
 
-/// The first robot's row of the trace, and behind it signals and global variables that a host has named.
+/// The first robot's row of the trace, followed by signals and global variables that a host has named.
 #[derive(Default)]
 pub(crate) struct Observation {
     watched: Vec<Watched>,
@@ -17,11 +17,11 @@ enum Watched {
 }
 
 impl Observation {
-    /// Looks at these from now on, a name a line: signals (`do.1`, or what the cell calls them) and global variables
-    /// that are numbers or truth values (`global.placed`).
+    /// Observes these from now on, one name per line: signals (`do.1`, or the cell's names for them) and global
+    /// variables that are numbers or truth values (`global.placed`).
     ///
     /// # Errors
-    /// Something is not there, or no number; then everything stays as it was.
+    /// One of them does not exist, or is not a number; then nothing changes.
     pub(crate) fn watch(&mut self, names: &str, controller: &Controller) -> Result<(), String> {
         let names = names.lines().map(str::trim).filter(|name| !name.is_empty());
         let watched = names.map(|name| {
@@ -42,7 +42,7 @@ impl Observation {
         trace::COLUMNS + self.watched.len()
     }
 
-    /// Fills in the numbers, as many as there is room for. Axes that are not there are no numbers.
+    /// Fills in the numbers, as many as there is room for. The values of axes that do not exist are NaN.
     pub(crate) fn fill(&self, numbers: &mut [f64], controller: &Controller) {
         let row = controller.trace_row();
         let (front, back) = numbers.split_at_mut(row.len().min(numbers.len()));

@@ -1,19 +1,19 @@
-//! A run on the virtual clock in which nothing happens but a program that asks again and again: said once, with the
-//! lines, so that nobody waits before a silent screen.
+//! A run on the virtual clock in which a program only polls in a loop: reported once, with the lines, so that nobody
+//! waits before a silent screen.
 
 use std::time::{Duration, Instant};
 
 use crate::controller::Controller;
 use crate::fault::File;
 
-/// Cycles between two looks.
+/// How many cycles are between two checks.
 const EVERY: u32 = 64;
-/// How long the lines of the loop are found out for.
+/// How long the lines of the loop are collected.
 const LEARNS: Duration = Duration::from_secs(1);
-/// How long nothing else has to happen until it is said.
+/// How long nothing else must happen before it is reported.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Watches where a program is, in the time of the world.
+/// Watches where a program is, in real time.
 pub(super) struct Polling {
     started: Instant,
     cycles: u32,
@@ -25,7 +25,7 @@ impl Polling {
         Self { started: Instant::now(), cycles: 0, watched: Watched::default() }
     }
 
-    /// A cycle has ended; what is to be said, once.
+    /// To be called after each cycle; returns the message, once.
     pub(super) fn cycle_ended(&mut self, controller: &Controller) -> Option<String> {
         self.cycles = self.cycles.wrapping_add(1);
         if !self.cycles.is_multiple_of(EVERY) {
@@ -48,14 +48,14 @@ struct Stay {
     file: File,
     first: u32,
     last: u32,
-    /// When it began, in the time of the world.
+    /// When it began, in real time.
     began: Duration,
-    /// The same in controller time, s.
+    /// When it began in controller time, in s.
     time: f64,
 }
 
 impl Watched {
-    /// Notes where the program is, `None` where a robot moves or it only calculates; `now` in the time of the world,
+    /// Notes where the program is, `None` where a robot moves or the program only calculates; `now` is real time,
     /// `time` that of the controller in s.
     fn look(&mut self, now: Duration, time: f64, place: Option<(File, u32)>) -> Option<String> {
         let Some((file, line)) = place.filter(|_| !self.is_told) else {

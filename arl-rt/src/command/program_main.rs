@@ -37,14 +37,14 @@ use arl_robot::changes::Part;
 use arl_robot::robot::Robot;
 use options::{Asked, ClockKind, HELP, Options, Report, parse};
 
-/// What the program's functions may fill of the stack, and what the thread has on top of that for everything else. Each
-/// cycle goes down the whole chain of functions that wait for each other, so that a long one takes long.
+/// How much of the stack the program's functions may use, and how much the thread has on top of that for everything
+/// else. Each cycle goes down the whole chain of functions that wait for each other, so that a long one takes long.
 const PROGRAM_STACK_BYTES: usize = 8 << 20;
 const CONTROLLER_STACK_BYTES: usize = 1 << 20;
-/// What they may fill on a thread of another program, which has 2 MiB as a rule.
+/// How much they may use on a thread of another program, which as a rule has 2 MiB.
 const HOST_STACK_BYTES: usize = 1 << 20;
 
-/// The directory below the script directory that keeps system variables where no other is named.
+/// The default directory for system variables, below the script directory.
 const STATE_DIR: &str = ".arl-state";
 
 pub(super) const EXIT_ENDED: u8 = 0;
@@ -53,16 +53,16 @@ pub(super) const EXIT_ALARM: u8 = 3;
 pub(super) const EXIT_MAX_TIME: u8 = 4;
 pub(super) const EXIT_INTERRUPTED: u8 = 130;
 
-/// What makes drivers for `--drive`.
+/// Makes drivers for `--drive`.
 static CONNECT: OnceLock<Connect> = OnceLock::new();
 
-/// Says what makes the drivers that a cell file asks for, before `main` runs a program: `arl_drivers::connect`. Without
-/// it `--drive` is refused.
+/// Sets the function that makes the drivers that a cell file asks for, before `main` runs a program:
+/// `arl_drivers::connect`. Without it `--drive` is refused.
 pub fn drivers(connect: Connect) {
     let _ = CONNECT.set(connect);
 }
 
-/// Runs a program as its command line says: the `main` of every compiled program.
+/// Runs a program according to its command line: the `main` of every compiled program.
 ///
 /// The program is made on a thread with a large stack. `script_dir` is the folder of its files where the command line
 /// names none.
@@ -70,7 +70,7 @@ pub fn main<P: Program + 'static>(program: impl FnOnce() -> P + Send, script_dir
     main_with(program, &[], script_dir)
 }
 
-/// The same for several programs: the first one, and those that the cell file may name.
+/// As `main`, for several programs: the first one, and those that the cell file may name.
 pub fn main_with<P: Program + 'static>(
     program: impl FnOnce() -> P + Send,
     others: &[Other],
@@ -79,8 +79,8 @@ pub fn main_with<P: Program + 'static>(
     start(program, others, script_dir, None)
 }
 
-/// The same for programs that were made for a debugger, which `--debug` connects to. Nothing of it is in other
-/// programs.
+/// As `main_with`, for programs that were made for a debugger, which `--debug` connects to. Other programs contain none
+/// of this code.
 pub fn main_watched<P: Program + 'static>(
     program: impl FnOnce() -> P + Send,
     others: &[Other],
@@ -94,19 +94,19 @@ pub fn main_watched<P: Program + 'static>(
     )
 }
 
-/// What programs can do that were made for a debugger.
+/// The extra abilities of programs that were made for a debugger.
 #[derive(Clone, Copy)]
 struct Watching {
     /// Connects a run to the debugger that listens at an address.
     connect: fn(&Controller, &str) -> std::io::Result<Box<dyn Between>>,
     /// Counts the statements of a run, for a file.
     count: fn(&Controller, &Path) -> std::io::Result<Box<dyn Between>>,
-    /// Looks into the program of a channel.
+    /// Shows the inside of the program of a channel.
     inside: live::Inside,
 }
 
 impl Watching {
-    /// Who looks after the run between its cycles, if somebody is asked for.
+    /// The observer that acts between the cycles of the run, if one was requested.
     fn begin(self, controller: &Controller, asked: &Asked) -> Result<Option<Box<dyn Between>>, String> {
         let begun = match asked {
             Asked { debug: Some(address), .. } => (self.connect)(controller, address)
@@ -120,8 +120,8 @@ impl Watching {
     }
 }
 
-/// The same for programs that were compiled with the names of their variables. With `--serve` such a program makes run
-/// after run, each as a line of the standard input asks for, and answers with a line: for `arl2rs sweep`.
+/// As `main_with`, for programs that were compiled with the names of their variables. With `--serve` such a program
+/// makes run after run, one for each line of the standard input, and answers with a line: for `arl2rs sweep`.
 pub fn main_named<P: Program + 'static>(
     program: impl Fn() -> P + Send,
     others: &[Other],
@@ -143,7 +143,7 @@ fn start<P: Program + 'static>(
     let options = match parse(arguments, script_dir) {
         Ok(Some(options)) => options,
         Ok(None) => {
-            // Nobody may read the other end any more.
+            // The other end may be closed; that is no error here.
             let _ = std::io::stdout().write_all(HELP.as_bytes());
             return ExitCode::from(EXIT_ENDED);
         }
@@ -182,7 +182,7 @@ fn warn(text: &str) {
     tell(format_args!("warning: {text}"));
 }
 
-/// Sets the controller up and runs the program; the exit code.
+/// Sets up the controller and runs the program; returns the exit code.
 fn run(
     program: Box<dyn Program>,
     others: &[Other],
@@ -211,13 +211,13 @@ fn try_run(
         let text = format!("this program was not made for {option}: `{command}` makes such programs");
         return Err(SetupFailure::usage(text));
     }
-    // Before anything begins to work beside the cycle.
+    // Before any thread beside the cycle is started.
     for problem in options.realtime.map(Realtime::begin).unwrap_or_default() {
         warn(&format!("--realtime has no full effect: {problem}"));
     }
     let (max_time, cycle_time) = (options.max_time, options.cycle_time.clone());
     let (wishes, paused, repeats) = (options.wishes, options.paused, options.repeats);
-    // Where a robot is driven, its time counts, too.
+    // Where a robot is driven, lateness matters, too.
     let tells_lateness = options.clock == Some(ClockKind::Real) || options.drive;
     let report = options.report.clone().map(report_to).transpose().map_err(SetupFailure::usage)?;
     let writer = options.live.then(LineWriter::standard);
@@ -240,9 +240,9 @@ fn try_run(
                 controller.wait_for_start();
             }
             let inside = watching.map(|watching| watching.inside);
-            code(live::drive(&mut controller, &writer, (inside, wishes), max_time, interrupted))
+            code(live::drive(&mut controller, &writer, inside, wishes, max_time, interrupted))
         }
-        None => watch(&mut controller, max_time, interrupted, (between, recording), sources),
+        None => watch(&mut controller, max_time, interrupted, between, recording, sources),
     };
     write_figures(&controller, report, cycle_time.as_deref());
     if tells_lateness {
@@ -251,7 +251,7 @@ fn try_run(
     Ok(code)
 }
 
-/// Writes what was asked for of a run that is over; where that fails, it is said.
+/// Writes the requested figures of a finished run; reports where that fails.
 fn write_figures(controller: &Controller, report: Option<WriteReport>, cycle_time: Option<&Path>) {
     if let Some(mut report) = report
         && let Err(error) = report(controller)
@@ -265,7 +265,7 @@ fn write_figures(controller: &Controller, report: Option<WriteReport>, cycle_tim
     }
 }
 
-/// What came too late in a run in real time.
+/// Warnings about what was too late in a run in real time.
 pub(super) fn lateness(controller: &Controller) -> Vec<String> {
     let mut said = Vec::new();
     if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
@@ -291,14 +291,14 @@ pub(super) fn lateness(controller: &Controller) -> Vec<String> {
     said
 }
 
-/// Who waits for what in vain, each with its channel where there are several.
+/// The programs that wait in vain and what they wait for, each with its channel where there are several.
 pub(super) fn listed(waiting: &[Standstill]) -> Vec<String> {
     let several = waiting.len() > 1;
     let line = |one: &Standstill| if several { format!("{}: {one}", one.channel) } else { one.to_string() };
     waiting.iter().map(line).collect()
 }
 
-/// Says who waits for what in vain.
+/// Reports which programs wait in vain, and for what.
 fn say_standstill(controller: &Controller, sources: &Path, waiting: &[Standstill]) {
     let time = controller.time();
     tell(format_args!(
@@ -310,11 +310,12 @@ fn say_standstill(controller: &Controller, sources: &Path, waiting: &[Standstill
     }
 }
 
-/// A controller for a run in this process, with the same options as on a command line, after how many s it ends at the
-/// latest, and whether it is asked to be in real time.
+/// A controller for a run in this process, with the same options as on a command line, its time limit in s, and whether
+/// it was requested to run in real time.
 pub(super) fn in_process(
     program: Box<dyn Program>,
-    (others, script_dir): (&[Other], &str),
+    others: &[Other],
+    script_dir: &str,
     arguments: Vec<OsString>,
     output: impl Output + 'static,
 ) -> Result<InProcess, String> {
@@ -329,7 +330,7 @@ pub(super) fn in_process(
     let keeps = options.state_dir.is_some();
     let recording = options.listener.as_deref().map(|address| connect_to(address, wishes)).transpose()?;
     let builder = set_up(options, others).map_err(|failure| failure.text)?.stack(HOST_STACK_BYTES);
-    // Runs beside each other would share the folder of the program.
+    // Concurrent runs would share the folder of the program.
     let builder = if keeps { builder } else { builder.storage(Memory::default()) };
     let builder = match &recording {
         Some(recording) => builder.output(recording.beside(output)),
@@ -345,14 +346,14 @@ pub(super) fn in_process(
 pub(super) struct InProcess {
     pub(super) controller: Controller,
     pub(super) max_time: Option<f64>,
-    /// Whether it was asked to be in real time.
+    /// Whether it was requested to run in real time.
     pub(super) is_real: bool,
-    /// What rows of the trace have behind the columns that they always have.
+    /// The columns of the trace behind those that every trace has.
     pub(super) trace_columns: More,
     pub(super) recording: Option<Recording>,
 }
 
-/// What there is to say where a listener could not hear all.
+/// A warning where events for a listener were left out.
 pub(super) fn left_out(lost: u64) -> Option<String> {
     (lost > 0).then(|| format!("the listener was too slow for real time: events were left out {lost} times"))
 }
@@ -374,7 +375,7 @@ fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
 /// Writes the report at the end of a run.
 type WriteReport = Box<dyn FnMut(&Controller) -> std::io::Result<()>>;
 
-/// What writes the report. A file is made at the start: better to fail now than after a long run.
+/// Makes the function that writes the report. A file is created at the start: better to fail now than after a long run.
 fn report_to(report: Report) -> Result<WriteReport, String> {
     Ok(match report {
         Report::Table => Box::new(|controller| {
@@ -393,28 +394,29 @@ fn report_to(report: Report) -> Result<WriteReport, String> {
     })
 }
 
-/// Steps until the run is over, its time is, or somebody pressed Ctrl-C.
+/// Steps until the run is over, its time is up, or Ctrl-C was pressed.
 fn watch(
     controller: &mut Controller,
     max_time: Option<f64>,
     interrupted: &AtomicBool,
-    (mut between, recording): (Option<Box<dyn Between>>, Option<Recording>),
+    mut between: Option<Box<dyn Between>>,
+    recording: Option<Recording>,
     sources: &Path,
 ) -> u8 {
     recording.iter().for_each(|recording| recording.begin(controller));
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let mut code = None;
-    // Whoever listens sees where the program is.
+    // A listener or debugger already sees where the program is.
     let mut polling = (between.is_none() && recording.is_none()).then(Polling::new);
-    // Who was told to stop does not begin again.
+    // A run that was stopped does not begin again.
     let is_over = |controller: &Controller, stopped: bool| match stopped {
         true => controller.outcome().is_some(),
         false => controller.is_over(),
     };
     while !is_over(controller, code.is_some()) {
-        let beat = between.as_mut().map_or(CycleOrder::Runs, |between| between.cycle_begins(controller));
+        let order = between.as_mut().map_or(CycleOrder::Runs, |between| between.cycle_begins(controller));
         let is_alone = recording.as_ref().is_some_and(Recording::is_gone);
-        if code.is_none() && (interrupted.load(Ordering::Relaxed) || is_alone || beat == CycleOrder::Ends) {
+        if code.is_none() && (interrupted.load(Ordering::Relaxed) || is_alone || order == CycleOrder::Ends) {
             code = Some(EXIT_INTERRUPTED);
             controller.stop();
             tell(format_args!("interrupted: the robot stops on its path"));
@@ -426,13 +428,13 @@ fn watch(
         controller.step();
         recording.iter().for_each(|recording| recording.cycle_ended(controller));
         say(controller, sources, recording.as_ref());
-        // In real time waiting for a hand is nothing special.
+        // In real time waiting for an operator is normal.
         let polling = polling.as_mut().filter(|_| !controller.is_real_time());
         if let Some(text) = polling.and_then(|polling| polling.cycle_ended(controller)) {
             tell(format_args!("{text}"));
         }
         if code.is_none()
-            && beat != CycleOrder::Stands
+            && order != CycleOrder::Stands
             && let Some(waiting) = controller.standstill()
             && !between
                 .as_mut()
@@ -459,17 +461,17 @@ fn watch(
     }
 }
 
-/// What a run says whose time is over, after so many s.
+/// The message of a run that has reached its time limit, in s.
 pub(super) fn time_is_over(controller: &Controller, limit: f64) -> String {
     let place = match controller.place() {
-        // What only calculates says no line.
+        // Code that only calculates sets no line.
         (file, 0) => format!("is calculating in {}", file.name()),
         (file, line) => format!("is at {}:{line}", file.name()),
     };
     format!("the time limit of {limit} s has passed; the program {place}")
 }
 
-/// Why there is no controller, and the exit code for it.
+/// The reason why there is no controller, and the exit code for it.
 struct SetupFailure {
     code: u8,
     text: String,
@@ -524,7 +526,7 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
     if let Some(seed) = options.seed {
         builder = builder.seed(seed);
     }
-    // On the real clock the date is the world's.
+    // On the real clock the run starts at the real date.
     let start = options.start_time.or_else(|| (options.clock == Some(ClockKind::Real)).then(time::of_the_world));
     if let Some(start) = start {
         builder = builder.start_date(start);

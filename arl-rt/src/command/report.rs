@@ -1,4 +1,4 @@
-//! What the motions of a run did, as a table for people and as JSON.
+//! A report of the motions of a run, as a table for people and as JSON.
 
 use std::fmt::Write;
 
@@ -9,15 +9,15 @@ use crate::fault::File;
 use crate::motion::{Closest, MotionKind, MotionRecord, NearSingular, Rate};
 use arl_robot::robot::Robot;
 
-/// Under the last three stands which limit of the kind was closest, and how much of it was used.
+/// The last three columns show which limit of that kind was closest, and how much of it was used.
 const HEAD: [&str; 10] =
     ["line", "motion", "runs", "programmed", "reached", "each", "blend", "closest vel", "acc", "jerk"];
 
-/// Stands below the table.
+/// Is printed below the table.
 const WHAT_COUNTS: &str =
     "reached: along the path, outside of zones, without a weave; closest: zones included, tcp along its path only\n";
 
-/// The table of each robot; with several, each has a headline.
+/// The table of each robot; with several robots, each has a headline.
 pub(crate) fn tables(robots: &[Recorded]) -> String {
     match robots {
         [robot] => table(robot),
@@ -30,7 +30,7 @@ pub(crate) fn tables(robots: &[Recorded]) -> String {
     }
 }
 
-/// The same as JSON, robot by robot.
+/// The report as JSON, robot by robot.
 pub(crate) fn all_json(robots: &[Recorded]) -> String {
     robots.iter().enumerate().map(|(at, robot)| json(at + 1, robot)).collect()
 }
@@ -54,7 +54,7 @@ fn table(recorded: &Recorded) -> String {
             let mut shown = String::new();
             for (at, cell) in row.iter().enumerate() {
                 let width = width(at).unwrap_or(0);
-                // Words to the left, numbers to the right.
+                // Words are aligned left, numbers right.
                 let _ = match HEAD.get(at) {
                     Some(&"motion") => write!(shown, "{cell:width$}  "),
                     _ => write!(shown, "{cell:>width$}  "),
@@ -99,10 +99,10 @@ fn summary(recorded: &Recorded) -> String {
     )
 }
 
-/// One JSON object a line: each motion of a channel that began, then the figures of its cycle time.
+/// One JSON object per line: each motion of a channel that began, then the figures of its cycle time.
 fn json(channel: usize, recorded: &Recorded) -> String {
     let time = recorded.ended;
-    let of_motion = |motion| motion_json(channel, motion, &recorded.robot);
+    let of_motion = |(file, record)| motion_json(channel, file, record, &recorded.robot);
     let mut text: String = recorded.executed().map(of_motion).collect();
     let moving = recorded.sum(|record| record.duration);
     let _ = writeln!(
@@ -114,7 +114,7 @@ fn json(channel: usize, recorded: &Recorded) -> String {
     text
 }
 
-/// How late cycles began, as a JSON object a line; times are s.
+/// How late cycles began, as a JSON object in a line; times are in s.
 pub(crate) fn clock_json(lateness: &Lateness) -> String {
     let mut steps = String::new();
     for (within, count) in lateness.histogram() {
@@ -129,8 +129,8 @@ pub(crate) fn clock_json(lateness: &Lateness) -> String {
     )
 }
 
-/// A motion of a file as a JSON object, and the end of its line.
-pub(super) fn motion_json(channel: usize, (file, record): (File, &MotionRecord), robot: &Robot) -> String {
+/// A motion of a file as a JSON object, with a newline.
+pub(super) fn motion_json(channel: usize, file: File, record: &MotionRecord, robot: &Robot) -> String {
     let mut text = String::new();
     let MotionRecord { number, line, kind, programmed, reached, duration, way, .. } = record;
     let (kind, file) = (instruction(*kind), quoted(file.name()));
@@ -185,7 +185,7 @@ impl Recorded {
     }
 }
 
-/// Over the motions that began; 0 without any, not the -0 that sums of nothing are.
+/// Sums over the motions that began; without any the result is 0, not the -0 of an empty sum.
 pub(crate) fn sum<'a>(records: impl IntoIterator<Item = &'a MotionRecord>, of: impl Fn(&MotionRecord) -> f64) -> f64 {
     executed(records).map(of).fold(0.0, |sum, value| sum + value)
 }
@@ -203,18 +203,18 @@ struct Line<'a> {
     first: &'a MotionRecord,
     runs: u32,
     duration: f64,
-    /// Lowest and highest of what was programmed and of what was reached.
+    /// The lowest and highest of the programmed values, and of the reached values.
     programmed: [f64; 2],
     reached: [f64; 2],
-    /// The blend of which least was used.
+    /// The motion whose zone was used least.
     blend: &'a MotionRecord,
-    /// The slowest place beside a singular point.
+    /// The slowest place near a singularity.
     slowed: Option<NearSingular>,
-    /// What came nearest to a limit of speed, acceleration and jerk.
+    /// The closest approach to a limit of speed, acceleration and jerk.
     closest: [Option<Closest>; 3],
 }
 
-/// The instruction that makes such motions.
+/// The instruction for this kind of motion.
 fn instruction(kind: MotionKind) -> &'static str {
     match kind {
         MotionKind::Joints => "movej",
@@ -297,7 +297,7 @@ impl<'a> Line<'a> {
     }
 }
 
-/// How much of a limit was used. Above all of it, tenths tell how much: up to 101 % is within the limits.
+/// How much of a limit was used. Above 100 % with a decimal: up to 101 % is within the limits.
 fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     if percent < 100.05 { format!("{percent:.0}") } else { format!("{percent:.1}") }
@@ -309,7 +309,7 @@ fn range([low, high]: [f64; 2], unit: &str) -> String {
     if low == high { format!("{low} {unit}") } else { format!("{low}..{high} {unit}") }
 }
 
-/// At most one place, three for small numbers.
+/// Rounds to one decimal, small numbers to two.
 fn short(value: f64) -> String {
     let text = if value.abs() < 9.95 { format!("{value:.2}") } else { format!("{value:.1}") };
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

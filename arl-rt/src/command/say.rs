@@ -1,4 +1,4 @@
-//! Says on the standard error what came up in a run: warnings, and alarms with the lines of the program that they are
+//! Reports the events of a run on the standard error: warnings, and alarms with the lines of the program that they are
 //! about.
 
 use std::path::Path;
@@ -11,11 +11,11 @@ use crate::controller::Controller;
 use crate::fault::File;
 use arl_robot::cell::{Signal, SignalKind};
 
-/// Files that are longer are not looked into.
+/// Source lines are not shown from files larger than this, in bytes.
 const LARGEST_FILE: u64 = 16 << 20;
 
-/// Says on the standard error what came up, and to who records it; `sources` is the folder that programs were compiled
-/// from.
+/// Reports the new warnings and alarms on the standard error, and to the recorder; `sources` is the folder that
+/// programs were compiled from.
 pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<&Recording>) {
     for text in controller.take_warnings() {
         tell(format_args!("warning: {text}"));
@@ -50,7 +50,7 @@ pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<
     }
 }
 
-/// The line that waits in vain, and what the signals are that it asks for.
+/// The line that waits in vain, and the values of the signals that it reads.
 pub(super) fn say_condition(controller: &Controller, sources: &Path, waiting: &Standstill) -> Vec<String> {
     let contexts = controller.contexts();
     let Some(cx) = contexts.iter().find(|cx| cx.channel_state().id == waiting.channel) else { return Vec::new() };
@@ -75,7 +75,7 @@ pub(super) fn say_condition(controller: &Controller, sources: &Path, waiting: &S
     std::iter::once(line.clone()).chain(told).collect()
 }
 
-/// The text of a file that was not changed since the program was compiled.
+/// The text of a file, unless it was changed since the program was compiled.
 fn source(file: &Path) -> Option<String> {
     let about = file.metadata().ok().filter(|about| about.is_file() && about.len() <= LARGEST_FILE)?;
     let compiled = std::env::current_exe().ok()?.metadata().ok()?.modified().ok()?;
@@ -86,7 +86,7 @@ fn source(file: &Path) -> Option<String> {
     arl_lang::text::decode(&bytes).ok().map(std::borrow::Cow::into_owned)
 }
 
-/// The line of a file, as it is shown below an alarm: its number and its text. Nothing where the file is not there any
+/// The line of a file, as it is shown below an alarm: its number and its text. `None` where the file does not exist any
 /// more, or was changed after the program was compiled.
 fn source_line(file: &Path, line: u32) -> Option<String> {
     let text = source(file)?;

@@ -1,10 +1,10 @@
-//! A program that makes run after run: a line of the standard input asks for one, a line of the standard output
+//! A program that makes run after run: each line of the standard input requests one, and a line of the standard output
 //! answers.
 //!
-//! A question is the words of a command line with tabs between; `\t`, `\n`, `\r` and `\\` stand for themselves in a
-//! word. An answer is a JSON object: `{"summary": {..}, "said": [..]}` with what [`Run::summary`] and
-//! [`Run::take_said`] say, or `{"refused": ".."}`. Who closes the input wants nothing more: the process ends then, also
-//! in the middle of a run, so that none outlives who asked for it.
+//! A request is the words of a command line separated by tabs; `\t`, `\n`, `\r` and `\\` stand for the characters
+//! themselves in a word. An answer is a JSON object: `{"summary": {..}, "said": [..]}` with the results of
+//! [`Run::summary`] and [`Run::take_said`], or `{"refused": ".."}`. When the input is closed the process ends, even in
+//! the middle of a run, so that no run outlives the requesting process.
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, Write};
@@ -15,11 +15,11 @@ use crate::command::in_process::{Outside, Run};
 use crate::command::json::quoted;
 use crate::context::program::{Other, Program};
 
-/// What a thread of a host has as a rule: runs are the same as there.
+/// The usual stack of a thread of a host: runs are the same as there.
 const STACK_BYTES: usize = 2 << 20;
 
 pub(super) fn serve(make: impl Fn() -> Box<dyn Program> + Send, others: &[Other], script_dir: &str) -> ExitCode {
-    // Who stops asking does not need to say so.
+    // The requesting process need not announce its end.
     let served = std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK_BYTES);
         thread.spawn_scoped(scope, move || answer_all(&make, others, script_dir)).map(|thread| thread.join())

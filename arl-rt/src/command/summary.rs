@@ -1,4 +1,4 @@
-//! What came of a run, as one JSON object.
+//! The result of a run, as one JSON object.
 
 use std::fmt::Write;
 
@@ -16,11 +16,11 @@ pub(crate) enum Ending {
     Ended,
     /// An alarm ended it.
     Alarm,
-    /// Its time was over.
+    /// Its time limit was reached.
     TimeOver,
     /// Nothing could change any more.
     Stuck,
-    /// Somebody stopped it.
+    /// It was stopped from outside.
     Stopped,
 }
 
@@ -35,7 +35,7 @@ impl Ending {
         }
     }
 
-    /// The exit code of a command whose run ended like that.
+    /// The exit code of a command whose run ended like this.
     pub(crate) fn code(self) -> u8 {
         match self {
             Ending::Ended => EXIT_ENDED,
@@ -46,9 +46,9 @@ impl Ending {
     }
 }
 
-/// A JSON object without newline: the ending, the exit code, the time in s, what the first robot's motions were
-/// together, the alarms, and the one that ended it, or null. The figures of motions are 0 where the controller does not
-/// record them.
+/// A JSON object without newline: the ending, the exit code, the time in s, the totals of the first robot's motions,
+/// the alarms, and the alarm that ended the run, or null. The totals are 0 where the controller does not record
+/// motions.
 pub(crate) fn summary(controller: &Controller, ending: Option<Ending>, alarms: &[Alarm]) -> String {
     let mut text = String::new();
     let outcome = ending.map_or("runs", Ending::word);

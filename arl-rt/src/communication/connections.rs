@@ -16,29 +16,29 @@ use super::stream::WAKE;
 use super::worker;
 use crate::cycle::catch_panic::catch_panic;
 
-/// How many connections may be on their way to being closed.
+/// How many connections may be closing at a time.
 const MAX_CLOSING: usize = 32;
 
-/// The connections that a program has opened: those of global variables and of local ones, too.
+/// The connections that a program has opened: those of global variables and of local ones.
 #[derive(Default, Debug)]
 pub(crate) struct Connections(RefCell<Vec<Arc<SharedConnection>>>);
 
-/// The thread that opens the connections of all programs. To ask the system for a thread and descriptors, and to give
-/// them back, takes longer than a cycle should. It ends with whoever sends it orders.
+/// The thread that opens the connections of all programs. Requesting a thread and descriptors from the system, and
+/// returning them, takes longer than a cycle should. The thread ends with the sender of its orders.
 #[derive(Default, Debug)]
 pub(crate) struct Opener(RefCell<Option<Sender<Order>>>);
 
-/// What that thread is to do.
+/// An order for that thread.
 #[derive(Debug)]
 struct Order {
     shared: Arc<SharedConnection>,
     opening: Opening,
-    /// Connections that are over, to be given back.
+    /// Connections that are over, to be dropped there.
     over: Vec<Arc<SharedConnection>>,
 }
 
 impl Opener {
-    /// Starts the thread, unless it runs.
+    /// Starts the thread, unless it already runs.
     ///
     /// # Errors
     /// The system has no threads left.
@@ -61,7 +61,7 @@ impl Opener {
 }
 
 impl Connections {
-    /// Has a connection opened, and forgets those that are over.
+    /// Has a connection opened, and removes those that are over.
     ///
     /// # Errors
     /// The system has no threads left.
@@ -73,24 +73,24 @@ impl Connections {
         Ok(())
     }
 
-    /// Whether so many are on their way to being closed that new ones have to wait: a program that opens and closes in
-    /// a loop does not pile up threads.
+    /// Whether so many connections are closing that new ones have to wait: a program that opens and closes connections
+    /// in a loop does not pile up threads.
     pub(crate) fn are_too_many(&self) -> bool {
         let closing = |shared: &&Arc<SharedConnection>| shared.is_closing() && !shared.is_over();
         self.0.borrow().iter().filter(closing).count() >= MAX_CLOSING
     }
 
-    /// Closes all of them: the program has ended.
+    /// Closes all connections: the program has ended.
     pub(crate) fn close(&self) {
         self.0.borrow().iter().for_each(|shared| shared.close());
     }
 
-    /// Whether nothing that is to be closed still holds a port to listen on, or a device.
+    /// Whether no connection that is closing still holds a port to listen on, or a device.
     pub(crate) fn are_free(&self) -> bool {
         self.0.borrow().iter().all(|shared| shared.is_free())
     }
 
-    /// Whether nothing that is to be closed is still open: what was sent has gone.
+    /// Whether no connection that is closing is still open: all sent bytes are gone.
     pub(crate) fn are_settled(&self) -> bool {
         self.0.borrow().iter().all(|shared| shared.is_done() || !shared.is_closing())
     }

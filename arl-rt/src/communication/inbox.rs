@@ -1,32 +1,32 @@
-//! The receive buffer of a connection: what has come and was not read yet.
+//! The receive buffer of a connection: received bytes that have not been read yet.
 
-/// How many bytes wait at most, in each direction of a connection.
+/// How many bytes may wait, in each direction of a connection.
 pub(crate) const CAPACITY: usize = 1 << 20;
 
-/// What has come from the other side and was not read yet: bytes in their order, bounded by [`CAPACITY`].
+/// Bytes from the other side that have not been read yet, in their order, bounded by [`CAPACITY`].
 #[derive(Default, Debug)]
 pub(crate) struct Inbox {
     bytes: Vec<u8>,
-    /// Where what is left begins in `bytes`.
+    /// The index in `bytes` of the first one not read.
     start: usize,
-    /// How many of the bytes that are left are known not to be the start of `mark`.
+    /// At how many of the bytes not read `mark` is known not to begin.
     searched: usize,
-    /// What was searched for last.
+    /// The mark that was searched for last.
     mark: Vec<u8>,
 }
 
 impl Inbox {
-    /// The bytes that wait.
+    /// The bytes not read yet.
     pub(crate) fn waiting(&self) -> &[u8] {
         self.bytes.get(self.start..).unwrap_or_default()
     }
 
-    /// How many bytes have room.
+    /// How many more bytes there is room for.
     pub(crate) fn room(&self) -> usize {
         CAPACITY.saturating_sub(self.waiting().len())
     }
 
-    /// Adds what came; the caller has looked for room.
+    /// Adds received bytes; the caller has checked that there is room.
     pub(crate) fn push(&mut self, bytes: &[u8]) {
         if self.start > 0 && self.start >= self.bytes.len() / 2 {
             self.bytes.drain(..self.start);
@@ -35,14 +35,14 @@ impl Inbox {
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// Takes exactly so many bytes, when so many have come.
+    /// Takes exactly `count` bytes, once that many have arrived.
     pub(crate) fn take(&mut self, count: usize) -> Option<Vec<u8>> {
         let taken = self.waiting().get(..count)?.to_vec();
         self.drop_front(count);
         Some(taken)
     }
 
-    /// Takes what stands in front of the mark, when it has come; the mark goes, too. An empty mark stands in front of
+    /// Takes the bytes before the mark, once it has arrived, and drops the mark. An empty mark is found before
     /// everything.
     pub(crate) fn take_until(&mut self, mark: &[u8]) -> Option<Vec<u8>> {
         if self.mark != mark {
@@ -60,14 +60,14 @@ impl Inbox {
                 Some(taken)
             }
             None => {
-                // The last bytes may be the start of a mark whose rest is still to come.
+                // The last bytes may be the start of a mark whose rest has not arrived yet.
                 self.searched = (waiting.len() + 1).saturating_sub(mark.len());
                 None
             }
         }
     }
 
-    /// Throws away what waits.
+    /// Discards the bytes not read yet.
     pub(crate) fn clear(&mut self) {
         self.drop_front(self.waiting().len());
     }
@@ -76,7 +76,7 @@ impl Inbox {
         self.start += count;
         self.searched = 0;
         if self.start >= self.bytes.len() {
-            // A flood has been: its memory is given back.
+            // After a flood of bytes its memory is released.
             if self.bytes.capacity() > CAPACITY / 16 {
                 self.bytes = Vec::new();
             }
@@ -86,7 +86,7 @@ impl Inbox {
     }
 }
 
-/// Where `mark` begins in `text`.
+/// The position of `mark` in `text`.
 fn find(text: &[u8], mark: &[u8]) -> Option<usize> {
     let Some(first) = mark.first() else { return Some(0) };
     let mut from = 0;

@@ -5,7 +5,7 @@ use std::io;
 
 use crate::values::{Parity, Stopbits};
 
-/// A serial line and how characters look on it. There is no flow control.
+/// A serial line and the format of its characters. There is no flow control.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct LineSettings {
     /// The path of the device.
@@ -39,15 +39,16 @@ mod tty {
     use crate::communication::stream::{PolledStream, STREAM};
     use crate::values::{Parity, Stopbits};
 
-    /// An open serial line that says when it is ready instead of waiting.
+    /// An open serial line that reports when it is ready instead of waiting.
     #[derive(Debug)]
     pub(crate) struct Line(File);
 
     impl LineSettings {
-        /// Opens the line for this process alone, with what it still held thrown away.
+        /// Opens the line for this process alone, and discards what it still held.
         ///
         /// # Errors
-        /// There is no such device, it is not a serial line, somebody else has it open, or it has no such settings.
+        /// There is no such device, it is not a serial line, another program has it open, or it does not support these
+        /// settings.
         pub(crate) fn open(&self) -> io::Result<Line> {
             let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::NONBLOCK | OFlags::CLOEXEC;
             let file = File::from(rustix::fs::open(self.device.as_str(), flags, Mode::empty())?);
@@ -62,10 +63,11 @@ mod tty {
             termios::ioctl_tiocexcl(&file)?;
             settings.make_raw();
             self.put_into(&mut settings)?;
-            // At once, with what waits thrown away before: what a line does not take would be waited for, without end.
+            // At once, after discarding what waits: output that a line does not take would be waited for, without end.
             termios::tcflush(&file, QueueSelector::IOFlush)?;
             termios::tcsetattr(&file, OptionalActions::Now, &settings)?;
-            // What a device does not do it leaves out without a word. A pseudo terminal has neither bits nor parity.
+            // A device silently ignores settings that it does not support. A pseudo terminal has neither bits nor
+            // parity.
             let set = termios::tcgetattr(&file)?;
             if set.input_speed() != self.baud {
                 let text = format!("it does not support {} bit/s", self.baud);
@@ -94,7 +96,7 @@ mod tty {
     }
 
     impl Line {
-        /// Opens the line and has the poll told when it is ready.
+        /// Registers the line with the poll, which then reports when it is ready.
         pub(crate) fn register(self, poll: &Poll) -> io::Result<Self> {
             let descriptor = self.0.as_fd().as_raw_fd();
             poll.registry().register(&mut SourceFd(&descriptor), STREAM, Interest::READABLE | Interest::WRITABLE)?;
@@ -119,7 +121,7 @@ mod tty {
     }
 
     impl PolledStream for Line {
-        /// The system sends what it has taken, also after the line is closed.
+        /// The system sends the bytes that it has taken, also after the line is closed.
         fn finish(&mut self) -> bool {
             false
         }
@@ -132,7 +134,7 @@ pub(super) fn open(poll: &mio::Poll, settings: &LineSettings) -> io::Result<Opti
     settings.open()?.register(poll).map(Some)
 }
 
-/// There are no serial lines here.
+/// Serial lines are not supported here.
 #[cfg(not(all(unix, feature = "serial")))]
 pub(super) fn open(_: &mio::Poll, _: &LineSettings) -> io::Result<Option<mio::net::TcpStream>> {
     let text = if cfg!(unix) {

@@ -1,4 +1,4 @@
-//! A connection as the cycle sees it: reading and sending never wait.
+//! A connection as the cycle uses it: reading and sending never wait.
 
 use std::io;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::opening::Opening;
 use super::shared::{LinkState, SharedConnection};
 
 /// A connection: a stream of bytes that a thread of its own serves. Nothing here waits. It closes when it is dropped,
-/// after what was sent has gone (or one second later).
+/// after all bytes have been sent (or one second later).
 #[derive(Debug)]
 pub(crate) struct Link(Arc<SharedConnection>);
 
@@ -24,17 +24,17 @@ impl Link {
         Ok(Self(shared))
     }
 
-    /// How far it has come.
+    /// The state of the connection.
     pub(crate) fn state(&self) -> LinkState {
         self.0.state()
     }
 
-    /// Whether the program has ended since, and the connection with it.
+    /// Whether the program has ended since, and the connection is being closed.
     pub(crate) fn is_closing(&self) -> bool {
         self.0.is_closing()
     }
 
-    /// Reads from what has come; nothing where the thread has the bytes just now.
+    /// Reads from the received bytes; `None` where the thread holds the buffers just now.
     pub(crate) fn read<R>(&self, read: impl FnOnce(&mut Inbox) -> R) -> Option<R> {
         let (result, more) = {
             let mut bytes = self.0.try_lock()?;
@@ -48,8 +48,8 @@ impl Link {
         Some(result)
     }
 
-    /// Sends bytes behind those sent before. False, and nothing is sent, where they have no room yet; nothing at all
-    /// where the thread has the bytes just now.
+    /// Sends bytes after those sent before. `Some(false)`, and nothing is sent, where there is no room for them yet;
+    /// `None` where the thread holds the buffers just now.
     pub(crate) fn send(&self, bytes: &[u8]) -> Option<bool> {
         let sent = self.0.try_lock()?.put(bytes);
         if sent {

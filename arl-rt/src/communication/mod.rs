@@ -1,8 +1,8 @@
-//! Connections to the world: sockets and serial lines.
+//! Connections to the outside world: sockets and serial lines.
 //!
-//! A `Link` is a stream of bytes that a thread beside the cycle serves. The cycle takes from a bounded buffer and puts
-//! into another one, so that nothing in it waits for the other side, whatever that does. Handles of programs own links;
-//! `Connections` knows all that a program has opened and closes them when it ends.
+//! A `Link` is a stream of bytes that a thread beside the cycle serves. The cycle takes bytes from a bounded buffer and
+//! puts bytes into another one, so that it never waits for the other side, whatever that does. Handles of programs own
+//! links; `Connections` has all connections that a program has opened and closes them when it ends.
 
 mod connections;
 pub(crate) mod inbox;

@@ -1,9 +1,9 @@
-//! The trait of what sets up the network ports of the host.
+//! The trait for setting up the network ports of the host.
 
 use std::io;
 use std::net::Ipv4Addr;
 
-/// What a network port is set to.
+/// The settings of a network port.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct PortSettings {
     /// Its address.
@@ -14,18 +14,18 @@ pub struct PortSettings {
     pub mask: Ipv4Addr,
 }
 
-/// Sets up the network ports of the host. Without one the controller keeps the settings in its state directory, and
-/// changes nothing on the host.
+/// Sets up the network ports of the host. Without a driver the controller keeps the settings in its state directory,
+/// and changes nothing on the host.
 pub trait NetworkDriver {
-    /// Sets a port up: `eth1` to `eth3`.
+    /// Sets up a port: `eth1` to `eth3`.
     ///
     /// # Errors
-    /// It cannot be set so; `setip` is then false.
+    /// The port cannot take these settings; `setip` then returns false.
     fn set(&mut self, port: &str, settings: PortSettings) -> io::Result<()>;
 
-    /// What a port is set to; nothing where that is not known.
+    /// The settings of a port; `None` where they are not known.
     ///
     /// # Errors
-    /// It cannot be found out; `getip` is then false.
+    /// The settings cannot be read; `getip` then returns false.
     fn get(&mut self, port: &str) -> io::Result<Option<PortSettings>>;
 }

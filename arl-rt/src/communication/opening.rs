@@ -1,4 +1,4 @@
-//! What a connection leads to, and how sockets connect and accept.
+//! The target of a connection, and how sockets connect and accept.
 
 use std::fmt;
 use std::io;
@@ -13,11 +13,11 @@ use super::shared::SharedConnection;
 use super::slave::SlaveSettings;
 use super::stream::{STREAM, wait};
 
-/// How long one attempt to reach an address may take. A host that was switched off while it was tried is found sooner
-/// by a new attempt than by the repetitions of the old one.
+/// How long one attempt to reach an address may take. A host that was switched off during an attempt is found sooner by
+/// a new attempt than by the repetitions of the old one.
 const CONNECT_TIMEOUT: Duration = Duration::from_secs(3);
 
-/// What a connection is and where it leads.
+/// The kind of a connection and its target.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Opening {
     /// To a server.
@@ -27,7 +27,7 @@ pub(crate) enum Opening {
         /// Its port.
         port: u16,
     },
-    /// From the first client that comes to this port of ours.
+    /// From the first client that connects to this port of ours.
     Accept {
         /// The address or name to listen on.
         host: String,
@@ -46,7 +46,7 @@ impl Opening {
         !matches!(self, Opening::Connect { .. })
     }
 
-    /// Whether a lost connection may be opened again without having been closed: that of a client (manual 5.6.1.5).
+    /// Whether a lost connection may be opened again without having been closed: true for a client (manual 5.6.1.5).
     pub(crate) fn is_free_of_closing(&self) -> bool {
         matches!(self, Opening::Connect { .. })
     }
@@ -63,7 +63,7 @@ impl fmt::Display for Opening {
     }
 }
 
-/// Connects to the first address of a host that answers; nothing where the program wants it closed meanwhile.
+/// Connects to the first address of a host that answers; `None` where the program closes the connection meanwhile.
 pub(super) fn connect(
     shared: &SharedConnection,
     poll: &mut Poll,
@@ -102,7 +102,7 @@ fn reach(shared: &SharedConnection, poll: &mut Poll, address: SocketAddr) -> io:
     }
 }
 
-/// Waits for the first client; nothing where the program wants it closed meanwhile.
+/// Waits for the first client; `None` where the program closes the connection meanwhile.
 pub(super) fn accept(
     shared: &SharedConnection,
     poll: &mut Poll,
@@ -125,20 +125,20 @@ pub(super) fn accept(
                 return ready(stream).map(Some);
             }
             Err(error) if error.kind() == io::ErrorKind::WouldBlock => wait(poll, &mut events, None)?,
-            // The client went away again before it was greeted.
+            // The client disconnected before it was accepted.
             Err(error) if matches!(error.kind(), io::ErrorKind::ConnectionAborted | io::ErrorKind::Interrupted) => {}
             Err(error) => return Err(error),
         }
     }
 }
 
-/// Messages go at once: they are short, and somebody waits for the answer.
+/// Has messages sent at once: they are short, and the other side waits for the answer.
 fn ready(stream: TcpStream) -> io::Result<TcpStream> {
     stream.set_nodelay(true)?;
     Ok(stream)
 }
 
-/// The addresses of a host, IPv4 first. Names may take a while.
+/// The addresses of a host, IPv4 first. Resolving names may take a while.
 fn resolve(host: &str, port: u16) -> io::Result<Vec<SocketAddr>> {
     if let Ok(address) = host.parse::<IpAddr>() {
         return Ok(vec![SocketAddr::new(address, port)]);

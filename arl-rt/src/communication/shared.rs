@@ -1,4 +1,4 @@
-//! The cycle and the thread of a connection share buffers, how far the connection has come, and how it ended.
+//! What the cycle and the thread of a connection share: buffers, the state of the connection, and how it ended.
 
 use std::sync::atomic::{AtomicBool, Ordering, fence};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
@@ -9,36 +9,37 @@ use super::inbox::{CAPACITY, Inbox};
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::try_lock::try_lock;
 
-/// How far a connection has come.
+/// The state of a connection.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum LinkState {
     /// It is not open yet.
     Opening,
-    /// Bytes can go both ways.
+    /// Bytes can be transferred both ways.
     Open,
     /// It could not be opened, for this reason.
     Failed(String),
-    /// It was open; the other side has closed it, or it broke, as the text says. What came before can still be read.
+    /// It was open; the other side has closed it, or it broke, as the text says. Bytes received before can still be
+    /// read.
     Lost(String),
 }
 
-/// What the user is told of a connection whose thread has panicked.
+/// The error of a connection whose thread has panicked.
 pub(super) const PANICKED: &str = "its thread has panicked";
 
 /// What the cycle and the thread of a connection share. The bytes are behind a lock that both hold for copying only,
-/// and that the cycle does not wait for; how far the connection has come is seen without it.
+/// and that the cycle does not wait for; the state of the connection is read without it.
 #[derive(Debug)]
 pub(super) struct SharedConnection {
     bytes: Mutex<Bytes>,
-    /// What wakes the thread, as soon as there is one.
+    /// Wakes the thread, once it exists.
     waker: OnceLock<Waker>,
-    /// The cycle wants the connection closed; what waits in the outbox goes first.
+    /// Whether the cycle wants the connection closed; the bytes in the outbox are sent first.
     closing: AtomicBool,
-    /// It holds what others may want: a port to listen on, or a device.
+    /// Whether it holds a resource that others may need: a port to listen on, or a device.
     holds: AtomicBool,
-    /// Bytes can go both ways, or could.
+    /// Whether bytes can be transferred both ways, or could be.
     open: AtomicBool,
-    /// How it ended: the thread has nothing to do with it any more.
+    /// How it ended: the thread does not use it any more.
     end: OnceLock<LinkState>,
 }
 
@@ -46,7 +47,7 @@ pub(super) struct SharedConnection {
 #[derive(Default, Debug)]
 pub(super) struct Bytes {
     pub(super) inbox: Inbox,
-    /// What the thread has not taken yet.
+    /// Bytes that the thread has not taken yet.
     pub(super) outbox: Vec<u8>,
 }
 
@@ -67,12 +68,12 @@ impl SharedConnection {
         self.bytes.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The bytes, for the cycle: nothing where it would have to wait.
+    /// The bytes, for the cycle: `None` where it would have to wait.
     pub(super) fn try_lock(&self) -> Option<MutexGuard<'_, Bytes>> {
         try_lock(&self.bytes)
     }
 
-    /// How far the connection has come. What had come before it ended is in the inbox when that is seen.
+    /// The state of the connection. When its end is seen, all bytes received before are in the inbox.
     pub(super) fn state(&self) -> LinkState {
         match self.end.get() {
             Some(end) => end.clone(),
@@ -81,19 +82,19 @@ impl SharedConnection {
         }
     }
 
-    /// Notes that the connection is open; whether it still holds what others may want.
+    /// Notes that the connection is open; `holds`: it still holds a resource that others may need.
     pub(super) fn opened(&self, holds: bool) {
         self.holds.store(holds, Ordering::Release);
         self.open.store(true, Ordering::Release);
     }
 
-    /// Notes how it ended. Once: the thread does it, or whoever could not start one.
+    /// Notes how it ended. Once: done by the thread, or by the caller that could not start one.
     pub(super) fn end(&self, state: LinkState) {
         self.end.get_or_init(|| state);
     }
 
-    /// Serves the connection until it ends, and notes how. Where the thread panics, the connection is over as well:
-    /// nobody waits for it.
+    /// Serves the connection until it ends, and notes how. Where the thread panics, the connection is over as well: it
+    /// is not waited for.
     pub(super) fn end_after(&self, serve: impl FnOnce() -> LinkState) {
         let panicked = || match self.open.load(Ordering::Acquire) {
             true => LinkState::Lost(PANICKED.into()),
@@ -102,50 +103,50 @@ impl SharedConnection {
         self.end(catch_panic(serve).unwrap_or_else(panicked));
     }
 
-    /// Whether the thread has nothing to do with the connection any more.
+    /// Whether the thread does not use the connection any more.
     pub(super) fn is_over(&self) -> bool {
         self.end.get().is_some()
     }
 
     /// Whether the cycle wants it closed.
     pub(super) fn is_closing(&self) -> bool {
-        // Either the thread sees this, or whoever closes sees the waker.
+        // Either the thread sees this flag, or the closing thread sees the waker.
         fence(Ordering::SeqCst);
         self.closing.load(Ordering::Acquire)
     }
 
-    /// Closes the connection once everything sent has gone.
+    /// Closes the connection once all bytes have been sent.
     pub(super) fn close(&self) {
         self.closing.store(true, Ordering::Release);
         fence(Ordering::SeqCst);
         self.wake();
     }
 
-    /// Gives it what wakes its thread, which is about to start.
+    /// Sets the waker of its thread, which is about to start.
     pub(super) fn wakes_by(&self, waker: Waker) {
         let _ = self.waker.set(waker);
     }
 
-    /// Wakes the thread. One that has not started yet looks by itself.
+    /// Wakes the thread. One that has not started yet checks by itself.
     pub(super) fn wake(&self) {
-        // It fails only where the thread is gone, which then needs no waking.
+        // This fails only where the thread has ended, which then needs no waking.
         let _ = self.waker.get().map(Waker::wake);
     }
 
-    /// Whether somebody else may have the port or the device.
+    /// False while the connection is closing and still holds its port or device.
     pub(super) fn is_free(&self) -> bool {
         self.is_over() || !self.holds.load(Ordering::Acquire) || !self.closing.load(Ordering::Acquire)
     }
 
-    /// Whether the connection need not be waited for: what was sent has gone, and what it held is free. A name that is
-    /// still being looked up holds nothing.
+    /// Whether the connection need not be waited for: all bytes were sent, and the resource that it held is free. A
+    /// name that is still being resolved holds nothing.
     pub(super) fn is_done(&self) -> bool {
         self.is_over() || !(self.open.load(Ordering::Acquire) || self.holds.load(Ordering::Acquire))
     }
 }
 
 impl Bytes {
-    /// Takes all of it into the outbox, or nothing.
+    /// Puts all bytes into the outbox, or none.
     pub(super) fn put(&mut self, bytes: &[u8]) -> bool {
         let fits = self.outbox.len().saturating_add(bytes.len()) <= CAPACITY;
         if fits {

@@ -14,14 +14,14 @@ use crate::fieldbus::modbus::pdu::{self, Answer};
 use crate::fieldbus::modbus::rtu::{self, LONGEST_FRAME, ReceiveBuffer, Request};
 use crate::values::{Parity, Stopbits};
 
-/// How long the rest of a request may take. Adapters hand over what they got in pieces, so that 3.5 characters between
-/// two pieces do not mean that a request is over.
+/// How long the rest of a request may take. Adapters pass on what they received in pieces, so that 3.5 characters
+/// between two pieces do not mean that a request is complete.
 const REQUEST_TIMEOUT: Duration = Duration::from_millis(50);
 
-/// How long the line may take for an answer, at the lowest speed twice over.
+/// How long the line may take for an answer: twice the time at the lowest speed.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(2);
 
-/// What a slave is.
+/// The settings of a slave.
 #[derive(Clone, PartialEq, Eq)]
 pub(crate) struct SlaveSettings {
     pub(crate) line: LineSettings,
@@ -46,7 +46,7 @@ impl SlaveSettings {
     }
 }
 
-/// Opens the line and serves it; the state that is left.
+/// Opens the line and serves it; returns its final state.
 pub(super) fn serve(shared: &SharedConnection, poll: &mut Poll, settings: &SlaveSettings) -> LinkState {
     let mut stream = match line::open(poll, &settings.line) {
         Ok(Some(stream)) => stream,
@@ -67,36 +67,36 @@ fn exchange(
     settings: &SlaveSettings,
 ) -> std::io::Result<()> {
     let mut events = Events::with_capacity(4);
-    let mut heard = ReceiveBuffer::default();
+    let mut received = ReceiveBuffer::default();
     let mut last = Instant::now();
     let mut piece = [0; LONGEST_FRAME];
     while !shared.is_closing() {
         match attempt(|| stream.read(&mut piece))? {
             Some(0) => return Err(Error::new(ErrorKind::UnexpectedEof, "the line is gone")),
             Some(count) => {
-                heard.hear(piece.get(..count).unwrap_or_default(), last.elapsed() >= settings.silence());
+                received.receive(piece.get(..count).unwrap_or_default(), last.elapsed() >= settings.silence());
                 last = Instant::now();
                 continue;
             }
             None => {}
         }
         let silent = last.elapsed();
-        if !heard.is_empty() && silent >= settings.silence() {
-            while let Some(request) = heard.take() {
+        if !received.is_empty() && silent >= settings.silence() {
+            while let Some(request) = received.take() {
                 answer(shared, poll, stream, settings, &request)?;
             }
             if silent >= REQUEST_TIMEOUT {
-                heard.clear();
+                received.clear();
             }
         }
         let patience = if last.elapsed() < settings.silence() { settings.silence() } else { REQUEST_TIMEOUT };
-        let deadline = (!heard.is_empty()).then(|| last + patience);
+        let deadline = (!received.is_empty()).then(|| last + patience);
         wait(poll, &mut events, deadline)?;
     }
     Ok(())
 }
 
-/// Does what a request asks, and answers it; nothing where it is for another slave.
+/// Carries out a request, and answers it; ignores one for another slave.
 fn answer(
     shared: &SharedConnection,
     poll: &mut Poll,
@@ -115,10 +115,10 @@ fn answer(
     }
 }
 
-/// For every slave; nobody answers.
+/// The station number for every slave; no slave answers.
 const BROADCAST: u8 = 0;
 
-/// Sends an answer; a line that does not take it loses it.
+/// Sends an answer; it is lost where the line does not take it.
 fn send(
     shared: &SharedConnection,
     poll: &mut Poll,

@@ -1,4 +1,4 @@
-//! Streams of bytes that say when they are ready, and waiting for that.
+//! Streams of bytes that report when they are ready, and waiting for that.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::Shutdown;
@@ -7,13 +7,13 @@ use std::time::Instant;
 use mio::net::TcpStream;
 use mio::{Events, Poll, Token};
 
-/// What wakes the thread: the cycle, or the stream.
+/// The sources that wake the thread: the cycle, and the stream.
 pub(super) const WAKE: Token = Token(0);
 pub(super) const STREAM: Token = Token(1);
 
-/// A stream that says when it is ready instead of waiting.
+/// A stream that reports when it is ready instead of waiting.
 pub(super) trait PolledStream: Read + Write {
-    /// Says that nothing more will be sent; whether the other side can say the same.
+    /// Ends sending; returns whether the other side can do so, too.
     fn finish(&mut self) -> bool;
 }
 
@@ -23,7 +23,7 @@ impl PolledStream for TcpStream {
     }
 }
 
-/// The result of a call that does not wait; nothing where the stream is not ready.
+/// The result of a call that does not wait; `None` where the stream is not ready.
 pub(super) fn attempt(mut call: impl FnMut() -> io::Result<usize>) -> io::Result<Option<usize>> {
     loop {
         match call() {
@@ -51,7 +51,8 @@ mod tests {
     #[test]
     fn a_peer_that_is_given_up_by_the_system_is_lost_and_not_waited_for() {
         assert_eq!(attempt(|| Err(ErrorKind::WouldBlock.into())).ok(), Some(None));
-        // What is sent to a computer that was switched off is repeated for minutes; then the system says this, once.
+        // The system repeats for minutes what is sent to a computer that was switched off; then it reports this error,
+        // once.
         let given_up = attempt(|| Err(io::Error::from(ErrorKind::TimedOut)));
         assert_eq!(given_up.map_err(|error| error.kind()), Err(ErrorKind::TimedOut));
         let mut interrupted = true;

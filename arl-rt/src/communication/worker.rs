@@ -1,4 +1,4 @@
-//! The thread of a connection opens a stream and carries bytes both ways until the connection ends.
+//! The thread of a connection opens a stream and transfers bytes both ways until the connection ends.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::{Duration, Instant};
@@ -11,13 +11,13 @@ use super::shared::{LinkState, SharedConnection};
 use super::slave;
 use super::stream::{PolledStream, attempt, wait};
 
-/// The stack of the thread. Looking up names needs most of it.
+/// The stack of the thread. Resolving names needs most of it.
 pub(super) const STACK_BYTES: usize = 512 << 10;
 
 /// How many bytes are received at once.
 const RECEIVED_BYTES: usize = 16 << 10;
 
-/// How long a connection that is to be closed waits for the other side to take what was sent.
+/// How long a connection that is being closed waits for the other side to take what was sent.
 const SEND_TIMEOUT: Duration = Duration::from_secs(1);
 
 /// How long it then waits for the other side to close, too.
@@ -37,7 +37,7 @@ pub(super) fn serve(shared: &SharedConnection, mut poll: Poll, opening: &Opening
     });
 }
 
-/// Opens a stream and carries bytes both ways; the state that it leaves. The stream is closed then.
+/// Opens a stream and transfers bytes both ways; returns its final state. The stream is then closed.
 fn run<S: PolledStream>(
     shared: &SharedConnection,
     poll: &mut Poll,
@@ -57,18 +57,18 @@ fn run<S: PolledStream>(
     })
 }
 
-/// How far one direction has come.
+/// The state of one direction.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Flow {
-    /// Bytes went; there may be more.
+    /// Bytes were transferred; there may be more.
     Moving,
-    /// There is nothing to send, or no room for what comes.
+    /// There is nothing to send, or no room to receive.
     Nothing,
     /// The stream is not ready.
     Blocked,
 }
 
-/// Carries bytes both ways until the cycle wants the stream closed.
+/// Transfers bytes both ways until the cycle closes the connection.
 fn exchange<S: PolledStream>(shared: &SharedConnection, poll: &mut Poll, stream: &mut S) -> io::Result<()> {
     let mut events = Events::with_capacity(4);
     let mut piece = vec![0; RECEIVED_BYTES];
@@ -76,7 +76,7 @@ fn exchange<S: PolledStream>(shared: &SharedConnection, poll: &mut Poll, stream:
     let mut deadline = None;
     loop {
         let closing = shared.is_closing();
-        // What comes is taken before anything is sent: a stream that is broken for sending may still hold it.
+        // Received bytes are taken before any are sent: a stream that is broken for sending may still hold some.
         let received = if closing { Flow::Nothing } else { receive(shared, stream, &mut piece)? };
         let sent = send(shared, stream, &mut flight)?;
         if closing {
@@ -85,14 +85,14 @@ fn exchange<S: PolledStream>(shared: &SharedConnection, poll: &mut Poll, stream:
                 return part(poll, &mut events, stream, &mut piece);
             }
         }
-        // Readiness is told once, when it comes: so both directions go on until the stream is not ready.
+        // Readiness is reported once, when it begins: so both directions go on until the stream is not ready.
         if received != Flow::Moving && sent != Flow::Moving {
             wait(poll, &mut events, deadline)?;
         }
     }
 }
 
-/// Takes what has come, as far as there is room.
+/// Takes the received bytes, as far as there is room.
 fn receive(shared: &SharedConnection, stream: &mut impl Read, piece: &mut [u8]) -> io::Result<Flow> {
     let room = shared.lock().inbox.room().min(piece.len());
     let Some(part) = piece.get_mut(..room).filter(|part| !part.is_empty()) else { return Ok(Flow::Nothing) };
@@ -106,14 +106,14 @@ fn receive(shared: &SharedConnection, stream: &mut impl Read, piece: &mut [u8]) 
     })
 }
 
-/// What is on its way to the other side.
+/// Bytes on their way to the other side.
 #[derive(Default)]
 struct Flight {
     bytes: Vec<u8>,
     gone: usize,
 }
 
-/// Sends the next bytes that wait.
+/// Sends the next waiting bytes.
 fn send(shared: &SharedConnection, stream: &mut impl Write, flight: &mut Flight) -> io::Result<Flow> {
     if flight.gone >= flight.bytes.len() {
         *flight = Flight { bytes: std::mem::take(&mut shared.lock().outbox), gone: 0 };
@@ -128,8 +128,8 @@ fn send(shared: &SharedConnection, stream: &mut impl Write, flight: &mut Flight)
     })
 }
 
-/// Ends what is sent, and throws away what still comes until the other side ends it, too: a socket that is closed with
-/// bytes unread takes from the other side what was sent last.
+/// Ends sending, and discards received bytes until the other side ends sending, too: a socket that is closed with
+/// unread bytes makes the other side lose what was sent last.
 fn part<S: PolledStream>(poll: &mut Poll, events: &mut Events, stream: &mut S, piece: &mut [u8]) -> io::Result<()> {
     let deadline = Instant::now() + CLOSE_TIMEOUT;
     if !stream.finish() {

@@ -1,4 +1,4 @@
-//! The state of one channel: its robot, its modal system variables, and how its program fares.
+//! The state of one channel: its robot, its modal system variables, and the state of its program.
 
 use std::cell::{Cell, Ref, RefCell, RefMut};
 use std::rc::Rc;
@@ -14,36 +14,36 @@ use crate::values::{self, VelProfile};
 use arl_robot::cell::Sensitivity;
 use arl_robot::robot::VelocityProfile;
 
-/// What is one channel's own, whatever program it runs. Borrows of the cells end within the call that makes them.
+/// The state of one channel, whatever program it runs. Borrows of the cells end within the call that makes them.
 pub(crate) struct ChannelState {
     pub(crate) shared: Rc<SharedState>,
     pub(crate) id: ChannelId,
-    /// Its place among all channels, from 0, the foreground channels first.
+    /// Its index among all channels, from 0, the foreground channels first.
     pub(crate) index: usize,
     pub(crate) system: System,
     /// The robot; a background channel has none.
     unit: Option<Rc<RefCell<Unit>>>,
     /// Where a program stood here before the controller was switched on.
     kept: StoredPointers,
-    /// Whether a program has run here since.
+    /// Whether a program has run here since then.
     pub(crate) begun: Cell<bool>,
     /// Whether the program waits for the start button.
     pub(crate) paused: Cell<bool>,
     pub(crate) stepping: Stepping,
-    /// Which motions gave the tool and the workpiece frame that hold.
+    /// Which motions set the current tool and workpiece frame.
     pub(crate) mounts: Cell<Mounts>,
     /// Whether a program that comes to its end is reset and begins again.
     pub(crate) repeats: Cell<bool>,
-    /// Whether an alarm has ended the program and nobody has acknowledged it.
+    /// Whether an alarm has ended the program and has not been cleared.
     pub(crate) alarmed: Cell<bool>,
-    /// What went wrong apart from the statement that runs, and ends the program.
+    /// An alarm that ends the program and did not come from the current statement.
     pending_alarm: RefCell<Option<Alarm>>,
     /// Home points 1 to 5.
     homes: [Option<Vec<f64>>; 5],
     home_tolerance: f64,
     /// The conditions of `startdetect` that the cell gives.
     collisions: Vec<(u8, Sensitivity)>,
-    /// Where the cell says that the robot stands in the world.
+    /// The robot's base in the world, where the cell gives it.
     pub(crate) base: Option<values::Frame>,
 }
 
@@ -58,14 +58,14 @@ pub(crate) struct Stepping {
     pub(crate) until: Cell<Option<u64>>,
 }
 
-/// The robot of a foreground channel, and what the cell says of it.
+/// The robot of a foreground channel, and the cell's settings for it.
 pub(crate) struct Station {
     pub(crate) unit: Rc<RefCell<Unit>>,
     /// Home points 2 to 5.
     pub(crate) homes: [Option<Vec<f64>>; 4],
     pub(crate) home_tolerance: f64,
     pub(crate) collisions: Vec<(u8, Sensitivity)>,
-    /// Where the cell says that it stands in the world.
+    /// The robot's base in the world, where the cell gives it.
     pub(crate) base: Option<values::Frame>,
     pub(crate) kept: StoredPointers,
 }
@@ -120,7 +120,7 @@ impl ChannelState {
         &self.kept
     }
 
-    /// The robot, for an instruction or function that a background channel cannot have.
+    /// The robot, for an instruction or function that is not allowed in a background channel.
     ///
     /// # Errors
     /// [`Fault::Background`].
@@ -129,7 +129,7 @@ impl ChannelState {
         self.robot().ok_or(Fault::Background { function })
     }
 
-    /// The robot, to be changed by an instruction that a background channel cannot have.
+    /// The robot, to be changed by an instruction that is not allowed in a background channel.
     ///
     /// # Errors
     /// [`Fault::Background`].
@@ -138,7 +138,7 @@ impl ChannelState {
         self.robot_mut().ok_or(Fault::Background { function })
     }
 
-    /// The robot, if there is one, to be held on to.
+    /// A shared reference to the robot, if there is one.
     pub(crate) fn shared_unit(&self) -> Option<&Rc<RefCell<Unit>>> {
         self.unit.as_ref()
     }
@@ -167,7 +167,7 @@ impl ChannelState {
         self.system.cjoint.set(joint(unit.target()));
     }
 
-    /// Stops all motion on its path and drops what was to follow.
+    /// Stops all motion on its path and drops the motions that follow.
     pub(crate) fn stop_motion(&self) {
         self.shared.io.borrow_mut().forget_motion(self.index);
         if let Some(mut unit) = self.robot_mut() {
@@ -181,8 +181,8 @@ impl ChannelState {
         given.map_or(Sensitivity::Percent(SENSITIVITY), |(_, sensitivity)| sensitivity.clone())
     }
 
-    /// The collision of this cycle, if there was one, as the alarm of the motion that met it; where the robot stands,
-    /// as that of the instruction that the program is at. The robot is told to stop.
+    /// The collision of this cycle, if there was one, as an alarm of the motion in which it happened; while the robot
+    /// stands, of the instruction at the program pointer. The robot is stopped.
     pub(crate) fn collision(&self, place: (File, u32)) -> Option<Alarm> {
         let mut unit = self.robot_mut()?;
         let Collision { axis, surplus, allowed } = unit.take_collision()?;
@@ -201,18 +201,18 @@ impl ChannelState {
         Some(Alarm::new(Fault::Collision(text.into()), file, line))
     }
 
-    /// What is wrong with the robot, if that is new, as the alarm of the motion that it was in; where it stands, as
-    /// that of the instruction that the program is at.
+    /// A new fault of the robot, if there is one, as an alarm of the motion in which it happened; while the robot
+    /// stands, of the instruction at the program pointer.
     pub(crate) fn trouble(&self, place: (File, u32)) -> Option<Alarm> {
         let (fault, motion) = self.robot_mut()?.take_trouble()?;
         let (file, line) = motion.unwrap_or(place);
         Some(Alarm::new(fault, file, line))
     }
 
-    /// Brings the variables up to date that tell where the robot is.
+    /// Updates the variables that depend on the robot's position.
     pub(crate) fn update_system(&self, unit: &Unit) {
         let system = &self.system;
-        // Outside a motion they keep what the last one left.
+        // Outside a motion they keep the values of the last one.
         if let Some(progress) = unit.progress() {
             self.set_progress_variables(&progress);
         }
@@ -223,7 +223,7 @@ impl ChannelState {
         });
     }
 
-    /// Sets the variables that tell how far the motion has come.
+    /// Sets the variables for the progress of the motion.
     pub(crate) fn set_progress_variables(&self, progress: &Progress) {
         let system = &self.system;
         system.traj_elapse_time.set(progress.elapsed_time);
@@ -238,20 +238,20 @@ impl ChannelState {
         self.robot().is_none_or(|unit| unit.ended())
     }
 
-    /// The same for those of a level of the program: they do not wait for what they have stopped.
+    /// As `motion_ended`, for a level of the program: motions that it has stopped are not waited for.
     #[inline]
     pub(crate) fn motion_ended_for(&self, level: u32) -> bool {
         self.robot().is_none_or(|unit| unit.ended_for(level))
     }
 
-    /// Whether the motion with this running number has ended, and the robot has settled, unless there are others behind
+    /// Whether the motion with this running number has ended, and the robot has settled, unless other motions follow
     /// it.
     pub(crate) fn has_motion_ended(&self, motion: u64) -> bool {
         let Some(unit) = self.robot() else { return true };
         unit.has_ended(motion) && (unit.motions().0 > motion || unit.moves() || unit.is_settled())
     }
 
-    /// Drops motion that is stopped and that nobody has started again; returns whether there was some.
+    /// Drops motion that was stopped and not started again; returns whether there was any.
     pub(crate) fn drop_suspended(&self) -> bool {
         self.robot_mut().is_some_and(|mut unit| unit.drop_aside())
     }
@@ -261,7 +261,7 @@ impl ChannelState {
         self.robot().map_or((0, 0), |unit| unit.motions())
     }
 
-    /// Says that the program waits for the robot: motions that waited for the next one go without it.
+    /// The program waits for the robot: motions that waited for the next one are planned without it.
     pub(crate) fn conclude_motion(&self) {
         let concluded = self.robot_mut().map_or(Ok(()), |mut unit| unit.conclude());
         if let Err(alarm) = concluded {
@@ -269,7 +269,7 @@ impl ChannelState {
         }
     }
 
-    /// Ends the program with an alarm that is not that of the statement that runs. The first one counts.
+    /// Ends the program with an alarm that did not come from the current statement. The first one counts.
     pub(crate) fn raise_alarm(&self, alarm: Alarm) {
         self.pending_alarm.borrow_mut().get_or_insert(alarm);
     }
@@ -279,10 +279,10 @@ impl ChannelState {
         self.pending_alarm.borrow().is_some()
     }
 
-    /// Warns of targets that are not rounded off though they should be.
+    /// Warns of targets that should be blended but are not.
     pub(crate) fn warn_of_missing_blends(&self, shared: &SharedState) {
         let Some(mut unit) = self.robot_mut() else { return };
-        // Where the stop saves time there is nothing to mend: that is for the report.
+        // Where the stop saves time the programmer need not change anything: that is for the report.
         let unblended = unit.take_unblended().into_iter().filter(|(_, target)| target.why != NoBlend::Slower);
         for (file, UnblendedTarget { line, corner, why, .. }) in unblended {
             let file = file.name();
@@ -293,7 +293,7 @@ impl ChannelState {
         }
     }
 
-    /// What went wrong apart from the statement that runs.
+    /// Takes the alarm that did not come from the current statement.
     pub(crate) fn take_pending_alarm(&self) -> Option<Alarm> {
         let broken = self.robot_mut().and_then(|mut unit| unit.take_broken());
         self.pending_alarm.borrow_mut().take().or(broken)

@@ -1,7 +1,7 @@
-//! What a running program sees of the controller.
+//! A running program's view of the controller.
 //!
-//! A program is told the context, and the context knows the program, the other programs and the events that it has
-//! declared: so this file, `program.rs`, `programs.rs` and `events.rs` name each other.
+//! A program is passed the context, and the context refers to the program, the other programs and the events that it
+//! has declared: so this file, `program.rs`, `programs.rs` and `events.rs` import each other.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -26,55 +26,55 @@ use crate::motion::Progress;
 use crate::values::Str;
 use arl_robot::robot::Family;
 
-/// How many turns of loops that do not wait fit into one cycle. A turn is a few nanoseconds at least, so that a cycle
-/// without waiting takes some tens of microseconds.
+/// How many turns of loops that do not wait fit into one cycle. A turn takes a few nanoseconds at least, so that a
+/// cycle without waiting takes some tens of microseconds.
 const LOOP_TURNS_PER_CYCLE: i32 = 20_000;
 
-/// What the functions that call each other may hold of strings and arrays.
+/// How many bytes of strings and arrays nested function calls may hold.
 const MOST_BYTES_HELD: usize = 256 << 20;
 
-/// The view of the controller that a program has: passed to every function that acts, moves or waits.
+/// A program's view of the controller: passed to every function that acts, moves or waits.
 ///
 /// Everything here happens on the thread of the controller; nothing locks.
 pub struct Cx {
     channel_state: Rc<ChannelState>,
-    /// Turns of loops that are left in this cycle; below 0 there were too few.
+    /// Turns of loops that are left in this cycle; below 0 where they did not suffice.
     budget: Cell<i32>,
     /// The address below which the stack must not grow.
     stack_floor: Cell<usize>,
-    /// How many bytes the functions that call each other hold.
+    /// How many bytes nested function calls hold.
     held: Cell<usize>,
     program: Rc<dyn Program>,
-    /// The program that shall run here instead.
+    /// The program to run here next.
     next: RefCell<Option<Rc<dyn Program>>>,
     /// The programs of the controller.
     programs: Rc<Programs>,
     file: Cell<File>,
     line: Cell<u32>,
-    /// Whether the statement that runs has been counted as a step.
+    /// Whether the current statement has been counted as a step.
     stepped: Cell<bool>,
-    /// The kind of way that the last motion may go on with the next.
+    /// The kind of path with which the last motion may go on into the next.
     chained: Cell<u8>,
-    /// Where `print` sends its messages until it is told otherwise.
+    /// Where `print` sends its messages until the program changes that.
     print_to: Cell<Targets>,
-    /// The file that `print` writes to until it is told otherwise.
+    /// The file that `print` writes to until the program changes that.
     print_file: RefCell<Str>,
     /// Whether the program has moved the robot.
     moved: Cell<bool>,
-    /// What runs: the program itself, the action of an event, a condition.
+    /// The part of the program that runs: the program itself, the action of an event, a condition.
     level: Cell<Level>,
     /// The interrupts, timers and triggers that the program has declared.
     events: RefCell<EventTable>,
     /// The connections that the program has opened.
     connections: Connections,
-    /// The motion that triggers are asked about, where that is not the one being executed.
+    /// The motion that triggers are evaluated for, where that is not the one being executed.
     looked_at: Cell<Option<Progress>>,
     waiting: Waiting,
-    /// The functions that run, in programs that were emitted for a debugger.
+    /// The running functions, in programs that were emitted for a debugger.
     frames: Frames,
 }
 
-/// What of the program runs: which motion it waits for.
+/// The part of the program that runs, and which motion it waits for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Level {
     /// 0 for the program itself, 1 for the action that interrupts it, 2 for one that interrupts that.
@@ -94,10 +94,10 @@ pub(crate) struct Pointer {
 impl Level {
     /// The program itself: it waits for all motion.
     pub(crate) const PROGRAM: Self = Self { number: 0, own_motion: None };
-    /// A condition that is looked at: it waits for none.
+    /// A condition that is evaluated: it waits for no motion.
     pub(crate) const LOOKING: Self = Self { number: u32::MAX, own_motion: Some(0) };
 
-    /// The action of an event, so many levels above the program: it waits for its own motion.
+    /// The action of an event, `number` levels above the program: it waits for its own motion.
     pub(crate) fn action(number: u32) -> Self {
         Self { number, own_motion: Some(0) }
     }
@@ -130,7 +130,7 @@ impl Cx {
         }
     }
 
-    /// The functions that run, in programs that were emitted for a debugger.
+    /// The running functions, in programs that were emitted for a debugger.
     pub(crate) fn frames(&self) -> &Frames {
         &self.frames
     }
@@ -154,7 +154,7 @@ impl Cx {
         Pointer { place: self.place(), stepped: self.stepped.get() }
     }
 
-    /// Sets the program pointer to where it was.
+    /// Sets the program pointer back to `pointer`.
     pub(crate) fn point_to(&self, pointer: Pointer) {
         let (file, line) = pointer.place;
         self.line(file, line);
@@ -168,20 +168,21 @@ impl Cx {
         self.spend_rounds(1)
     }
 
-    /// Counts so many turns of loops, as [`Cx::spend`] counts one.
+    /// Counts `rounds` turns of loops, as [`Cx::spend`] counts one.
     #[inline]
     pub fn spend_rounds(&self, rounds: i32) -> bool {
-        // Whoever has too little left waits for the next cycle, which brings a whole budget: nothing wraps.
+        // Code that has too little left waits for the next cycle, which brings a whole budget: nothing wraps.
         let left = self.budget.get().wrapping_sub(rounds);
         self.budget.set(left);
         left < 0
     }
 
-    /// Counts so many turns of loops that have run without being counted. Whoever counts next waits if they were too
-    /// many.
+    /// Counts `rounds` turns of loops that have run without being counted. If they were too many, the next call that
+    /// counts makes the program wait.
     #[inline]
     pub fn charge(&self, rounds: i32) {
-        // Never far below 0, however often it is called before something waits: whoever counts next must not wrap.
+        // Never far below 0, however often it is called before something waits: the next call that counts must not
+        // wrap.
         self.budget.set(self.budget.get().saturating_sub(rounds).max(-1));
     }
 
@@ -197,14 +198,15 @@ impl Cx {
         NextCycle { cx: self, from: self.cycle() }
     }
 
-    /// Waits for the next cycle, in a loop that ends when somebody else changes something: `waituntil` with a condition
-    /// that changes nothing itself. A run whose programs all wait like this and that nobody can change is at its end.
+    /// Waits for the next cycle, in a loop that ends when something outside the program changes: `waituntil` with a
+    /// condition that changes nothing itself. A run whose programs all wait like this and that nothing can change is at
+    /// its end.
     #[inline]
     pub fn change(&self) -> NextCycle<'_> {
         self.wait_for(WaitsFor::Condition)
     }
 
-    /// The same for something else.
+    /// As `change`, for something else than a condition.
     #[inline]
     pub(crate) fn wait_for(&self, waits_for: WaitsFor) -> NextCycle<'_> {
         self.waiting.note(self.cycle(), waits_for);
@@ -218,24 +220,24 @@ impl Cx {
         self.next_cycle()
     }
 
-    /// Says that something goes on in this cycle: the program does something, begins to wait, or looks at what changes
-    /// by itself, like time.
+    /// Notes that something goes on in this cycle: the program does something, begins to wait, or evaluates something
+    /// that changes by itself, like time.
     #[inline]
     pub fn goes_on(&self) {
         self.waiting.note_action(self.cycle());
     }
 
-    /// What the program has waited for in this cycle, where it did nothing else.
+    /// What the program has waited for in `cycle`, where it did nothing else.
     pub(crate) fn waits_in(&self, cycle: u64) -> Option<WaitsFor> {
         self.waiting.in_cycle(cycle)
     }
 
-    /// The cycle that the program has waited for in this cycle, where it did nothing else.
+    /// The cycle until which the program has waited in `cycle`, where it did nothing else.
     pub(crate) fn waits_until(&self, cycle: u64) -> Option<u64> {
         self.waiting.until(cycle)
     }
 
-    /// The last cycle in which it did something else.
+    /// The last cycle in which the program did something else than wait.
     pub(crate) fn acted(&self) -> u64 {
         self.waiting.acted()
     }
@@ -264,7 +266,7 @@ impl Cx {
         &self.channel_state.system
     }
 
-    /// Checks that there is room on the stack for one more function. Functions ask before they call themselves.
+    /// Checks that there is room on the stack for one more function. Functions call this before they call themselves.
     ///
     /// # Errors
     /// [`Fault::Depth`]: function calls are nested too deep.
@@ -273,11 +275,11 @@ impl Cx {
         if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(()) }
     }
 
-    /// Enters a function that may call itself, to which strings and arrays of so many bytes were handed; they count as
+    /// Enters a function that may call itself, to which strings and arrays of `bytes` bytes were passed; they count as
     /// held until the result is dropped.
     ///
     /// # Errors
-    /// [`Fault::Depth`], and [`Fault::DepthBytes`]: the functions that call each other hold more than 256 MiB.
+    /// [`Fault::Depth`], and [`Fault::DepthBytes`]: nested function calls hold more than 256 MiB.
     pub fn enter_with(&self, bytes: usize) -> Result<Held<'_>, Fault> {
         self.enter()?;
         let held = self.held.get().saturating_add(bytes);
@@ -288,8 +290,8 @@ impl Cx {
         Ok(Held { held: &self.held, bytes })
     }
 
-    /// The global variables of the program that runs: what `G` is must be known, as conditions and actions do that
-    /// outlive the function that declares them.
+    /// The global variables of the running program. Their type `G` must be known, as it is to conditions and actions,
+    /// which outlive the function that declares them.
     ///
     /// # Errors
     /// They are not a `G`.
@@ -298,18 +300,18 @@ impl Cx {
         found.ok_or_else(|| Fault::Event("the interrupt belongs to another program".into()))
     }
 
-    /// Gives the program a whole cycle's budget, and so many bytes of stack below the caller.
+    /// Gives the program a whole cycle's budget, and `stack` bytes of stack below the caller.
     pub(crate) fn start_cycle(&self, stack: usize) {
         self.budget.set(LOOP_TURNS_PER_CYCLE);
         self.stack_floor.set(stack_pointer().saturating_sub(stack));
     }
 
-    /// Gives what runs a whole cycle's budget; returns what was left.
+    /// Gives the running code a whole cycle's budget; returns what was left of the old one.
     pub(crate) fn renew_budget(&self) -> i32 {
         self.budget.replace(LOOP_TURNS_PER_CYCLE)
     }
 
-    /// Gives back what was left.
+    /// Restores the budget that was left.
     pub(crate) fn restore_budget(&self, budget: i32) {
         self.budget.set(budget);
     }
@@ -324,12 +326,12 @@ impl Cx {
         &self.connections
     }
 
-    /// How far the motion has come that is being executed, or that triggers are asked about.
+    /// The progress of the motion being executed, or of the one that triggers are evaluated for.
     pub(crate) fn progress(&self) -> Option<Progress> {
         self.looked_at.get().or_else(|| self.channel_state.robot()?.progress())
     }
 
-    /// Lets a condition see a motion as it was when it ended.
+    /// Evaluates a condition with the progress of a motion when it ended.
     pub(crate) fn look_back<R>(&self, end: Progress, look: impl FnOnce() -> R) -> R {
         self.looked_at.set(Some(end));
         self.channel_state.set_progress_variables(&end);
@@ -341,22 +343,22 @@ impl Cx {
         result
     }
 
-    /// What of the program runs.
+    /// The part of the program that runs.
     pub(crate) fn level(&self) -> Level {
         self.level.get()
     }
 
-    /// Runs something else of the program; returns what ran before, for [`Cx::leave_level`].
+    /// Switches to another part of the program; returns the one before, for [`Cx::leave_level`].
     pub(crate) fn enter_level(&self, level: Level) -> Level {
         self.level.replace(level)
     }
 
-    /// Goes back to what ran before.
+    /// Switches back to the part that ran before.
     pub(crate) fn leave_level(&self, before: Level) {
         self.level.set(before);
     }
 
-    /// Forgets what the program before has set.
+    /// Resets what the last run of the program has set.
     pub(crate) fn reset(&self) {
         self.print_to.take();
         self.print_file.take();
@@ -365,13 +367,13 @@ impl Cx {
         self.forget_events();
     }
 
-    /// Forgets what has been declared; the program itself runs.
+    /// Drops all declared events; the program itself runs.
     pub(crate) fn forget_events(&self) {
         self.events.borrow_mut().clear();
         self.level.set(Level::PROGRAM);
     }
 
-    /// The program's own file.
+    /// The file that has the program's `main`.
     pub(crate) fn program(&self) -> File {
         self.program.file()
     }
@@ -381,10 +383,10 @@ impl Cx {
         &*self.program
     }
 
-    /// Wants another program to run here.
+    /// Requests that another program run here.
     ///
     /// # Errors
-    /// It is for another build of robot, or another one is about to be loaded.
+    /// The program is for another family of robot, or another one is about to be loaded.
     pub(crate) fn load(&self, program: Rc<dyn Program>) -> Result<(), String> {
         if self.channel_state.robot().is_some_and(|unit| unit.robot().family != program.family()) {
             return Err(format!(
@@ -406,7 +408,7 @@ impl Cx {
         self.next.borrow().is_some()
     }
 
-    /// The program that shall run here now.
+    /// Takes the program to run here next.
     pub(crate) fn take_next(&self) -> Option<Rc<dyn Program>> {
         self.next.borrow_mut().take()
     }
@@ -416,7 +418,7 @@ impl Cx {
         &self.programs
     }
 
-    /// The kind of robot that the program is for.
+    /// The family of robot that the program is for.
     pub(crate) fn family(&self) -> Family {
         self.program.family()
     }
@@ -434,24 +436,26 @@ impl Cx {
         self.events.borrow_mut().bind(level.number, motion);
     }
 
-    /// Notes the kind of way that a motion may go on with the next, 0 for none; returns that of the one before.
+    /// Notes the kind of path with which a motion may go on into the next, 0 for none; returns that of the motion
+    /// before.
     pub(crate) fn chain(&self, kind: u8) -> u8 {
         self.chained.replace(kind)
     }
 
-    /// What all channels share.
+    /// The state that all channels share.
     #[inline]
     pub(crate) fn shared(&self) -> &SharedState {
         &self.channel_state.shared
     }
 
-    /// What is the channel's own.
+    /// The channel's own state.
     #[inline]
     pub(crate) fn channel_state(&self) -> &ChannelState {
         &self.channel_state
     }
 
-    /// Ends the program with the alarm that this function needs a robot; it goes on with a start value until it waits.
+    /// Ends the program with the alarm that this function needs a robot; it goes on with a default value until it
+    /// waits.
     #[cold]
     pub(crate) fn without_robot<T: Default>(&self, function: &'static str) -> T {
         let (file, line) = self.place();
@@ -459,18 +463,18 @@ impl Cx {
         T::default()
     }
 
-    /// Where `print` sends its messages until it is told otherwise, and which file is meant by `file`.
+    /// Where `print` sends its messages until the program changes that, and the file that `file` stands for.
     pub(crate) fn print_to(&self) -> (&Cell<Targets>, &RefCell<Str>) {
         (&self.print_to, &self.print_file)
     }
 
-    /// The running number of the motion that the next instruction comes behind; 0: there is none. An action knows of
-    /// its own motions only.
+    /// The running number of the motion that the next instruction follows; 0 where there is none. An action knows its
+    /// own motions only.
     pub(crate) fn last_motion(&self) -> u64 {
         self.level.get().own_motion.unwrap_or_else(|| self.channel_state.motions().0)
     }
 
-    /// Whether the motion has ended that is waited for: all of it, by actions their own.
+    /// Whether the motion to be waited for has ended: all motion, or, for actions, their own.
     #[inline]
     fn is_motion_over(&self) -> bool {
         match self.level.get().own_motion {
@@ -479,8 +483,8 @@ impl Cx {
         }
     }
 
-    /// Before an instruction that moves, waits or touches the outside: in single steps the program waits here until the
-    /// one before it is done, and for the button.
+    /// Called before an instruction that moves, waits or accesses the outside: in single steps the program waits here
+    /// until the instruction before has been completed, and for the button.
     pub(crate) async fn step_point(&self) {
         let stepping = &self.channel_state.stepping;
         if !stepping.on.get() || self.level.get().number != 0 || self.stepped.replace(true) {
@@ -498,14 +502,15 @@ impl Cx {
         stepping.left.set(0);
     }
 
-    /// In single steps: another step within the same instruction.
+    /// In single steps: begins another step within the same instruction.
     pub(crate) async fn next_step(&self) {
         self.stepped.set(false);
         self.step_point().await;
     }
 
-    /// Waits until all motion that the program has planned has ended; in the action of an event, all of its own. Where
-    /// there is none, it still counts as a turn of a loop, so that a loop of such calls cannot hold up the controller.
+    /// Waits until all motion that the program has planned has ended; in the action of an event, all of its own.
+    /// Without any motion the call still counts as a turn of a loop, so that a loop of such calls cannot hold up the
+    /// controller.
     #[inline]
     pub(crate) async fn motion_end(&self) {
         if self.channel_state.stepping.on.get() {
@@ -534,14 +539,14 @@ impl fmt::Debug for Cx {
     }
 }
 
-/// The address of about the top of the stack. Stacks grow downwards wherever this crate runs.
+/// The approximate address of the top of the stack. Stacks grow downwards on all platforms of this crate.
 #[inline(always)]
 fn stack_pointer() -> usize {
     let here = 0_u8;
     (&raw const here) as usize
 }
 
-/// What a function that may call itself holds, until this is dropped.
+/// The bytes that a function that may call itself holds, until this is dropped.
 #[derive(Debug)]
 #[must_use = "what is dropped at once is not held"]
 pub struct Held<'a> {
@@ -555,7 +560,7 @@ impl Drop for Held<'_> {
     }
 }
 
-/// Ready in the cycle after the one in which it was made.
+/// Is ready in the cycle after the one in which it was made.
 #[derive(Debug)]
 #[must_use = "a future does nothing until it is awaited"]
 pub struct NextCycle<'a> {
@@ -564,8 +569,8 @@ pub struct NextCycle<'a> {
 }
 
 impl<'a> NextCycle<'a> {
-    /// The same, with values that are given back afterwards. A variable whose value is kept here need not live across
-    /// the wait, so that the compiler can have it in a register.
+    /// The same wait, with values that are returned afterwards. A variable whose value is kept here need not live
+    /// across the wait, so that the compiler can hold it in a register.
     #[inline]
     pub fn keeping<T: Copy>(self, values: T) -> Keeping<'a, T> {
         Keeping { next: self, values }

@@ -1,5 +1,5 @@
-//! The table of the interrupts, timers and triggers that a program has declared, in the order of declaration, and those
-//! that are due.
+//! The table of the interrupts, timers and triggers that a program has declared, in the order of declaration, and of
+//! those that are due.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
@@ -11,12 +11,12 @@ use crate::fault::{Done, Fault, File};
 use crate::values::Str;
 use arl_robot::cell::Rate;
 
-/// More events than that are the work of a loop that declares them again and again.
+/// The most events: more are the work of a loop that declares them again and again.
 const MAX_EVENTS: usize = 1024;
 /// The lowest priority.
 const LOWEST_PRIORITY: i32 = 255;
 
-/// The condition and the action of an event, whatever they are in Rust.
+/// The condition and the action of an event, of any Rust type.
 pub(crate) trait Code {
     /// Whether the condition holds now. `Pending`: it has not come to a result within the turns of loops of a cycle.
     fn holds(&self, cx: &Cx) -> Poll<Done<bool>>;
@@ -25,7 +25,7 @@ pub(crate) trait Code {
     fn room(self: Rc<Self>) -> Box<dyn Act>;
 }
 
-/// An action and the memory that it runs in: it runs as often as its event comes, once at a time, and takes no more
+/// An action and the memory that it runs in: it runs as often as its event occurs, once at a time, and takes no more
 /// memory.
 pub(crate) trait Act {
     /// Puts the action at its beginning.
@@ -35,15 +35,15 @@ pub(crate) trait Act {
     fn poll(&mut self, context: &mut Context<'_>) -> Poll<Done<()>>;
 }
 
-/// What makes an event.
+/// The source of an event.
 #[derive(Clone, Debug)]
 pub(crate) enum Source {
-    /// A condition, and whether it held when it was looked at last.
+    /// A condition, and whether it held at its last evaluation.
     Condition { held: bool },
     /// Time.
     Time(Ticking),
-    /// A condition that counts while a motion is executed, whether it held when it was looked at last, and whether the
-    /// motion is over.
+    /// A condition that is evaluated while a motion is executed, whether it held at its last evaluation, and whether
+    /// the motion is over.
     Motion { number: u64, held: bool, over: bool },
 }
 
@@ -74,7 +74,7 @@ impl Ticking {
         over
     }
 
-    /// Whether no interval is left to be counted.
+    /// Whether no interval is left to count.
     fn has_ended(&self) -> bool {
         self.ticks > 0 && !self.repeats
     }
@@ -88,22 +88,22 @@ impl Ticking {
 pub(crate) struct DeclaredEvent {
     /// The order of declaration.
     pub(crate) number: u64,
-    /// Empty: it has none.
+    /// The name; empty where it has none.
     pub(crate) name: Str,
     pub(crate) priority: u8,
     pub(crate) source: Source,
     pub(crate) enabled: bool,
-    /// The cycle of an event that waits to be handled.
+    /// The cycle in which an event occurred that waits to be handled.
     pub(crate) arrived: Option<u64>,
-    /// The declaration.
+    /// The place of the declaration.
     pub(crate) place: (File, u32),
     pub(crate) code: Rc<dyn Code>,
-    /// Where its action runs; none while it does.
+    /// The memory in which its action runs; `None` while it does.
     room: Option<Box<dyn Act>>,
 }
 
 impl DeclaredEvent {
-    /// What it is, for messages.
+    /// A description for messages.
     pub(crate) fn describe(&self) -> String {
         let what = match self.source {
             Source::Condition { .. } => "interrupt",
@@ -116,7 +116,7 @@ impl DeclaredEvent {
         }
     }
 
-    /// It happens now: until it is handled, an event is kept once.
+    /// The event occurs now: until it is handled, further occurrences are not counted.
     pub(crate) fn happen(&mut self, now: u64, due: &mut BinaryHeap<Reverse<Rank>>) {
         if self.arrived.is_none() {
             self.arrived = Some(now);
@@ -129,7 +129,7 @@ impl DeclaredEvent {
     }
 }
 
-/// What decides which of several events is handled first.
+/// The order in which events are handled.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) struct Rank {
     priority: u8,
@@ -137,7 +137,7 @@ pub(crate) struct Rank {
     number: u64,
 }
 
-/// A priority that a program gives.
+/// Checks a priority that a program gives.
 pub(crate) fn priority(value: i32, function: &'static str) -> Result<u8, Fault> {
     u8::try_from(value).map_err(|_| {
         let problem = format!("the priority is {value}, but must be 0 to {LOWEST_PRIORITY}");
@@ -145,7 +145,7 @@ pub(crate) fn priority(value: i32, function: &'static str) -> Result<u8, Fault> 
     })
 }
 
-/// An event whose action is to run, or runs.
+/// An event whose action is about to run, or runs.
 pub(crate) struct Due {
     /// Its place in the order of declaration.
     number: u64,
@@ -155,7 +155,7 @@ pub(crate) struct Due {
     pub(crate) action: Box<dyn Act>,
 }
 
-/// Which interrupts and timers are meant.
+/// A selection of interrupts and timers.
 #[derive(Clone, Debug)]
 pub(crate) enum Which {
     All,
@@ -173,7 +173,7 @@ pub(crate) struct EventTable {
     waiting: Vec<(u32, DeclaredEvent)>,
     /// How many events have been declared.
     declared: u64,
-    /// The events that wait to be handled, all of them, the first one on top; with room for all that are declared.
+    /// All events that wait to be handled, the first one on top; with room for all that are declared.
     pub(crate) due: BinaryHeap<Reverse<Rank>>,
 }
 
@@ -187,12 +187,12 @@ pub(crate) struct Declaration {
 }
 
 impl EventTable {
-    /// Forgets everything.
+    /// Drops all events.
     pub(crate) fn clear(&mut self) {
         *self = Self::default();
     }
 
-    /// Forgets what does not belong to a motion that is planned.
+    /// Drops the events that do not belong to a planned motion.
     pub(crate) fn keep_to_motions(&mut self) {
         self.interrupts.clear();
         self.waiting.clear();
@@ -249,15 +249,15 @@ impl EventTable {
         }
     }
 
-    /// Forgets the triggers that a level of the program has declared for a motion that did not come.
+    /// Drops the triggers that a level of the program has declared for a motion that was not planned.
     pub(crate) fn unbind(&mut self, level: u32) {
         self.waiting.retain(|(declared_by, _)| *declared_by != level);
     }
 
-    /// The interrupts and timers that are meant.
+    /// The indices of the selected interrupts and timers.
     ///
     /// # Errors
-    /// There is none of that name or priority.
+    /// None has that name or priority.
     pub(crate) fn find(&self, function: &'static str, which: &Which) -> Result<Vec<usize>, Fault> {
         let Which::These { name, priority } = which else { return Ok((0..self.interrupts.len()).collect()) };
         let named = |event: &DeclaredEvent| name.as_ref().is_some_and(|name| !name.is_empty() && event.name == *name);
@@ -279,7 +279,7 @@ impl EventTable {
         Ok(all.filter(|(_, event)| named(event) || ranked(event)).map(|(at, _)| at).collect())
     }
 
-    /// Enables interrupts: timers that were not begin their intervals anew.
+    /// Enables interrupts and timers: timers that were disabled begin their intervals again.
     pub(crate) fn enable(&mut self, found: &[usize], now: u64) {
         for at in found {
             let Some(event) = self.interrupts.get_mut(*at).filter(|event| !event.enabled) else { continue };
@@ -290,7 +290,7 @@ impl EventTable {
         }
     }
 
-    /// Disables interrupts: events that wait to be handled are lost.
+    /// Disables interrupts and timers: occurrences that wait to be handled are lost.
     pub(crate) fn disable(&mut self, found: &[usize]) {
         for at in found {
             if let Some(event) = self.interrupts.get_mut(*at) {
@@ -301,13 +301,13 @@ impl EventTable {
         self.find_due();
     }
 
-    /// Deletes interrupts.
+    /// Deletes interrupts and timers.
     pub(crate) fn delete(&mut self, found: &[usize]) {
         found.iter().rev().for_each(|at| drop(self.interrupts.remove(*at)));
         self.find_due();
     }
 
-    /// Finds the events that wait to be handled, where some may have gone.
+    /// Finds the events that wait to be handled, after some may have been removed.
     fn find_due(&mut self) {
         if !self.due.is_empty() {
             self.due.clear();
@@ -316,7 +316,7 @@ impl EventTable {
         }
     }
 
-    /// The event with this place in the order of declaration, in which the interrupts lie.
+    /// The event with this number in the order of declaration, by which the interrupts are sorted.
     fn numbered(&mut self, number: u64) -> Option<&mut DeclaredEvent> {
         match self.interrupts.binary_search_by_key(&number, |event| event.number) {
             Ok(at) => self.interrupts.get_mut(at),
@@ -324,7 +324,7 @@ impl EventTable {
         }
     }
 
-    /// Takes the event that is to be handled next, if it has a higher priority than `running`.
+    /// Takes the next event to be handled, if it has a higher priority than `running`.
     pub(crate) fn take_due(&mut self, running: Option<u8>) -> Option<Due> {
         let Reverse(first) = *self.due.peek()?;
         if running.is_some_and(|running| first.priority >= running) {
@@ -333,19 +333,19 @@ impl EventTable {
         self.due.pop();
         let first = self.numbered(first.number)?;
         first.arrived = None;
-        // It is missing only where an action was dropped while it ran.
+        // The memory is missing only where an action was dropped while it ran.
         let action = first.room.take().unwrap_or_else(|| Rc::clone(&first.code).room());
         Some(Due { number: first.number, priority: first.priority, action })
     }
 
-    /// Takes the memory of an action back that has ended, unless its event is gone.
+    /// Takes back the memory of an action that has ended, unless its event was removed.
     pub(crate) fn give_back(&mut self, due: Due) {
         if let Some(event) = self.numbered(due.number) {
             event.room = Some(due.action);
         }
     }
 
-    /// What the event is that was declared at this place.
+    /// A description of the event that was declared at this place.
     pub(crate) fn describe(&self, place: (File, u32)) -> Option<String> {
         let waiting = self.waiting.iter().map(|(_, event)| event);
         let mut all = self.interrupts.iter().chain(&self.triggers).chain(waiting);

@@ -1,5 +1,5 @@
-//! The functions that run, with their variables, as a debugger sees them. Only programs that were emitted for a
-//! debugger have frames.
+//! The running functions, with their variables, as a debugger sees them. Only programs that were emitted for a debugger
+//! have frames.
 
 use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
@@ -8,12 +8,12 @@ use crate::context::shown::Shown;
 use crate::fault::File;
 use crate::values::Teach;
 
-/// A function that runs, or the action of an event.
+/// A running function, or the running action of an event.
 #[derive(Clone)]
 pub(crate) struct Record {
-    /// What no other frame of the program has.
+    /// The unique number of the frame in the program.
     pub(crate) id: u64,
-    /// The function's name, or what the event is.
+    /// The function's name, or a description of the event.
     pub(crate) name: Rc<str>,
     pub(crate) file: File,
     /// The line of the statement that runs, or runs next.
@@ -22,25 +22,25 @@ pub(crate) struct Record {
     pub(crate) is_action: bool,
     /// Whether one of its statements ran.
     begun: bool,
-    /// Its variables, in the order of declaration, with those that are gone already.
+    /// Its variables, in the order of declaration, including those that do not exist any more.
     pub(super) variables: Vec<Variable<Weak<dyn Teach>>>,
-    /// Its clocks and connections, in the same way.
+    /// Its clocks and connections, likewise.
     pub(super) handles: Vec<Variable<Weak<dyn Shown>>>,
 }
 
 /// A variable of a function.
 #[derive(Clone)]
 pub(crate) struct Variable<T> {
-    /// The place of its declaration among those of the function.
+    /// The number of its declaration among those of the function.
     pub(super) number: usize,
     pub(crate) name: &'static str,
-    /// The sizes of an array of several dimensions, outermost first; else empty.
+    /// The sizes of an array of several dimensions, outermost first; otherwise empty.
     pub(crate) sizes: &'static [usize],
     pub(crate) slot: T,
 }
 
 impl Record {
-    /// The variables that there are, in the order of declaration. Of two of one name only the inner one.
+    /// The existing variables, in the order of declaration. Of two with the same name only the inner one.
     pub(crate) fn variables(&self) -> Vec<Variable<Rc<dyn Teach>>> {
         there(&self.variables)
     }
@@ -62,18 +62,18 @@ fn there<T: ?Sized>(variables: &[Variable<Weak<T>>]) -> Vec<Variable<Rc<T>>> {
     seen
 }
 
-/// Notes a variable. A loop declares the same ones again and again.
+/// Adds a variable. A loop declares the same ones again and again.
 pub(super) fn note<T: ?Sized>(variables: &mut Vec<Variable<Weak<T>>>, new: Variable<Weak<T>>) {
     variables.retain(|known| known.slot.strong_count() > 0 && known.number != new.number);
     variables.push(new);
 }
 
-/// The functions of a program that run, those that were entered last at the end.
+/// The running functions of a program, the one entered last at the end.
 #[derive(Default)]
 pub(crate) struct Frames {
     pub(super) records: RefCell<Vec<Record>>,
     entered: Cell<u64>,
-    /// The function whose program pointer was set to its line: it begins anew, and goes on there. 0: none.
+    /// The function whose program pointer was set to its `line`: it begins again, and goes on there. 0: none.
     pub(super) moved: Cell<u64>,
 }
 
@@ -86,10 +86,10 @@ impl Frames {
         id
     }
 
-    /// Sets the program pointer to a line of a function. Those that it has called are left.
+    /// Sets the program pointer to a line of a function. The functions that it has called are left.
     ///
     /// # Errors
-    /// The function does not run, or the action of an event runs on top of it.
+    /// The function does not run, or it is the action of an event, or such an action runs on top of it.
     pub(crate) fn set_pointer(&self, id: u64, line: u32) -> Result<(), &'static str> {
         let mut records = self.records.borrow_mut();
         let at = records.iter().position(|record| record.id == id).ok_or("the function has ended")?;
@@ -104,50 +104,50 @@ impl Frames {
         Ok(())
     }
 
-    /// Whether the program pointer was set in a function, which begins anew then.
+    /// Whether the program pointer was set in a function, which then begins again.
     pub(super) fn is_moved(&self, id: u64) -> bool {
         self.moved.get() == id
     }
 
-    /// Whether it was set in any, which is not there yet.
+    /// Whether the program pointer was set in any function that has not begun again yet.
     pub(crate) fn is_any_moved(&self) -> bool {
         self.moved.get() != 0
     }
 
-    /// Whether a function does not go on any more, as it begins anew, or one that has called it. What runs on top
-    /// meanwhile, the action of an event or its condition, goes on.
+    /// Whether a function does not go on any more, as it, or one that has called it, begins again. The action of an
+    /// event or its condition that runs on top meanwhile goes on.
     pub(super) fn is_left(&self, id: u64) -> bool {
         let moved = self.moved.get();
         self.is_any_moved() && (moved == id || !self.records.borrow().iter().any(|record| record.id == id))
     }
 
-    /// All of them, those that were entered last at the end.
+    /// All frames, the one entered last at the end.
     pub(crate) fn all(&self) -> Vec<Record> {
         self.records.borrow().clone()
     }
 
-    /// The innermost ones, so many at most, those that were entered last at the end.
+    /// The innermost frames, `most` at most, the one entered last at the end.
     pub(crate) fn innermost(&self, most: usize) -> Vec<Record> {
         let records = self.records.borrow();
         records.iter().skip(records.len().saturating_sub(most)).cloned().collect()
     }
 
-    /// Where a frame stands, and whether it is the action of an event.
+    /// The place of a frame, and whether it is the action of an event.
     pub(crate) fn place(&self, id: u64) -> Option<(File, u32, bool)> {
         self.with(id, |record| (record.file, record.line, record.is_action))
     }
 
-    /// What a frame is called, where this is asked for the first time: at its first statement.
+    /// The name of a frame, at the first call for it: at its first statement.
     pub(crate) fn begins(&self, id: u64) -> Option<Rc<str>> {
         self.with(id, |record| (!std::mem::replace(&mut record.begun, true)).then(|| Rc::clone(&record.name))).flatten()
     }
 
-    /// How many there are up to this one.
+    /// How many frames there are up to this one.
     pub(crate) fn depth(&self, id: u64) -> usize {
         self.records.borrow().iter().position(|record| record.id == id).map_or(0, |at| at + 1)
     }
 
-    /// Does something to the frame with this number: it is one of the last as a rule.
+    /// Calls `act` with the frame with this number: as a rule it is one of the last.
     pub(super) fn with<R>(&self, id: u64, act: impl FnOnce(&mut Record) -> R) -> Option<R> {
         self.records.borrow_mut().iter_mut().rev().find(|record| record.id == id).map(act)
     }

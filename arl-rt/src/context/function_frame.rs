@@ -1,8 +1,8 @@
-//! A function that runs, as emitted code has it: only programs that were emitted for a debugger do.
+//! A running function, as represented in emitted code: only in programs that were emitted for a debugger.
 //!
 //! Invariants:
-//! - While the program pointer is on its way to a line (`target`), no statement runs before that line.
-//! - A function begins anew only where nothing of it runs: its statements' future is dropped first.
+//! - While the program pointer is being moved to a line (`target`), no statement runs before that line.
+//! - A function begins again only where nothing of it runs: the future of its statements is dropped first.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -19,18 +19,18 @@ use crate::context::watcher::Go;
 use crate::fault::File;
 use crate::values::Teach;
 
-/// A function that runs. It is left when this is dropped.
+/// A running function. Dropping this leaves the function.
 ///
 /// Emitted code opens one at the start of each function: `let frame = cx.frame("grip", FILE, 17);`.
 #[must_use = "the function is left when this is dropped"]
 pub struct Frame<'a> {
     cx: &'a Cx,
     id: u64,
-    /// The line that the program pointer was set to, until that is reached: nothing runs before it. 0: none.
+    /// The line that the program pointer was set to, until it is reached: nothing runs before it. 0: none.
     target: Cell<u32>,
     /// The variables that the function has declared, by the numbers of their declarations.
     declared: RefCell<Vec<(usize, Weak<dyn Any>)>>,
-    /// Those that stay where it begins anew, until the line is reached.
+    /// The variables that are kept when the function begins again, until the line is reached.
     kept: RefCell<Vec<(usize, Rc<dyn Any>)>>,
 }
 
@@ -58,7 +58,7 @@ impl Cx {
 }
 
 impl<'a> Frame<'a> {
-    /// Shows a variable of the function: the number of its declaration, and its name.
+    /// Shows a variable of the function, with the number of its declaration, and its name.
     pub fn variable<T: Teach + 'static>(&self, number: usize, name: &'static str, variable: &Rc<T>) {
         self.table(number, name, &[], variable);
     }
@@ -82,7 +82,7 @@ impl<'a> Frame<'a> {
         self.handles(number, name, &[], handle);
     }
 
-    /// Shows an array of several dimensions of them with its sizes, outermost first.
+    /// Shows an array of several dimensions of clocks or connections with its sizes, outermost first.
     pub fn handles<T: Shown + 'static>(
         &self,
         number: usize,
@@ -96,7 +96,7 @@ impl<'a> Frame<'a> {
         self.cx.frames().with(self.id, |record| note(&mut record.handles, Variable { number, name, sizes, slot }));
     }
 
-    /// Notes a variable: it stays where the function begins anew.
+    /// Notes a variable, which is kept when the function begins again.
     fn declare<T: 'static>(&self, number: usize, variable: &Rc<T>) {
         let variable: Rc<dyn Any> = Rc::<T>::clone(variable);
         let mut declared = self.declared.borrow_mut();
@@ -104,7 +104,7 @@ impl<'a> Frame<'a> {
         declared.push((number, Rc::downgrade(&variable)));
     }
 
-    /// Runs the statements of the function: once more, up to where the program pointer was set to, each time it is set.
+    /// Runs the statements of the function; each time the program pointer is set, it runs them again, up to that line.
     pub async fn run<T>(&self, mut statements: impl AsyncFnMut() -> T) -> T {
         loop {
             let run = {
@@ -129,11 +129,11 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// Holds the variables that there are.
+    /// Keeps the variables that exist.
     fn keep(&self) {
         let declared = self.declared.borrow();
         let there = declared.iter().filter_map(|(number, variable)| Some((*number, variable.upgrade()?)));
-        // A line that was not reached yet keeps what another one has kept.
+        // Until the line is reached, variables kept for an earlier line stay kept.
         let mut kept = self.kept.borrow_mut();
         for (number, variable) in there {
             kept.retain(|(known, _)| *known != number);
@@ -148,8 +148,8 @@ impl<'a> Frame<'a> {
         self.target.set(line.unwrap_or_default());
     }
 
-    /// Whether the statement of a line runs, and halts before it does where a debugger wants that. It does not run
-    /// where the program pointer was set to another line.
+    /// Whether the statement of a line runs; before it does, it halts where a debugger requests that. The statement
+    /// does not run where the program pointer was set to another line.
     pub fn runs(&self, line: u32) -> Runs<'a> {
         let state = match self.target.get() {
             0 => Asking::NotYet,
@@ -174,19 +174,18 @@ impl<'a> Frame<'a> {
         self.target.get() == 0 || self.leads_to(first, last)
     }
 
-    /// The arm of a `switch` that the program pointer was set into, by the lines of each.
+    /// The arm of a `switch` that the program pointer was set into, by the lines of each arm.
     pub fn way_to(&self, arms: &[(u32, u32)]) -> Option<usize> {
         arms.iter().position(|(first, last)| self.leads_to(*first, *last))
     }
 
-    /// The state that a function with `goto` begins in: that of the line that the program pointer was set to, or the
-    /// first.
+    /// The initial state of a function with `goto`: that of the line that the program pointer was set to, or the first.
     pub fn begins_in<S, const N: usize>(&self, first: S, states: [(u32, u32, S); N]) -> S {
         let led = states.into_iter().find(|(first, last, _)| self.leads_to(*first, *last));
         led.map_or(first, |(_, _, state)| state)
     }
 
-    /// A variable whose declaration is jumped over: the one that there was, or one with its start value.
+    /// A variable whose declaration is jumped over: the existing one, or one with its start value.
     pub fn kept<T: 'static>(&self, number: usize, start: impl FnOnce() -> Rc<T>) -> Rc<T> {
         let kept = self.kept.borrow();
         let found = kept.iter().find(|(known, _)| self.target.get() != 0 && *known == number);
@@ -204,7 +203,7 @@ impl Drop for Frame<'_> {
     }
 }
 
-/// Whether a statement runs; waits as long as a debugger halts the program.
+/// Whether a statement runs; pending as long as a debugger halts the program.
 #[must_use = "nothing halts unless it is awaited"]
 #[derive(Debug)]
 pub struct Runs<'a> {
@@ -218,7 +217,7 @@ pub struct Runs<'a> {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Asking {
     NotYet,
-    /// It was, or has set the program pointer here.
+    /// It was asked, or has set the program pointer here.
     Asked,
     /// The statement does not run.
     Skipped,
@@ -239,7 +238,7 @@ impl Future for Runs<'_> {
         let Some(watcher) = self.cx.shared().watcher() else { return Poll::Ready(true) };
         let go = if asked { watcher.goes_on() } else { watcher.statement(self.cx, id) };
         match go {
-            // The function, or one that has called it, begins anew.
+            // The function, or one that has called it, begins again.
             Go::On if self.cx.frames().is_left(id) => Poll::Pending,
             Go::On => Poll::Ready(true),
             Go::NotYet => Poll::Pending,

@@ -1,7 +1,7 @@
-//! What a running program sees of the controller: the context that emitted code passes on, the state of its channel,
-//! what all channels share, and the system variables.
+//! A running program's view of the controller: the context that emitted code passes on, the state of its channel, the
+//! state that all channels share, and the system variables.
 //!
-//! It imports the rooms of what it holds: `unit`, `communication`, `fieldbus`, `io`, `storage`, `motion`, `values`,
+//! It imports the modules of what it holds: `unit`, `communication`, `fieldbus`, `io`, `storage`, `motion`, `values`,
 //! `fault` and `cycle`.
 
 pub(crate) mod channel_state;

@@ -18,10 +18,10 @@ impl Named {
         Self { name, literal }
     }
 
-    /// Puts the value into the variable, in each program that has one.
+    /// Sets the variable to the value, in each program that has the variable.
     ///
     /// # Errors
-    /// No program has a variable of this name, several files of one have, or the value does not fit.
+    /// No program has a variable of this name, several files have one, or the value does not fit.
     pub(crate) fn put(&self, programs: &[&dyn Program]) -> Result<(), GlobalError> {
         let Self { name, literal } = self;
         let put = |variable: &DataVar<'_>| teach_text(variable.slot, Onto::Value, variable.sizes, literal);
@@ -35,10 +35,10 @@ impl Named {
     }
 }
 
-/// Does something with the variable of this name; nothing where there is none.
+/// Calls `act` with the variable of this name; returns `None` where it does not exist.
 ///
 /// # Errors
-/// Several files have one.
+/// Several files have a variable of this name.
 pub(crate) fn with_variable<T>(
     program: &dyn Program,
     name: &str,
@@ -66,7 +66,7 @@ fn stem(file: &str) -> &str {
     name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }
 
-/// What is said of a name that no program has.
+/// The error for a name that no program has.
 pub(crate) fn unknown(name: &str, programs: &[&dyn Program]) -> GlobalError {
     let files: Vec<_> = programs.iter().flat_map(|program| program.variables()).collect();
     let known: Vec<&str> = files.iter().flat_map(|file| file.vars.iter().map(|variable| variable.name)).collect();
@@ -77,32 +77,32 @@ pub(crate) fn unknown(name: &str, programs: &[&dyn Program]) -> GlobalError {
     GlobalError::Unknown { there: hint_of_many(&name, &known), name }
 }
 
-/// Why a global variable cannot be had, or cannot take a value.
+/// The reason why a global variable cannot be accessed, or cannot take a value.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum GlobalError {
     /// The program has no global variables, or was compiled without their names.
     #[non_exhaustive]
     NoNames {
-        /// The name that was asked for.
+        /// The requested name.
         name: String,
     },
     /// There is no variable of this name.
     #[non_exhaustive]
     Unknown {
-        /// The name that was asked for.
+        /// The requested name.
         name: String,
-        /// What there is, in words.
+        /// The variables that exist, in words.
         there: String,
     },
-    /// Several files have one.
+    /// Several files have a variable of this name.
     #[non_exhaustive]
     Ambiguous {
-        /// The name that was asked for.
+        /// The requested name.
         name: String,
         /// Two of the files.
         files: [String; 2],
-        /// The name of the one in the first.
+        /// The full name of the variable in the first file.
         meant: String,
     },
     /// The value does not fit.
@@ -112,7 +112,7 @@ pub enum GlobalError {
         name: String,
         /// The value, as a literal of ARL.
         literal: String,
-        /// Why not.
+        /// The reason.
         problem: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Where `print` sends messages: the trait of what takes them, a stream, and a buffer for tests.
+//! Where `print` sends messages: the trait of outputs, a stream, and a buffer for tests.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -14,7 +14,7 @@ use crate::values::Printto;
 pub struct Message<'a> {
     /// Controller time in s.
     pub time: f64,
-    /// The channel whose program says it.
+    /// The channel whose program printed it.
     pub channel: ChannelId,
     /// Whether it goes to the operator panel.
     pub hmi: bool,
@@ -42,18 +42,18 @@ impl<F: FnMut(&Message<'_>)> Output for F {
 /// Writes messages to a stream, each ended by a newline.
 pub struct Stream<W: Write> {
     stream: BufWriter<W>,
-    /// What it is called where people are told that it cannot be written; taken when they have been.
+    /// The name under which a write error is reported; taken once it has been.
     name: Option<&'static str>,
 }
 
 impl<W: Write> Stream<W> {
-    /// A buffer before the stream; it is emptied at the end of each cycle with messages.
+    /// Buffers before the stream; the buffer is written out at the end of each cycle with messages.
     pub fn new(stream: W) -> Self {
         Self { stream: BufWriter::new(stream), name: None }
     }
 
-    /// Nobody may read the other end any more, or the disk be full: a robot does not stop for that. People are told
-    /// once.
+    /// Reports a write error once. The other end may have been closed, or the disk be full: a robot does not stop for
+    /// that.
     fn note(&mut self, written: io::Result<()>) {
         if let Err(error) = written
             && let Some(name) = self.name.take()
@@ -64,7 +64,7 @@ impl<W: Write> Stream<W> {
 }
 
 impl Stream<std::io::Stdout> {
-    /// The standard output. Where it cannot be written, standard error says so once.
+    /// The standard output. Where it cannot be written, standard error reports that once.
     pub fn standard() -> Self {
         Self { name: Some("standard output"), ..Self::new(io::stdout()) }
     }
@@ -89,23 +89,23 @@ impl<W: Write> Output for Stream<W> {
     }
 }
 
-/// Keeps messages as text, each ended by a newline. Clones share what they keep, so that one can be handed to the
-/// controller and the other be read.
+/// Keeps messages as text, each ended by a newline. Clones share the text, so that one can be passed to the controller
+/// and the other be read.
 #[derive(Clone, Default, Debug)]
 pub struct Captured(Rc<RefCell<Vec<u8>>>);
 
 impl Captured {
-    /// Nothing yet.
+    /// An empty buffer.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// All that came so far.
+    /// All messages so far.
     pub fn text(&self) -> String {
         String::from_utf8_lossy(&self.0.borrow()).into_owned()
     }
 
-    /// All that came since the last call.
+    /// All messages since the last call.
     pub fn take(&self) -> String {
         String::from_utf8_lossy(&std::mem::take(&mut *self.0.borrow_mut())).into_owned()
     }
@@ -132,7 +132,7 @@ pub(crate) struct Targets {
 impl Targets {
     pub(crate) const NONE: Targets = Targets { hmi: false, file: false, console: false };
 
-    /// These and one more; `off` cancels them.
+    /// These targets and one more; `off` cancels them.
     pub(crate) fn with(mut self, target: Printto) -> Self {
         match target {
             Printto::Off => return Self::NONE,

@@ -1,4 +1,4 @@
-//! What the controller runs: a program, as the emitted code describes it.
+//! The program that the controller runs, as the emitted code describes it.
 
 use std::any::Any;
 use std::fmt;
@@ -17,9 +17,9 @@ pub type BoxFuture<'a, T = ()> = Pin<Box<dyn Future<Output = Done<T>> + 'a>>;
 /// A piece of program that owns what it borrows from.
 pub(crate) type RunningProgram = BoxFuture<'static>;
 
-/// What can be looked for by its type.
+/// A value whose type can be determined at run time.
 pub trait AsAny: Any {
-    /// The same, of which the type can be asked.
+    /// The same value, as an `Any`.
     fn as_any(&self) -> &dyn Any;
 }
 
@@ -34,11 +34,11 @@ pub trait Program: AsAny {
     /// The file that has `main`.
     fn file(&self) -> File;
 
-    /// The build of robot that the program was checked for.
+    /// The family of robot that the program was checked for.
     fn family(&self) -> Family;
 
-    /// Sets every global variable to its start value, then runs the initialisers in file order. Without variables there
-    /// is nothing to do.
+    /// Sets every global variable to its start value, then runs the initialisers in file order. By default there are no
+    /// variables, and this does nothing.
     fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         let _ = cx;
         Box::pin(async { Ok(()) })
@@ -47,8 +47,8 @@ pub trait Program: AsAny {
     /// Runs `main` once.
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a>;
 
-    /// The global variables, which the conditions and actions of interrupts ask for: the program itself, unless it is
-    /// made around another one.
+    /// The global variables, which the conditions and actions of interrupts use: the program itself, unless it wraps
+    /// another one.
     fn globals(&self) -> &dyn Any {
         self.as_any()
     }
@@ -68,18 +68,18 @@ pub trait Program: AsAny {
         Vec::new()
     }
 
-    /// The folder of these files, counted from the script directory; without more that directory itself.
+    /// The folder of these files, relative to the script directory; by default that directory itself.
     fn folder(&self) -> &Path {
         Path::new("")
     }
 
-    /// What it uses of what runs beside the cycle: that is started before the program is.
+    /// The services beside the cycle that the program uses: they are started before the program.
     fn beside(&self) -> Beside {
         Beside::default()
     }
 }
 
-/// So that what is a program in a box can stand where a program is wanted.
+/// Lets a boxed program be used where a program is expected.
 impl<P: Program + ?Sized> Program for Box<P> {
     fn file(&self) -> File {
         (**self).file()
@@ -122,11 +122,11 @@ impl<P: Program + ?Sized> Program for Box<P> {
     }
 }
 
-/// A program whose data files lie in another folder than the script directory: one of several that one controller runs.
+/// A program whose data files are in another folder than the script directory: one of several that one controller runs.
 pub struct Elsewhere<P> {
     /// The program.
     pub program: P,
-    /// The folder, counted from the script directory.
+    /// The folder, relative to the script directory.
     pub folder: PathBuf,
 }
 
@@ -179,21 +179,21 @@ impl<P: Program> fmt::Debug for Elsewhere<P> {
     }
 }
 
-/// What runs beside the cycle, as far as programs use it.
+/// The services beside the cycle that programs use.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct Beside {
-    /// Sockets, serial lines, Modbus RTU or Melsec: the thread that opens connections. Without it, it is started when
-    /// the first one is opened.
+    /// Sockets, serial lines, Modbus RTU or Melsec: the thread that opens connections. Where this is not set, that
+    /// thread is started when the first connection is opened.
     pub connections: bool,
-    /// Registers and coils of the controller's Modbus TCP server. Without it, and where the cell has none, they are
-    /// there, but nobody else sees them.
+    /// Registers and coils of the controller's Modbus TCP server. Where this is not set, and where the cell has no
+    /// server, they exist, but are not accessible from outside.
     pub modbus_tcp: bool,
 }
 
 impl std::ops::BitOr for Beside {
     type Output = Self;
 
-    /// What either of them uses.
+    /// The services that either of them uses.
     fn bitor(self, other: Self) -> Self {
         Self { connections: self.connections | other.connections, modbus_tcp: self.modbus_tcp | other.modbus_tcp }
     }
@@ -202,13 +202,13 @@ impl std::ops::BitOr for Beside {
 /// Makes a program.
 pub type Make = fn() -> Box<dyn Program>;
 
-/// A program beside the first one, for the channels of a cell file.
+/// A program in addition to the first one, for the channels of a cell file.
 #[derive(Clone, Copy, Debug)]
 pub struct Other {
-    /// Its file, as the cell file names it.
+    /// Its file, by the name in the cell file.
     pub file: &'static str,
-    /// The folder of its data files, counted from the script directory.
+    /// The folder of its data files, relative to the script directory.
     pub folder: &'static str,
-    /// What makes it.
+    /// The function that makes it.
     pub make: Make,
 }

@@ -7,10 +7,10 @@ use std::rc::{Rc, Weak};
 use crate::context::cx::Cx;
 use crate::context::program::{Beside, Program};
 
-/// What makes a program.
+/// Makes a program.
 type Make = Box<dyn Fn() -> Box<dyn Program>>;
 
-/// Somebody who sets global variables once they have their first values, where they are his.
+/// Sets global variables of a program once they have their first values, where they are of its type.
 pub(crate) type Initialised = Box<dyn Fn(&dyn Program)>;
 
 /// The programs that a controller can load while it runs, by the names of their files.
@@ -22,7 +22,7 @@ impl Loadable {
         self.0.push((name, make));
     }
 
-    /// What any of them uses of what runs beside the cycle.
+    /// The services beside the cycle that any of them uses.
     pub(crate) fn beside(&self) -> Beside {
         self.0.iter().map(|(_, make)| make().beside()).fold(Beside::default(), Beside::bitor)
     }
@@ -36,10 +36,10 @@ impl Loadable {
 
 /// The programs of a controller, as each of them sees the others.
 pub(crate) struct Programs {
-    /// Those that `switcharl` can load.
+    /// The programs that `switcharl` can load.
     pub(crate) loadable: Loadable,
     initialised: Vec<Initialised>,
-    /// The foreground channels, in order, as the functions see them that ask about channels by number.
+    /// The foreground channels, in order, for functions that access channels by number.
     foreground: RefCell<Vec<Weak<Cx>>>,
 }
 
@@ -48,7 +48,7 @@ impl Programs {
         Self { loadable, initialised, foreground: RefCell::default() }
     }
 
-    /// A program's global variables have their first values.
+    /// Called when a program's global variables have their first values.
     pub(crate) fn were_initialised(&self, program: &dyn Program) {
         self.initialised.iter().for_each(|set| set(program));
     }
@@ -58,7 +58,7 @@ impl Programs {
         self.foreground.borrow_mut().push(Rc::downgrade(cx));
     }
 
-    /// Another program runs in the foreground channel at this place.
+    /// Another program runs in the foreground channel at this index.
     pub(crate) fn exchange(&self, at: usize, cx: &Rc<Cx>) {
         if let Some(place) = self.foreground.borrow_mut().get_mut(at) {
             *place = Rc::downgrade(cx);

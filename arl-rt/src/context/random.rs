@@ -2,10 +2,10 @@
 
 use std::cell::Cell;
 
-/// The seed where nobody gives one.
+/// The default seed.
 pub(crate) const SEED: u64 = 1;
 
-/// A row of random numbers: SplitMix64.
+/// A sequence of random numbers: SplitMix64.
 #[derive(Debug)]
 pub(crate) struct Random(Cell<u64>);
 

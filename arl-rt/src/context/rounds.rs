@@ -1,20 +1,20 @@
-//! Turns of loops that calculate and look at nothing in the context.
+//! Turns of loops that calculate and do not use the context.
 
 use std::cell::Cell;
 
-/// The turns that loops may make in this cycle. What is left goes back to the context when this is dropped.
+/// The turns that loops may make in this cycle. Those left go back to the context when this is dropped.
 ///
-/// It lives between two waits, so that the number is in a register: in the context, and in what lives across a wait, it
-/// is in memory, and so is all else that the loop uses.
+/// It lives between two waits, so that the number is in a register: in the context, or in a value that lives across a
+/// wait, it would be in memory, and so would everything else that the loop uses.
 #[derive(Debug)]
 pub struct Rounds<'a> {
     pub(super) budget: &'a Cell<i32>,
-    /// Below 0 where a round did not take place.
+    /// Below 0 where a turn could not take place.
     pub(super) left: i32,
 }
 
 impl Rounds<'_> {
-    /// Counts a round; false where none is left: the loop has to give the cycle back first.
+    /// Counts a turn; false where none is left: the loop has to give the cycle back first.
     #[inline(always)]
     pub fn take(&mut self) -> bool {
         // Below 0 the loop ends, so it goes no lower.
@@ -22,15 +22,15 @@ impl Rounds<'_> {
         self.left >= 0
     }
 
-    /// Counts rounds that have taken place without being counted: less than 2^30.
+    /// Counts turns that have taken place without being counted: less than 2^30.
     #[inline(always)]
     pub fn charge(&mut self, rounds: i32) {
-        // A subtraction that saturates takes four instructions more. This one cannot wrap: a round took place, so none
+        // A subtraction that saturates takes four instructions more. This one cannot wrap: a turn took place, so none
         // is owed.
         self.left = self.left.wrapping_sub(rounds).max(0);
     }
 
-    /// Whether there was a round to be made and none left.
+    /// Whether a turn was to be made and none was left.
     #[inline(always)]
     pub fn are_spent(&self) -> bool {
         self.left < 0

@@ -1,4 +1,4 @@
-//! What a controller does.
+//! The state of a controller.
 
 /// What the controller does at the moment.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -8,6 +8,6 @@ pub enum State {
     Running,
     /// The program waits for the start button.
     Paused,
-    /// The program has ended; [`Controller::outcome`](crate::Controller::outcome) says how.
+    /// The program has ended; [`Controller::outcome`](crate::Controller::outcome) reports how.
     Ended,
 }

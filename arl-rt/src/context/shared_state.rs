@@ -21,8 +21,8 @@ use crate::storage::state::KeptState;
 use arl_robot::cell::Rate;
 use arl_robot::cell::Wiring;
 
-/// What all channels of a controller share: time, io, files, messages, alarms. Borrows of the cells end within the call
-/// that makes them.
+/// The state that all channels of a controller share: time, io, files, messages, alarms. Borrows of the cells end
+/// within the call that makes them.
 pub(crate) struct SharedState {
     /// The running number of the cycle.
     pub(crate) now: Cell<u64>,
@@ -33,47 +33,47 @@ pub(crate) struct SharedState {
     /// The date at cycle 0, in s since 1970-01-01 00:00:00.
     pub(crate) start_date: i64,
     output: RefCell<Box<dyn Output>>,
-    /// Whether messages came in this cycle.
+    /// Whether messages were printed in this cycle.
     spoken: Cell<bool>,
-    /// Alarms that nobody has asked for yet.
+    /// Alarms that have not been taken yet.
     alarms: RefCell<Vec<Alarm>>,
-    /// What happened that is not an alarm but worth a word.
+    /// Warnings that have not been taken yet: what is not an alarm but worth reporting.
     warnings: RefCell<Vec<String>>,
-    /// Who wants to hear of alarms and warnings at once.
+    /// The listeners for alarms and warnings.
     listeners: RefCell<Listeners>,
-    /// Which of those who hear something have panicked.
+    /// The listeners and outputs that have panicked.
     panicked: RefCell<Vec<&'static str>>,
-    /// Threads that hear of everything.
+    /// Other threads that receive all events.
     pub(crate) subscribers: Hearers,
     pub(crate) state: RefCell<KeptState>,
-    /// What writes files, beside the cycle.
+    /// Writes files, beside the cycle.
     pub(crate) disk: Disk,
-    /// What the cell says of the network.
+    /// The cell's settings for the network.
     pub(crate) network: NetworkSettings,
     /// How the cell wires a PLC.
     pub(crate) wiring: Wiring,
-    /// What sets up the network ports of the host, if anything does.
+    /// The driver that sets up the network ports of the host, if any.
     pub(crate) network_driver: RefCell<Option<Box<dyn NetworkDriver>>>,
-    /// Whether a program talks to the world, so that the world's time counts.
+    /// Whether a program communicates with the outside world, so that cycles have to run in real time.
     needs_real_time: Cell<bool>,
     pub(crate) buses: Buses,
-    /// What opens the connections of programs.
+    /// Opens the connections of programs.
     pub(crate) opener: Opener,
-    /// Who may halt programs at their statements.
+    /// The debugger's watcher, which may halt programs at their statements.
     watcher: RefCell<Option<Rc<dyn Watcher>>>,
 }
 
-/// Somebody who wants to hear of something.
+/// Is called with each alarm or warning.
 type Listener<T> = Box<dyn FnMut(&T)>;
 
-/// Who wants to hear of alarms and warnings as they come up.
+/// The listeners for alarms and warnings, called as soon as these are raised.
 #[derive(Default)]
 pub(crate) struct Listeners {
     pub(crate) alarm: Option<Listener<Alarm>>,
     pub(crate) warning: Option<Listener<str>>,
 }
 
-/// What a world is made of.
+/// The parts from which a shared state is made.
 pub(crate) struct Parts {
     pub(crate) rate: Rate,
     pub(crate) io: Image,
@@ -118,7 +118,7 @@ impl SharedState {
         }
     }
 
-    /// Passes a message of a channel on.
+    /// Passes on a message of a channel.
     pub(crate) fn message(&self, channel: ChannelId, hmi: bool, console: bool, text: &[u8]) {
         let time = self.rate.time(self.now.get());
         let message = Message { time, channel, hmi, console, text };
@@ -127,8 +127,8 @@ impl SharedState {
         self.subscribers.tell(|| Event::Message { time, channel, text: String::from_utf8_lossy(text).into_owned() });
     }
 
-    /// Lets somebody outside hear of something. Where that panics, it is what they did not hear that is lost, and the
-    /// cycle goes on; the first time is a warning.
+    /// Calls a listener or an output. Where it panics, only what was reported to it is lost, and the cycle goes on; the
+    /// first panic gives a warning.
     fn let_hear(&self, who: &'static str, tell: impl FnOnce()) {
         let lost = catch_panic(tell).is_none();
         if lost && !self.panicked.borrow().contains(&who) {
@@ -137,25 +137,25 @@ impl SharedState {
         }
     }
 
-    /// Ends a cycle's messages.
+    /// Flushes the messages at the end of a cycle.
     pub(crate) fn flush(&self) {
         if self.spoken.replace(false) {
             self.let_hear("the output", || self.output.borrow_mut().flush());
         }
     }
 
-    /// Says that the program talks to the world: from now on the world's time counts.
+    /// Notes that the program communicates with the outside world: from now on cycles have to run in real time.
     pub(crate) fn need_real_time(&self) {
         self.needs_real_time.set(true);
     }
 
-    /// Whether somebody has said so since the last call.
+    /// Whether real time was requested since the last call.
     #[inline]
     pub(crate) fn take_real_time_need(&self) -> bool {
         self.needs_real_time.replace(false)
     }
 
-    /// Notes an alarm; the one that ends a program stands before others of it.
+    /// Adds an alarm; the one that ends a program is put before the others.
     pub(crate) fn alarm(&self, alarm: Alarm, ends: bool) {
         self.let_hear("the function given to `on_alarm`", || {
             if let Some(listener) = &mut self.listeners.borrow_mut().alarm {
@@ -168,12 +168,12 @@ impl SharedState {
         alarms.insert(place, alarm);
     }
 
-    /// Lets somebody halt programs at their statements.
+    /// Sets the watcher, which may halt programs at their statements.
     pub(crate) fn watch(&self, watcher: Rc<dyn Watcher>) {
         *self.watcher.borrow_mut() = Some(watcher);
     }
 
-    /// Who may halt programs at their statements.
+    /// The watcher, which may halt programs at their statements.
     pub(crate) fn watcher(&self) -> Option<Rc<dyn Watcher>> {
         self.watcher.borrow().clone()
     }
@@ -183,7 +183,7 @@ impl SharedState {
         std::mem::take(&mut self.alarms.borrow_mut())
     }
 
-    /// Notes what is not an alarm but worth a word.
+    /// Adds a warning: what is not an alarm but worth reporting.
     pub(crate) fn warn(&self, text: String) {
         self.let_hear("the function given to `on_warning`", || {
             if let Some(listener) = &mut self.listeners.borrow_mut().warning {

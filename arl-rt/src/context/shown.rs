@@ -1,14 +1,14 @@
-//! What a debugger shows of clocks and connections, which have no value that could be written down.
+//! What a debugger shows of clocks and connections, which have no value that could be written as a literal.
 
 use crate::context::cx::Cx;
 use crate::values::{Array, Store};
 
-/// A clock or a connection that a debugger looks at.
+/// A clock or a connection that a debugger can show.
 pub trait Shown {
-    /// Its type, as ARL calls it.
+    /// The name of its type in ARL.
     fn type_name(&self) -> String;
 
-    /// How it is, in words. Nothing changes by looking.
+    /// Its state, in words. The call changes nothing.
     fn shown(&self, cx: &Cx) -> String;
 }
 
@@ -29,7 +29,7 @@ pub struct ShownHandle<'a> {
     pub file: &'static str,
     /// Its name as it was declared.
     pub name: &'static str,
-    /// The sizes of an array of several dimensions, outermost first; else empty.
+    /// The sizes of an array of several dimensions, outermost first; otherwise empty.
     pub sizes: &'static [usize],
     /// The variable.
     pub slot: &'a dyn Shown,

@@ -1,4 +1,4 @@
-//! Whether programs wait for what nobody brings about any more.
+//! Whether programs wait for what can never happen.
 
 use std::cell::Cell;
 use std::fmt;
@@ -31,7 +31,7 @@ impl fmt::Display for WaitsFor {
     }
 }
 
-/// A program that waits in vain: nothing that it looks at can change any more.
+/// A program that waits in vain: nothing that it depends on can change any more.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct Standstill {
@@ -39,7 +39,7 @@ pub struct Standstill {
     pub channel: ChannelId,
     /// The file of the statement that waits.
     pub file: File,
-    /// Its line.
+    /// The line of the statement.
     pub line: u32,
     /// What it waits for.
     pub waits_for: WaitsFor,
@@ -52,15 +52,15 @@ impl fmt::Display for Standstill {
     }
 }
 
-/// Notes of a program, from which follows whether it only waits: in every cycle it says that it does, and for what.
-/// Whoever begins to wait, or does anything else, says that, too.
+/// Records from which follows whether a program only waits: in every cycle it notes that it does, and for what. When it
+/// begins to wait, or does anything else, it notes that, too.
 #[derive(Default, Debug)]
 pub(crate) struct Waiting {
     /// The last cycle in which it waited.
     waited: Cell<Option<(u64, WaitsFor)>>,
-    /// The last cycle in which it did something else.
+    /// The last cycle in which it did something else than wait.
     acted: Cell<u64>,
-    /// The last cycle in which it waited for the time, and the cycle that it waits for.
+    /// The last cycle in which it waited for a time, and the cycle until which it waits.
     timed: Cell<Option<(u64, u64)>>,
 }
 
@@ -71,30 +71,31 @@ impl Waiting {
         self.waited.set(Some((cycle, waits_for)));
     }
 
-    /// The program waits in this cycle until another one comes.
+    /// The program waits in this cycle until the cycle `until`.
     #[inline]
     pub(crate) fn note_time(&self, cycle: u64, until: u64) {
         self.timed.set(Some((cycle, until)));
     }
 
-    /// The program does something in this cycle, begins to wait, or looks at what goes on by itself, like time.
+    /// The program does something in this cycle, begins to wait, or evaluates something that changes by itself, like
+    /// time.
     #[inline]
     pub(crate) fn note_action(&self, cycle: u64) {
         self.acted.set(cycle);
     }
 
-    /// The last cycle in which it did something else.
+    /// The last cycle in which it did something else than wait.
     pub(crate) fn acted(&self) -> u64 {
         self.acted.get()
     }
 
-    /// The cycle that the program has waited for in this cycle, without doing anything else.
+    /// The cycle until which the program has waited in `cycle`, without doing anything else.
     pub(crate) fn until(&self, cycle: u64) -> Option<u64> {
         let (waited, until) = self.timed.get()?;
         (waited == cycle && self.acted.get() < cycle).then_some(until)
     }
 
-    /// What the program has waited for in this cycle, without doing anything else.
+    /// What the program has waited for in `cycle`, without doing anything else.
     pub(crate) fn in_cycle(&self, cycle: u64) -> Option<WaitsFor> {
         let (waited, waits_for) = self.waited.get()?;
         (waited == cycle && self.acted.get() < cycle).then_some(waits_for)

@@ -1,4 +1,4 @@
-//! Threads that hear what happens on a controller.
+//! Threads that receive the events of a controller.
 
 use std::cell::RefCell;
 use std::sync::mpsc::Sender;
@@ -7,7 +7,7 @@ use crate::context::run_state::State;
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::Alarm;
 
-/// What happened on a controller, for other threads: see [`Handle::events`](crate::Handle::events).
+/// An event of a controller, for other threads: see [`Handle::events`](crate::Handle::events).
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum Event {
@@ -16,20 +16,20 @@ pub enum Event {
     Message {
         /// Controller time in s.
         time: f64,
-        /// The channel whose program says it.
+        /// The channel whose program printed it.
         channel: ChannelId,
-        /// The text; what is not UTF-8 is replaced.
+        /// The text; bytes that are not UTF-8 are replaced.
         text: String,
     },
-    /// Something is not an alarm but worth a word.
+    /// Something that is not an alarm but worth reporting.
     Warning(String),
-    /// A program came to an alarm.
+    /// An alarm was raised.
     Alarm(Alarm),
-    /// The controller does something else than before.
+    /// The state of the controller has changed.
     State(State),
 }
 
-/// Those who hear of everything.
+/// The subscribers to all events.
 #[derive(Default)]
 pub(crate) struct Hearers(RefCell<Vec<Sender<Event>>>);
 
@@ -38,20 +38,20 @@ impl Hearers {
         Self(RefCell::new(subscribers))
     }
 
-    /// Lets one more hear of what happens from now on.
-    pub(crate) fn add(&self, hearer: Sender<Event>) {
-        self.0.borrow_mut().push(hearer);
+    /// Adds a subscriber, which receives the events from now on.
+    pub(crate) fn add(&self, subscriber: Sender<Event>) {
+        self.0.borrow_mut().push(subscriber);
     }
 
-    /// Whether there is nobody.
+    /// Whether there are no subscribers.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.0.borrow().is_empty()
     }
 
-    /// Tells all of them; whoever is gone is forgotten.
+    /// Sends an event to all subscribers; those that no longer exist are removed.
     #[inline]
     pub(crate) fn tell(&self, event: impl Fn() -> Event) {
-        self.0.borrow_mut().retain(|hearer| hearer.send(event()).is_ok());
+        self.0.borrow_mut().retain(|subscriber| subscriber.send(event()).is_ok());
     }
 }

@@ -13,7 +13,7 @@ use crate::values::{
     ToolInertiaPara, VelProfile, Watched, Wobj,
 };
 
-/// Declares variables: field, type, default, name, and when the default comes back.
+/// Declares variables: field, type, default, name, and when the default is restored.
 macro_rules! system {
     (
         $(#[$meta:meta])*
@@ -35,12 +35,12 @@ macro_rules! system {
                 Self { $($other,)* $($field: $kind::<$ty>::new($default),)* }
             }
 
-            /// Sets what chapter 10.2 describes to its defaults, except what the controller keeps current.
+            /// Sets the variables of chapter 10.2 to their defaults, except those that the controller keeps current.
             fn reset_own(&self) {
                 $( system!(@reset $restore self.$field = $default); )*
             }
 
-            /// The variables that are kept when the controller is switched off.
+            /// The variables that are stored when the controller is switched off.
             pub(crate) fn kept_own(&self) -> Vec<RetainedVariable<'_>> {
                 let all: Vec<Option<RetainedVariable<'_>>> =
                     vec![$( system!(@keep $restore self.$field, $name, $ty, $default), )*];
@@ -122,15 +122,15 @@ system! {
     pgno_req: Cell<bool> = false, "PGNO_REQ", Reset;
     /// The program number that the external control has given; -1: none yet.
     pgno: Cell<i32> = NO_PROGRAM_NUMBER, "PGNO", Current;
-    /// What `geterror` gives for a lost connection. Read-only.
+    /// The value of `geterror` for a lost connection. Read-only.
     err_socket_closed: Cell<i32> = 1, "ERR_SOCKET_CLOSED", Constant;
     /// The number pi. Read-only.
     pi: Cell<f64> = std::f64::consts::PI, "PI", Constant;
     /// The operating mode. Read-only.
     ctl_mode: Cell<Controlmode> = Controlmode::Auto, "CTL_MODE", Current;
-    /// Where each mechanical unit believes to be at servo-on.
+    /// The position that each mechanical unit assumes at servo-on.
     reset_pos_type: Watched<Array<Str, 100>> = Array::start(), "RESET_POS_TYPE", Permanent;
-    /// How near is near enough for `$RESET_POS_TYPE`, deg.
+    /// The greatest distance for `$RESET_POS_TYPE`, deg.
     reset_pos_threshold: Watched<SmallArray<f64, 100>> = SmallArray::start(), "RESET_POS_THRESHOLD", Permanent;
     /// Input that activates the external control; 0: it is active by itself.
     ext_ctl_act_di: Cell<i32> = 0, "EXT_CTL_ACT_DI", Saved;
@@ -154,7 +154,7 @@ system! {
     pgno_fbit_di: Cell<i32> = 0, "PGNO_FBIT_DI", Saved;
     /// Input of the program number's parity bit: positive for even, negative for odd; 0: no parity.
     pgno_parity_di: Cell<i32> = 0, "PGNO_PARITY_DI", Saved;
-    /// Input whose rising edge says that the program number is there; 0: none.
+    /// Input whose rising edge signals that the program number is valid; 0: none.
     pgno_valid_di: Cell<i32> = 0, "PGNO_VALID_DI", Saved;
     /// Output that shows that the external control is active; 0: none.
     ext_ctl_act_conf_do: Cell<i32> = 0, "EXT_CTL_ACT_CONF_DO", Saved;
@@ -170,7 +170,7 @@ system! {
     at_t2_do: Cell<i32> = 0, "AT_T2_DO", Saved;
     /// Output that shows automatic mode; 0: none.
     at_aut_do: Cell<i32> = 0, "AT_AUT_DO", Saved;
-    /// Output of the lowest bit of the program number that was taken; 0: none.
+    /// Output of the lowest bit of the program number that was taken over; 0: none.
     pgno_ack_fbit_do: Cell<i32> = 0, "PGNO_ACK_FBIT_DO", Saved;
     /// First of the two outputs that show the channel's state: 00 not loaded, 10 running, 01 paused, 11 stopped; 0:
     /// none.
@@ -178,28 +178,28 @@ system! {
 }
 
 system! {
-    /// The system variables as a channel's program sees them: its own ones, and by [`Deref`] those that all channels
-    /// share. Programs read and write them like their own global variables; what is said to be read-only is kept
-    /// current by the controller.
+    /// The system variables as a channel's program sees them: its own ones, and through [`Deref`] those that all
+    /// channels share. Programs read and write them like their own global variables; the controller keeps those marked
+    /// as read-only current.
     pub struct System {
-        /// Those that all channels share.
+        /// The variables that all channels share.
         common: Rc<Common>,
         /// The channel.
         channel: ChannelId,
     }
-    /// Where the bases of the mechanical units stand in the world.
+    /// The bases of the mechanical units in the world.
     base: Shared<SmallArray<Wobj, 3>> = SmallArray::start(), "BASE", Saved;
     /// Whether lines and arcs may pass near the wrist singularity.
     wrist: Cell<bool> = false, "WRIST", Reset;
     /// Whether targets are reached in the configuration that they were taught in.
     config_check: Cell<bool> = true, "CONFIG_CHECK", Reset;
-    /// The speed of motions that give none: %, mm/s, deg/s, deg/s, mm/s.
+    /// The speed of motions that give no speed: %, mm/s, deg/s, deg/s, mm/s.
     dfspeed: Cell<Speed> = DFSPEED, "DFSPEED", Reset;
-    /// The blending of motions that give none.
+    /// The blending of motions that give no blending.
     dfslip: Cell<Slip> = Slip { perdis: -1.0, pdis: -1.0, ..Slip::default() }, "DFSLIP", Reset;
-    /// The tool of motions that give none.
+    /// The tool of motions that give no tool.
     dftool: Cell<Tool> = Tool::default(), "DFTOOL", Reset;
-    /// The workpiece frame of motions that give none.
+    /// The workpiece frame of motions that give no workpiece frame.
     dfwobj: Shared<Wobj> = Wobj::default(), "DFWOBJ", Reset;
     /// Whether the orientation of targets is ignored.
     ignore_ori: Cell<bool> = false, "IGNORE_ORI", Reset;
@@ -225,7 +225,7 @@ system! {
     wobj_offset: Shared<SmallArray<f64, 6>> = SmallArray::start(), "WOBJ_OFFSET", Reset;
     /// Shift and turn of all tools: mm, deg.
     tool_offset: Shared<SmallArray<f64, 6>> = SmallArray::start(), "TOOL_OFFSET", Reset;
-    /// Whether programs look for lost connections themselves (`geterror`), instead of being ended by an alarm.
+    /// Whether programs check for lost connections themselves (`geterror`), instead of being ended by an alarm.
     detect_socket_close: Cell<bool> = false, "DETECT_SOCKET_CLOSE", Reset;
 }
 
@@ -251,13 +251,13 @@ impl System {
         Self::beside(Rc::new(Common::new()), ChannelId::FIRST)
     }
 
-    /// The variables of one more channel, at their defaults, beside those that are shared.
+    /// The variables of one more channel, at their defaults, together with the shared ones.
     pub(crate) fn beside(common: Rc<Common>, channel: ChannelId) -> Self {
         Self::at_defaults(common, channel)
     }
 
-    /// Sets what chapter 10.2 describes to its defaults, except what the controller keeps current. What all channels
-    /// share is the first channel's to reset.
+    /// Sets the variables of chapter 10.2 to their defaults, except those that the controller keeps current. The shared
+    /// ones are reset by the first channel.
     pub(crate) fn reset(&self) {
         self.reset_own();
         if self.channel == ChannelId::FIRST {
@@ -270,20 +270,20 @@ impl System {
         self.common.shown_own().into_iter().chain(self.shown_own()).collect()
     }
 
-    /// Whether a variable may have changed of which every change is kept.
+    /// Whether a variable may have changed all of whose changes are stored.
     #[inline]
     pub(crate) fn has_changed(&self) -> bool {
         self.has_changed_own() || self.common.has_changed_own()
     }
 
-    /// The variables that are kept when the controller is switched off, as this channel sees them.
+    /// The variables that are stored when the controller is switched off, as this channel sees them.
     pub(crate) fn kept(&self) -> Vec<RetainedVariable<'_>> {
         let mut kept = self.common.kept_own();
         kept.extend(self.kept_by_channel());
         kept
     }
 
-    /// Those of them that are the channel's own: where its robot stands.
+    /// The channel's own ones among them: the base of its robot.
     pub(crate) fn kept_by_channel(&self) -> Vec<RetainedVariable<'_>> {
         let ChannelId::Foreground(number) = self.channel else { return Vec::new() };
         let own = self.kept_own().into_iter();
@@ -317,7 +317,7 @@ impl System {
 }
 
 impl System {
-    /// Writes to `$BASE` where the robot stands in the world.
+    /// Sets the base of the robot in the world in `$BASE`.
     pub(crate) fn stand_on(&self, base: Frame) {
         self.base.update(|bases| {
             if let Some(first) = bases.first_mut() {
@@ -327,7 +327,7 @@ impl System {
     }
 }
 
-/// `$PGNO` while no program number was given.
+/// `$PGNO` before a program number was given.
 const NO_PROGRAM_NUMBER: i32 = -1;
 
 /// The default of `$DFSPEED`.
@@ -344,16 +344,16 @@ impl Default for System {
     }
 }
 
-/// What the files of `$BASE` are called, by the number of the channel.
+/// The names of the files of `$BASE`, by the number of the channel.
 const BASES: [&str; MOST_FOREGROUND + 1] = ["BASE", "BASE", "BASE.2", "BASE.3", "BASE.4", "BASE.5", "BASE.6"];
 
-/// A variable that is kept when the controller is switched off.
+/// A variable that is stored when the controller is switched off.
 pub(crate) struct RetainedVariable<'a> {
     /// The name without `$`.
     pub(crate) name: &'static str,
-    /// What its file is called.
+    /// The name of its file.
     stored: &'static str,
-    /// Whether every change is kept, not only what `savesv` saves.
+    /// Whether every change is stored, not only what `savesv` saves.
     always: bool,
     slot: &'a dyn Slot,
     default: fn() -> String,
@@ -369,7 +369,7 @@ impl<'a> RetainedVariable<'a> {
         state.save(self.stored, self.slot.write(), disk)
     }
 
-    /// Gives it the value that was saved last, as far as this controller knows; otherwise its default.
+    /// Sets it to the value that was saved last, where this controller has that; otherwise to its default.
     fn restore(&self, state: &KeptState) {
         match state.known(self.stored) {
             Some(text) => self.slot.read(text),
@@ -433,7 +433,7 @@ fn encode<T: StateFormat>(value: &T) -> String {
     text
 }
 
-/// Gives kept variables the values that were saved last.
+/// Sets stored variables to the values that were saved last.
 pub(crate) fn load(variables: &[RetainedVariable<'_>], state: &mut KeptState) -> Result<(), StateError> {
     for kept in variables {
         let text = state.load(kept.stored)?;
@@ -447,8 +447,8 @@ pub(crate) fn load(variables: &[RetainedVariable<'_>], state: &mut KeptState) ->
     Ok(())
 }
 
-/// Sets the variables of chapter 10.1 to what was saved last, and the names and program numbers of chapter 10.2 to
-/// their defaults.
+/// Sets the variables of chapter 10.1 to the values that were saved last, and the names and program numbers of chapter
+/// 10.2 to their defaults.
 pub(crate) fn restore(system: &System, state: &KeptState) {
     system.pgno.set(NO_PROGRAM_NUMBER);
     for kept in system.kept() {
@@ -464,7 +464,7 @@ pub(crate) fn restore(system: &System, state: &KeptState) {
     }
 }
 
-/// Begins to save the variables of which every change is kept, where they have changed.
+/// Begins to save the variables all of whose changes are stored, where they have changed.
 pub(crate) fn store_changed(system: &System, state: &mut KeptState, disk: &Disk) -> Result<(), StateError> {
     for kept in system.kept() {
         if kept.always && kept.slot.take_changed() {
@@ -488,7 +488,7 @@ mod tests {
     use arl_lang::catalog::{Access, Base, Family, Restore, SystemVariable};
     use arl_lang::symbol::Interner;
 
-    /// The default of the catalog, put into a fresh variable of our type.
+    /// Puts the default of the catalog into a fresh variable of our type.
     fn catalog_default(variable: &SystemVariable, slot: &dyn Teach) -> bool {
         let mut names = Interner::default();
         let parsed = arl_lang::parse_expression(variable.default, &mut names, Default::default());

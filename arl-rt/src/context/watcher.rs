@@ -1,4 +1,4 @@
-//! Who is told of each statement of a program that was emitted for a debugger.
+//! A watcher that is called at each statement of a program that was emitted for a debugger.
 
 use crate::context::cx::Cx;
 use crate::fault::Alarm;
@@ -8,21 +8,21 @@ use crate::fault::Alarm;
 pub(crate) enum Go {
     /// The statement runs.
     On,
-    /// It is asked again in the next cycle.
+    /// The watcher is asked again in the next cycle.
     NotYet,
 }
 
-/// Who is told of each statement, and may halt the program there.
+/// Is called at each statement, and may halt the program there.
 ///
-/// Where time is the controller's own, it may come back late: all stands still in the meantime, and the run is the
-/// same.
+/// Where the controller's time is not real time, a call may return late: everything stands still in the meantime, and
+/// the run is the same.
 pub(crate) trait Watcher {
     /// A statement is about to run, in the frame with this number.
     fn statement(&self, cx: &Cx, frame: u64) -> Go;
 
-    /// Whether what was halted goes on.
+    /// Whether a halted program goes on.
     fn goes_on(&self) -> Go;
 
-    /// Something went wrong; the frames are still there.
+    /// A fault was raised; the frames still exist.
     fn alarm(&self, alarm: &Alarm);
 }

@@ -15,14 +15,14 @@ macro_rules! variables {
     };
 }
 
-/// The variables that have one value.
+/// The variables with one value.
 const VARIABLES: &[(&str, Set)] = variables! {
     ext_ctl_act_di servo_on_di servo_off_di start_prog_di pause_prog_di reset_prog_di clear_alarm_di
     pgno_type pgno_length pgno_fbit_di pgno_parity_di pgno_valid_di
     ext_ctl_act_conf_do servo_on_do pgno_req_do at_t1_do at_t2_do at_aut_do pgno_ack_fbit_do chan_state_do
 };
 
-/// The one that has five.
+/// The variable with five values.
 const AT_HOME: (&str, Set) = ("at_home_do", |system, values| {
     system.at_home_do.update(|channels| channels.iter_mut().zip(values).for_each(|(place, value)| *place = *value));
 });
@@ -31,7 +31,7 @@ fn all() -> impl Iterator<Item = &'static (&'static str, Set)> {
     VARIABLES.iter().chain(std::iter::once(&AT_HOME))
 }
 
-/// Sets the system variables that the cell wires; the others stay.
+/// Sets the system variables that the cell wires; the others keep their values.
 pub(crate) fn apply(wiring: &Wiring, system: &Common) {
     for (name, values) in wiring.given() {
         if let Some((_, set)) = all().find(|(known, _)| *known == name) {

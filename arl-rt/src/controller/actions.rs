@@ -1,4 +1,4 @@
-//! The actions of events that run: each on top of what it interrupts.
+//! The running actions of events, each on top of what it interrupts.
 
 use std::rc::Rc;
 use std::task::{Context, Poll};
@@ -10,16 +10,16 @@ use crate::fault::Done;
 /// An action that has begun.
 struct Action {
     event: Due,
-    /// What it interrupted.
+    /// The level that it interrupted.
     level: Level,
     /// The program pointer of what it interrupted.
     pointer: Pointer,
 }
 
-/// More cannot run at once, each being interrupted only by one of higher priority.
+/// The most actions that can run at once, as each can be interrupted only by one of higher priority.
 const MAX_ACTIONS: usize = 256;
 
-/// The actions that run, the one on top last.
+/// The running actions, the topmost one last.
 pub(super) struct Actions {
     stack: Vec<Action>,
 }
@@ -31,17 +31,17 @@ impl Default for Actions {
 }
 
 impl Actions {
-    /// Whether none runs.
+    /// Whether no action runs.
     pub(super) fn is_empty(&self) -> bool {
         self.stack.is_empty()
     }
 
-    /// Drops them all where they are.
+    /// Drops all actions where they are.
     pub(super) fn clear(&mut self) {
         self.stack.clear();
     }
 
-    /// Begins the action of the event that comes next, if it may interrupt what runs.
+    /// Begins the action of the next event that is due, if it may interrupt what runs.
     pub(super) fn begin(&mut self, cx: &Rc<Cx>) {
         let running = self.stack.last().map(|action| action.event.priority);
         let Some(mut event) = cx.events().borrow_mut().take_due(running) else { return };
@@ -51,7 +51,7 @@ impl Actions {
         self.stack.push(Action { event, level, pointer: cx.pointer() });
     }
 
-    /// Lets the action on top run until it waits; one that has ended makes room for what it interrupted. `None`: no
+    /// Lets the topmost action run until it waits; one that has ended makes room for what it interrupted. `None`: no
     /// action runs.
     pub(super) fn poll(&mut self, cx: &Cx, context: &mut Context<'_>) -> Option<Poll<Done<()>>> {
         let top = self.stack.last_mut()?;

@@ -1,4 +1,4 @@
-//! A channel: a program, how far it has come, and its robot.
+//! A channel: a program, its progress, and its robot.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
@@ -18,17 +18,17 @@ use crate::storage::data;
 use crate::storage::pointers::CurrentPointers;
 use crate::unit::RobotCycle;
 
-/// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
+/// How many bytes of stack a program may use in one poll by default: half of what a thread gets.
 pub(super) const PROGRAM_STACK_BYTES: usize = 1 << 20;
 
-/// After so many cycles of rest the program has seen that its robot rests: the one in which it came to rest, and one
+/// After this many cycles of rest the program has seen that its robot rests: the one in which it came to rest, and one
 /// more.
 const SEEN_AT_REST: u32 = 2;
 
-/// After so many cycles of rest a robot has settled, and each further cycle leaves all that it knows of it as it was.
+/// After this many cycles of rest a robot has settled, and further cycles change nothing in its state.
 const LONG_AT_REST: u32 = 64;
 
-/// What the program does.
+/// The phase of the program.
 enum Phase {
     /// Its statements run.
     Running(RunningProgram),
@@ -44,21 +44,21 @@ enum Phase {
 #[derive(Clone)]
 enum Next {
     Restart,
-    /// From its beginning after a reset: the loop running mode.
+    /// The program begins again after a reset: the loop running mode.
     Again,
     End(Outcome),
 }
 
-/// What a program does that does nothing by itself.
+/// The state of a program that does nothing by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Repose {
     /// It has ended.
     Ended,
-    /// It waits for what does not come by itself.
+    /// It waits for something that does not come by itself.
     Waiting(WaitsFor),
 }
 
-/// A program, how far it has come, and its robot.
+/// A program, its progress, and its robot.
 pub(super) struct Channel {
     channel_state: Rc<ChannelState>,
     program: Rc<dyn Program>,
@@ -66,7 +66,7 @@ pub(super) struct Channel {
     stack: usize,
     phase: Phase,
     actions: Actions,
-    /// The alarm of a condition in this cycle.
+    /// The alarm of an event's condition in this cycle.
     seen: Result<(), Alarm>,
     trace: Option<Trace>,
     /// Whether the program ran at the start of this cycle.
@@ -75,7 +75,7 @@ pub(super) struct Channel {
     exits: bool,
     /// For how many cycles its robot has had nothing to do.
     rested: u32,
-    /// After how many cycles of the controller it ended last.
+    /// The number of the controller's cycles after which it last ended.
     ended_after: u64,
 }
 
@@ -108,7 +108,7 @@ impl Channel {
     }
 
     /// Starts the program from its beginning, global variables included. Pulses end, and the system variables of the
-    /// manual's chapter 10.2 are at their defaults; the robot stays where it is.
+    /// manual's chapter 10.2 get their defaults; the robot stays where it is.
     pub(super) fn reset(&mut self) {
         self.channel_state.shared.io.borrow_mut().end_pulses(self.channel_state.index);
         if let Some(mut unit) = self.channel_state.robot_mut() {
@@ -138,7 +138,7 @@ impl Channel {
         &self.channel_state
     }
 
-    /// The program and motion pointers, as far as they are not those that were kept.
+    /// The program and motion pointers, where they are not the stored ones.
     pub(super) fn pointers(&self) -> CurrentPointers {
         let motion = self.channel_state.robot().and_then(|unit| unit.motion_pointer());
         CurrentPointers { program: self.channel_state.begun.get().then(|| self.cx.place()), motion }
@@ -158,12 +158,12 @@ impl Channel {
         }
     }
 
-    /// After how many cycles of the controller the program ended, when it has.
+    /// The number of the controller's cycles after which the program ended; `None` while it runs.
     pub(super) fn ended_after(&self) -> Option<u64> {
         matches!(self.phase, Phase::Ended(_)).then_some(self.ended_after)
     }
 
-    /// How the program ended, when it has.
+    /// How the program ended; `None` while it runs.
     pub(super) fn outcome(&self) -> Option<&Outcome> {
         match &self.phase {
             Phase::Ended(outcome) if !self.cx.is_loading() => Some(outcome),
@@ -171,7 +171,7 @@ impl Channel {
         }
     }
 
-    /// What the program has done in this cycle, the last one, if neither it nor its robot did anything.
+    /// The state of the program in `cycle`, the last one, if neither the program nor its robot did anything in it.
     pub(super) fn repose(&self, cycle: u64) -> Option<Repose> {
         if self.outcome().is_some() {
             return Some(Repose::Ended);
@@ -182,7 +182,7 @@ impl Channel {
             Phase::Running(_) | Phase::Concluding if paused => WaitsFor::StartButton,
             Phase::Running(_) => self.cx.waits_in(cycle)?,
             Phase::Concluding if !self.actions.is_empty() => self.cx.waits_in(cycle)?,
-            // Statements have ended, and an interrupt may start what is stopped.
+            // The statements have ended; an interrupt may still start the stopped motion.
             Phase::Concluding => WaitsFor::Motion,
             Phase::RunningOut(_) if is_at_zero() => WaitsFor::Motion,
             Phase::RunningOut(_) | Phase::Ended(_) => return None,
@@ -193,7 +193,7 @@ impl Channel {
         })
     }
 
-    /// Whether something of it was under way in this cycle, the last one, beside what its program waits for.
+    /// Whether anything of this channel was under way in `cycle`, the last one, besides what its program waits for.
     fn goes_on(&self, cycle: u64) -> bool {
         let paused = self.channel_state.paused.get();
         self.cx.is_loading()
@@ -204,8 +204,8 @@ impl Channel {
             || (self.channel_state.robot().is_some() && self.rested < SEEN_AT_REST)
     }
 
-    /// The cycle before which nothing of it changes by itself, judged by this cycle, the last one; a trace has a row
-    /// for each cycle.
+    /// The cycle before which nothing of this channel changes by itself, judged by `cycle`, the last one. A trace has a
+    /// row for each cycle, so a channel that writes one returns `None`.
     pub(super) fn quiet_until(&self, cycle: u64) -> Option<u64> {
         let waits_for_time = || {
             let runs = matches!(self.phase, Phase::Running(_)) && !self.channel_state.paused.get();
@@ -217,7 +217,7 @@ impl Channel {
         (stands && !has_rows).then_some(until)
     }
 
-    /// Looks for events.
+    /// Checks the conditions of events.
     pub(super) fn scan_events(&mut self) {
         self.running = self.outcome().is_none();
         self.seen = if self.has_statements() {
@@ -228,7 +228,7 @@ impl Channel {
         };
     }
 
-    /// Exchanges the program where another one is wanted and nothing of this one is left.
+    /// Exchanges the program where another one is to be loaded and this one has ended.
     fn exchange(&mut self) {
         self.end(Outcome::Stopped);
         if matches!(self.phase, Phase::Ended(_))
@@ -260,7 +260,7 @@ impl Channel {
             let mut done = seen.map_err(Reason::Alarm).and_then(|()| self.or_end(Self::run));
             while let Err(reason) = done {
                 self.leave(reason);
-                // After `exit` the motion that is left may have triggers.
+                // After `exit` the remaining motion may have triggers.
                 let concludes = matches!(self.phase, Phase::Concluding);
                 done = if concludes { self.or_end(Self::run) } else { Ok(()) };
             }
@@ -272,7 +272,8 @@ impl Channel {
             }
             self.phase = match next {
                 _ if moving || !self.cx.connections().are_settled() => return,
-                // It starts in the next cycle, so that a program of nothing but `restart` does not hold up the others.
+                // The program starts in the next cycle, so that one that only does `restart` does not hold up the
+                // others.
                 Next::Restart => Phase::Running(again(Rc::clone(&self.program), Rc::clone(&self.cx))),
                 Next::Again => {
                     let steps = self.channel_state.stepping.on.get();
@@ -294,10 +295,10 @@ impl Channel {
         matches!(self.phase, Phase::Running(_) | Phase::Concluding)
     }
 
-    /// One step of the robot and of its trace, at `time` seconds.
-    pub(super) fn step_robot(&mut self, time: f64, beat: RobotCycle) {
+    /// One step of the robot and of its trace, at `time` in s.
+    pub(super) fn step_robot(&mut self, time: f64, robot_cycle: RobotCycle) {
         let Some(mut unit) = self.channel_state.robot_mut() else { return };
-        unit.step(beat);
+        unit.step(robot_cycle);
         let goes_on = unit.moves() && !self.channel_state.paused.get() && !unit.is_at_zero_override();
         let rests = unit.rests() && !goes_on;
         self.rested = if rests { self.rested.saturating_add(1) } else { 0 };
@@ -309,7 +310,7 @@ impl Channel {
         {
             trace.row(time, &unit);
         }
-        // A step over motion that was planned before ends with it.
+        // A step that executes motion planned earlier ends with that motion.
         if self.channel_state.stepping.until.get().is_some_and(|motion| unit.is_over(motion)) {
             self.channel_state.stepping.until.set(None);
             self.channel_state.paused.set(true);
@@ -318,7 +319,7 @@ impl Channel {
         }
     }
 
-    /// Ends the program for what went wrong apart from its statements.
+    /// Ends the program for a fault that did not come from its statements.
     pub(super) fn handle_pending_alarm(&mut self) {
         self.channel_state.warn_of_missing_blends(self.cx.shared());
         if let Some(alarm) = self.channel_state.take_pending_alarm() {
@@ -326,7 +327,7 @@ impl Channel {
         }
     }
 
-    /// Ends the program before it acts on inputs that are lost. One without a robot goes on.
+    /// Ends the program before it acts on lost inputs. A program without a robot goes on.
     pub(super) fn fail_for_lost_io(&mut self, why: &str) {
         if self.channel_state.robot().is_some() && self.has_statements() {
             let (file, line) = self.cx.place();
@@ -341,7 +342,7 @@ impl Channel {
         }
     }
 
-    /// Ends the program where its robot had to do without set-points. One without a robot goes on.
+    /// Ends the program where its robot had to do without set-points. A program without a robot goes on.
     pub(super) fn fail_for_lost_cycles(&mut self, why: &str) {
         if self.channel_state.robot().is_some() && !matches!(self.phase, Phase::Ended(_)) {
             let (file, line) = self.cx.place();
@@ -356,10 +357,10 @@ impl Channel {
         }
     }
 
-    /// Ends the program by an alarm, which is told where that has ended already, too.
+    /// Ends the program with an alarm, which is also reported where the program has ended already.
     fn alarm(&mut self, alarm: Alarm) {
         if matches!(self.phase, Phase::Ended(_) | Phase::RunningOut(Next::End(Outcome::Alarm(_)))) {
-            // What ended the program stays its outcome.
+            // The outcome of the program does not change.
             self.channel_state.alarmed.set(true);
             self.channel_state.shared.alarm(Alarm { channel: self.channel_state.id, ..alarm }, false);
         } else {
@@ -367,7 +368,7 @@ impl Channel {
         }
     }
 
-    /// Does what is due when the program has ended in this cycle.
+    /// Does what is due in the cycle in which the program has ended.
     pub(super) fn finish_cycle(&mut self) {
         if !self.running || self.outcome().is_none() {
             return;
@@ -380,8 +381,8 @@ impl Channel {
         }
     }
 
-    /// Does something of the program. What panics, in a program in Rust, ends the program before the panic goes on to
-    /// whoever steps the controller: it would panic in every cycle.
+    /// Runs code of the program. A panic, in a program in Rust, ends the program before it goes on to the caller of the
+    /// controller's step: otherwise the program would panic in every cycle.
     fn or_end<T>(&mut self, run: impl FnOnce(&mut Self) -> T) -> T {
         catch_unwind(AssertUnwindSafe(|| run(self))).unwrap_or_else(|panic| {
             self.end(Outcome::Stopped);
@@ -389,11 +390,12 @@ impl Channel {
         })
     }
 
-    /// Runs what is on top until it waits; what has ended makes room for what it interrupted.
+    /// Runs the topmost action or the program until it waits; an action that has ended makes room for what it
+    /// interrupted.
     fn run(&mut self) -> Result<(), Reason> {
         let mut context = Context::from_waker(Waker::noop());
         loop {
-            // While the program is paused nothing of it begins.
+            // While the program is paused no action begins.
             if !self.channel_state.paused.get() {
                 self.actions.begin(&self.cx);
             }
@@ -423,7 +425,7 @@ impl Channel {
         }
     }
 
-    /// Whether nothing is left to be done once the statements have ended.
+    /// Whether nothing is left to do once the statements have ended.
     fn is_concluded(&self) -> bool {
         let channel_state = &self.channel_state;
         if !self.cx.events().borrow().watches() && channel_state.drop_suspended() {
@@ -447,10 +449,10 @@ impl Channel {
 
     /// Ends the program for a reason that came from its statements.
     fn leave(&mut self, reason: Reason) {
-        // Nobody is left who could start what is stopped.
+        // No statement is left that could start the stopped motion.
         self.channel_state.drop_suspended();
         match reason {
-            // Motion that is planned keeps its triggers.
+            // Planned motion keeps its triggers.
             Reason::Exit => {
                 self.exits = true;
                 self.cx.events().borrow_mut().keep_to_motions();
@@ -464,7 +466,7 @@ impl Channel {
         }
     }
 
-    /// Ends the program and all that it has declared.
+    /// Ends the program and drops all events and connections that it has declared.
     fn end_with(&mut self, next: Next) {
         self.actions.clear();
         self.cx.forget_events();
@@ -486,13 +488,14 @@ impl Channel {
         }
     }
 
-    /// Ends the program from outside, and forgets the one that was to run next.
+    /// Ends the program from outside, and drops the one that was to run next.
     pub(super) fn stop(&mut self) {
         drop(self.cx.take_next());
         self.end(Outcome::Stopped);
     }
 
-    /// Ends the program where it is and stops its motion on the path. An alarm that ends it already stays its outcome.
+    /// Ends the program where it is and stops its motion on the path. Where an alarm is already ending it, that stays
+    /// its outcome.
     pub(super) fn end(&mut self, outcome: Outcome) {
         let outcome = match &self.phase {
             Phase::RunningOut(Next::End(alarm @ Outcome::Alarm(_))) => alarm.clone(),
@@ -506,14 +509,14 @@ impl Channel {
     }
 }
 
-/// The whole life of a program.
+/// The whole run of a program.
 fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> RunningProgram {
     Box::pin(async move {
         program.init(&cx).await?;
         let shared = cx.shared();
         let mut alarms = data::reload(&program.data(), &shared.scripts.path().join(program.folder())).into_iter();
         if let Some(first) = alarms.next() {
-            // The first one ends the program, and is noted then; all of them come to the user.
+            // The first alarm ends the program, and is reported then; the others are reported here.
             let channel = cx.channel_state().id;
             alarms.for_each(|alarm| shared.alarm(Alarm { channel, ..alarm }, false));
             return Err(Stop::alarm(first));

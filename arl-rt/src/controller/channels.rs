@@ -25,12 +25,12 @@ impl Channels {
         &self.first
     }
 
-    /// All of them, in their order.
+    /// All channels, in their order.
     pub(super) fn iter(&self) -> impl Iterator<Item = &Channel> {
         std::iter::once(&self.first).chain(&self.others)
     }
 
-    /// Those with a robot, in their order.
+    /// The channels with a robot, in their order.
     pub(super) fn foreground(&self) -> impl Iterator<Item = &Channel> {
         self.iter().filter(|channel| matches!(channel.channel_state().id, ChannelId::Foreground(_)))
     }
@@ -45,15 +45,15 @@ impl Channels {
         self.iter().filter_map(|channel| channel.channel_state().shared_unit())
     }
 
-    /// Does something to each of them, in their order.
+    /// Calls `act` for each channel, in their order.
     #[inline]
     pub(super) fn each(&mut self, mut act: impl FnMut(&mut Channel)) {
         act(&mut self.first);
         self.others.iter_mut().for_each(act);
     }
 
-    /// How the programs ended, when those of all foreground channels have: with the alarm of the first channel that has
-    /// one, otherwise as that of the first channel did.
+    /// How the programs ended, once those of all foreground channels have: with the alarm of the first channel that has
+    /// one, otherwise as the program of the first channel did.
     pub(super) fn outcome(&self) -> Option<&Outcome> {
         let first = self.first.outcome()?;
         if self.foreground().any(|channel| channel.outcome().is_none()) {

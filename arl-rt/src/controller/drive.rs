@@ -5,11 +5,12 @@ use super::foreground::Body;
 use crate::cycle::clock_source::Clock;
 use crate::unit::robot_driver::{Connect, Driven, DrivenTime};
 
-/// Gives the robots of channels, from 1, the drivers that their settings ask for. A robot that gives the beat becomes
-/// the clock. Returns whether one of them lives in the time of the world, which has to be that of the cycles then.
+/// Gives the robots of channels, from 1, the drivers that their settings ask for. A robot that sets the control cycle
+/// becomes the clock. Returns whether a driver lives in real time, in which the cycles then have to run.
 ///
 /// # Errors
-/// There is no such driver, or none at all, or one that gives the beat is not alone, or their times do not go together.
+/// There is no such driver, or no driver at all, or a robot that sets the control cycle is not the only one driven, or
+/// the times of the robots do not go together.
 pub(super) fn drive<'a>(
     bodies: impl Iterator<Item = &'a mut Body>,
     connect: Connect,

@@ -9,7 +9,7 @@ use crate::values;
 use arl_robot::cell::{DriverSettings, Homes, Sensitivity};
 use arl_robot::robot::Robot;
 
-/// A foreground channel: a program and its own robot. Without more it is the default robot of the program's family,
+/// A foreground channel: a program and its own robot. By default that is the default robot of the program's family,
 /// simulated.
 pub struct Foreground {
     pub(super) program: Box<dyn Program>,
@@ -22,12 +22,12 @@ pub(super) struct Body {
     pub(super) driver: Box<dyn RobotDriver>,
     /// Whether the driver is not ours.
     pub(super) has_driver: bool,
-    /// What the cell says of the driver, which counts where robots are driven and none was given.
+    /// The cell's settings for the driver, which count where robots are driven and no driver was given.
     pub(super) settings: Option<DriverSettings>,
     pub(super) trace: Option<Box<dyn Write>>,
     pub(super) homes: Homes,
     pub(super) collisions: Vec<(u8, Sensitivity)>,
-    /// Where it stands in the world, where the cell says it.
+    /// The robot's base in the world, where the cell gives it.
     pub(super) base: Option<values::Frame>,
 }
 
@@ -47,7 +47,7 @@ impl Default for Body {
 }
 
 impl Body {
-    /// Its robot is moved by this.
+    /// Moves the robot with this driver.
     pub(super) fn drive(&mut self, driver: impl RobotDriver + 'static) {
         (self.driver, self.has_driver) = (Box::new(driver), true);
     }
@@ -59,25 +59,25 @@ impl Foreground {
         Self { program: Box::new(program), body: Body::default() }
     }
 
-    /// The robot; without it the default robot of the program's family.
+    /// The robot; by default the default robot of the program's family.
     pub fn robot(mut self, robot: Robot) -> Self {
         self.body.robot = Some(robot);
         self
     }
 
-    /// What moves the robot.
+    /// The driver of the robot.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
         self.body.drive(driver);
         self
     }
 
-    /// What moves the robot where [`Builder::drivers`](super::Builder::drivers) says so.
+    /// The settings of the robot's driver, which [`Builder::drivers`](super::Builder::drivers) makes from them.
     pub fn driver_settings(mut self, settings: DriverSettings) -> Self {
         self.body.settings = Some(settings);
         self
     }
 
-    /// Where the trace of this robot goes, as CSV.
+    /// The writer for the trace of this robot, as CSV.
     pub fn trace(mut self, writer: impl Write + 'static) -> Self {
         self.body.trace = Some(Box::new(writer));
         self
@@ -89,14 +89,14 @@ impl Foreground {
         self
     }
 
-    /// The conditions of `startdetect` of this robot by their numbers; of those that are not there, 20 %.
+    /// The conditions of `startdetect` for this robot by their numbers; for those that are missing, 20 %.
     pub fn collisions(mut self, conditions: Vec<(u8, Sensitivity)>) -> Self {
         self.body.collisions = conditions;
         self
     }
 
-    /// Where the robot's base stands in the world, in mm and deg: `$BASE[0]` from the start on, whatever was saved.
-    /// Without it that is what was saved, or the world's origin.
+    /// The robot's base in the world, in mm and deg: `$BASE[0]` from the start on, whatever was saved. By default that
+    /// is what was saved, or the world's origin.
     pub fn base(mut self, base: values::Frame) -> Self {
         self.body.base = Some(base);
         self

@@ -1,4 +1,4 @@
-//! The door for other threads: a controller stays on its own, and does between two cycles what they ask.
+//! Access for other threads: a controller stays on its own thread, and carries out their requests between two cycles.
 
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,17 +14,17 @@ use crate::cycle::try_lock::try_lock;
 use crate::fault::Fault;
 use crate::io::Pendant;
 
-/// How long a thread waits for a controller that nobody steps, where it does not say otherwise.
+/// How long a thread waits by default for a controller that is not stepped.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What somebody wants done between two cycles.
+/// A request to be carried out between two cycles.
 type Call = Box<dyn FnOnce(&mut Controller) + Send>;
 
-/// A controller as other threads have it: buttons, inputs and outputs, how everything stands, what happens.
+/// Access to a controller for other threads: buttons, inputs and outputs, status, events.
 ///
-/// It can be cloned and sent. All that it does is done by the thread of the controller, at the beginning of its next
-/// cycle, in the order in which it was asked. So two threads never disturb each other, and a program sees inputs change
-/// between its cycles only. As long as a handle is there, a program that waits is no
+/// It can be cloned and sent. All requests are carried out by the thread of the controller, at the beginning of its
+/// next cycle, in the order in which they were made. So two threads never disturb each other, and a program sees inputs
+/// change between its cycles only. As long as a handle exists, a program that waits is not a
 /// [standstill](Controller::standstill).
 ///
 /// ```
@@ -55,21 +55,21 @@ type Call = Box<dyn FnOnce(&mut Controller) + Send>;
 /// ```
 #[derive(Clone)]
 pub struct Handle {
-    /// The controller's: gone when that is.
+    /// The controller's desk, dropped with it.
     desk: Weak<Desk>,
     thread: ThreadId,
     patience: Duration,
 }
 
 impl Handle {
-    /// The same handle, which waits so long for a controller that nobody steps; without it 1 s.
+    /// The same handle, with another time to wait for a controller that is not stepped; the default is 1 s.
     pub fn patience(mut self, patience: Duration) -> Self {
         self.patience = patience;
         self
     }
 
-    /// Lets the controller's thread do something between two cycles, and waits for what comes of it. The cycle waits,
-    /// too, so it has to be quick. A panic in it is this thread's loss only.
+    /// Lets the controller's thread call `question` between two cycles, and waits for the result. The cycle waits, too,
+    /// so `question` has to be quick. A panic in it affects this thread's call only.
     ///
     /// # Errors
     /// The controller is gone, or was not stepped in time; or this is its own thread, as in a closure that it calls.
@@ -82,7 +82,7 @@ impl Handle {
             return Err(HandleError::OwnThread);
         }
         let (answer, answered) = mpsc::sync_channel(1);
-        // Whoever sets it first decides: it is done, or nobody waits for it any more.
+        // Whichever thread sets it first decides: the call is made, or it is no longer waited for.
         let decided = Arc::new(AtomicBool::new(false));
         let in_time = Arc::clone(&decided);
         let call = Box::new(move |controller: &mut Controller| {
@@ -95,7 +95,7 @@ impl Handle {
             Err(RecvTimeoutError::Timeout) if !decided.swap(true, Ordering::AcqRel) => {
                 return Err(HandleError::NotStepped);
             }
-            // It is being done right now.
+            // The call is being made right now.
             Err(RecvTimeoutError::Timeout) => answered.recv().map_err(|_| HandleError::Gone)?,
             Err(RecvTimeoutError::Disconnected) => return Err(HandleError::Gone),
             Ok(answer) => answer,
@@ -108,7 +108,7 @@ impl Handle {
         thread::current().id() == self.thread
     }
 
-    /// It is nobody's any more.
+    /// Detaches this handle from the controller.
     pub(super) fn forget(&mut self) {
         self.desk = Weak::new();
     }
@@ -121,7 +121,7 @@ impl Handle {
         self.ask(move |controller| controller.press(button))
     }
 
-    /// Does what an event of a scenario does, as [`Controller::order`]: `di.5 = true`, `pendant = "pause"`.
+    /// Carries out the words of a scenario's event, as [`Controller::order`]: `di.5 = true`, `pendant = "pause"`.
     ///
     /// # Errors
     /// As [`ask`](Handle::ask); or the text is not an order, and nothing was done.
@@ -162,7 +162,7 @@ impl Handle {
         Ok(self.ask(move |controller| controller.analog_output(channel))??)
     }
 
-    /// How everything stands.
+    /// The status of the controller.
     ///
     /// # Errors
     /// As [`ask`](Handle::ask).
@@ -181,13 +181,14 @@ impl Handle {
     /// Cuts the power of all robots, as [`Controller::emergency_stop`].
     ///
     /// # Errors
-    /// As [`ask`](Handle::ask): then nothing was cut. A real cell has a button for this that needs no program.
+    /// As [`ask`](Handle::ask): then the power was not cut. A real cell has a button for this that needs no program.
     pub fn emergency_stop(&self) -> Result<(), HandleError> {
         self.ask(Controller::emergency_stop)
     }
 
-    /// What happens from now on: messages, warnings, alarms, and each change of the state. They are kept until somebody
-    /// takes them; dropping the receiver ends it. [`Builder::events`](super::Builder::events) has all from the start.
+    /// Events from now on: messages, warnings, alarms, and each change of the state. They are kept until they are
+    /// received; dropping the receiver ends this. [`Builder::events`](super::Builder::events) delivers all from the
+    /// start.
     ///
     /// # Errors
     /// As [`ask`](Handle::ask).
@@ -204,19 +205,19 @@ impl fmt::Debug for Handle {
     }
 }
 
-/// Why a [`Handle`] could not do something.
+/// The reason why a [`Handle`] could not do something.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum HandleError {
-    /// There is no controller any more.
+    /// The controller does not exist any more.
     Gone,
-    /// This is the thread of the controller itself, which would wait for itself.
+    /// This is the controller's own thread, which would wait for itself.
     OwnThread,
-    /// What was asked has panicked.
+    /// The requested closure has panicked.
     Panicked,
-    /// Nobody stepped the controller in time. Nothing was done, and nothing of it will be.
+    /// The controller was not stepped in time. Nothing was done, nor will it be.
     NotStepped,
-    /// It is not an order, or cannot be carried out.
+    /// The text is not an order, or the order cannot be carried out.
     Order(OrderError),
     /// There is no such input or output, or it cannot carry the value.
     Fault(Fault),
@@ -251,12 +252,13 @@ impl From<Fault> for HandleError {
     }
 }
 
-/// Where questions wait for the next cycle. What nobody answers any more goes with it, and then whoever waits knows.
+/// Where requests wait for the next cycle. Requests that are not carried out any more are dropped with it, which ends
+/// the wait of their threads.
 #[derive(Default)]
 struct Desk {
     /// Locked for moving a pointer only; `any` changes under the lock.
     calls: Mutex<Vec<Call>>,
-    /// Whether there are some: what the cycle looks at.
+    /// Whether there are requests: this is what the cycle checks.
     any: AtomicBool,
 }
 
@@ -268,22 +270,22 @@ impl Desk {
     }
 }
 
-/// What the handles of a controller ask of it.
+/// The requests of a controller's handles.
 #[derive(Default)]
 pub(super) struct HandleCalls(Arc<Desk>);
 
 impl HandleCalls {
-    /// Whether anybody can ask.
+    /// Whether any handle exists.
     pub(super) fn is_open(&self) -> bool {
         Arc::weak_count(&self.0) > 0
     }
 
-    /// All that was asked until now.
+    /// All requests made so far.
     fn take(&self) -> Vec<Call> {
         if !self.0.any.load(Ordering::Acquire) {
             return Vec::new();
         }
-        // Where the lock is held just now, it is the next cycle's business.
+        // Where the lock is held right now, the next cycle takes the requests.
         let Some(mut calls) = try_lock(&self.0.calls) else { return Vec::new() };
         self.0.any.store(false, Ordering::Relaxed);
         std::mem::take(&mut calls)
@@ -296,8 +298,8 @@ impl Controller {
         Handle { desk: Arc::downgrade(&self.calls.0), thread: thread::current().id(), patience: PATIENCE }
     }
 
-    /// Does what handles have asked for until now. What they ask next, having an answer, waits for the next cycle: a
-    /// thread that asks without end does not hold up this one.
+    /// Carries out the requests of handles made so far. What a thread requests next, after its answer, waits for the
+    /// next cycle: a thread that makes requests without end does not hold up this one.
     pub(super) fn answer_handles(&mut self) {
         self.calls.take().into_iter().for_each(|call| call(self));
     }

@@ -1,10 +1,10 @@
-//! When a robot is stopped since too many cycles were lost.
+//! The limit of lost cycles at which robots are stopped.
 
 use std::fmt;
 
 use crate::cycle::clock_source::Lateness;
 
-/// Losses of a second count together, in so many parts of it.
+/// Losses within a second count together; the second is counted in this many parts.
 const PARTS: u64 = 20;
 
 /// Counts the cycles that were lost within a second.
@@ -14,20 +14,20 @@ pub(super) struct LateLimit {
     most: Option<u32>,
     /// How many cycles a part of a second has.
     part_cycles: u64,
-    /// How many were lost in each part of the last second, in a ring.
+    /// How many were lost in each part of the last second, as a ring buffer.
     parts: [Lost; PARTS as usize],
-    /// The part that is counted now, of all since the start.
+    /// The number of the current part, counted since the start.
     newest: u64,
-    /// How many were lost until now.
+    /// How many were lost in total until the last call.
     seen: Lost,
 }
 
 /// How many cycles were lost.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(super) struct Lost {
-    /// All of them.
+    /// All lost cycles.
     all: u64,
-    /// Those of which the beat never came.
+    /// Those whose beat never came.
     missing: u64,
 }
 
@@ -36,7 +36,7 @@ impl Lost {
         Self { all: self.all.saturating_add(more.all), missing: self.missing.saturating_add(more.missing) }
     }
 
-    /// What has been added since; of what begins to count anew, nothing.
+    /// What has been added since `before`; nothing where the count begins again.
     fn since(self, before: Self) -> Self {
         Self { all: self.all.saturating_sub(before.all), missing: self.missing.saturating_sub(before.missing) }
     }
@@ -48,7 +48,7 @@ impl From<&Lateness> for Lost {
     }
 }
 
-/// Why, and how many within a second.
+/// The cause, and how many were lost within a second.
 impl fmt::Display for Lost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { all, missing } = *self;
@@ -66,7 +66,7 @@ impl fmt::Display for Lost {
 }
 
 impl LateLimit {
-    /// So many may be lost within a second, which has so many cycles.
+    /// At most `most` may be lost within a second, which has `cycles` cycles.
     pub(super) fn new(most: Option<u32>, cycles: u64) -> Self {
         Self {
             most,
@@ -77,14 +77,14 @@ impl LateLimit {
         }
     }
 
-    /// What was lost until now counts for nothing: no program ran.
+    /// Lets the losses until now count for nothing: no program ran.
     pub(super) fn forget(&mut self, lost: Lost) {
         self.seen = lost;
         self.parts.fill(Lost::default());
     }
 
-    /// Takes in how many cycles were lost until this one; how many were within a second, where those are too many. They
-    /// are told once.
+    /// Takes in how many cycles were lost until `cycle`. Returns how many were lost within a second, where those are
+    /// too many; they are reported once.
     #[inline]
     pub(super) fn look(&mut self, lost: Lost, cycle: u64) -> Option<Lost> {
         let new = lost.since(std::mem::replace(&mut self.seen, lost));
@@ -92,7 +92,7 @@ impl LateLimit {
         if new.all == 0 {
             return None;
         }
-        // Lost ones took their time, too.
+        // The lost cycles took their time, too.
         let part = (cycle.saturating_add(lost.all) / self.part_cycles).max(self.newest);
         for passed in 0..(part - self.newest).min(PARTS) {
             *self.count(part - passed) = Lost::default();
@@ -117,7 +117,7 @@ impl LateLimit {
 mod tests {
     use super::*;
 
-    /// Lost by a computer that is too busy.
+    /// A loss by a computer that is too busy.
     fn busy(all: u64) -> Lost {
         Lost { all, missing: 0 }
     }
@@ -148,14 +148,14 @@ mod tests {
         // The first ones are more than a second ago.
         assert_eq!(limit.look(busy(30), 1200), None);
         assert_eq!(limit.look(busy(36), 1300), Some(busy(21)));
-        // It is told, and counts no more.
+        // A loss is reported once, and counts no more.
         assert_eq!(limit.look(busy(40), 1301), None);
         assert_eq!(LateLimit::new(None, 1000).look(busy(1000), 5), None);
     }
 
     #[test]
     fn many_small_losses_do_not_add_up_for_ever() {
-        // Each tenth cycle is lost: 91 a second of the world's time.
+        // Each tenth cycle is lost: 91 per second of real time.
         let mut limit = LateLimit::new(Some(100), 1000);
         let found: Vec<Lost> = (1..=2000).filter_map(|at| limit.look(busy(at), 10 * at)).collect();
         assert_eq!(found, []);
@@ -168,7 +168,7 @@ mod tests {
         let mut limit = LateLimit::new(Some(20), 1000);
         limit.forget(busy(5000));
         assert_eq!(limit.look(busy(5010), 1), None);
-        // A clock that begins to count anew has lost nothing.
+        // A clock that begins to count again has lost nothing.
         assert_eq!(limit.look(busy(0), 2), None);
         assert_eq!(limit.look(busy(u64::MAX), u64::MAX), Some(busy(u64::MAX)));
     }

@@ -1,6 +1,6 @@
 //! The controller: it owns the program, the robot, io and the clock, and runs them cycle by cycle.
 //!
-//! It imports all rooms but `command`.
+//! It may import from every other module but `command`.
 
 mod actions;
 mod builder;
@@ -61,21 +61,23 @@ use handle::HandleCalls;
 use late_limit::{LateLimit, Lost};
 use pointer_store::PointerStore;
 
-/// How often changes of system variables are stored of which every one is kept, in s: what a kill may cost.
+/// How often changes of system variables are stored all of whose changes are kept, in s: what a kill of the process may
+/// lose.
 const STORE_INTERVAL_S: f64 = 1.0;
 
 /// Runs a program.
 ///
 /// One [`step`](Controller::step) is one control cycle. In it, always in this order:
 ///
-/// 1. the clock says when the cycle begins;
-/// 2. what other threads ask for is done ([`Handle`]); inputs are read, pulses that are over end, the scenario plays;
-/// 3. the pendant's buttons count, then what a PLC says (external auto control); programs with robots end with an alarm
-///    where inputs are lost that they need, or too many cycles;
-/// 4. the conditions of interrupts, timers and triggers are looked at; then the program runs until it waits, the action
+/// 1. the clock reports when the cycle begins;
+/// 2. requests of other threads are carried out ([`Handle`]); inputs are read, pulses that are over end, the scenario
+///    plays;
+/// 3. the pendant's buttons take effect, then the signals of a PLC (external auto control); programs with robots end
+///    with an alarm where inputs that they need are lost, or too many cycles;
+/// 4. the conditions of interrupts, timers and triggers are checked; then the program runs until it waits, the action
 ///    of an event on top of what it interrupts;
 /// 5. the motion goes one step: set-point to the robot's driver, feedback back, variables like `$TRAJ_LEFT_DIS`;
-/// 6. outputs that waited for a motion change, those that tell a PLC the state follow, all outputs are written, a
+/// 6. outputs that waited for a motion change, then those that report the state to a PLC; all outputs are written, a
 ///    collision stops robot and program, messages are passed on;
 /// 7. the trace gets its row.
 ///
@@ -121,33 +123,34 @@ pub struct Controller {
     unit: Rc<RefCell<Unit>>,
     clock: Box<dyn Clock>,
     late_limit: LateLimit,
-    /// Whether all programs had ended before this cycle: time in which nobody steps is no loss then.
+    /// Whether all programs had ended before this cycle: time in which the controller is not stepped is then no loss.
     had_ended: bool,
-    /// What the cell file has of real inputs and outputs.
+    /// The real inputs and outputs of the cell file.
     islands: Islands,
     io: Box<dyn IoDriver>,
     scenario: Playing,
-    /// What the cell calls signals.
+    /// The cell's names for signals.
     names: Names,
-    /// What a scenario does in this cycle, inputs aside; empty between cycles, with room for all that can come at once.
+    /// What a scenario does in this cycle, except to inputs; empty between cycles, with room for all effects that can
+    /// come at once.
     effects: Vec<Effect>,
     external: External,
-    /// What other threads ask for.
+    /// Requests of other threads.
     calls: HandleCalls,
-    /// The state that those were told last who hear of events.
+    /// The state that the subscribers to events were last notified of.
     told: State,
-    /// What stores where the programs stand, if it is stored at all.
+    /// Stores where the programs stand; `None` where that is not stored.
     pointer_store: Option<PointerStore>,
-    /// Whether somebody outside may change something: drivers that are not ours.
+    /// Whether code outside may change something: drivers that are not ours.
     has_outside: bool,
-    /// No cycle before this one is left out.
+    /// No cycle before this one is skipped.
     awake_until: u64,
-    /// The cycle from which on changes of system variables may be stored again of which every one is kept.
+    /// The first cycle in which changes may be stored again of those system variables all of whose changes are kept.
     stores_from: u64,
 }
 
 impl Controller {
-    /// What a controller can be given before it starts.
+    /// A builder: what a controller can be given before it starts.
     pub fn builder() -> Builder {
         Builder::default()
     }
@@ -173,7 +176,7 @@ impl Controller {
             act(&mut self.channels, effect);
         }
         self.read_external_control();
-        // What has begun may have ended when the cycle is over.
+        // A program that has just begun may have ended by the end of the cycle.
         if !self.shared.subscribers.is_empty() {
             self.tell_state();
         }
@@ -206,7 +209,7 @@ impl Controller {
         self.tell_state()
     }
 
-    /// Tells those who hear of events what the controller does, where it does something else than before.
+    /// Notifies the subscribers to events of the controller's state, where it has changed.
     fn tell_state(&mut self) -> State {
         let state = self.state();
         if std::mem::replace(&mut self.told, state) != state {
@@ -215,8 +218,8 @@ impl Controller {
         state
     }
 
-    /// Takes note of what was stored beside the cycles. Where cycles take no time of the world, what programs wait for
-    /// is stored before the next one, so that a run does not depend on the disk.
+    /// Takes in what was stored beside the cycles. Where cycles do not take real time, what programs wait for is stored
+    /// before the next cycle, so that a run does not depend on the disk.
     fn finish_disk_work(&mut self) {
         let shared = &self.shared;
         if shared.disk.is_waited_for() && !self.clock.is_real() {
@@ -236,8 +239,8 @@ impl Controller {
         self.shared.warn(format!("system variables cannot be saved: {problem}"));
     }
 
-    /// Begins to store the changes of system variables of which every one is kept: once a second at most, and when the
-    /// programs have ended.
+    /// Begins to store the changes of those system variables all of whose changes are kept: once a second at most, and
+    /// when the programs have ended.
     fn store_changed_variables(&mut self) {
         let now = self.shared.now.get();
         let due = || now >= self.stores_from || self.channels.outcome().is_some();
@@ -254,7 +257,7 @@ impl Controller {
         }
     }
 
-    /// Leaves word of where the programs stand.
+    /// Passes on to the storing thread where the programs stand.
     fn note_pointers(&mut self) {
         let Some(pointer_store) = &mut self.pointer_store else { return };
         let pointers = self.channels.foreground().map(Channel::pointers);
@@ -265,7 +268,7 @@ impl Controller {
 
     /// Waits until everything is stored that is stored beside the cycles: system variables, points of programs, and
     /// where the programs stand. What goes wrong is a warning. [`run`](Controller::run) does so at its end; dropping
-    /// the controller does, too, but then nobody hears of it.
+    /// the controller does, too, but its warnings are then lost.
     pub fn settle_state(&mut self) {
         self.shared.disk.settle();
         self.collect_saved();
@@ -279,18 +282,18 @@ impl Controller {
         }
     }
 
-    /// Does what a PLC says.
+    /// Carries out what a PLC requests.
     fn read_external_control(&mut self) {
         let channel_state = self.channels.first().channel_state();
         let shared = &self.shared;
-        let heard = self.external.listen(&external::InputSnapshot {
+        let received = self.external.listen(&external::InputSnapshot {
             io: &shared.io.borrow(),
             system: &channel_state.system,
             cycle: shared.now.get(),
             rate: shared.rate,
             paused: self.channels.state() == State::Paused,
         });
-        let pressed = match heard {
+        let pressed = match received {
             Ok(pressed) => pressed,
             Err(fault) => {
                 let (file, line) = self.channels.first().cx().place();
@@ -299,13 +302,13 @@ impl Controller {
             }
         };
         for button in pressed.into_iter().flatten() {
-            // A program that has ended begins again by the start signal, not by the reset.
+            // A program that has ended begins again at the start signal, not at the reset.
             let button = match (button, self.channels.state()) {
                 (Pendant::Start, State::Ended) => Pendant::Reset,
                 (Pendant::Reset, State::Ended) => continue,
                 _ => button,
             };
-            // Its time goes on while a scenario plays the PLC.
+            // The scenario's time goes on while the scenario plays the PLC.
             if self.scenario_starts() {
                 pendant::press(&mut self.channels, button);
             } else {
@@ -314,7 +317,7 @@ impl Controller {
         }
     }
 
-    /// Passes on what those tell who exchange inputs and outputs.
+    /// Passes on warnings and faults of the islands and the io driver.
     fn report_io_problems(&mut self) {
         while let Some(warning) = self.islands.take_warning().or_else(|| self.io.take_warning()) {
             self.shared.warn(warning);
@@ -324,7 +327,7 @@ impl Controller {
         }
     }
 
-    /// Passes on what the drivers of robots tell.
+    /// Passes on the warnings of the robots' drivers.
     fn report_robots(&mut self) {
         for channel in self.channels.iter() {
             let state = channel.channel_state();
@@ -334,7 +337,7 @@ impl Controller {
         }
     }
 
-    /// Stops robots where too many cycles were lost: between two set-points they had to do without.
+    /// Stops robots where too many cycles were lost: they had to do without set-points for that time.
     fn look_for_lost_cycles(&mut self, cycle: u64) {
         let lost = self.clock.lateness().map(Lost::from).unwrap_or_default();
         if self.had_ended {
@@ -346,7 +349,7 @@ impl Controller {
         }
     }
 
-    /// Tells a PLC what the controller does.
+    /// Reports the controller's state to a PLC.
     fn write_external_outputs(&mut self) {
         let state = self.channels.state();
         let system = &self.channels.first().channel_state().system;
@@ -362,7 +365,7 @@ impl Controller {
         outcome
     }
 
-    /// The same, with nothing stored yet.
+    /// Runs as [`run`](Controller::run) does, but stores nothing at the end.
     fn step_to_end(&mut self) -> Outcome {
         self.stay_awake();
         loop {
@@ -380,7 +383,7 @@ impl Controller {
         }
     }
 
-    /// Runs so many seconds of controller time, or until it [is over](Controller::is_over).
+    /// Runs for `seconds` of controller time, or until it [is over](Controller::is_over).
     pub fn run_for(&mut self, seconds: f64) -> State {
         let end = self.shared.now.get().saturating_add(self.shared.rate.cycles(seconds));
         self.stay_awake();
@@ -397,25 +400,25 @@ impl Controller {
     }
 
     /// Whether the programs have ended, those of all foreground channels where there are several, and nothing will
-    /// start them again. The scenario does where it presses the pendant's reset button, or plays a PLC that is wired to
-    /// start programs (external auto control): as long as an event of it is on its way, the run is not over.
+    /// start them again. A scenario may start them: with the pendant's reset button, or as a PLC that is wired to start
+    /// programs (external auto control). As long as such a scenario has events left, the run is not over.
     pub fn is_over(&self) -> bool {
         self.channels.outcome().is_some()
             && !(self.can_begin_again() && self.scenario.goes_on(&self.shared.io.borrow()))
     }
 
-    /// Whether somebody outside can start programs that have ended.
+    /// Whether the scenario or a PLC can start programs that have ended.
     fn can_begin_again(&self) -> bool {
         self.scenario.resets() || self.external.starts(self.system())
     }
 
-    /// How the program ended, when it has.
+    /// How the program ended; `None` while it runs.
     pub fn outcome(&self) -> Option<&Outcome> {
         self.channels.outcome()
     }
 
-    /// Ends the programs, also those that wait to be loaded: the robots stop on their paths within the cycles that
-    /// follow.
+    /// Ends the programs, also those that wait to be loaded: the robots stop on their paths within the following
+    /// cycles.
     pub fn stop(&mut self) {
         self.channels.each(Channel::stop);
     }
@@ -426,8 +429,8 @@ impl Controller {
     }
 
     /// Resets the program, which starts from its beginning with the next cycle: pulses end, global variables and the
-    /// system variables of the manual's chapter 10.2 are at their defaults. The robot stays where it is. The time of
-    /// the scenario begins once more.
+    /// system variables of the manual's chapter 10.2 get their defaults. The robot stays where it is. The time of the
+    /// scenario begins again.
     ///
     /// # Errors
     /// The program still runs: [`stop`](Controller::stop) it first.
@@ -445,12 +448,12 @@ impl Controller {
         self.shared.rate.time(self.shared.now.get())
     }
 
-    /// Controller time of the last cycle in s, as its row of the trace has it; 0 before the first one.
+    /// Controller time of the last cycle in s, as in its row of the trace; 0 before the first one.
     pub(crate) fn last_time(&self) -> f64 {
         self.shared.rate.time(self.shared.now.get().saturating_sub(1))
     }
 
-    /// Whether the last cycle is one of those that come each so many cycles, from the first one on.
+    /// Whether the last cycle is one of every `every` cycles, counted from the first one.
     pub(crate) fn is_turn(&self, every: u64) -> bool {
         self.shared.now.get().checked_sub(1).is_some_and(|last| last.is_multiple_of(every.max(1)))
     }
@@ -476,17 +479,17 @@ impl Controller {
         self.unit.borrow().executing_file()
     }
 
-    /// How many cycles so many seconds take.
+    /// The number of cycles that `seconds` take.
     pub(crate) fn cycles(&self, seconds: f64) -> u64 {
         self.shared.rate.cycles(seconds)
     }
 
-    /// How late cycles began, where the clock knows that: the real one does.
+    /// How late cycles began; `None` where the clock does not know that: the real one does.
     pub fn lateness(&self) -> Option<&Lateness> {
         self.clock.lateness()
     }
 
-    /// How many parts of the motion ahead (time laws, blends) were found too late, on the real clock: the robot then
+    /// How many parts of the motion ahead (time laws, blends) were computed too late, on the real clock: the robot then
     /// goes on with what it has, and comes to rest on its path at the end of that. 0 on the virtual clock, which waits
     /// for them.
     pub fn found_late(&self) -> u64 {
@@ -503,7 +506,7 @@ impl Controller {
         self.channels.iter().any(|channel| channel.channel_state().robot().is_some_and(|unit| unit.moves()))
     }
 
-    /// Whether its time is the world's.
+    /// Whether the clock runs in real time.
     pub(crate) fn is_real_time(&self) -> bool {
         self.clock.is_real()
     }
@@ -515,20 +518,21 @@ impl Controller {
 
     /// The global variables of the first channel's program, where they are of this type: the `Globals` of an emitted
     /// program. They can be read at any time, and set between two cycles. A program sets them itself when it starts or
-    /// is reset: [`Builder::on_init`] comes after that.
+    /// is reset; [`Builder::on_init`] is called after that.
     ///
     /// `docs/embedding.md` has an example.
     pub fn globals<G: 'static>(&self) -> Option<&G> {
         self.channels.first().globals()
     }
 
-    /// The same of any channel; `None`, too, where there is no such channel.
+    /// The global variables of any channel's program, as `globals` returns them; also `None` where there is no such
+    /// channel.
     pub fn globals_of<G: 'static>(&self, channel: ChannelId) -> Option<&G> {
         self.channels.iter().find(|it| it.channel_state().id == channel)?.globals()
     }
 
-    /// The value of a global variable of the first program, as a literal of ARL; by its name, as [`Builder::global`]
-    /// takes it.
+    /// The value of a global variable of the first program, as a literal of ARL. The name is written as for
+    /// [`Builder::global`].
     ///
     /// # Errors
     /// There is no such variable, or the program was compiled without the names.
@@ -539,7 +543,7 @@ impl Controller {
     }
 
     /// Gives a global variable of the first program a value, between two cycles. Components that the literal leaves out
-    /// keep theirs.
+    /// keep their values.
     ///
     /// # Errors
     /// As [`Controller::global`], or the value does not fit.
@@ -557,7 +561,7 @@ impl Controller {
         &self.channels.first().channel_state().system
     }
 
-    /// The axes as the robot reports them, in deg (mm).
+    /// The axis positions that the robot reports, in deg (mm).
     pub fn joints(&self) -> Joints {
         *self.unit.borrow().feedback()
     }
@@ -572,12 +576,12 @@ impl Controller {
         self.unit.borrow().shared_robot()
     }
 
-    /// Warnings since the last call.
+    /// The warnings since the last call.
     pub fn take_warnings(&mut self) -> Vec<String> {
         self.shared.take_warnings()
     }
 
-    /// Alarms since the last call, the one that stopped the program first.
+    /// The alarms since the last call, the one that stopped the program first.
     pub fn take_alarms(&mut self) -> Vec<Alarm> {
         self.shared.take_alarms()
     }
@@ -622,7 +626,7 @@ impl Controller {
         self.shared.io.borrow().analog_output(channel)
     }
 
-    /// What a PWM output does, from 1.
+    /// The state of a PWM output, from 1.
     ///
     /// # Errors
     /// There is no such channel.
@@ -654,9 +658,9 @@ impl Controller {
         self.shared.io.borrow().digital(Digital::InternalOut, channel)
     }
 
-    /// Lets go of the robots: the last cycle was. One that moves is cut off; from then on none of them says anything.
-    /// Whoever drives a real one and does something slow after its last cycle calls this before; otherwise it comes
-    /// when the controller is dropped.
+    /// Releases the robots after the last cycle. A robot that moves is cut off; from then on the robots report nothing.
+    /// Call this before doing something slow after the last cycle with a real robot; otherwise it happens when the
+    /// controller is dropped.
     pub fn close_robots(&mut self) {
         self.channels.units().for_each(|unit| unit.borrow_mut().close());
     }
@@ -670,18 +674,18 @@ impl Drop for Controller {
     }
 }
 
-/// The place of an axis of a channel's robot, counted from 0. That there is such an axis was checked.
+/// The index of an axis of a channel's robot, from 0. The axis was checked to exist.
 fn place(channel: &Channel, axis: AxisName) -> Option<usize> {
     channel.channel_state().robot().and_then(|unit| axis.place(unit.robot()))
 }
 
-/// Does what a scenario says, inputs aside. The pendant's buttons count for all channels.
+/// Carries out an effect of a scenario, except on inputs. The pendant's buttons act on all channels.
 fn act(channels: &mut Channels, effect: Effect) {
     let (number, robot_effect) = match effect {
         Effect::Pendant(button) => return pendant::press(channels, button),
         Effect::Robot(number, robot_effect) => (number, robot_effect),
     };
-    // That there is such a channel was checked.
+    // The channel was checked to exist.
     let Some(channel) = channels.numbered(number) else { return };
     match robot_effect {
         RobotEffect::Jog(axis, by) => {
@@ -717,7 +721,7 @@ fn set_override(channels: &Channels, speed: Override) {
         .for_each(|mut unit| unit.set_override(speed));
 }
 
-/// A program cannot be reset while it runs.
+/// The program still runs, so it cannot be reset.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct StillRunning;
 

@@ -11,10 +11,10 @@ use arl_robot::cell::{Cell, CellChannel};
 use arl_robot::robot::Robot;
 
 impl Builder {
-    /// What stands around the robot, with the channels that the cell has: `programs` are the files that it names.
+    /// Sets the cell, together with the channels that it names; `programs` are the programs that it may name.
     ///
     /// # Errors
-    /// The cell names a file that is not among them, or a robot that is not there.
+    /// The cell names a program that is not among them, or a robot that does not exist.
     pub fn cell_with(mut self, cell: Cell, programs: &[Other]) -> Result<Self, SetupError> {
         for channel in &cell.programs.channels {
             let CellChannel { program, robot, background, load, homes, collisions, stands, driver, line: _ } = channel;
@@ -40,8 +40,8 @@ impl Builder {
         Ok(self.cell(cell))
     }
 
-    /// Where the trace of the robot of a foreground channel goes, as CSV. Of a channel that there is not, none is
-    /// written.
+    /// The writer for the trace of the robot of a foreground channel, as CSV. For a channel that does not exist nothing
+    /// is written.
     pub fn trace_of(mut self, number: u8, writer: impl Write + 'static) -> Self {
         if number == 1 {
             return self.trace(writer);
@@ -70,7 +70,7 @@ fn find(programs: &[Other], file: &str) -> Result<Other, SetupError> {
 }
 
 impl Other {
-    /// A new one, with its data files in its own folder.
+    /// Makes a new program, with its data files in its own folder.
     fn make(&self) -> Box<dyn Program> {
         let program = (self.make)();
         if self.folder.is_empty() {

@@ -7,22 +7,22 @@ use crate::io::{Effect, Order};
 use arl_robot::cell::Names;
 
 impl Controller {
-    /// What the cell calls signals.
+    /// The cell's names for signals.
     pub fn names(&self) -> &Names {
         &self.names
     }
 
-    /// Does now what an event of an io [`Scenario`](crate::io::Scenario) does, in the same words: `di.5 = true`,
-    /// `ai.2 = 4.2`, `pendant = "start"`, `override = 50`; several of them stand on lines of their own. Signals may be
-    /// called by the names that the cell has for them.
+    /// Carries out now what an event of an io [`Scenario`](crate::io::Scenario) does, in the same words: `di.5 = true`,
+    /// `ai.2 = 4.2`, `pendant = "start"`, `override = 50`; several orders are written on lines of their own. Signals
+    /// may be given by the cell's names for them.
     ///
     /// # Errors
-    /// The text is not an order, or it names what is not there; then nothing of it was done.
+    /// The text is not an order, or it names something that does not exist; then nothing was done.
     pub fn order(&mut self, text: &str) -> Result<(), OrderError> {
         let order = Order::parse(text, &self.names).map_err(|error| OrderError::Text(error.message))?;
         let robots: Vec<_> = self.channels.units().map(|unit| unit.borrow().shared_robot()).collect();
         let robots: Vec<_> = robots.iter().map(|robot| &**robot).collect();
-        // An effect may look at the image itself.
+        // An effect may access the image itself.
         let mut effects = Vec::new();
         let done = order.carry_out(&mut self.shared.io.borrow_mut(), &robots, |effect| effects.push(effect));
         done.map_err(OrderError::NotThere)?;
@@ -36,13 +36,13 @@ impl Controller {
     }
 }
 
-/// Why nothing was done of an order.
+/// The reason why an order was not carried out.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum OrderError {
-    /// The text is not an order: what is wrong with it.
+    /// The text is not an order; the error in it.
     Text(String),
-    /// It is for a signal, an axis or a robot that is not there, or that cannot do it: which.
+    /// The signal, axis or robot does not exist, or cannot do it; which one.
     NotThere(String),
 }
 

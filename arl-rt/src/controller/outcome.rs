@@ -16,7 +16,7 @@ pub enum Outcome {
     /// [`Controller::stop`](super::Controller::stop) stopped it.
     Stopped,
     /// It waits, and nothing can change any more: [`Controller::standstill`](super::Controller::standstill). It has not
-    /// ended: whoever changes an input or presses a button can let it run on.
+    /// ended: changing an input or pressing a button can let it run on.
     Standstill(Vec<Standstill>),
 }
 

@@ -40,22 +40,22 @@ impl Controller {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// The time of a [`Scenario`](crate::io::Scenario) begins with the programs: where they are paused before their
-    /// first cycle, with the start button, and with a reset of programs that have ended once more. Buttons that the
-    /// scenario itself presses do not change its time, nor does it wait where it presses the start button itself.
+    /// The time of a [`Scenario`](crate::io::Scenario) begins with the programs: with the start button, where they are
+    /// paused before their first cycle; and again with a reset of programs that have ended. Buttons that the scenario
+    /// itself presses do not change its time, nor does it wait where it presses the start button itself.
     pub fn press(&mut self, button: Pendant) {
         let had_ended = self.channels.state() == State::Ended;
         press(&mut self.channels, button);
         self.time_scenario(button, had_ended);
     }
 
-    /// Lets the time of the scenario begin with the programs, where a button of this moment makes them begin.
+    /// Lets the time of the scenario begin with the programs, where a button pressed now makes them begin.
     fn time_scenario(&mut self, button: Pendant, had_ended: bool) {
         let (now, state) = (self.shared.now.get(), self.channels.state());
         let starts = self.scenario_starts();
         match button {
             Pendant::Pause if state == State::Paused && self.scenario.began() == now && !starts => self.scenario.wait(),
-            // A robot whose servo is off does not start: a scenario may be there to bring that about.
+            // A robot whose servo is off does not start: the scenario may be there to switch it on.
             button if button.lets_begin() && self.scenario.waits() && (state == State::Running || starts) => {
                 self.scenario.begin(now);
             }
@@ -69,13 +69,13 @@ impl Controller {
         self.scenario.starts(self.external.is_wired().then(|| self.system().start_prog_di.get()))
     }
 
-    /// Waits with programs and scenario for somebody who presses the start button; before the first cycle.
+    /// Lets programs and scenario wait for the start button; to be called before the first cycle.
     pub(crate) fn wait_for_start(&mut self) {
         self.press(Pendant::Pause);
         self.scenario.wait();
     }
 
-    /// Programs begin once more, and their scenario with them.
+    /// Begins the scenario again together with the programs.
     pub(super) fn begin_scenario_again(&mut self) {
         let effects = &mut self.effects;
         let mut image = self.shared.io.borrow_mut();
@@ -123,34 +123,34 @@ impl Controller {
         self.channels.each(|channel| channel.channel_state().repeats.set(on));
     }
 
-    /// Jogs an axis of the first channel's robot, from 1 (external axes come behind its own), by so many deg (mm), at
-    /// manual speed, while the program is paused or has ended. What cannot be is a warning and changes nothing. For
-    /// other robots there is [`Controller::order`].
+    /// Jogs an axis of the first channel's robot, from 1 (external axes follow its own), by `by` deg (mm), at manual
+    /// speed, while the program is paused or has ended. A request that cannot be carried out gives a warning and
+    /// changes nothing. For other robots there is [`Controller::order`].
     pub fn jog(&mut self, axis: usize, by: f64) {
         jog(self.channels.first(), axis, by);
     }
 
-    /// A button that moves a robot, of a foreground channel from 1 on, is pressed.
+    /// Presses a button that moves the robot of a foreground channel, from 1.
     pub(crate) fn hold(&mut self, channel: u8, held: &HeldButton) -> Result<PressOutcome, String> {
         let found = self.channels.numbered(channel);
         hold(found.ok_or_else(|| format!("there is no channel {channel}"))?, held)
     }
 
-    /// It is still pressed.
+    /// Keeps the button pressed.
     ///
     /// # Errors
-    /// It does not move the robot any more.
+    /// The button does not move the robot any more.
     pub(crate) fn keep_on(&mut self, channel: u8, held: &HeldButton) -> Result<(), String> {
         let unit = self.channels.numbered(channel).and_then(|channel| channel.channel_state().robot_mut());
         unit.map_or(Ok(()), |mut unit| unit.keep_on(held))
     }
 
-    /// Whether the set-points of all robots stand still.
+    /// Whether the set-points of all robots are at rest.
     pub(crate) fn all_stand(&self) -> bool {
         self.channels.units().all(|unit| unit.borrow().stands())
     }
 
-    /// The button is let go: the robot stops on its path.
+    /// Releases the button: the robot stops on its path.
     pub(crate) fn let_go(&mut self, channel: u8) {
         let unit = self.channels.numbered(channel).and_then(|channel| channel.channel_state().robot_mut());
         if let Some(mut unit) = unit {
@@ -160,13 +160,13 @@ impl Controller {
 
     /// Switches the motors of all robots off at once, whatever they do: an emergency. The robots brake by themselves;
     /// programs are paused. Motors come on again by [`Pendant::ServoOn`](crate::io::Pendant::ServoOn), and programs go
-    /// on by the start button, the robots back on their paths first.
+    /// on by the start button, after the robots have gone back to their paths.
     pub fn emergency_stop(&mut self) {
         self.press(Pendant::EmergencyStop);
     }
 
-    /// Says that somebody has moved an axis of the first channel's robot by hand, by so many deg (mm), while its servo
-    /// is off. With a real robot nobody has to say so: its driver reports it.
+    /// Reports that an axis of the first channel's robot was moved by hand, by `by` deg (mm), while its servo is off.
+    /// This is not needed for a real robot: its driver reports it.
     pub fn move_by_hand(&mut self, axis: usize, by: f64) {
         move_by_hand(self.channels.first(), axis, by);
     }
@@ -174,7 +174,7 @@ impl Controller {
 
 /// Presses a button.
 pub(super) fn press(channels: &mut Channels, button: Pendant) {
-    // What one person holds keeps the programs of all channels from going on.
+    // A button that one person holds keeps the programs of all channels from going on.
     let goes_on = match button {
         Pendant::Start => Some("start"),
         Pendant::Step => Some("step"),
@@ -206,7 +206,7 @@ fn refuse(channel: &Channel, what: &str, why: &str) {
     channel.channel_state().shared.warn(format!("{what} is refused: {why}"));
 }
 
-/// Whether the program may go on; warns where not.
+/// Whether the program may go on; warns where the servo is off.
 fn may_go_on(channel: &Channel, what: &str) -> bool {
     let servo = channel.channel_state().robot().is_none_or(|unit| unit.has_servo());
     if !servo {
@@ -215,7 +215,7 @@ fn may_go_on(channel: &Channel, what: &str) -> bool {
     servo && channel.outcome().is_none()
 }
 
-/// Whether a button moves the robot beside its program; warns then.
+/// Whether a button moves the robot beside its program; warns where one does.
 fn is_held(channel: &Channel, what: &str) -> bool {
     let held = channel.channel_state().robot().is_some_and(|unit| unit.is_held());
     if held {
@@ -266,10 +266,10 @@ fn step(channel: &mut Channel) {
     go_on(channel);
 }
 
-/// Resets a program; `ended` says that those of all foreground channels have ended.
+/// Resets a program; `ended`: those of all foreground channels have ended.
 fn reset(channel: &mut Channel, ended: bool) {
     match channel.state() {
-        // What runs in the background stays when the others begin again.
+        // Background programs are not reset when the others begin again.
         State::Running if ended => {}
         State::Running => refuse(channel, "reset", "the program is running: pause it first"),
         State::Paused => channel.end(Outcome::Stopped),
@@ -329,7 +329,7 @@ pub(super) fn jog(channel: &Channel, axis: usize, by: f64) {
     }
 }
 
-/// A button that moves the robot of a channel is pressed.
+/// Presses a button that moves the robot of a channel.
 fn hold(channel: &Channel, held: &HeldButton) -> Result<PressOutcome, String> {
     let state = channel.state();
     if state == State::Running {

@@ -1,4 +1,4 @@
-//! A thread beside the cycle stores the program and motion pointers.
+//! Stores the program and motion pointers, in a thread beside the cycle.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -12,40 +12,41 @@ use crate::cycle::try_lock::try_lock;
 use crate::storage::pointers::{self, CurrentPointers, PointerTable};
 use crate::storage::state::{self, Storage};
 
-/// How long the thread waits before it stores what has changed, unless the programs have ended: what a kill may cost.
+/// How long the thread waits before it stores what has changed, unless the programs have ended: what a kill of the
+/// process may lose.
 const STORE_INTERVAL: Duration = Duration::from_secs(1);
 
-/// How often who waits for the thread looks whether it is still there.
+/// How often a caller that waits for the thread checks that it still exists.
 const THREAD_CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
-/// Stores the pointers of the foreground channels on a thread of its own. The cycle leaves there what they are and goes
+/// Stores the pointers of the foreground channels on a thread of its own. The cycle leaves their values there and goes
 /// on.
 pub(super) struct PointerStore {
     exchange: Arc<Exchange>,
     thread: Option<JoinHandle<()>>,
-    /// What they were in the last cycle.
+    /// The pointers of the last cycle.
     noted: [CurrentPointers; MOST_FOREGROUND],
-    /// Whether the thread does not know that yet.
+    /// Whether the thread has not got them yet.
     news: bool,
-    /// Whether the thread was told that the programs have ended.
+    /// Whether the thread was notified that the programs have ended.
     hurried: bool,
 }
 
 /// What the cycle and the thread share: a lock that both hold for copying only, and that the cycle does not wait for.
 struct Exchange {
     pending: Mutex<Pending>,
-    /// Rings when the thread shall not wait, and when it has stored something.
+    /// Notified when the thread should not wait, and when it has stored something.
     changed: Condvar,
 }
 
 #[derive(Default)]
 struct Pending {
     now: [CurrentPointers; MOST_FOREGROUND],
-    /// Whether the thread shall store this without waiting.
+    /// Whether the thread should store this without waiting.
     hurry: bool,
-    /// Whether it shall end then.
+    /// Whether the thread should end after that.
     last: bool,
-    /// What went wrong and has not been told.
+    /// An error that has not been reported yet.
     problem: Option<String>,
 }
 
@@ -54,7 +55,7 @@ impl Exchange {
         self.pending.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The thread: stores what has changed since `kept`, which is there already.
+    /// Runs the thread: stores what has changed since `kept`, which is stored already.
     fn run(&self, storage: &mut dyn Storage, kept: &PointerTable) {
         let mut stored = pointers::written(kept);
         let mut told = None;
@@ -78,7 +79,7 @@ impl Exchange {
             pending = self.lock();
             match done {
                 Ok(()) => (stored, told) = (text, None),
-                // Once, however often it is tried.
+                // An error is reported once, however often storing is tried.
                 Err(error) if told.as_ref() != Some(&error) => {
                     pending.problem = Some(format!("the program pointers cannot be saved: {error}"));
                     told = Some(error);
@@ -97,10 +98,10 @@ impl Exchange {
 }
 
 impl PointerStore {
-    /// Starts the thread. `kept` is what this storage has.
+    /// Starts the thread. `kept` is the content of this storage.
     ///
     /// # Errors
-    /// The system gives no thread.
+    /// The system cannot start a thread.
     pub(super) fn start(mut storage: Box<dyn Storage + Send>, kept: PointerTable) -> std::io::Result<Self> {
         let exchange = Arc::new(Exchange { pending: Mutex::default(), changed: Condvar::new() });
         let shared = Arc::clone(&exchange);
@@ -111,7 +112,7 @@ impl PointerStore {
     }
 
     /// Notes the pointers as they are at the end of a cycle, of each channel from the first; `ended`: no program with a
-    /// robot runs. Never waits. Gives what went wrong since the last call.
+    /// robot runs. Never waits. Returns the error since the last call, if any.
     #[inline]
     pub(super) fn note(&mut self, now: impl Iterator<Item = CurrentPointers>, ended: bool) -> Option<String> {
         for (noted, now) in self.noted.iter_mut().zip(now) {
@@ -135,12 +136,12 @@ impl PointerStore {
         pending.problem.take()
     }
 
-    /// Whether the thread does not know yet what was noted.
+    /// Whether the thread has not got the noted pointers yet.
     pub(super) fn has_news(&self) -> bool {
         self.news
     }
 
-    /// Waits until everything is stored. Gives what went wrong since the last call.
+    /// Waits until everything is stored. Returns the error since the last call, if any.
     pub(super) fn settle(&mut self) -> Option<String> {
         self.hurry(false);
         self.exchange.lock().problem.take()
@@ -152,7 +153,7 @@ impl PointerStore {
         let mut pending = self.exchange.lock();
         (pending.now, pending.hurry, pending.last) = (self.noted, true, last);
         self.exchange.changed.notify_all();
-        // A thread that is gone would never answer.
+        // A thread that has ended would never answer.
         while pending.hurry && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
             (pending, _) = self
                 .exchange
@@ -167,7 +168,7 @@ impl Drop for PointerStore {
     fn drop(&mut self) {
         self.hurry(true);
         if let Some(thread) = self.thread.take() {
-            // A storage that panics does not end it.
+            // A panic of the storage does not end the thread.
             let _ = thread.join();
         }
     }
@@ -179,7 +180,7 @@ mod tests {
     use crate::fault::File;
     use std::sync::mpsc::{Sender, channel};
 
-    /// Panics when something is stored for the first time; tells what is stored later.
+    /// Panics at the first call of `store`; sends what is stored later.
     struct PanicsOnce(bool, Sender<String>);
 
     impl Storage for PanicsOnce {

@@ -1,18 +1,18 @@
-//! Cycles in which nothing can change are left out on the virtual clock: an hour of waiting costs as much as a second.
+//! Cycles in which nothing can change are skipped on the virtual clock: an hour of waiting costs as much as a second.
 
 use super::Controller;
 use super::channel::Channel;
 use super::external::SERVO_PULSE_S;
 
 impl Controller {
-    /// Leaves out the cycles to come in which nothing can change, but for the one with the number `before` and those
-    /// behind it. The run is the same as with them, to the last bit: programs wait for a time, for signals or for
-    /// nothing any more, robots stand, and no event of a scenario is due. Whoever looks at each cycle, as a trace, a
-    /// recorder, a thread or a driver of your own, has each cycle.
+    /// Skips the next cycles in which nothing can change, up to the cycle number `before`, which is not skipped. The
+    /// run is the same as with them, to the last bit: programs wait for a time, for signals or in vain, robots stand,
+    /// and no event of a scenario is due. Where each cycle is observed, as by a trace, a recorder, a thread or a driver
+    /// of your own, no cycle is skipped.
     pub(crate) fn skip_quiet_cycles(&mut self, before: u64) {
         let next = self.shared.now.get();
         let Some(until) = next.checked_sub(1).and_then(|cycle| self.quiet_until(cycle)) else { return };
-        // Where everything waits for ever, that is a standstill, which is found out first: it takes a while.
+        // Where everything waits for ever, that is a standstill, which has to be recognised first: that takes a while.
         if until == u64::MAX && self.standstill().is_none() {
             return;
         }
@@ -23,19 +23,19 @@ impl Controller {
         }
     }
 
-    /// Has some cycles take place before any is left out: somebody may have changed something.
+    /// Has some cycles take place before any is skipped: something may have been changed from outside.
     pub(super) fn stay_awake(&mut self) {
         self.awake_until = self.shared.now.get().saturating_add(self.late_effect());
     }
 
-    /// For so many cycles what was changed may have an effect: a PLC that is wired presses some buttons by pulses.
+    /// For how many cycles a change may still take effect: a PLC that is wired presses some buttons by pulses.
     fn late_effect(&self) -> u64 {
         if self.external.is_wired() { self.shared.rate.cycles(2.0 * SERVO_PULSE_S) } else { 1 }
     }
 
-    /// The cycle before which nothing changes, judged by this cycle, the last one.
+    /// The cycle before which nothing changes, judged by `cycle`, the last one.
     fn quiet_until(&self, cycle: u64) -> Option<u64> {
-        // What runs mostly runs: that is found out first.
+        // This ends the check early in most cases: a program that runs mostly goes on running.
         self.channels.first().quiet_until(cycle)?;
         if cycle < self.awake_until || !self.clock.may_skip() || self.is_over() {
             return None;
@@ -53,7 +53,7 @@ impl Controller {
         Some(wakes.min(self.scenario.quiet_until(&self.shared.io.borrow())?))
     }
 
-    /// Whether somebody has a look at each cycle, or may change something in any.
+    /// Whether anything outside observes each cycle, or may change something in any of them.
     fn is_watched(&self) -> bool {
         self.has_outside
             || self.calls.is_open()
@@ -63,7 +63,7 @@ impl Controller {
             || self.shared.watcher().is_some()
     }
 
-    /// Whether something is on its way beside the programs, their robots and the scenario.
+    /// Whether anything is under way besides the programs, their robots and the scenario.
     fn is_under_way(&self) -> bool {
         let shared = &self.shared;
         shared.disk.is_waited_for()

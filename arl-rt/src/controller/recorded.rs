@@ -16,15 +16,15 @@ pub(crate) struct Recorded {
     pub(crate) robot: Arc<Robot>,
     /// The file that has the `main` of the channel's program.
     pub(crate) program: File,
-    /// When its program ended, in s of the controller, or now where it has not; later where the robot was jogged behind
-    /// that.
+    /// When its program ended, in s of controller time, or the present time where it has not; later where the robot was
+    /// jogged after that.
     pub(crate) ended: f64,
-    /// Each with the file that its line is of.
+    /// The motions, each with the file that its line belongs to.
     pub(crate) motions: Vec<(File, MotionRecord)>,
 }
 
 impl Controller {
-    /// What the motions of the first channel planned so far did, in order; none unless the controller was built with
+    /// What the motions of the first channel planned so far did, in order; empty unless the controller was built with
     /// [`Builder::record_motions`](super::Builder::record_motions).
     pub fn motions(&self) -> Vec<MotionRecord> {
         self.unit.borrow().records().to_vec()
@@ -37,25 +37,25 @@ impl Controller {
         self.channels.units().map(|unit| of_unit(&unit.borrow())).collect()
     }
 
-    /// The file that the line of a motion is of: [`MotionRecord::line`] is of this file. `None`: the channel has no
-    /// robot, or no motion of it with this running number is recorded.
+    /// The file that the line of a motion belongs to: [`MotionRecord::line`] is a line of this file. `None`: the
+    /// channel has no robot, or no motion with this running number is recorded for it.
     pub fn file_of_motion(&self, channel: ChannelId, motion: u64) -> Option<File> {
         let channel = self.channels.iter().find(|it| it.channel_state().id == channel)?;
         channel.channel_state().robot()?.recorded_file(motion)
     }
 
-    /// The same for reports, with the files.
+    /// The records of all foreground channels for reports, with the files.
     pub(crate) fn recorded(&self) -> Vec<Recorded> {
         let of_channel = |channel: &super::channel::Channel| {
             let unit = channel.channel_state().robot()?;
             let program = channel.cx().program();
             let motion = |record: &MotionRecord| (unit.recorded_file(record.number).unwrap_or(program), record.clone());
             let mut motions: Vec<_> = unit.records().iter().map(motion).collect();
-            // A way back, or what is jogged, is planned behind what was planned before it.
+            // A motion back to the path, or a jog, is planned after earlier motions, but may start before them.
             motions.sort_by(|(_, one), (_, other)| one.start.partial_cmp(&other.start).unwrap_or(Ordering::Equal));
             let program_ended =
                 channel.ended_after().map_or_else(|| self.time(), |cycles| self.shared.rate.time(cycles));
-            // Who jogs behind the end of the program has the robot move.
+            // Jogging after the end of the program moves the robot, too.
             let ends = motions.iter().filter_map(|(_, record)| Some(record.start? + record.duration));
             let ended = ends.fold(program_ended, f64::max);
             Some(Recorded { robot: unit.shared_robot(), program, ended, motions })
@@ -63,7 +63,7 @@ impl Controller {
         self.channels.foreground().filter_map(of_channel).collect()
     }
 
-    /// Shows the robots of the foreground channels, by their numbers.
+    /// Calls `each` with the robots of the foreground channels, by their numbers.
     pub(crate) fn each_unit(&self, mut each: impl FnMut(&Unit)) {
         self.channels.units().for_each(|unit| each(&unit.borrow()));
     }

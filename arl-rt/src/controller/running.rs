@@ -9,20 +9,20 @@ use std::time::Duration;
 
 use super::{Controller, Handle, Outcome, SetupError};
 
-/// What the thread is told. It goes on: programs that have ended can begin anew.
+/// Commands for the thread. Go on: programs that have ended can begin again.
 const GO_ON: u8 = 0;
-/// It ends with the programs.
+/// End once the programs have ended.
 const END_WITH_PROGRAMS: u8 = 1;
-/// It stops the programs.
+/// Stop the programs.
 const STOP: u8 = 2;
 
-/// How long the thread waits between two cycles where the programs have ended and cycles take no time of the world.
+/// How long the thread waits between two cycles where the programs have ended and cycles do not take real time.
 const IDLE: Duration = Duration::from_millis(1);
 
 /// A controller that runs in a thread of its own, from [`Controller::spawn`].
 ///
-/// It holds its robots when the programs have ended, until somebody [joins](Running::join) it: a handle can let them
-/// begin anew. Dropping it stops the programs, and waits until the robots have come to rest on their paths.
+/// It holds its robots when the programs have ended, until a thread [joins](Running::join) it: a handle can let them
+/// begin again. Dropping it stops the programs, and waits until the robots have come to rest on their paths.
 #[derive(Debug)]
 pub struct Running {
     handle: Handle,
@@ -31,7 +31,7 @@ pub struct Running {
 }
 
 impl Running {
-    /// A handle of the controller.
+    /// A handle to the controller.
     pub fn handle(&self) -> Handle {
         self.handle.clone()
     }
@@ -39,7 +39,7 @@ impl Running {
     /// Waits until the programs have ended, or, where no handle is left, can never go on.
     ///
     /// # Panics
-    /// What the controller runs has panicked: with the same words.
+    /// What the controller runs has panicked: this panics with the same payload.
     pub fn join(mut self) -> Outcome {
         self.wait(END_WITH_PROGRAMS).unwrap_or_else(|panic| resume_unwind(panic))
     }
@@ -52,10 +52,11 @@ impl Running {
         self.wait(STOP).unwrap_or_else(|panic| resume_unwind(panic))
     }
 
-    /// Tells the thread how to end, and waits for it, unless this is that thread.
+    /// Commands the thread how to end, and waits for it, unless this is that thread.
     fn wait(&mut self, how: u8) -> thread::Result<Outcome> {
         self.told.store(how, Ordering::Relaxed);
-        // Who waits for the end asks nothing more: programs that wait for others then wait in vain.
+        // The caller makes no more requests while it waits for the end: programs that wait for other threads then wait
+        // in vain.
         self.handle.forget();
         match self.thread.take() {
             Some(thread) if !self.handle.is_own_thread() => thread.join(),
@@ -73,14 +74,14 @@ impl Drop for Running {
 }
 
 impl Controller {
-    /// Makes a controller in a thread of its own, and runs it there: on the real clock as a rule, since on the virtual
+    /// Makes a controller in a thread of its own, and runs it there: as a rule on the real clock, since on the virtual
     /// one cycles follow each other as fast as they can. [`Handle`] has an example.
     ///
-    /// The thread has the usual stack, of 2 MiB, which is too little for more than the usual
-    /// [`Builder::stack`](super::Builder::stack).
+    /// The thread has the usual stack of 2 MiB, which is too small for a larger
+    /// [`Builder::stack`](super::Builder::stack) than the default.
     ///
     /// # Errors
-    /// The controller cannot be made, or there is no thread for it.
+    /// The controller cannot be made, or the thread cannot be started.
     pub fn spawn(
         make: impl FnOnce() -> Result<Controller, SetupError> + Send + 'static,
     ) -> Result<Running, SetupError> {
@@ -90,7 +91,7 @@ impl Controller {
         let run = move || match make() {
             Ok(mut controller) => {
                 let _ = tell.send(Ok(controller.handle()));
-                // The handle in the channel would count as somebody's.
+                // The handle in the channel would count as one in use.
                 drop(tell);
                 controller.run_as_told(&telling)
             }
@@ -104,7 +105,7 @@ impl Controller {
             .map_err(|error| SetupError::Other(format!("the controller's thread cannot be started: {error}")))?;
         match made.recv() {
             Ok(handle) => Ok(Running { handle: handle?, told, thread: Some(thread) }),
-            // It has said neither.
+            // The thread has sent neither a handle nor an error.
             Err(_) => match thread.join() {
                 Err(panic) => resume_unwind(panic),
                 Ok(outcome) => Err(SetupError::Other(format!("there is no controller: {outcome}"))),
@@ -132,7 +133,7 @@ impl Controller {
             if let Some(outcome) = self.outcome() {
                 return outcome.clone();
             }
-            // Again and again: a scenario, a PLC or somebody else may let a program begin anew.
+            // Stopped again each cycle: a scenario, a PLC or another thread may let a program begin again.
             self.stop();
             self.step();
         }

@@ -1,23 +1,23 @@
-//! Whether a run can go on: programs may wait for what nobody brings about any more.
+//! Whether a run can go on: programs may wait for what can never happen.
 
 use super::Controller;
 use super::channel::Repose;
 use crate::context::standstill::Standstill;
 
-/// Seconds for which everything must have waited where a PLC is wired, whose signals take effect with delays.
+/// How long everything must have waited where a PLC is wired, whose signals take effect with delays, in s.
 const PLC_DELAY_S: f64 = 1.0;
 
 impl Controller {
     /// The programs that wait in vain, if nothing can change any more: all programs wait for conditions, for the start
     /// button, for stopped motion or for motion at an override of 0 %, nothing moves, no timer runs, no pulse is on, no
-    /// event of the scenario is left, and there is no outside: no driver of your own, no bus, no connection, no real
+    /// event of the scenario is left, and nothing is outside: no driver of your own, no bus, no connection, no real
     /// clock, and no [`Handle`](super::Handle). `None` where something may still happen, and when the programs have
     /// ended.
     ///
-    /// Whoever holds the controller can still change an input or press a button; then it goes on.
+    /// The owner of the controller can still change an input or press a button; then it goes on.
     pub fn standstill(&self) -> Option<Vec<Standstill>> {
         let cycle = self.shared.now.get().checked_sub(1)?;
-        // What runs mostly runs: that is found out first.
+        // This ends the check early in most cases: a program that runs mostly goes on running.
         let first = self.channels.first().repose(cycle)?;
         if self.has_outside || self.calls.is_open() || self.clock.is_real() || self.is_busy() {
             return None;
@@ -36,7 +36,7 @@ impl Controller {
         (!waiting.is_empty() && since >= delay).then_some(waiting)
     }
 
-    /// Whether something is on its way beside the programs and their robots.
+    /// Whether anything is under way besides the programs and their robots.
     fn is_busy(&self) -> bool {
         let shared = &self.shared;
         let io = shared.io.borrow();

@@ -12,7 +12,7 @@ use crate::unit::Motors;
 use crate::values::Controlmode;
 use arl_robot::robot::Robot;
 
-/// How a controller stands between two cycles.
+/// The state of a controller between two cycles.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Status {
@@ -22,7 +22,7 @@ pub struct Status {
     pub mode: Controlmode,
     /// The speed override in %.
     pub speed_override: f64,
-    /// How the channels stand: the foreground ones by their numbers, then the background ones.
+    /// The states of the channels: the foreground ones by their numbers, then the background ones.
     pub channels: Vec<ChannelStatus>,
     /// The levels of the digital inputs, from channel 1.
     pub di: Vec<bool>,
@@ -34,50 +34,50 @@ pub struct Status {
     pub ao: Vec<f64>,
 }
 
-/// How a channel stands.
+/// The state of a channel.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ChannelStatus {
-    /// Which one it is.
+    /// The channel.
     pub channel: ChannelId,
     /// The file that has the program's `main`.
     pub program: File,
-    /// What it does.
+    /// What the program does.
     pub state: State,
-    /// How its program ended, when it has.
+    /// How its program ended; `None` while it runs.
     pub outcome: Option<Outcome>,
     /// The file and line of the statement that runs.
     pub place: (File, u32),
-    /// How its robot stands; a background channel has none.
+    /// The state of its robot; a background channel has none.
     pub robot: Option<RobotStatus>,
 }
 
-/// How a channel's robot stands.
+/// The state of a channel's robot.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct RobotStatus {
     /// The robot.
     pub robot: Arc<Robot>,
-    /// The file and line of the motion that is being executed, or was last.
+    /// The file and line of the motion that is being executed, or was executed last.
     pub motion: Option<(File, u32)>,
     /// The running number of the motion that was executed in the last cycle; 0 where there was none.
     pub motion_number: u64,
     /// Whether the motors hold the robot.
     pub motors: Motors,
-    /// The axes as commanded, in deg (mm).
+    /// The commanded axis positions, in deg (mm).
     pub joints: Joints,
-    /// The axes as the robot reports them, in deg (mm).
+    /// The axis positions that the robot reports, in deg (mm).
     pub reported: Joints,
-    /// The TCP as commanded, in the world, with the tool of its motion: x, y, z in mm, a, b, c in deg.
+    /// The commanded TCP in the world, with the tool of its motion: x, y, z in mm, a, b, c in deg.
     pub tcp: [f64; 6],
     /// The robot's base in the world: x, y, z in mm, a, b, c in deg.
     pub base: [f64; 6],
-    /// The workpiece of its motion in the world, in the same way.
+    /// The workpiece frame of its motion in the world: x, y, z in mm, a, b, c in deg.
     pub workpiece: [f64; 6],
 }
 
 impl Controller {
-    /// How everything stands.
+    /// The status of the controller, its channels and its robots.
     pub fn status(&self) -> Status {
         let (unit, io) = (self.unit.borrow(), self.shared.io.borrow());
         Status {
@@ -92,8 +92,8 @@ impl Controller {
         }
     }
 
-    /// Where the robots are: of each channel the place of its motion, where something has moved, the base (x, y, z in
-    /// mm, a, b, c in deg) and the axes that there are; none of a background channel.
+    /// Calls `each` with the robot of every channel: the place of its motion, where something has moved, the base (x,
+    /// y, z in mm, a, b, c in deg) and its own and external axes; with nothing for a background channel.
     pub(crate) fn each_robot(&self, mut each: impl FnMut(Option<(File, u32)>, &[f64], &[f64], &[f64])) {
         for channel in self.channels.iter() {
             let Some(unit) = channel.channel_state().robot() else {
@@ -107,12 +107,12 @@ impl Controller {
         }
     }
 
-    /// Shows the inputs and outputs.
+    /// Gives access to the inputs and outputs.
     pub(crate) fn with_signals<T>(&self, see: impl FnOnce(&Image) -> T) -> T {
         see(&self.shared.io.borrow())
     }
 
-    /// How the channels stand.
+    /// The states of the channels.
     pub(crate) fn channel_status(&self) -> Vec<ChannelStatus> {
         self.channels.iter().map(of_channel).collect()
     }

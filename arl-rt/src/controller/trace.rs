@@ -1,4 +1,4 @@
-//! The trace: one row of CSV a cycle, from which tests and plots see what the robot did.
+//! The trace: one row of CSV per cycle, from which tests and plots see what the robot did.
 
 use std::fmt;
 use std::io::{self, BufWriter, Write};
@@ -9,14 +9,14 @@ use crate::unit::Unit;
 /// How many columns a trace has.
 pub(crate) const COLUMNS: usize = 21;
 
-/// Their names: the start of the cycle in s, the line and the number of the motion, the axes in deg (mm), the TCP in mm
-/// and deg.
+/// The names of the columns: the start of the cycle in s, the line and the number of the motion, the axes in deg (mm),
+/// the TCP in mm and deg.
 pub(crate) const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
 
-/// The column behind them with the file that the line belongs to, where it is asked for.
+/// The optional column behind them, with the file that the line belongs to.
 pub(crate) const FILE_COLUMN: &str = "file";
 
-/// Which columns a trace has behind those that every one has.
+/// The columns of a trace behind those that every trace has.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(crate) struct More {
     /// [`FILE_COLUMN`].
@@ -24,10 +24,10 @@ pub(crate) struct More {
 }
 
 impl More {
-    /// Reads the names of columns, with commas between.
+    /// Reads the names of columns, separated by commas.
     ///
     /// # Errors
-    /// There is no such column, in words.
+    /// There is no such column; the message names it.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let mut more = Self::default();
         for name in text.split(',').map(str::trim) {
@@ -40,13 +40,13 @@ impl More {
     }
 }
 
-/// Writes one row a cycle.
+/// Writes one row per cycle.
 pub(crate) struct Trace {
     more: More,
     out: BufWriter<Box<dyn Write>>,
-    /// The first thing that went wrong, until it is told.
+    /// The first error, until it is reported.
     error: Option<io::Error>,
-    /// Whether something went wrong: nothing is written after it, also where it was told and a program begins again.
+    /// Whether an error occurred: nothing is written after it, even where it was reported and a program begins again.
     is_broken: bool,
 }
 
@@ -60,7 +60,7 @@ impl Trace {
         Ok(Self { more, out, error: None, is_broken: false })
     }
 
-    /// The row of a cycle that began at `time` seconds.
+    /// Writes the row of a cycle that began at `time` in s.
     pub(crate) fn row(&mut self, time: f64, unit: &Unit) {
         if !self.is_broken {
             self.error = self.write(time, unit).err();
@@ -84,7 +84,7 @@ impl Trace {
         writeln!(self.out)
     }
 
-    /// Hands over what is still buffered.
+    /// Writes out what is still buffered.
     pub(crate) fn flush(&mut self) -> io::Result<()> {
         match self.error.take() {
             Some(error) => Err(error),
@@ -94,7 +94,7 @@ impl Trace {
     }
 }
 
-/// A text as a field of CSV: in quotes where it needs them.
+/// A text as a field of CSV: in quotes where necessary.
 struct Field<'a>(&'a str);
 
 impl fmt::Display for Field<'_> {
@@ -113,7 +113,7 @@ impl fmt::Display for Field<'_> {
     }
 }
 
-/// The row of a cycle that began at `time` seconds; axes that are not there are no numbers.
+/// The row of a cycle that began at `time` in s; the values of axes that do not exist are NaN.
 pub(crate) fn columns(time: f64, unit: &Unit) -> [f64; COLUMNS] {
     let (line, motion) = unit.executing();
     let (robot, joints) = (unit.robot(), unit.setpoint());

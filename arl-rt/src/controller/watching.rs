@@ -1,4 +1,4 @@
-//! What a debugger needs of a controller.
+//! What a debugger needs from a controller.
 
 use std::rc::Rc;
 
@@ -7,17 +7,17 @@ use crate::context::cx::Cx;
 use crate::context::watcher::Watcher;
 
 impl Controller {
-    /// Lets somebody halt programs at their statements.
+    /// Sets a watcher, which can halt programs at their statements.
     pub(crate) fn watch(&self, watcher: Rc<dyn Watcher>) {
         self.shared.watch(watcher);
     }
 
-    /// What the programs of all channels see, in the order of the channels.
+    /// The contexts of the programs of all channels, in the order of the channels.
     pub(crate) fn contexts(&self) -> Vec<Rc<Cx>> {
         self.channels.iter().map(|channel| Rc::clone(channel.cx())).collect()
     }
 
-    /// Whether time is the world's.
+    /// Whether the clock runs in real time.
     pub(crate) fn is_real(&self) -> bool {
         self.clock.is_real()
     }

@@ -4,7 +4,7 @@ use std::fmt;
 
 pub(crate) use arl_robot::cell::MOST_FOREGROUND;
 
-/// Which channel of a controller is meant. Both kinds count from 1.
+/// The number of a channel of a controller. Both kinds count from 1.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum ChannelId {
     /// A channel with a robot, 1 to 6.

@@ -1,12 +1,12 @@
-//! Where the time of the controller comes from: as fast as it can, or the time of the world.
+//! Sources of the controller's time: cycles as fast as possible, or in real time.
 
 use std::time::{Duration, Instant};
 
 pub use super::lateness::Lateness;
 pub use arl_robot::cell::Late;
 
-/// Says when the next cycle may begin: [`VirtualClock`], [`RealClock`], or what a bus gives, whose beat the cycles then
-/// follow.
+/// Determines when the next cycle may begin: [`VirtualClock`], [`RealClock`], or the beat of a bus, which the cycles
+/// then follow.
 ///
 /// ```
 /// use arl_rt::clock::{Clock, Lateness};
@@ -64,14 +64,14 @@ pub trait Clock {
     /// Returns when the cycle with this running number (from 0) may begin. A cycle is `period` seconds long.
     fn wait_for(&mut self, cycle: u64, period: f64);
 
-    /// When that cycle ends, by the time of the world, if cycles take such. Asked after [`wait_for`](Clock::wait_for).
+    /// When that cycle ends, in real time, if cycles take that. Called after [`wait_for`](Clock::wait_for).
     fn due(&self, cycle: u64, period: f64) -> Option<Instant> {
         let _ = (cycle, period);
         None
     }
 
-    /// The program begins to talk to the world: from the next cycle on its time counts. Returns what the user should
-    /// know.
+    /// The program begins to communicate with the outside world: from the next cycle on cycles take real time. Returns
+    /// a warning for the user.
     fn follow_real_time(&mut self) -> Option<&'static str> {
         None
     }
@@ -81,27 +81,27 @@ pub trait Clock {
         true
     }
 
-    /// Whether cycles may be left out in which nothing can change: where they take no time. Nothing waits for them
-    /// then; the next cycle has the number that it would have had.
+    /// Whether cycles in which nothing can change may be skipped: where cycles take no real time. `wait_for` is then
+    /// not called for them; the next cycle has the number that it would have had.
     fn may_skip(&self) -> bool {
         false
     }
 
-    /// The cell file says what becomes of cycles that are lost.
+    /// Sets how lost cycles are treated, as the cell file gives it.
     fn set_late(&mut self, late: Late) {
         let _ = late;
     }
 
-    /// How late cycles began until now, if that is known. What it says of lost and of missing ones counts for the limit
-    /// of the cell file.
+    /// How late cycles began until now, if that is known. Its counts of lost and of missing cycles are compared with
+    /// the limit of the cell file.
     fn lateness(&self) -> Option<&Lateness> {
         None
     }
 }
 
 /// Cycles follow each other as fast as they can: a run is a function of the program, the robot, the cell and the
-/// scenario alone. From the first connection on that a program opens, they begin at points of real time: the other side
-/// has no other.
+/// scenario alone. From the first connection on that a program opens, they begin at points of real time, as the other
+/// side lives in real time.
 #[derive(Default, Debug)]
 pub struct VirtualClock {
     real: Option<RealClock>,
@@ -115,7 +115,7 @@ impl VirtualClock {
         Self::default()
     }
 
-    /// The same, where the user has asked for it: the end of virtual time is worth a warning.
+    /// The same clock, where the user has requested it: the end of virtual time then gives a warning.
     pub fn asked_for() -> Self {
         Self { asked_for: true, ..Self::default() }
     }
@@ -157,13 +157,13 @@ impl Clock for VirtualClock {
     }
 }
 
-/// Each cycle begins at its own point of real time, so that errors do not add up. What becomes of those whose points
-/// have passed, [`Late`] says; two cycles never begin less than half a cycle after each other.
+/// Each cycle begins at its own point of real time, so that errors do not add up. [`Late`] sets what happens to cycles
+/// whose points have passed; two cycles never begin less than half a cycle after each other.
 #[derive(Default, Debug)]
 pub struct RealClock {
-    /// When the first cycle began, or would have, had none been lost.
+    /// When the first cycle began, or would have begun if no cycle had been lost.
     start: Option<Instant>,
-    /// When the last one began.
+    /// When the last cycle began.
     last: Option<Instant>,
     late: Late,
     lateness: Lateness,
@@ -175,7 +175,7 @@ impl RealClock {
         Self::default()
     }
 
-    /// What becomes of cycles that are lost; without it the grid is held.
+    /// How lost cycles are treated; by default the grid is held.
     pub fn late(self, late: Late) -> Self {
         Self { late, ..self }
     }
@@ -214,19 +214,20 @@ impl Clock for RealClock {
     }
 }
 
-/// How long after the first cycle this one begins.
+/// The time from the begin of the first cycle to that of this one.
 fn since_start(cycle: u64, period: f64) -> Duration {
     Duration::from_secs_f64(cycle as f64 * period)
 }
 
-/// By a point of the clock, not by a time from now on: whatever comes between makes the sleep no longer.
+/// Sleeps until a point of the clock, not for a time from now on: an interruption in between does not make the sleep
+/// longer.
 #[cfg(all(target_os = "linux", feature = "realtime"))]
 fn sleep_until(point: Instant) {
     use rustix::io::Errno;
     use rustix::thread::{ClockId, clock_nanosleep_absolute};
     use rustix::time::{Timespec, clock_gettime};
     loop {
-        // In this order: should something come between, it wakes too early, and sleeps on.
+        // In this order: after an interruption in between it wakes too early, and sleeps on.
         let now = clock_gettime(ClockId::Monotonic);
         let early = point.saturating_duration_since(Instant::now());
         if early.is_zero() {
@@ -255,8 +256,8 @@ mod tests {
     const PERIOD_S: f64 = 0.01;
     const PERIOD: Duration = Duration::from_millis(10);
 
-    /// A clock whose cycle 5 begins so late, and how far its grid has moved, and when that cycle and the next one
-    /// began, counted from the first one.
+    /// A clock whose cycle 5 begins after this delay, and how far its grid has moved, and when that cycle and the next
+    /// one began, counted from the first one.
     fn after_a_delay(late: Late, delay: Duration) -> (RealClock, [Duration; 3]) {
         let mut clock = RealClock::new().late(late);
         clock.wait_for(0, PERIOD_S);

@@ -7,7 +7,7 @@ use std::time::Duration;
 const STEPS_US: [u64; 18] =
     [1, 2, 5, 10, 20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 200_000, 500_000];
 
-/// How late the cycles of a run began, by the time of the world.
+/// How late the cycles of a run began, in real time.
 ///
 /// ```
 /// use arl_rt::clock::Lateness;
@@ -23,7 +23,7 @@ const STEPS_US: [u64; 18] =
 /// ```
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Lateness {
-    /// By the steps, and beyond the last one.
+    /// The counts of the steps, and of those beyond the last one.
     counts: [u64; STEPS_US.len() + 1],
     late: u64,
     lost: u64,
@@ -32,7 +32,7 @@ pub struct Lateness {
 }
 
 impl Lateness {
-    /// A cycle began so long after its point.
+    /// Notes that a cycle began this long after its point.
     pub fn note(&mut self, behind: Duration) {
         let micros = behind.as_nanos().div_ceil(1000);
         let step = STEPS_US.partition_point(|most| u128::from(*most) < micros);
@@ -42,14 +42,14 @@ impl Lateness {
         self.longest = self.longest.max(behind);
     }
 
-    /// That cycle was too late: so many were lost by that.
+    /// Notes that the last cycle was too late, and how many cycles were lost by that.
     pub fn note_lost(&mut self, cycles: u64) {
         self.late += 1;
         self.lost = self.lost.saturating_add(cycles);
     }
 
-    /// So many beats never came from whom cycles follow (a robot that sends, a bus): their cycles are lost, and the
-    /// computer is not to blame.
+    /// Notes beats that never came from the source that cycles follow (a robot that sends, a bus): their cycles are
+    /// lost, and the computer is not to blame.
     pub fn note_missing(&mut self, beats: u64) {
         self.missing = self.missing.saturating_add(beats);
         self.lost = self.lost.saturating_add(beats);
@@ -60,17 +60,17 @@ impl Lateness {
         self.counts.iter().sum()
     }
 
-    /// How many began a whole cycle late, or more.
+    /// How many cycles began a whole cycle late, or more.
     pub fn late(&self) -> u64 {
         self.late
     }
 
-    /// How many cycles were lost: by that, or as their beats never came.
+    /// How many cycles were lost, as a cycle was late or as their beats never came.
     pub fn lost(&self) -> u64 {
         self.lost
     }
 
-    /// How many of the lost ones had no beat.
+    /// How many of the lost cycles had no beat.
     pub fn missing(&self) -> u64 {
         self.missing
     }
@@ -80,8 +80,8 @@ impl Lateness {
         self.longest
     }
 
-    /// How many cycles began within a time, but not within that of the step before, where there are any. What is later
-    /// than half a second is in the last step, whose time is that of the latest cycle.
+    /// How many cycles began within the time of each step, but not within that of the step before; steps without any
+    /// are left out. Cycles more than half a second late are in the last step, whose time is that of the latest cycle.
     pub fn histogram(&self) -> impl Iterator<Item = (Duration, u64)> {
         let steps = STEPS_US.iter().map(|most| Duration::from_micros(*most)).chain([self.longest]);
         steps.zip(self.counts).filter(|(_, count)| *count > 0)

@@ -1,7 +1,7 @@
-//! The control cycle: how long it is, where its time comes from and how late it may be, what it has of the operating
+//! The control cycle: its length, the sources of its time and how late it may be, its resources of the operating
 //! system, which channels run in it, and what it shares with threads beside it.
 //!
-//! It imports no other room.
+//! It imports no other module.
 
 pub(crate) mod catch_panic;
 pub(crate) mod channel_id;

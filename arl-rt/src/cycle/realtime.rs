@@ -1,10 +1,10 @@
-//! What the operating system is asked for, so that cycles begin in time.
+//! Requests to the operating system, so that cycles begin in time.
 
-/// What the thread of the cycle has of the operating system: it goes before all others, its memory stays, its core is
-/// its own. Linux does so, where it is allowed; `docs/drivers.md` says how to allow it.
+/// Resources of the operating system for the thread of the cycle: priority over all other threads, locked memory, a
+/// core of its own. Linux provides them, where it is allowed; `docs/drivers.md` describes how to allow it.
 ///
-/// [`begin`](Realtime::begin) is for the thread that steps the controller, before that is built: what works beside the
-/// cycle (laws, blends, the disk, connections) begins after it, and takes second place.
+/// Call [`begin`](Realtime::begin) on the thread that steps the controller, before that is built: threads beside the
+/// cycle (time laws, blends, the disk, connections) are started after it, and get a lower priority.
 ///
 /// ```
 /// use arl_rt::clock::Realtime;
@@ -20,16 +20,16 @@ pub struct Realtime {
     core: Core,
 }
 
-/// Which core the cycle has.
+/// The core of the cycle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Core {
-    /// The last of those that the process may use, where there is more than one.
+    /// The last of the cores that the process may use, where there is more than one.
     Last,
     Number(usize),
     Any,
 }
 
-/// Above what the kernel does for devices, below what it needs itself.
+/// Above the kernel's threads for devices, below those that it needs itself.
 const PRIORITY: u8 = 80;
 
 impl Default for Realtime {
@@ -44,22 +44,22 @@ impl Realtime {
         Self::default()
     }
 
-    /// The priority of `SCHED_FIFO`, 1 to 99.
+    /// Sets the priority of `SCHED_FIFO`, 1 to 99.
     pub fn priority(self, priority: u8) -> Self {
         Self { priority: priority.clamp(1, 99), ..self }
     }
 
-    /// The core on which the cycle runs, from 0.
+    /// Sets the core on which the cycle runs, from 0.
     pub fn core(self, core: usize) -> Self {
         Self { core: Core::Number(core), ..self }
     }
 
-    /// The cycle runs on any core.
+    /// Lets the cycle run on any core.
     pub fn without_core(self) -> Self {
         Self { core: Core::Any, ..self }
     }
 
-    /// Asks for it, for this thread; what could not be had, and why.
+    /// Requests the resources for this thread; returns those that it did not get, and the reasons.
     pub fn begin(self) -> Vec<String> {
         system::begin(self)
     }
@@ -83,7 +83,7 @@ mod system {
 
     /// The cores that the process may use, as they were at first.
     static ALL: OnceLock<CpuSet> = OnceLock::new();
-    /// Those of all threads but that of the cycle.
+    /// The cores of all threads but that of the cycle.
     static OTHERS: Mutex<Option<CpuSet>> = Mutex::new(None);
     /// Of 99, which is a niceness of 3.
     const BESIDE: u8 = 40;
@@ -110,7 +110,7 @@ mod system {
                 *OTHERS.lock().unwrap_or_else(PoisonError::into_inner) = Some(all);
                 return sched_setaffinity(None, &all).map_err(|error| error.to_string());
             }
-            // One that is kept from other programs is none of those that we have, and can be had all the same.
+            // A core that is reserved from other programs is not in our set, and may be available all the same.
             Core::Number(core) if core < CpuSet::MAX_CPU => core,
             Core::Number(core) => return Err(format!("there is no core {core}")),
             Core::Last if ours.len() < 2 => return Err("there is only one core for all threads".to_owned()),
@@ -130,8 +130,7 @@ mod system {
         Ok(())
     }
 
-    /// With a limit the memory that comes later could not be had at all, so that it is not locked then. For the
-    /// superuser there is none.
+    /// With a limit, memory allocated later would fail, so that memory is not locked then. The superuser has no limit.
     fn lock_memory() -> Result<(), String> {
         if let (Some(most), false) = (getrlimit(Resource::Memlock).current, geteuid().is_root()) {
             return Err(format!("only {} KiB may be locked (`ulimit -l`): it must be unlimited", most / 1024));
@@ -146,7 +145,8 @@ mod system {
         done.map_err(|error| format!("{error} (`ulimit -r` shows which are allowed)"))
     }
 
-    /// What a thread beside the cycle has inherited from it is not for it. What it may not do makes it no slower.
+    /// Gives a thread beside the cycle resources of its own instead of those inherited from the cycle. Where that is
+    /// not allowed, the thread gets no slower.
     fn step_back() {
         if let Some(others) = *OTHERS.lock().unwrap_or_else(PoisonError::into_inner) {
             let _ = sched_setaffinity(None, &others);
@@ -168,7 +168,7 @@ mod tests {
 
     use super::*;
 
-    /// The cores that this thread may use, and whether it is one of those that go first.
+    /// The cores that this thread may use, and whether it has a real-time priority.
     fn mine() -> (Vec<usize>, bool) {
         let cores = sched_getaffinity(None).unwrap();
         let (policy, _) = thread_schedule_policy_param(thread_native_id()).unwrap();
@@ -179,10 +179,10 @@ mod tests {
     #[test]
     fn threads_beside_the_cycle_step_back_from_what_that_has() {
         let before = mine().0;
-        // In a thread of its own, as other tests want to go on as they are.
+        // In a thread of its own, as other tests must go on unchanged.
         let cycle = std::thread::spawn(move || {
             let problems = system::begin_without_memory(Realtime::new());
-            // Once more, it is the same.
+            // A second call gives the same result.
             assert_eq!(system::begin_without_memory(Realtime::new()), problems);
             let worker = beside::spawn(std::thread::Builder::new(), mine).unwrap().join().unwrap();
             (problems, mine(), worker)

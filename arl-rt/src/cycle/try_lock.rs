@@ -2,12 +2,12 @@
 
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
-/// How often the cycle looks again whether a lock is free: for some microseconds. Whoever has it copies some bytes.
+/// How often the cycle tries to take a lock: for some microseconds. Its holder only copies some bytes.
 const MAX_ATTEMPTS: usize = 100;
 
-/// What is behind the lock, unless somebody else has it for longer than copying takes: its thread was interrupted just
-/// then. The cycle does not wait for that. What a thread that panicked has left behind is whole: nothing between two
-/// changes can panic.
+/// The value behind the lock, unless another thread holds it for longer than copying takes: then that thread has just
+/// been interrupted, and the cycle does not wait for it. The value is consistent even after a panic of the other
+/// thread: nothing between two changes can panic.
 pub(crate) fn try_lock<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
     for _ in 0..MAX_ATTEMPTS {
         match mutex.try_lock() {

@@ -1,4 +1,4 @@
-//! The field buses of a controller, as the cell has them.
+//! The field buses of a controller, as configured in the cell.
 
 use std::cell::{OnceCell, RefCell, RefMut};
 use std::collections::HashSet;
@@ -9,7 +9,7 @@ use super::modbus::SharedTables;
 use super::modbus_tcp::ModbusTcp;
 use super::{BusSettings, ModbusTcpSettings};
 
-/// How many different reports a run may give, so that they never fill the memory.
+/// The most different reports of a run, so that they never fill the memory.
 const MAX_REPORTS: usize = 100;
 
 /// The field buses of a controller.
@@ -21,7 +21,7 @@ pub(crate) struct Buses {
 }
 
 impl Buses {
-    /// Buses as the cell has them.
+    /// Creates the buses with the settings of the cell.
     pub(crate) fn new(settings: BusSettings, devicenet: Box<dyn DeviceNet>) -> Self {
         Self { devicenet: RefCell::new(devicenet), modbus_tcp: OnceCell::new(), settings, reported: RefCell::default() }
     }
@@ -36,7 +36,8 @@ impl Buses {
         &self.modbus_tcp().tables
     }
 
-    /// Whether nobody has told the user this yet, and there is room for one more report; notes that it is told now.
+    /// Whether this has not been reported to the user yet and there is room for one more report; records it as
+    /// reported.
     pub(crate) fn is_new_report(&self, text: &str) -> bool {
         let mut reported = self.reported.borrow_mut();
         reported.len() < MAX_REPORTS && reported.insert(text.to_owned())
@@ -47,12 +48,12 @@ impl Buses {
         self.modbus_tcp.get_or_init(ModbusTcp::default)
     }
 
-    /// Starts what the cell asks for, whether a program uses it or not. Where the cell says nothing of it, a server
-    /// with all defaults is tried, if programs want one. What the user should know: where the server listens, if the
-    /// cell left that open; why there is none.
+    /// Starts the server that the cell configures, whether a program uses it or not. Without settings in the cell,
+    /// tries to start a server with all defaults if programs want one. Returns a message for the user: the address of
+    /// the server, if the cell leaves the port open, or the reason why there is no server.
     ///
     /// # Errors
-    /// Why some of what the cell asks for cannot be had.
+    /// The reason why the configured server cannot be started.
     pub(crate) fn start(&self, wanted: bool) -> Result<Option<String>, String> {
         let Some(settings) = &self.settings.modbus_tcp else {
             let tried = wanted.then(|| self.modbus_tcp().start(&ModbusTcpSettings::default()));
@@ -63,12 +64,12 @@ impl Buses {
         Ok(address.map(|address| format!("the Modbus TCP server listens on {address}")))
     }
 
-    /// Where the Modbus TCP server listens, if there is one.
+    /// The address on which the Modbus TCP server listens, if it runs.
     pub(crate) fn modbus_tcp_address(&self) -> Option<SocketAddr> {
         self.modbus_tcp.get()?.address()
     }
 
-    /// Whether the cell asks for connections that stand from the start.
+    /// Whether the cell configures connections that exist from the start.
     pub(crate) fn is_outside(&self) -> bool {
         self.settings.modbus_tcp.is_some()
     }

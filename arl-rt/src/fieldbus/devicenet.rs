@@ -1,34 +1,35 @@
-//! The trait of a DeviceNet bus, a buffer of bytes that is exchanged, and a simulated one.
+//! The trait of a DeviceNet bus, which exchanges a buffer of bytes, and a simulated bus.
 
 use std::fmt;
 
 use arl_robot::outline;
 
-/// What stands between programs and a DeviceNet bus: the bytes that it exchanges with its devices. The calls must
-/// return at once; the exchange happens beside them.
+/// The interface between programs and a DeviceNet bus: the bytes that the bus exchanges with its devices. The calls
+/// must return at once; the exchange runs independently of them.
 pub trait DeviceNet {
-    /// How many bytes are exchanged: programs reach the offsets below.
+    /// The number of bytes exchanged; programs can access the offsets below it.
     fn size(&self) -> usize;
 
-    /// Takes bytes that go to the bus, from `offset` on. They lie within the size.
+    /// Accepts bytes for the bus, from `offset` on. They are within the size.
     ///
     /// # Errors
-    /// The bus does not take them: a code that the program gets as it is, 100 or more so that it differs from ours.
+    /// The bus does not accept them. The code is passed to the program unchanged; it is 100 or more, so that it differs
+    /// from the runtime's own codes.
     fn write(&mut self, offset: usize, data: &[u8]) -> Result<(), ErrorCode>;
 
-    /// Gives bytes that came from the bus, from `offset` on. They lie within the size.
+    /// Returns bytes received from the bus, from `offset` on. They are within the size.
     ///
     /// # Errors
-    /// The bus has none: a code, as for [`DeviceNet::write`].
+    /// The bus has no bytes. The code is as for [`DeviceNet::write`].
     fn read(&mut self, offset: usize, data: &mut [u8]) -> Result<(), ErrorCode>;
 }
 
-/// What a program gets instead of 0.
+/// The result code of a program's call instead of 0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct ErrorCode(i32);
 
 impl ErrorCode {
-    /// A code of a driver; those below 100 become 100.
+    /// An error code of a driver; codes below 100 become 100.
     pub const fn new(code: i32) -> Self {
         Self(if code < 100 { 100 } else { code })
     }
@@ -52,14 +53,14 @@ impl std::error::Error for ErrorCode {}
 pub struct SimulatedDeviceNet(Box<[u8]>);
 
 impl SimulatedDeviceNet {
-    /// A bus that exchanges so many bytes.
+    /// A bus that exchanges `size` bytes.
     pub fn new(size: usize) -> Self {
         Self(vec![0; size].into())
     }
 }
 
 impl Default for SimulatedDeviceNet {
-    /// 512 bytes.
+    /// A bus that exchanges 512 bytes.
     fn default() -> Self {
         Self::new(outline::DEVICENET as usize)
     }

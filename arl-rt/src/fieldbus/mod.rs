@@ -1,7 +1,7 @@
-//! Field buses: DeviceNet, the Modbus TCP server, and io islands behind Modbus TCP.
+//! Field buses: DeviceNet, the Modbus TCP server, and I/O islands over Modbus TCP.
 //!
-//! Whatever talks to the outside does so on threads beside the cycle. What turns bytes into requests and back is pure
-//! functions, which take any bytes without harm.
+//! All communication with the outside runs on threads outside the cycle. Pure functions convert bytes into requests and
+//! back; they accept any bytes safely.
 
 mod buses;
 pub mod devicenet;

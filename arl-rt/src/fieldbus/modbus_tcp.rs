@@ -7,7 +7,7 @@ use super::ModbusTcpSettings;
 use super::modbus::SharedTables;
 use super::modbus::server::Server;
 
-/// The tables, and the server where there is one.
+/// The tables, and the server if it runs.
 #[derive(Default)]
 pub(crate) struct ModbusTcp {
     pub(super) tables: SharedTables,
@@ -18,7 +18,7 @@ impl ModbusTcp {
     /// Starts the server.
     ///
     /// # Errors
-    /// It cannot listen: why, and what can be done.
+    /// The server cannot listen; the message has the reason and a remedy.
     pub(super) fn start(&self, settings: &ModbusTcpSettings) -> Result<(), String> {
         let address = settings.address;
         let server = Server::start(address, settings.connections, self.tables.clone());
@@ -33,7 +33,7 @@ impl ModbusTcp {
         Ok(())
     }
 
-    /// Where the server listens, if there is one.
+    /// The address on which the server listens, if it runs.
     pub(super) fn address(&self) -> Option<SocketAddr> {
         self.server.get().map(Server::address)
     }

@@ -1,10 +1,10 @@
-//! Random bytes for tests of what reads bytes from outside.
+//! Random bytes for tests of code that reads bytes from outside.
 
-// In tests only: the generator that programs have.
+// In tests only: the generator that programs use.
 // up: a helper of tests only
 use crate::context::random::Random;
 
-/// A sequence that is the same each time.
+/// A reproducible pseudo-random sequence.
 pub(crate) struct Noise(Random);
 
 impl Noise {

@@ -7,10 +7,10 @@ use crate::fault::Fault;
 /// Analog channels of one direction. Channels count from 1.
 #[derive(Debug)]
 pub(crate) struct AnalogRow {
-    /// How messages name them.
+    /// The name of the channels in messages.
     name: &'static str,
     types: Box<[AnalogType]>,
-    /// V or mA.
+    /// The values, V or mA.
     values: Box<[f64]>,
 }
 
@@ -33,7 +33,7 @@ impl AnalogRow {
         Ok(())
     }
 
-    /// Whether a channel can have this value, and its place, from 0.
+    /// Checks whether a channel can have this value; returns the channel's index, from 0.
     pub(crate) fn check(&self, channel: i32, value: f64) -> Result<usize, Fault> {
         let at = place(self.name, channel, self.values.len())?;
         let ty = self.types.get(at).copied().unwrap_or(AnalogType::Volt);
@@ -45,7 +45,7 @@ impl AnalogRow {
         Ok(at)
     }
 
-    /// Takes over what the outside measures, whatever it is, for the channel at this place, from 0, if there is one.
+    /// Takes any value measured outside for the channel with this index, from 0, if it exists.
     pub(crate) fn put(&mut self, at: usize, value: f64) {
         if let Some(place) = self.values.get_mut(at) {
             *place = value;

@@ -1,17 +1,17 @@
-//! Channels of io by their numbers, which count from 1.
+//! I/O channels by number, counted from 1.
 
 use crate::fault::Fault;
 
-/// An output, by its channel from 1.
+/// An output by its channel, counted from 1.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum OutputSignal {
-    /// A digital one.
+    /// A digital output.
     Digital(usize),
-    /// An analog one.
+    /// An analog output.
     Analog(usize),
 }
 
-/// The place of a channel, from 0, among `count` that messages call `name`.
+/// The index, from 0, of a channel among `count` channels that messages call `name`.
 pub(super) fn place(name: &str, channel: i32, count: usize) -> Result<usize, Fault> {
     match usize::try_from(channel) {
         Ok(number) if (1..=count).contains(&number) => Ok(number - 1),

@@ -1,14 +1,15 @@
-//! The trait of what exchanges inputs and outputs with the outside, and why a driver cannot be had.
+//! The trait of drivers that exchange inputs and outputs with the outside, and the errors of drivers.
 
 use std::{error, fmt, io};
 
 use super::channel::OutputSignal;
 use super::image::{Inputs, Outputs};
 
-/// Exchanges inputs and outputs with the outside, once a cycle. All calls must return at once: what takes time, like a
-/// field bus, has a thread of its own, and an image that both copy. The islands of a cell file work like this.
+/// Exchanges inputs and outputs with the outside, once a cycle. All calls must return at once: slow exchanges, such as
+/// a field bus, need a thread of their own and an image that both threads copy. The islands of a cell file work this
+/// way.
 ///
-/// A whole plant can run in the process, too:
+/// A whole plant can be simulated in the process, too:
 ///
 /// ```
 /// use arl_rt::io::{Inputs, IoDriver, Outputs};
@@ -61,42 +62,42 @@ use super::image::{Inputs, Outputs};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait IoDriver {
-    /// Connects, once, before the first cycle. It may take its time.
+    /// Connects, once, before the first cycle. This may take long.
     ///
     /// # Errors
-    /// Why there are no inputs and outputs: the controller is not built.
+    /// The reason why there are no inputs and outputs; the controller is not built then.
     fn start(&mut self) -> Result<(), DriverError> {
         Ok(())
     }
 
-    /// Fills the inputs, at the start of a cycle. What it leaves alone keeps its level.
+    /// Fills the inputs, at the start of a cycle. Inputs that are not set keep their level.
     fn read(&mut self, inputs: Inputs<'_>);
 
     /// Passes the outputs on, at the end of a cycle.
     fn write(&mut self, outputs: Outputs<'_>);
 
-    /// Whether an output of this cycle ([`Outputs::cycle`]), or of a later one, has got to where it goes: `syncdo` and
-    /// `syncao` wait for it. Asked after [`read`](IoDriver::read).
+    /// Whether an output of this cycle ([`Outputs::cycle`]), or of a later one, has reached its destination: `syncdo`
+    /// and `syncao` wait for this. Called after [`read`](IoDriver::read).
     fn has_reached(&self, _output: OutputSignal, _cycle: u64) -> bool {
         true
     }
 
-    /// What the user should know, once; asked for in each cycle until there is nothing more.
+    /// Returns a message for the user, once; called in each cycle until there is none left.
     fn take_warning(&mut self) -> Option<String> {
         None
     }
 
-    /// Why no robot may move on, as long as that is so: the inputs are not those of the outside any more. It is alarm
-    /// 20051 for each program with a robot, as soon as it runs.
+    /// The reason why no robot may continue to move, as long as it holds: the inputs no longer are those of the
+    /// outside. Raises alarm 20051 for each program with a robot as soon as it runs.
     fn fault(&self) -> Option<&str> {
         None
     }
 
-    /// The controller ends; nothing is called any more. It may take its time.
+    /// Called when the controller ends; no other call follows. This may take long.
     fn close(&mut self) {}
 }
 
-/// Io without an outside: inputs keep what a scenario or the embedding program gave them.
+/// I/O without an outside: inputs keep the levels that a scenario or the embedding program set.
 #[derive(Clone, Copy, Default, Debug)]
 pub struct SimulatedIo;
 
@@ -108,14 +109,14 @@ impl IoDriver for SimulatedIo {
     fn write(&mut self, _outputs: Outputs<'_>) {}
 }
 
-/// Why a driver cannot be had: of a robot, or of inputs and outputs. A text becomes one, and so does an error of the
-/// system (`?`).
+/// The error of a driver that cannot be started, of a robot or of inputs and outputs. Texts and system errors convert
+/// into it (`?`).
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum DriverError {
-    /// The driver says why.
+    /// The driver's own message.
     Said(String),
-    /// Something of the system failed; what it says.
+    /// A system call failed; kind and message of its error.
     System(io::ErrorKind, String),
 }
 

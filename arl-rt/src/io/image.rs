@@ -1,4 +1,4 @@
-//! The controller's picture of its inputs and outputs: what programs read and write between two exchanges with the
+//! The controller's process image: the inputs and outputs that programs read and write between two exchanges with the
 //! outside.
 
 use std::collections::VecDeque;
@@ -25,16 +25,16 @@ pub struct Image {
     pulses: Vec<Option<Pulse>>,
     running_pulses: usize,
     pwm: [Pwm; PWM_CHANNELS],
-    /// Outputs that a program waits for, and the cycle in which it set them.
+    /// Outputs that a program waits for, with the cycle in which it set them.
     awaited: Vec<(OutputSignal, u64)>,
-    /// Outputs that change when a motion of a channel has ended: for each channel, in the order of its motions.
+    /// Outputs that change when a motion has ended: for each channel, in the order of its motions.
     after_motion: Vec<VecDeque<AfterMotion>>,
 }
 
-/// How many PWM outputs a controller has.
+/// The number of PWM outputs of a controller.
 pub(crate) const PWM_CHANNELS: usize = 3;
 
-/// What a PWM output does. One that no program has set yet is off: 0 Hz, 0 %.
+/// The setting of a PWM output. An output that no program has set yet is off: 0 Hz, 0 %.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct Pwm {
     /// The frequency in Hz, 10 to 10000.
@@ -43,14 +43,14 @@ pub struct Pwm {
     pub duty: u8,
 }
 
-/// A pulse on its way.
+/// A running pulse.
 #[derive(Clone, Copy, Debug)]
 struct Pulse {
-    /// The level that it drives.
+    /// The level during the pulse.
     level: bool,
-    /// The cycle at whose start it is over.
+    /// The cycle at whose start the pulse ends.
     ends: u64,
-    /// The place of the channel whose program began it.
+    /// The index of the channel whose program started the pulse.
     owner: usize,
 }
 
@@ -62,7 +62,7 @@ struct AfterMotion {
     level: bool,
 }
 
-/// Which digital signals are meant.
+/// A kind of digital signal.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Digital {
     /// Inputs.
@@ -87,7 +87,7 @@ impl Digital {
 }
 
 impl Image {
-    /// All channels off and at 0.
+    /// An image with all channels off and without signal.
     pub(crate) fn new(channels: &Channels) -> Self {
         Self {
             di: Bits::new(channels.di),
@@ -104,13 +104,13 @@ impl Image {
         }
     }
 
-    /// The same, for so many channels with programs.
+    /// The same image for `count` channels with programs.
     pub(crate) fn for_programs(mut self, count: usize) -> Self {
         self.after_motion.resize_with(count, || VecDeque::with_capacity(64));
         self
     }
 
-    /// Ends all pulses of a program's channel at once.
+    /// Ends all pulses of a program's channel immediately.
     pub(crate) fn end_pulses(&mut self, owner: usize) {
         for at in 0..self.pulses.len() {
             if self.pulses.get(at).copied().flatten().is_some_and(|pulse| pulse.owner == owner) {
@@ -126,13 +126,13 @@ impl Image {
         Ok(())
     }
 
-    /// What a PWM output does.
+    /// The setting of a PWM output.
     pub(crate) fn pwm(&self, channel: i32) -> Result<Pwm, Fault> {
         let at = place("PWM", channel, PWM_CHANNELS)?;
         Ok(self.pwm.get(at).copied().unwrap_or_default())
     }
 
-    /// Waits for outputs that were set in this cycle to get to where they go.
+    /// Notes that a program waits until outputs that were set in this cycle have reached their destination.
     pub(crate) fn await_outputs(&mut self, outputs: impl Iterator<Item = OutputSignal>, cycle: u64) {
         for output in outputs {
             match self.awaited.iter_mut().find(|(known, _)| *known == output) {
@@ -142,22 +142,22 @@ impl Image {
         }
     }
 
-    /// Whether one of these is waited for.
+    /// Whether a program waits for one of these outputs.
     pub(crate) fn awaits(&self, mut outputs: impl Iterator<Item = OutputSignal>) -> bool {
         !self.awaited.is_empty() && outputs.any(|output| self.awaited.iter().any(|(awaited, _)| *awaited == output))
     }
 
-    /// Those are not waited for any more that have got to where they go.
+    /// Ends the wait for outputs that have reached their destination.
     pub(crate) fn outputs_reached(&mut self, has: impl Fn(OutputSignal, u64) -> bool) {
         self.awaited.retain(|(output, since)| !has(*output, *since));
     }
 
-    /// What all PWM outputs do.
+    /// The settings of all PWM outputs.
     pub(crate) fn pwms(&self) -> [Pwm; PWM_CHANNELS] {
         self.pwm
     }
 
-    /// Drops what waits for the end of a motion of a program's channel.
+    /// Drops the outputs that wait for the end of a motion of a program's channel.
     pub(crate) fn forget_motion(&mut self, owner: usize) {
         self.after_motion.get_mut(owner).into_iter().for_each(VecDeque::clear);
     }
@@ -197,14 +197,14 @@ impl Image {
         Ok(levels.cast_signed())
     }
 
-    /// Sets a channel. A pulse that runs on it is over.
+    /// Sets a channel. This ends a pulse that runs on it.
     pub(crate) fn set_digital(&mut self, what: Digital, channel: i32, level: bool) -> Result<(), Fault> {
         let at = self.place(what, channel)?;
         self.drive(what, at, level);
         Ok(())
     }
 
-    /// Sets a range of channels; the first takes the lowest bit. Bits left over are ignored.
+    /// Sets a range of channels; the first takes the lowest bit. Surplus bits are ignored.
     pub(crate) fn set_digitals(&mut self, what: Digital, from: i32, to: i32, levels: i32) -> Result<(), Fault> {
         for (bit, at) in self.range(what, from, to)?.enumerate() {
             self.drive(what, at, levels.cast_unsigned() >> bit & 1 == 1);
@@ -260,7 +260,7 @@ impl Image {
         self.ao.set(channel, value)
     }
 
-    /// Starts a pulse of `level` that is over at the start of cycle `ends`, for the program of the channel `owner`.
+    /// Starts a pulse of `level` that ends at the start of cycle `ends`, for the program of the channel `owner`.
     pub(crate) fn pulse(&mut self, owner: usize, channel: i32, level: bool, ends: u64) -> Result<(), Fault> {
         let at = self.place(Digital::Do, channel)?;
         self.drive(Digital::Do, at, level);
@@ -295,7 +295,7 @@ impl Image {
         }
     }
 
-    /// Whether a pulse of a program's channel is still running.
+    /// Whether a pulse is running, or a program waits for outputs to reach their destination.
     pub(crate) fn has_pulses(&self) -> bool {
         self.running_pulses > 0 || !self.awaited.is_empty()
     }
@@ -305,7 +305,7 @@ impl Image {
         self.running_pulses > 0 && self.pulses.iter().flatten().any(|pulse| pulse.owner == owner)
     }
 
-    /// Sets a channel when the motion with this running number, of the program's channel `owner`, has ended.
+    /// Sets a channel as soon as the motion with this running number, of the program's channel `owner`, has ended.
     pub(crate) fn set_after(&mut self, owner: usize, motion: u64, channel: i32, level: bool) -> Result<(), Fault> {
         let at = self.place(Digital::Do, channel)?;
         if let Some(waiting) = self.after_motion.get_mut(owner) {
@@ -314,8 +314,8 @@ impl Image {
         Ok(())
     }
 
-    /// Sets the channels that waited for motions of the program's channel `owner` that have ended, in the order in
-    /// which they were told to.
+    /// Sets the channels that waited for motions of the program's channel `owner` that have ended, in the order of the
+    /// calls.
     pub(crate) fn motions_ended(&mut self, owner: usize, ended: impl Fn(u64) -> bool) {
         let mut at = 0;
         while let Some(waiting) = self.after_motion.get_mut(owner)
@@ -335,13 +335,13 @@ impl Image {
         row.values()
     }
 
-    /// The level of a digital input; `None` where there is no such channel.
+    /// The level of a digital input; `None` if the channel does not exist.
     pub(crate) fn input(&self, channel: i32) -> Option<bool> {
         let at = usize::try_from(channel).ok()?.checked_sub(1)?;
         (at < self.di.len()).then(|| self.di.get(at))
     }
 
-    /// Drives a digital output, where there is one.
+    /// Sets a digital output if it exists.
     pub(crate) fn drive_output(&mut self, channel: i32, level: bool) {
         let place = usize::try_from(channel).ok().and_then(|channel| channel.checked_sub(1));
         if let Some(at) = place.filter(|at| *at < self.dout.len()) {
@@ -349,12 +349,12 @@ impl Image {
         }
     }
 
-    /// The digital outputs, for edges.
+    /// The digital outputs, for edge detection.
     pub(crate) fn outputs(&self) -> &Bits {
         &self.dout
     }
 
-    /// The digital inputs, for edges.
+    /// The digital inputs, for edge detection.
     pub(crate) fn inputs(&self) -> &Bits {
         &self.di
     }
@@ -385,23 +385,23 @@ pub struct Inputs<'a> {
 }
 
 impl Inputs<'_> {
-    /// Sets a digital input; channels that do not exist are left out.
+    /// Sets a digital input; channels that do not exist are ignored.
     pub fn set_digital_input(&mut self, channel: usize, level: bool) {
         self.di.set(channel.wrapping_sub(1), level);
     }
 
-    /// Sets an analog input in V or mA, whatever is measured; channels that do not exist are left out.
+    /// Sets an analog input in V or mA to any measured value; channels that do not exist are ignored.
     pub fn set_analog_input(&mut self, channel: usize, value: f64) {
         self.ai.put(channel.wrapping_sub(1), value);
     }
 
-    /// Sets an internal input; channels that do not exist are left out.
+    /// Sets an internal input; channels that do not exist are ignored.
     pub fn set_internal_input(&mut self, channel: usize, level: bool) {
         self.internal.set(channel.wrapping_sub(1), level);
     }
 
-    /// Sets an internal output, which programs can only read: it is the internal PLC's; channels that do not exist are
-    /// left out.
+    /// Sets an internal output, which programs can only read, as the internal PLC sets it; channels that do not exist
+    /// are ignored.
     pub fn set_internal_output(&mut self, channel: usize, level: bool) {
         self.internal_outputs.set(channel.wrapping_sub(1), level);
     }
@@ -418,27 +418,27 @@ pub struct Outputs<'a> {
 }
 
 impl Outputs<'_> {
-    /// The running number of their cycle, for [`IoDriver::has_reached`](super::IoDriver::has_reached).
+    /// The running number of the cycle, for [`IoDriver::has_reached`](super::IoDriver::has_reached).
     pub fn cycle(&self) -> u64 {
         self.cycle
     }
 
-    /// The level of a digital output; false where there is none.
+    /// The level of a digital output; false if it does not exist.
     pub fn digital_output(&self, channel: usize) -> bool {
         self.dout.get(channel.wrapping_sub(1))
     }
 
-    /// An analog output in V or mA; 0 where there is none.
+    /// An analog output in V or mA; 0 if it does not exist.
     pub fn analog_output(&self, channel: usize) -> f64 {
         self.ao.get(channel.wrapping_sub(1)).copied().unwrap_or_default()
     }
 
-    /// A PWM output; off where there is none.
+    /// A PWM output; off if it does not exist.
     pub fn pwm(&self, channel: usize) -> Pwm {
         self.pwm.get(channel.wrapping_sub(1)).copied().unwrap_or_default()
     }
 
-    /// The level of an internal output; false where there is none.
+    /// The level of an internal output; false if it does not exist.
     pub fn internal_output(&self, channel: usize) -> bool {
         self.internal.get(channel.wrapping_sub(1))
     }

@@ -1,5 +1,5 @@
-//! Inputs and outputs: the image that programs work on, the border to real ones, and the scenario that plays the
-//! outside.
+//! Inputs and outputs: the image that programs work on, the interface to real signals, and the scenario that simulates
+//! the outside.
 //!
 //! It imports `cycle` and `fault`.
 

@@ -1,4 +1,4 @@
-//! Data files: `_data.arl` files with points that were taught again are read once more when a program is loaded.
+//! Data files: `_data.arl` files, whose points may have been taught again, are read again when a program is loaded.
 
 pub(crate) use crate::values::Teach;
 
@@ -16,7 +16,7 @@ use crate::values::teach_variable;
 
 /// A data file and the variables that it gives values to.
 pub struct DataFile<'a> {
-    /// The file, as it was named when the program was compiled.
+    /// The name of the file when the program was compiled.
     pub file: &'static str,
     /// Its variables.
     pub vars: Vec<DataVar<'a>>,
@@ -26,15 +26,14 @@ pub struct DataFile<'a> {
 pub struct DataVar<'a> {
     /// Its name as it was declared.
     pub name: &'static str,
-    /// The sizes of an array of several dimensions, outermost first; else empty.
+    /// The sizes of an array of several dimensions, outermost first; otherwise empty.
     pub sizes: &'static [usize],
     /// The variable.
     pub slot: &'a dyn Teach,
 }
 
-/// Reads data files in the folder of their program again and gives their variables the values that stand there. A file
-/// that is not there leaves the values that were compiled in. What is wrong comes back as alarms; variables that it
-/// concerns stay as they were.
+/// Reads data files in the folder of their program again and gives their variables the values found there. Without the
+/// file, the compiled values stay. Errors are returned as alarms; the variables concerned keep their values.
 pub(crate) fn reload(files: &[DataFile<'_>], folder: &Path) -> Vec<Alarm> {
     files.iter().flat_map(|data| file(data, folder)).collect()
 }
@@ -49,8 +48,8 @@ fn file(data: &DataFile<'_>, folder: &Path) -> Vec<Alarm> {
     teach_file(data, &content)
 }
 
-/// Gives the variables of a data file the values that stand in `content`. What is wrong comes back as alarms; variables
-/// that it concerns stay as they were.
+/// Gives the variables of a data file the values in `content`. Errors are returned as alarms; the variables concerned
+/// keep their values.
 pub(crate) fn teach_file(data: &DataFile<'_>, content: &[u8]) -> Vec<Alarm> {
     let alarm = |line: u32, text: String| Alarm::new(Fault::Data(text.into()), File::new(data.file), line);
     let text = match arl_lang::text::decode(content) {
@@ -71,7 +70,7 @@ pub(crate) fn teach_file(data: &DataFile<'_>, content: &[u8]) -> Vec<Alarm> {
             _ => None,
         })
         .flat_map(|decl| decl.vars.iter().map(move |var| (decl, var)))
-        // The first of two of one name counts.
+        // Of two declarations with one name the first counts.
         .rev()
         .map(|(decl, var)| (names.name(var.name.symbol).to_ascii_lowercase(), (decl, var)))
         .collect();
@@ -99,8 +98,8 @@ fn teach(
         .map_err(|error| (Some(error.span), format!("{name}: {error}")))
 }
 
-/// Where a data file may lie: at its own path where that is absolute, else in the folder of its program; there also by
-/// its bare name.
+/// The possible paths of a data file: its own path if that is absolute, otherwise the path in the folder of its
+/// program; in that folder also its bare name.
 pub(crate) fn places(name: &str, folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     let path = Path::new(name);
     let bare = path.file_name().map(|bare| folder.join(bare));
@@ -108,12 +107,12 @@ pub(crate) fn places(name: &str, folder: &Path) -> impl Iterator<Item = PathBuf>
     [Some(folder.join(path)), bare].into_iter().flatten()
 }
 
-/// The one of these places where a file is.
+/// The first of these paths at which a file exists.
 pub(crate) fn place(mut places: impl Iterator<Item = PathBuf>) -> Option<PathBuf> {
     places.find(|path| path.is_file())
 }
 
-/// The content of a data file, and where it lies.
+/// The content of a data file, and its path.
 fn read(name: &str, folder: &Path) -> Option<(PathBuf, std::io::Result<Vec<u8>>)> {
     for place in places(name, folder) {
         match regular_file::read(&place) {
@@ -124,7 +123,7 @@ fn read(name: &str, folder: &Path) -> Option<(PathBuf, std::io::Result<Vec<u8>>)
     None
 }
 
-/// The line of a place, from 1.
+/// The line at which a span begins, from 1.
 fn line(text: &str, span: Span) -> u32 {
     let before = text.as_bytes().get(..span.start as usize).unwrap_or(text.as_bytes());
     let feeds = before.iter().filter(|byte| **byte == b'\n').count();

@@ -1,4 +1,4 @@
-//! A thread beside the cycle works with the disk: a write that has reached the disk takes longer than a cycle has.
+//! A thread for disk access outside the cycle: a write that reaches the disk takes longer than a cycle.
 
 use std::cell::{Cell, RefCell};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel, sync_channel};
@@ -10,36 +10,36 @@ use crate::cycle::catch_panic::catch_panic;
 
 type Job = Box<dyn FnOnce() + Send>;
 
-/// Does work on a thread of its own, one piece after the other in the order in which they come.
+/// Runs jobs on a thread of its own, one after the other in the order in which they arrive.
 #[derive(Default)]
 pub(crate) struct Disk {
     thread: RefCell<Option<Thread>>,
-    /// Whether a program may wait for something that was begun since the last [`Disk::settle`].
+    /// Whether a program may wait for a job that was begun since the last [`Disk::settle`].
     waited_for: Cell<bool>,
 }
 
 struct Thread {
-    /// None when it is to end.
+    /// `None` once the thread is to end.
     jobs: Option<Sender<Job>>,
     handle: Option<JoinHandle<()>>,
 }
 
-/// Work that was begun.
+/// A job that was begun.
 pub(crate) struct Work<T>(Receiver<T>);
 
-/// How far work has come.
+/// The state of a job.
 pub(crate) enum Stage<T> {
     UnderWay,
     Done(T),
-    /// It has panicked.
+    /// The job has panicked.
     Lost,
 }
 
 impl Disk {
-    /// Starts the thread, which the first piece of work does otherwise.
+    /// Starts the thread; otherwise the first job starts it.
     ///
     /// # Errors
-    /// The system gives none.
+    /// The system provides no thread.
     pub(crate) fn start(&self) -> std::io::Result<()> {
         let mut thread = self.thread.borrow_mut();
         if thread.is_none() {
@@ -48,11 +48,11 @@ impl Disk {
         Ok(())
     }
 
-    /// Begins a piece of work. Where the system gives no thread, it is done at once.
+    /// Begins a job. If the system provides no thread, the job is done at once.
     pub(crate) fn begin<T: Send + 'static>(&self, work: impl FnOnce() -> T + Send + 'static) -> Work<T> {
         let (sender, receiver) = sync_channel(1);
         let job: Job = Box::new(move || {
-            // Who has begun it may be gone. A panic drops the sender, which tells that the work is lost.
+            // The receiver may be gone. A panic drops the sender, which marks the job as lost.
             let _ = catch_panic(work).map(|done| sender.send(done));
         });
         let started = self.start().is_ok();
@@ -65,22 +65,22 @@ impl Disk {
         Work(receiver)
     }
 
-    /// Notes that a program waits for work.
+    /// Notes that a program waits for a job.
     pub(crate) fn wait_for(&self) {
         self.waited_for.set(true);
     }
 
-    /// Whether a program may wait for work.
+    /// Whether a program may wait for a job.
     #[inline]
     pub(crate) fn is_waited_for(&self) -> bool {
         self.waited_for.get()
     }
 
-    /// Waits until everything is done that has been begun.
+    /// Waits until all jobs that have been begun are done.
     pub(crate) fn settle(&self) {
         self.waited_for.set(false);
         if self.thread.borrow().is_some() {
-            // It is the last one, and comes back after all that was begun before it.
+            // This job is the last one, so it is done after all that were begun before it.
             let _ = self.begin(|| ()).0.recv();
         }
     }
@@ -96,18 +96,18 @@ impl Thread {
 }
 
 impl Drop for Thread {
-    /// Waits until everything is done that has been begun.
+    /// Waits until all jobs that have been begun are done.
     fn drop(&mut self) {
         self.jobs = None;
         if let Some(handle) = self.handle.take() {
-            // Its work does not end it by a panic.
+            // The thread never ends by a panic of a job.
             let _ = handle.join();
         }
     }
 }
 
 impl<T> Work<T> {
-    /// How far it has come; never waits. What is done is given once.
+    /// The state of the job; never waits. The result is returned once.
     pub(crate) fn stage(&self) -> Stage<T> {
         match self.0.try_recv() {
             Ok(value) => Stage::Done(value),
@@ -142,7 +142,7 @@ mod tests {
         assert_eq!(*order.lock().unwrap(), [1, 2], "dropping waits for what nobody asks for any more");
     }
 
-    /// Keeps a panic under way: says that it has begun, and waits until it may go on.
+    /// Holds a panic in progress: signals that it has begun, and waits until it may continue.
     struct Unwinding {
         begun: Sender<()>,
         go_on: Receiver<()>,

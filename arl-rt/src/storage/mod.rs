@@ -1,5 +1,5 @@
-//! What outlives a run: values that are kept when the controller is switched off, data files of programs, and the
-//! thread that writes files beside the cycle.
+//! Data that outlives a run: values that are kept when the controller is switched off, data files of programs, and the
+//! thread that writes files outside the cycle.
 //!
 //! It imports `cycle`, `fault` and `values`.
 

@@ -1,4 +1,4 @@
-//! The program pointer and the motion pointer of the foreground channels, as they are kept when the controller is
+//! The program pointer and the motion pointer of the foreground channels, which are kept when the controller is
 //! switched off (manual 5.12.8 to 5.12.11).
 
 use std::fmt::Write;
@@ -8,34 +8,34 @@ use crate::fault::File;
 use crate::storage::state_format::StateFormat;
 use crate::values::Str;
 
-/// What they are stored under.
+/// The name under which the pointers are stored.
 pub(crate) const STORED: &str = "POINTERS";
 
-/// A line of a file of a program that need not be there any more.
+/// A line in a file of a program; the program need not exist any more.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct CodePosition {
     pub(crate) file: Str,
     pub(crate) line: u32,
 }
 
-/// What was kept of a channel.
+/// The stored pointers of a channel.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(crate) struct StoredPointers {
-    /// Where its program stood.
+    /// The position of the program.
     pub(crate) program: Option<CodePosition>,
     /// The motion that was executed last.
     pub(crate) motion: Option<CodePosition>,
 }
 
-/// What was kept of all foreground channels, by their numbers from 1.
+/// The stored pointers of all foreground channels; the first is that of channel 1.
 pub(crate) type PointerTable = [StoredPointers; MOST_FOREGROUND];
 
-/// The pointers of a channel as they are now; nothing as long as they are still those that were kept.
+/// The current pointers of a channel; `None` as long as a pointer still is the stored one.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(crate) struct CurrentPointers {
-    /// Where its program stands.
+    /// The position of the program.
     pub(crate) program: Option<(File, u32)>,
-    /// The motion that is executed, or was last.
+    /// The current motion, or else the last one.
     pub(crate) motion: Option<(File, u32)>,
 }
 
@@ -46,7 +46,7 @@ impl From<(File, u32)> for CodePosition {
 }
 
 impl StoredPointers {
-    /// What is to be kept now.
+    /// The pointers to store now.
     pub(crate) fn renewed(&self, now: &CurrentPointers) -> Self {
         Self {
             program: now.program.map(CodePosition::from).or_else(|| self.program.clone()),
@@ -55,11 +55,11 @@ impl StoredPointers {
     }
 }
 
-/// The words before a pointer in its line of text.
+/// The word before a pointer in its line of text.
 const PROGRAM: &str = "program";
 const MOTION: &str = "motion";
 
-/// As text: a line for each pointer.
+/// The table as text, with a line for each pointer.
 pub(crate) fn written(table: &PointerTable) -> String {
     let mut text = String::new();
     for (number, kept) in (1..).zip(table) {
@@ -74,7 +74,7 @@ pub(crate) fn written(table: &PointerTable) -> String {
     text
 }
 
-/// Back from text; nothing where it is none that was written.
+/// Reads a table from text; `None` if the text is not a written table.
 pub(crate) fn read(text: &str) -> Option<PointerTable> {
     let mut table = PointerTable::default();
     for line in text.lines() {

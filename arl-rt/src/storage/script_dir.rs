@@ -1,4 +1,4 @@
-//! The script directory: the files of a program, all of them below it.
+//! The script directory, which contains all files of a program.
 
 use std::fs;
 use std::io::{self, Write};
@@ -9,7 +9,7 @@ use arl_robot::regular_file;
 use crate::fault::Fault;
 use crate::values::Str;
 
-/// Where the script directory is on a controller; programs name files by it.
+/// The path of the script directory on a controller; programs may name files with it.
 const ON_CONTROLLER: &str = "/home/ae/script/";
 
 /// The directory that holds a program's files.
@@ -25,7 +25,7 @@ impl ScriptDir {
         &self.0
     }
 
-    /// The file of this name below the directory.
+    /// The path of the file with this name in the directory.
     ///
     /// # Errors
     /// The name is empty, absolute, or leads out of the directory.
@@ -33,7 +33,7 @@ impl ScriptDir {
         self.below(name, Path::new(""))
     }
 
-    /// The file of this name below `inner`, a directory in this one.
+    /// The path of the file with this name in `inner`, a directory in this one.
     ///
     /// # Errors
     /// The name is empty, absolute, or leads out of the directory.
@@ -61,10 +61,10 @@ impl ScriptDir {
         if named && !text.contains('\0') { Ok(path) } else { Err(problem("this is not a file name")) }
     }
 
-    /// Appends to a file; it is made where it is missing, its directory is not.
+    /// Appends to a file; a missing file is created, a missing directory is not.
     ///
     /// # Errors
-    /// The name is not one for files, or the file cannot be written.
+    /// The name is not a file name, or the file cannot be written.
     pub(crate) fn append(&self, name: &Str, text: &[u8]) -> Result<(), Fault> {
         let path = self.file(name)?;
         let fault = |problem: String| Fault::File { path: name.to_text().into(), problem: problem.into() };
@@ -87,11 +87,11 @@ impl ScriptDir {
     }
 }
 
-/// Appends all of a text, or, where the disk is full, nothing of it.
+/// Appends a whole text, or nothing of it if the disk is full.
 fn append_whole(file: &mut fs::File, text: &[u8]) -> io::Result<()> {
     let before = file.metadata()?.len();
     file.write_all(text).inspect_err(|_| {
-        // Where that cannot be, a part of it stays.
+        // If this fails, a part of the text stays.
         let _ = file.set_len(before);
     })
 }
@@ -100,7 +100,7 @@ fn append_whole(file: &mut fs::File, text: &[u8]) -> io::Result<()> {
 mod tests {
     use super::*;
 
-    /// Where this is set the test runs in a process of its own, whose files may have 2048 bytes (4096 by some shells).
+    /// If this is set, the test runs in a process of its own whose files may have 2048 bytes (4096 with some shells).
     #[cfg(target_os = "linux")]
     const FOLDER: &str = "ARL_TEST_SMALL_FILES";
 

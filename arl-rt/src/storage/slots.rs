@@ -1,5 +1,5 @@
-//! Many global variables of one type: cells in a row, which a program of many points is compiled with sooner than with
-//! a field for each.
+//! Many global variables of one type: cells in a row, with which a program of many points compiles faster than with a
+//! field for each.
 
 use std::cell::Cell;
 use std::fmt;
@@ -8,11 +8,11 @@ use std::ops::Deref;
 use super::data::DataVar;
 use crate::values::Teach;
 
-/// So many global variables of one type.
+/// N global variables of one type.
 pub struct Slots<T, const N: usize>(Box<[Cell<T>; N]>);
 
 impl<T: Default, const N: usize> Default for Slots<T, N> {
-    /// All with their start values.
+    /// All variables with their start values.
     fn default() -> Self {
         let cells: Box<[Cell<T>]> = (0..N).map(|_| Cell::default()).collect();
         match cells.try_into() {
@@ -34,7 +34,7 @@ impl<T, const N: usize> Slots<T, N>
 where
     Cell<T>: Teach,
 {
-    /// The variables with their names, which are as many, for values that are read again at load.
+    /// The variables with their names, one for each, for values that are read again when a program is loaded.
     pub fn named<'a>(&'a self, names: &'a [&'static str; N]) -> impl Iterator<Item = DataVar<'a>> {
         names.iter().zip(self.iter()).map(|(name, slot)| DataVar { name, sizes: &[], slot })
     }

@@ -1,5 +1,5 @@
-//! What is kept when the controller is switched off: one file for each system variable, and one for where the programs
-//! stand.
+//! State that is kept when the controller is switched off: one file for each system variable, and one for the positions
+//! of the programs.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -15,37 +15,37 @@ use arl_robot::regular_file;
 use crate::storage::disk::{Disk, Stage, Work};
 use arl_robot::atomic_file;
 
-/// Where kept values live, by name.
+/// A store of kept values, by name.
 pub trait Storage {
-    /// Called when a controller starts, before anything is loaded: removes what a process that was killed has left
-    /// behind.
+    /// Called when a controller starts, before anything is loaded: removes leftovers of a process that was killed.
     fn begin(&mut self) {}
 
-    /// What was stored under this name last; nothing where nothing was.
+    /// The content that was stored last under this name; `None` if nothing was.
     ///
     /// # Errors
-    /// It is there, but cannot be read.
+    /// The content exists, but cannot be read.
     fn load(&self, name: &str) -> io::Result<Option<Vec<u8>>>;
 
-    /// Stores under this name. Whatever happens meanwhile, afterwards the old or the new content is there, whole.
+    /// Stores content under this name. Whatever happens meanwhile, afterwards either the old or the new content is
+    /// there, complete.
     ///
     /// # Errors
-    /// It cannot be stored; then the old content is still there.
+    /// The content cannot be stored; then the old content is still there.
     fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()>;
 
-    /// Another way to the same values, for threads that store beside the cycle. Without one, values are stored in the
-    /// cycle that saves them, and what changes all the time is not kept: where the programs stand.
+    /// A second access to the same values, for threads that store outside the cycle. Without one, values are stored in
+    /// the cycle that saves them, and the positions of the programs, which change all the time, are not kept.
     fn another(&self) -> Option<Box<dyn Storage + Send>> {
         None
     }
 
-    /// How messages name the place of this name.
+    /// The place of this name, for messages.
     fn place(&self, name: &str) -> String {
         name.to_owned()
     }
 }
 
-/// Keeps values for as long as it lives.
+/// Keeps values in memory, for its own lifetime.
 #[derive(Clone, Default, Debug)]
 pub struct Memory(BTreeMap<String, Vec<u8>>);
 
@@ -60,7 +60,7 @@ impl Storage for Memory {
     }
 }
 
-/// Keeps values as files of a directory, which is made when the first one is stored.
+/// Keeps values as files of a directory, which is created when the first value is stored.
 #[derive(Clone, Debug)]
 pub struct Directory(PathBuf);
 
@@ -102,12 +102,12 @@ impl Storage for Directory {
     }
 }
 
-/// Why the state of the controller cannot be read or written.
+/// The error of a controller state that cannot be read or written.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct StateError {
     /// The file.
     pub place: String,
-    /// What is wrong with it.
+    /// The problem with it.
     pub problem: String,
 }
 
@@ -119,13 +119,13 @@ impl fmt::Display for StateError {
 
 impl std::error::Error for StateError {}
 
-/// The kept values, with what is known to be stored.
+/// The kept values, with the texts known to be stored.
 pub(crate) struct KeptState {
     storage: Box<dyn Storage>,
-    /// Another way to them, for the thread that stores; without one they are stored at once.
+    /// A second access to the values, for the thread that stores; without it they are stored at once.
     beside: Option<Arc<Mutex<Box<dyn Storage + Send>>>>,
     known: BTreeMap<&'static str, String>,
-    /// What is being stored, in order.
+    /// The values that are being stored, in order.
     saving: Vec<Saving>,
 }
 
@@ -137,7 +137,7 @@ struct Saving {
     asker: Saved,
 }
 
-/// What becomes of a value that is being stored, for who asks: nothing before it is known, and once.
+/// The result of storing a value, for the caller: `None` until it is known; available once.
 pub(crate) type Saved = Rc<Cell<Option<Result<(), StateError>>>>;
 
 impl KeptState {
@@ -161,7 +161,7 @@ impl KeptState {
         Ok(Some(text.to_owned()))
     }
 
-    /// Begins to write a value; [`KeptState::collect`] tells when it is there.
+    /// Begins to write a value; [`KeptState::collect`] sets the result once it is stored.
     pub(crate) fn save(&mut self, name: &'static str, text: String, disk: &Disk) -> Saved {
         let asker = Saved::default();
         match &self.beside {
@@ -190,7 +190,7 @@ impl KeptState {
         !self.saving.is_empty()
     }
 
-    /// Takes note of what has been stored meanwhile. Gives what went wrong and nobody asks for.
+    /// Records the values stored meanwhile. Returns the errors for which no caller waits.
     pub(crate) fn collect(&mut self) -> Vec<StateError> {
         let mut problems = Vec::new();
         for Saving { name, text, work, asker } in std::mem::take(&mut self.saving) {
@@ -213,7 +213,7 @@ impl KeptState {
         problems
     }
 
-    /// Another way to the same values, for a thread.
+    /// A second access to the same values, for a thread.
     pub(crate) fn another(&self) -> Option<Box<dyn Storage + Send>> {
         self.storage.another()
     }
@@ -227,7 +227,7 @@ impl KeptState {
     }
 }
 
-/// Stores a text so that damage is noticed when it is read.
+/// Stores a text with a checksum, so that damage is noticed when it is read.
 pub(crate) fn store(storage: &mut dyn Storage, name: &str, text: &str) -> Result<(), StateError> {
     storage.store(name, seal(name, text).as_bytes()).map_err(|error| {
         let problem = format!("cannot be written: {error}");
@@ -235,12 +235,12 @@ pub(crate) fn store(storage: &mut dyn Storage, name: &str, text: &str) -> Result
     })
 }
 
-/// That the storage has panicked while it stored under this name.
+/// The error of a storage that has panicked while it stored under this name.
 pub(crate) fn panicked(name: &str) -> StateError {
     StateError { place: name.to_owned(), problem: "cannot be written: the storage has panicked".to_owned() }
 }
 
-/// The text with a last line that tells whether it is whole, and this variable's.
+/// The text with a last line that verifies that it is complete and belongs to this variable.
 fn seal(name: &str, text: &str) -> String {
     format!("{text}check {:016x}\n", check(name, text))
 }

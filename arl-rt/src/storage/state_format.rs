@@ -1,4 +1,4 @@
-//! The format of state files: values as words of text that lose nothing.
+//! The format of state files: values as words of text without loss.
 
 use std::fmt::Write;
 
@@ -7,12 +7,12 @@ use crate::values::{Array, CentroidPos, Frame, InertiaTensor, Joint, Pose, Store
 /// Words between blanks.
 pub(crate) type Words<'a> = std::str::SplitAsciiWhitespace<'a>;
 
-/// A value that can be written as words and be read back to the last bit.
+/// A value that can be written as words and read back exactly.
 pub(crate) trait StateFormat: Sized {
     /// Appends the words, each followed by a blank or a new line.
     fn write(&self, out: &mut String);
 
-    /// Reads the words; `None` where they are not such a value.
+    /// Reads the words; `None` if they are not a value of this type.
     fn read(words: &mut Words<'_>) -> Option<Self>;
 }
 
@@ -34,7 +34,7 @@ macro_rules! plain {
 plain!(i32, f64, bool);
 
 impl StateFormat for Str {
-    /// In quotes, without blanks: what is not a plain character stands as `%` and two hexadecimal digits.
+    /// In quotes, without blanks: other than plain characters, bytes are written as `%` and two hexadecimal digits.
     fn write(&self, out: &mut String) {
         out.push('"');
         for byte in self.as_bytes() {

@@ -1,4 +1,4 @@
-//! What changes with a motion: the load, and looking for collisions.
+//! Changes that take effect with a motion: the load, and collision detection.
 
 use std::collections::VecDeque;
 
@@ -6,16 +6,16 @@ use super::effort::Effort;
 use crate::unit::dynamics::Load;
 use arl_robot::kinematics::Axes;
 
-/// What changes with a motion.
+/// A change that takes effect with a motion.
 #[derive(Clone, Debug)]
 pub(super) enum Change {
-    /// What the flange carries.
+    /// The load on the flange.
     Load(Load),
-    /// By how much the axes may differ from the model; `None`: collisions are not looked for.
+    /// By how much the axes may differ from the model; `None`: collision detection is off.
     Detect(Option<Axes>),
 }
 
-/// What holds.
+/// The settings in effect.
 #[derive(Clone, Debug)]
 struct Held {
     load: Load,
@@ -36,7 +36,7 @@ impl Held {
     }
 }
 
-/// Room for so many changes that wait, and so many stops within each other, takes no memory in the cycle.
+/// Up to this many waiting changes, and nested stops, take no memory in the cycle.
 const ROOM: usize = 8;
 
 /// Changes that wait for their motion, in the order of the motions.
@@ -44,7 +44,7 @@ const ROOM: usize = 8;
 pub(super) struct Changes {
     waiting: VecDeque<(u64, Change)>,
     now: Held,
-    /// What waited, and held, when motions were set aside.
+    /// The waiting changes and the settings in effect when motions were set aside.
     aside: Vec<(VecDeque<(u64, Change)>, Held)>,
 }
 
@@ -54,18 +54,18 @@ impl Changes {
         Self { waiting: VecDeque::with_capacity(ROOM), now, aside: Vec::with_capacity(ROOM) }
     }
 
-    /// Forgets everything: nothing is carried, and collisions are not looked for.
+    /// Resets everything: nothing is carried, and collision detection is off.
     pub(super) fn clear(&mut self, effort: &mut Effort) {
         *self = Self::new();
         self.now.apply(effort);
     }
 
-    /// Lets something hold from the motion with this number on.
+    /// Adds a change that holds from the motion with this number on.
     pub(super) fn push(&mut self, from: u64, change: Change) {
         self.waiting.push_back((from, change));
     }
 
-    /// Makes the changes of the motions up to this one.
+    /// Makes the changes of the motions up to this one take effect.
     pub(super) fn make(&mut self, up_to: u64, effort: &mut Effort) {
         while self.waiting.front().is_some_and(|(from, _)| *from <= up_to) {
             if let Some((_, change)) = self.waiting.pop_front() {
@@ -78,16 +78,16 @@ impl Changes {
         }
     }
 
-    /// Collisions are not looked for any more, from now on.
+    /// Collision detection is off from now on.
     pub(super) fn detected(&mut self) {
         self.now.allowed = None;
     }
 
-    /// Sets aside or takes up again what belongs to motions, until it is done for as many stops as for the motions;
+    /// Sets changes aside or restores them, until there are as many levels of them as `stops` for the motions;
     /// `planned` is the motion planned last.
     pub(super) fn follow(&mut self, stops: usize, planned: u64, effort: &mut Effort) {
         while self.aside.len() < stops {
-            // What was said since the stop is for the motions that come in between.
+            // Changes since the stop are for the motions that come in between.
             let split = self.waiting.partition_point(|(from, _)| *from <= planned);
             let since = self.waiting.split_off(split);
             let before = std::mem::replace(&mut self.waiting, since);
@@ -95,7 +95,7 @@ impl Changes {
         }
         while self.aside.len() > stops {
             let Some((mut waiting, before)) = self.aside.pop() else { return };
-            // The motions that go on have what they had; those planned from now on what holds now.
+            // Motions that go on get their former settings; those planned from now on get the current ones.
             waiting.push_back((planned + 1, Change::Load(self.now.load)));
             waiting.push_back((planned + 1, Change::Detect(self.now.allowed)));
             waiting.append(&mut self.waiting);

@@ -1,4 +1,4 @@
-//! What the motors have to give: the load on the flange, what pushes from outside, and collision detection.
+//! The torques of the motors: the load on the flange, external forces, and collision detection.
 
 use nalgebra::Vector3;
 
@@ -9,20 +9,20 @@ use arl_robot::frames::Rig;
 use arl_robot::kinematics::{Axes, Frame};
 use arl_robot::robot::{ROBOT_AXES, Robot};
 
-/// The part of what an axis asks for at most by which it may differ, in %, where the cell file says nothing.
+/// By how much an axis may differ by default, in % of the greatest torque that it needs.
 pub(crate) const SENSITIVITY: f64 = 20.0;
 
-/// What the flange is taken to carry, as part of the weight of all links: about what makers of robots rate. Without a
-/// load the last axes would need next to nothing, and every touch would be a collision.
+/// The load that the flange is assumed to carry, as a fraction of the weight of all links: about what makers of robots
+/// rate. Without a load the last axes would need next to nothing, and every touch would be a collision.
 const PAYLOAD: f64 = 0.08;
-/// Where its centre of mass is, seen from the flange, in mm, and how far it reaches from there.
+/// Its centre of mass relative to the flange, in mm, and how far it reaches from there.
 const PAYLOAD_AT: [f64; 3] = [50.0, 0.0, 100.0];
 const PAYLOAD_RADIUS: f64 = 50.0;
 
-/// How much less than a torque counts as exactly that torque, in Nm (N).
+/// A torque counts as equal to a limit up to this much above it, in Nm (N).
 const ROUNDING: f64 = 1e-6;
 
-/// What a scenario does to the robot.
+/// The forces and torques of a scenario on the robot.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct ExternalForces {
     /// A force at the TCP, in the world, N.
@@ -31,27 +31,27 @@ pub(crate) struct ExternalForces {
     pub(crate) torques: [f64; ROBOT_AXES],
 }
 
-/// An axis that gives more or less than it should.
+/// An axis that gives more or less torque than it should.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Collision {
-    /// Which axis, from 0.
+    /// The axis, from 0.
     pub(crate) axis: usize,
-    /// How much more than the model asks for, in Nm (N).
+    /// The torque beyond that of the model, in Nm (N).
     pub(crate) surplus: f64,
-    /// How much it may be.
+    /// The allowed difference.
     pub(crate) allowed: f64,
 }
 
-/// The robot's masses, what it carries and what pushes it.
+/// The robot's masses, its load and the external forces.
 pub(super) struct Effort {
     /// `None`: the robot file has no masses.
     model: Option<Dynamics>,
     outside: ExternalForces,
-    /// What the driver has measured in the last cycle.
+    /// The torques that the driver measured in the last cycle.
     measured: Option<Axes>,
-    /// By how much the axes may differ from the model while collisions are looked for.
+    /// By how much the axes may differ from the model while collision detection is on.
     allowed: Option<Axes>,
-    /// What the axes ask for at most, once somebody wants to know.
+    /// The greatest torques that the axes need, computed at the first use.
     greatest: Option<Axes>,
 }
 
@@ -89,13 +89,13 @@ impl Effort {
         self.allowed = allowed;
     }
 
-    /// The torques that the model asks for the motion, without anything outside.
+    /// The torques that the motion needs by the model, without external forces.
     pub(super) fn asked(&self, moving: &Moving) -> Option<Axes> {
         let model = self.model.as_ref()?;
         Some(model.torques(&moving.at.axes, &moving.rates, &moving.accelerations, &Wrench::default()))
     }
 
-    /// What the axes give more than the model asks for. `rig` is what it carries and where it stands.
+    /// The torques of the axes beyond those of the model. `rig` is what the robot carries and where it stands.
     pub(super) fn surplus(&self, moving: &Moving, robot: &Robot, rig: &Rig) -> Option<Axes> {
         let model = self.model.as_ref()?;
         let mut surplus;
@@ -116,7 +116,7 @@ impl Effort {
         Some(surplus)
     }
 
-    /// The axis that differs most from the model, where collisions are looked for and one differs too much.
+    /// The axis that differs most from the model, where collision detection is on and an axis differs too much.
     pub(super) fn collision(&self, moving: &Moving, robot: &Robot, rig: &Rig) -> Option<Collision> {
         let allowed = self.allowed?;
         let surplus = self.surplus(moving, robot, rig)?;
@@ -148,15 +148,15 @@ impl Effort {
     }
 }
 
-/// What the flange of a robot is taken to carry.
+/// The load that the flange of a robot is assumed to carry.
 fn payload(robot: &Robot) -> Load {
     let mass = PAYLOAD * robot.links.iter().map(|link| link.mass).sum::<f64>();
     let about = mass * PAYLOAD_RADIUS * PAYLOAD_RADIUS;
     Load::new(mass, PAYLOAD_AT, [about, 0.0, 0.0, about, 0.0, about])
 }
 
-/// What each axis has to give at most while all axes accelerate as much as they may: in the middle and at the ends of
-/// their ranges.
+/// The greatest torque that each axis needs while all axes accelerate as much as they may: in the middle and at the
+/// ends of their ranges.
 fn greatest(model: &Dynamics, robot: &Robot) -> Axes {
     let own = robot.own_axes();
     let mut accelerations = [0.0; ROBOT_AXES];

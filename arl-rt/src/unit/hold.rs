@@ -1,4 +1,4 @@
-//! Moving a robot beside its program as long as somebody holds a button.
+//! Moving a robot beside its program as long as a button is held.
 
 use nalgebra::{Translation3, Unit as UnitVector, UnitQuaternion, Vector3};
 
@@ -11,19 +11,19 @@ use arl_robot::kinematics::{Frame, frame_components};
 /// The speeds of the TCP while it is jogged, in mm/s and deg/s.
 const TCP_MM_S: f64 = 100.0;
 const TCP_DEG_S: f64 = 20.0;
-/// How far it is to go at most, in mm and deg: the first of these to which there is a way. Who still holds the button
-/// goes on from there.
+/// The distance to plan at most, in mm and deg: the first of these that the robot can move. While the button is held
+/// the robot goes on from there.
 const WAYS_MM: [f64; 9] = [500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0];
 const WAYS_DEG: [f64; 7] = [90.0, 45.0, 20.0, 10.0, 5.0, 2.0, 1.0];
-/// An axis this near to where it is to go is there, in deg (mm).
+/// An axis this near to its target has reached it, in deg (mm).
 const THERE: f64 = 1e-6;
 
-/// What is moved while somebody holds it.
+/// What moves while the button is held.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum HeldButton {
     /// An axis, from 1, towards the end of its range.
     Axis {
-        /// From 1; external ones come behind the robot's own.
+        /// The number from 1; external axes follow the robot's own.
         axis: usize,
         /// Whether its value grows.
         up: bool,
@@ -32,51 +32,63 @@ pub(crate) enum HeldButton {
     Tcp {
         /// x, y or z of the frame, and its direction.
         along: Vector3<f64>,
-        /// Whether it turns.
+        /// Whether the TCP turns about it.
         turns: bool,
-        /// The frame: that of the tool, or one in the world of which the orientation counts.
+        /// The frame: that of the tool, or one in the world, of which only the orientation counts.
         of: Seen,
     },
-    /// All axes to these values in deg (mm), as many as there are.
+    /// All axes to these values in deg (mm), as many as are given.
     To(Vec<f64>),
 }
 
-/// What directions are seen in.
+/// The frame of reference for directions.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Seen {
     Tool,
     Frame(UnitQuaternion<f64>),
 }
 
-/// What has become of the last button that moved the robot.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// The state of the button that moves the robot.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(super) enum Button {
-    /// There is none.
+    /// No button moves the robot.
+    #[default]
     Free,
-    /// It moves the robot: motions above what was set aside, or those of no program at all.
+    /// It moves the robot: with motions above what was set aside, or with motions of no program.
     Held,
-    /// The robot comes to rest.
+    /// It was released; the robot comes to rest.
     LetGo,
 }
 
-/// What pressing a button has led to.
+/// The state of moving the robot beside its program.
+#[derive(Default, Debug)]
+pub(super) struct Jogging {
+    /// Whether the robot has to rest until `Unit::go_on` is called.
+    pub(super) halted: bool,
+    /// Whether it was moved beside its path meanwhile.
+    pub(super) jogged: bool,
+    /// The button that moves it.
+    pub(super) button: Button,
+}
+
+/// The result of pressing a button.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum PressOutcome {
-    /// The robot moves, or there was nothing to do.
+    /// The robot moves, or nothing was to be done.
     Begun,
     /// The robot comes to rest first.
     Waits,
 }
 
 impl Unit {
-    /// Whether a button moves the robot, or did and it has not come to rest yet: then no program goes on.
+    /// Whether a button moves the robot, or did and the robot has not come to rest yet: then no program goes on.
     pub(crate) fn is_held(&self) -> bool {
-        self.button != Button::Free
+        self.jogging.button != Button::Free
     }
 
-    /// A button is pressed. `paused`: the robot's program is.
+    /// Presses a button. `paused`: the robot's program is paused.
     pub(crate) fn press(&mut self, held: &HeldButton, paused: bool) -> Result<PressOutcome, String> {
-        if self.button != Button::Free {
+        if self.jogging.button != Button::Free {
             return Ok(PressOutcome::Waits);
         }
         if paused {
@@ -87,35 +99,36 @@ impl Unit {
         Ok(PressOutcome::Begun)
     }
 
-    /// The button is still pressed: where an end was reached the robot goes on.
+    /// Keeps the button pressed: where the planned distance has been covered, the robot goes on.
     ///
     /// # Errors
-    /// Something else has stopped the robot, or there is no way farther: it takes another press.
+    /// Something else has stopped the robot, or it cannot move farther: the button has to be pressed again.
     pub(crate) fn keep_on(&mut self, held: &HeldButton) -> Result<(), String> {
-        if self.button != Button::Held {
+        if self.jogging.button != Button::Held {
             return Err("the robot was stopped".into());
         }
         if self.queue.rests() && self.queue.idle_for(BESIDE) { self.begin(held) } else { Ok(()) }
     }
 
-    /// Stops on the path; what is left of the way is dropped. What the button has not added stays.
+    /// Releases the button: stops on the path; the rest of the motion is dropped. Motions that the button has not added
+    /// stay.
     pub(crate) fn let_go(&mut self) {
-        if self.button == Button::Held {
-            self.button = Button::LetGo;
+        if self.jogging.button == Button::Held {
+            self.jogging.button = Button::LetGo;
             self.queue.stop_on_path(Stop::General);
             self.queue.drop_added();
         }
     }
 
-    /// Whether its set-points stand still.
+    /// Whether its set-points are at rest.
     pub(crate) fn stands(&self) -> bool {
         self.queue.rests()
     }
 
-    /// A cycle has ended.
+    /// Frees a released button once the robot is at rest; called at the end of a cycle.
     pub(super) fn note_rest(&mut self) {
-        if self.button == Button::LetGo && self.queue.rests() {
-            self.button = Button::Free;
+        if self.jogging.button == Button::LetGo && self.queue.rests() {
+            self.jogging.button = Button::Free;
         }
     }
 
@@ -140,10 +153,10 @@ impl Unit {
         }
     }
 
-    /// Goes somewhere; from then on the button moves the robot.
+    /// Plans a motion to the target; from then on the button moves the robot.
     fn go_held(&mut self, target: Target, speed: Speed) -> Result<(), String> {
         self.go_beside(target, speed)?;
-        self.button = Button::Held;
+        self.jogging.button = Button::Held;
         Ok(())
     }
 
@@ -151,7 +164,7 @@ impl Unit {
         if self.setpoint().is_at(&target, THERE) {
             return Ok(());
         }
-        // External axes have speeds of their own in place of a share.
+        // External axes have absolute speeds in place of a percentage.
         let slowest = self.robot.external_axes().iter().map(|axis| axis.vel * JOGGING / 100.0).fold(f64::MAX, f64::min);
         let own = if slowest < f64::MAX { slowest } else { 1.0 };
         let speed = Speed { percent: JOGGING, tcp: TCP_MM_S, ori: TCP_DEG_S, exj: own, exl: own };

@@ -1,14 +1,14 @@
-//! How the axes move, told from where they are from cycle to cycle.
+//! The motion of the axes, computed from their positions from cycle to cycle.
 
 use crate::motion::Joints;
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
-/// Where the axes are, in deg (mm), and how they move: differences of the last cycles, per s and s2, where nobody
-/// measures it.
+/// The positions of the axes, in deg (mm), and their motion: differences of the last cycles, per s and s2, unless it is
+/// measured.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moving {
     pub(crate) at: Joints,
-    /// The cycle before.
+    /// The positions of the cycle before.
     pub(crate) before: Joints,
     pub(crate) rates: [f64; ROBOT_AXES],
     pub(crate) external_rates: [f64; EXTERNAL_AXES],
@@ -19,7 +19,7 @@ pub(crate) struct Moving {
 }
 
 impl Moving {
-    /// At rest.
+    /// Axes at rest.
     pub(super) fn resting(at: Joints) -> Self {
         Self {
             at,
@@ -32,7 +32,7 @@ impl Moving {
         }
     }
 
-    /// A cycle of `period` s later.
+    /// Moves on by a cycle of `period` s.
     pub(super) fn go_to(&mut self, at: Joints, period: f64) {
         (self.before, self.rates_before) = (std::mem::replace(&mut self.at, at), self.rates);
         self.period = period;
@@ -48,7 +48,7 @@ impl Moving {
             *rate = (at - before) / period;
         }
     }
-    /// The speeds of this cycle are measured, in deg/s (mm/s): that is better than what positions make.
+    /// Takes the measured speeds of this cycle, in deg/s (mm/s): they are better than those computed from positions.
     pub(super) fn measured(&mut self, velocity: &Joints) {
         (self.rates, self.external_rates) = (velocity.axes, velocity.external);
         let rates = self.rates.iter().zip(&self.rates_before);

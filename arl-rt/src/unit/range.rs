@@ -1,25 +1,25 @@
-//! Whether a robot reports positions that its axes can have.
+//! Whether the positions that a robot reports are within the ranges of its axes.
 
 use std::fmt;
 
 use crate::motion::Joints;
 use arl_robot::robot::{Axis, Robot};
 
-/// An axis at a position that it cannot have.
+/// An axis at a position outside its range.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutOfRange<'a> {
     axis: &'a Axis,
     at: f64,
 }
 
-/// The axes of a robot, each with where it is, in deg (mm).
+/// The axes of a robot, each with its position in deg (mm).
 pub(super) fn axes_at<'a>(position: &'a Joints, robot: &'a Robot) -> impl Iterator<Item = (&'a Axis, f64)> {
     let own = position.axes.iter().take(robot.own_axes().len());
     let all = own.chain(position.external.iter().take(robot.external_axes().len()));
     robot.axes.iter().zip(all.copied())
 }
 
-/// The first axis that is at no number, or farther outside of its range than what counts as settled.
+/// The first axis whose position is not a number, or farther outside its range than what counts as settled.
 pub(crate) fn first_outside<'a>(position: &'a Joints, robot: &'a Robot) -> Option<OutOfRange<'a>> {
     let near = robot.drives.settled;
     let is_inside = |axis: &Axis, at: f64| at >= axis.min - near && at <= axis.max + near;

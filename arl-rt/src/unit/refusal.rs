@@ -1,15 +1,15 @@
-//! The alarms of motions that cannot be planned, in the words of ARL.
+//! The alarms for motions that cannot be planned, in terms of ARL.
 
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::{Joints, PlanError, Target, UNSET};
 use std::fmt::Write;
 
-/// What an earlier motion, or a variable, left of what carries tool and workpiece.
+/// A tool or workpiece frame that an earlier motion, or a variable, has set.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Inherited {
     /// x, y, z in mm, a, b, c in deg.
     pub(crate) frame: [f64; 6],
-    /// The motion that gave it; `None` where the program wrote the system variable.
+    /// The motion that set it; `None` where the program wrote the system variable.
     pub(crate) from: Option<(File, u32)>,
 }
 
@@ -21,7 +21,7 @@ pub(crate) struct Mounts {
 }
 
 impl Mounts {
-    /// What there is to say of them behind the words of a target out of reach.
+    /// The words about them to append to the alarm of a target out of reach.
     fn words(&self, file: File) -> String {
         let all = [("w", "workpiece frame", "$DFWOBJ", self.wobj), ("t", "tool", "$DFTOOL", self.tool)];
         let words = all.into_iter().filter_map(|(label, name, variable, mount)| {
@@ -38,15 +38,16 @@ impl Mounts {
     }
 }
 
-/// The alarm of a motion, here or in an earlier line of another file. Where it is about `target`, it tells that.
+/// The alarm of a motion, here or in an earlier line of another file. An alarm about `target` shows it.
 pub(super) fn alarm(
     error: PlanError,
     earlier: File,
-    (file, line): (File, u32),
+    file: File,
+    line: u32,
     target: Option<(&Target, Mounts)>,
 ) -> Alarm {
     if let PlanError::Earlier { line, error } = error {
-        return alarm(*error, earlier, (earlier, line), None);
+        return alarm(*error, earlier, earlier, line, None);
     }
     let mut words = words(&error);
     if let Some((target, mounts)) = target.filter(|_| is_about_target(&error)) {
@@ -62,7 +63,7 @@ pub(super) fn alarm(
     Alarm::new(fault, file, line)
 }
 
-/// Whether the way to the target is what cannot be done.
+/// Whether the error is about reaching the target.
 fn is_about_target(error: &PlanError) -> bool {
     matches!(
         error,
@@ -98,7 +99,7 @@ fn written(target: &Target) -> String {
     format!("{{{}}}", parts.join(", "))
 }
 
-/// What is wrong. Where the planner speaks of what programs set with instructions, these are named.
+/// The text of the error. What programs set with instructions is given by the names of these.
 fn words(error: &PlanError) -> String {
     const ABOVE_ZERO: &str = "it must be a number above 0";
     match error {

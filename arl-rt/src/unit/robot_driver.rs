@@ -1,7 +1,7 @@
-//! The border to the robot: set-points out, feedback in, once a cycle.
+//! The interface to the robot: set-points out, feedback in, once a cycle.
 //!
-//! What the controller makes of what a driver says, and when it switches the motors on and off, stands in
-//! `docs/drivers.md`.
+//! `docs/drivers.md` describes how the controller interprets the reports of a driver, and when it switches the motors
+//! on and off.
 
 use std::time::Instant;
 
@@ -13,18 +13,18 @@ use arl_robot::robot::{ROBOT_AXES, Robot};
 use super::range;
 use crate::cycle::clock_source::Clock;
 
-/// How long the simulated robot's set-points take to be followed, in s.
+/// The time in which the simulated robot reaches its set-point, in s.
 const LAG: f64 = 0.008;
-/// The same in cycles, at least and at most: there is always some lag.
+/// The lag in cycles, minimum and maximum: there is always some lag.
 const CYCLES: (f64, f64) = (2.0, KEPT as f64);
 /// How many set-points the simulated robot keeps.
 const KEPT: usize = 8;
 
-/// What a driver is told before anything moves.
+/// What a driver is given before anything moves.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Start<'a> {
-    /// Where the robot file says that the robot begins, in deg (mm).
+    /// The initial position in the robot file, in deg (mm).
     pub home: &'a Joints,
     /// The robot: the ranges of its axes, their speeds, accelerations and jerks.
     pub robot: &'a Robot,
@@ -33,16 +33,17 @@ pub struct Start<'a> {
 }
 
 impl<'a> Start<'a> {
-    /// What a driver is told by whoever tries it without a controller: deg (mm), s.
+    /// For trying a driver without a controller: deg (mm), s.
     pub fn new(home: &'a Joints, robot: &'a Robot, period: f64) -> Self {
         Self { home, robot, period }
     }
 
-    /// The position (deg, mm) that a robot reports before its motors are switched on: it has to be one that the robot
-    /// file knows.
+    /// Checks the position (deg, mm) that a robot reports before its motors are switched on: it has to be possible by
+    /// the robot file.
     ///
     /// # Errors
-    /// An axis is at no number, or outside of its range by more than what counts as settled; which.
+    /// The position of an axis is not a number, or outside of its range by more than what counts as settled; which
+    /// axis.
     pub fn begin_at(&self, position: Joints) -> Result<Joints, String> {
         match range::first_outside(&position, self.robot) {
             None => Ok(position),
@@ -51,55 +52,57 @@ impl<'a> Start<'a> {
     }
 }
 
-/// What a robot is asked for in a cycle.
+/// The set-point of a robot in a cycle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Setpoint {
-    /// Where its axes shall be at the end of the cycle, in deg (mm).
+    /// The axis positions at the end of the cycle, in deg (mm).
     pub position: Joints,
-    /// Their speeds, in deg/s (mm/s): what the positions of this cycle and the one before make.
+    /// The speeds of the axes, in deg/s (mm/s): the difference of the positions of this cycle and the one before.
     pub velocity: Joints,
-    /// The accelerations of its own axes, in deg/s2 (mm/s2), likewise.
+    /// The accelerations of the robot's own axes, in deg/s2 (mm/s2), likewise.
     pub acceleration: [f64; ROBOT_AXES],
-    /// The torques (Nm; N of linear axes) that the motion asks for by the masses of the robot file and the load: for
+    /// The torques (Nm; N of linear axes) that the motion needs by the masses of the robot file and the load: for
     /// feed-forward. `None`: the file has no masses, or the driver does not [want](RobotDriver::wants_torque) them.
     pub torque: Option<[f64; ROBOT_AXES]>,
     /// The length of the cycle in s.
     pub period: f64,
-    /// When the cycle ends, by which the drives should have the set-point; `None`: time is not that of the world.
+    /// When the cycle ends, by which the drives should have the set-point; `None`: the cycles do not take real time.
     pub deadline: Option<Instant>,
 }
 
-/// What a robot says in a cycle.
+/// The feedback of a robot in a cycle.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct Feedback {
-    /// Where its axes are, in deg (mm); `None`: nothing new has come since the last cycle.
+    /// The axis positions, in deg (mm); `None`: nothing new has arrived since the last cycle.
     pub position: Option<Joints>,
-    /// How fast they move, in deg/s (mm/s); `None`: it does not measure that. Then it is what the positions make.
+    /// The speeds of the axes, in deg/s (mm/s); `None`: the robot does not measure them. They are then computed from
+    /// the positions.
     pub velocity: Option<Joints>,
-    /// The torques (Nm; N of linear axes) that the motors of its own axes give at the axes; `None`: it does not measure
-    /// them. Then the controller takes what its model asks for the motion that the robot reports, and what a scenario
-    /// does to it.
+    /// The torques (Nm; N of linear axes) that the motors of the robot's own axes give at the axes; `None`: the robot
+    /// does not measure them. The controller then takes the torques of its model for the reported motion, and the
+    /// external forces of a scenario.
     pub torque: Option<[f64; ROBOT_AXES]>,
-    /// How its drives are; `None`: nothing new has come.
+    /// The state of the drives; `None`: nothing new has arrived.
     pub drives: Option<Drives>,
 }
 
-/// How the drives of a robot are.
+/// The state of the drives of a robot.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum Drives {
     /// They hold the robot, and follow set-points.
     On,
-    /// They do not: brakes hold it.
+    /// They are off: brakes hold the robot.
     Off,
-    /// They do not because of this, which a person has to clear.
+    /// They have this fault, which a person has to clear.
     Fault(Box<str>),
 }
 
 impl Setpoint {
-    /// To stay there (deg, mm), for a cycle of `period` s: what a driver has before it gets the first one.
+    /// To stay at a position (deg, mm), for a cycle of `period` s: what a driver uses before it gets the first
+    /// set-point.
     pub fn resting(position: Joints, period: f64) -> Self {
         let velocity = Joints { axes: [0.0; 6], external: [0.0; 6] };
         Self { position, velocity, acceleration: [0.0; ROBOT_AXES], torque: None, period, deadline: None }
@@ -107,38 +110,38 @@ impl Setpoint {
 }
 
 impl Feedback {
-    /// A robot whose drives are on, and that is there (deg, mm).
+    /// A robot at this position (deg, mm), with its drives on.
     pub fn at(position: Joints) -> Self {
         Self { position: Some(position), velocity: None, torque: None, drives: Some(Drives::On) }
     }
 
-    /// Nothing new has come.
+    /// Nothing new has arrived.
     pub fn none() -> Self {
         Self { position: None, velocity: None, torque: None, drives: None }
     }
 
-    /// The same with measured speeds, in deg/s (mm/s).
+    /// The same feedback with measured speeds, in deg/s (mm/s).
     pub fn with_velocity(self, velocity: Joints) -> Self {
         Self { velocity: Some(velocity), ..self }
     }
 
-    /// The same with measured torques, in Nm (N).
+    /// The same feedback with measured torques, in Nm (N).
     pub fn with_torque(self, torque: [f64; ROBOT_AXES]) -> Self {
         Self { torque: Some(torque), ..self }
     }
 
-    /// The same with other drives.
+    /// The same feedback with another state of the drives.
     pub fn with_drives(self, drives: Drives) -> Self {
         Self { drives: Some(drives), ..self }
     }
 }
 
-/// What the motors are told.
+/// A command to the motors.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Power {
     /// To be on and to hold the robot where it is.
     On,
-    /// To be off: the robot rests, brakes hold it from now on.
+    /// To be off: the robot is at rest, brakes hold it from now on.
     Off,
     /// To be off now, whatever the robot does: an emergency. It brakes by itself.
     Cut,
@@ -171,43 +174,44 @@ pub enum Power {
 /// # let _ = builder;
 /// ```
 pub trait RobotDriver {
-    /// Connects to the robot and switches its motors on, once, before the first cycle. It may take its time. Says where
-    /// the robot is, in deg (mm); [`Start::begin_at`] says whether it may be there, before motors are switched on.
+    /// Connects to the robot and switches its motors on, once, before the first cycle. It may take its time. Returns
+    /// the position of the robot, in deg (mm); [`Start::begin_at`] checks it, before motors are switched on.
     ///
     /// # Errors
-    /// Why there is no robot: the controller is not built.
+    /// Why the robot cannot be driven: the controller is not built.
     fn start(&mut self, start: &Start<'_>) -> Result<Joints, DriverError>;
 
-    /// Takes the set-point of a cycle; gives what the robot has said last.
+    /// Takes the set-point of a cycle; returns the latest feedback of the robot.
     fn exchange(&mut self, setpoint: &Setpoint) -> Feedback;
 
-    /// Switches the motors; says how the drives are now. While they are off, set-points are where the robot reports to
-    /// be. Drives that are not [on](Drives::On) at once are waited for after [`Power::On`], five seconds at most.
+    /// Switches the motors; returns the state of the drives. While they are off, set-points are the positions that the
+    /// robot reports. Drives that are not [on](Drives::On) at once are waited for after [`Power::On`], five seconds at
+    /// most.
     fn switch(&mut self, power: Power) -> Drives;
 
-    /// Whether set-points are to have torques: they take some time to compute.
+    /// Whether set-points should contain torques: these take some time to compute.
     fn wants_torque(&self) -> bool {
         false
     }
 
-    /// Says that somebody has moved the robot here while its motors are off: for simulated robots.
+    /// Reports that the robot was moved here by hand while its motors are off: for simulated robots.
     fn moved_by_hand(&mut self, to: &Joints) {
         let _ = to;
     }
 
-    /// What the user should know, once; asked for in each cycle until there is nothing more.
+    /// A warning for the user, once; called in each cycle until there is none left.
     fn take_warning(&mut self) -> Option<String> {
         None
     }
 
-    /// The controller ends; nothing is called any more. It may take its time. A controller that ends while the robot
+    /// The controller ends; no method is called any more. It may take its time. A controller that ends while the robot
     /// moves has cut the power before. It is not called after a start that failed.
     fn close(&mut self) {}
 }
 
-/// A robot that a cell file says how to drive.
+/// A robot with the driver that a cell file describes.
 pub struct Driven {
-    /// What moves it.
+    /// The driver, which moves the robot.
     pub driver: Box<dyn RobotDriver>,
     /// Whose time counts.
     pub time: DrivenTime,
@@ -216,28 +220,28 @@ pub struct Driven {
 /// Whose time counts while a robot is driven.
 #[non_exhaustive]
 pub enum DrivenTime {
-    /// That of the world: cycles take the time that they stand for.
+    /// Real time: cycles take the time that they stand for.
     World,
-    /// That of the robot, which is simulated: an exchange waits for it.
+    /// The time of the robot, which is simulated: an exchange waits for it.
     Robot,
-    /// The robot gives the beat: a cycle begins whenever this says so.
+    /// The robot sets the control cycle: a cycle begins whenever this clock says so.
     Beat(Box<dyn Clock>),
 }
 
-/// Makes the driver that the settings of a cell file describe; it is not started yet. The error says why there is none.
+/// Makes the driver that the settings of a cell file describe; it is not started yet. Otherwise returns the reason.
 pub type Connect = fn(&DriverSettings) -> Result<Driven, DriverError>;
 
-/// A robot that follows its set-point with a lag: it is where the mean of its last set-points is, those of 8 ms and at
-/// least two. So it moves no more jerkily than it is told to, half of that time late, and stands exactly on its
-/// set-point when that has rested for as long.
+/// A robot that follows its set-point with a lag: its position is the mean of its last set-points, those of 8 ms and at
+/// least two. So it moves no more jerkily than commanded, half of that time late, and stands exactly on its set-point
+/// once that has been at rest for as long.
 #[derive(Clone, Debug, Default)]
 pub struct SimulatedRobot {
     last: Option<[Joints; KEPT]>,
-    /// Which of `last` is the oldest.
+    /// The index of the oldest in `last`.
     oldest: usize,
-    /// Where it was when it was switched off, if it is.
+    /// Its position when it was switched off, while it is off.
     off: Option<Joints>,
-    /// Where it is.
+    /// Its position.
     position: Option<Joints>,
 }
 
@@ -284,8 +288,8 @@ impl RobotDriver for SimulatedRobot {
             *oldest = *setpoint;
         }
         self.oldest += 1;
-        // Seen from the set-point, so that no rounding is left when all are the same; by their age, so that a motion is
-        // the same to the last bit in whichever cycle it begins.
+        // Relative to the set-point, so that no rounding error is left when all are the same; in the order of their
+        // age, so that a motion is the same to the last bit in whichever cycle it begins.
         let mut position = *setpoint;
         let (newer, older) = last.split_at(self.oldest);
         let older = older.iter().take((count as usize).saturating_sub(self.oldest));
@@ -301,7 +305,7 @@ impl RobotDriver for SimulatedRobot {
     }
 }
 
-/// Whether feedback is where it shall be, within a distance in deg (mm).
+/// Whether the feedback is within this distance of the set-point, in deg (mm).
 pub(crate) fn settled(setpoint: &Joints, feedback: &Joints, within: f64) -> bool {
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= within;
     setpoint.axes.iter().zip(&feedback.axes).all(near) && setpoint.external.iter().zip(&feedback.external).all(near)
@@ -311,7 +315,7 @@ pub(crate) fn settled(setpoint: &Joints, feedback: &Joints, within: f64) -> bool
 mod tests {
     use super::*;
 
-    /// What is asked for at rest there, and where the robot is then.
+    /// Sends a set-point at rest; returns the position of the robot.
     fn exchange(robot: &mut SimulatedRobot, position: &Joints, period: f64) -> Joints {
         robot.exchange(&Setpoint::resting(*position, period)).position.unwrap()
     }

@@ -3,35 +3,45 @@
 use super::moving::Moving;
 use super::range;
 use super::robot_driver::{Drives, Feedback, Power, Setpoint};
-use super::supervision::Now;
+use super::supervision::{Now, Supervision};
 use super::{Mounts, Unit};
 use crate::fault::{Fault, File};
 use crate::motion::{Command, Joints, Settings, Speed, Start, Stop, Target, Zone};
 
-/// The speed of jogging, in % of the axes' own.
+/// The speed of jogging, in % of the axes' own speeds.
 pub(super) const JOGGING: f64 = 10.0;
-/// A robot whose axes are slower than that, in deg/s (mm/s), stands: what it measures of itself is never quite still.
+/// A robot whose axes are slower than this, in deg/s (mm/s), stands: measured speeds are never exactly zero.
 const STILL: f64 = 5.0;
-/// The farthest that an axis is moved at once, in deg (mm): more is a mistake.
+/// The farthest that an axis is moved by one request, in deg (mm): more is a mistake.
 const FARTHEST: f64 = 1e6;
-/// The level of those who move the robot beside the program: above all of it.
+/// The level of motions beside the program: above all of its levels.
 pub(super) const BESIDE: u32 = u32::MAX;
 
 /// Whether the motors of a robot hold it.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 #[non_exhaustive]
 pub enum Motors {
-    /// They do, and set-points are the motion.
+    /// They hold it, and set-points are the motion.
+    #[default]
     On,
-    /// They were told to, and have not said that they do.
+    /// They were switched on, and have not reported that they are on.
     ComingOn,
-    /// They go off once the robot rests.
+    /// They go off once the robot is at rest.
     GoingOff,
-    /// They do not. Set-points are where the robot is.
+    /// They do not hold it. Set-points are the positions of the robot.
     Off,
 }
 
-/// Whether an axis can be moved so far.
+/// The motors, and the supervision of the robot.
+#[derive(Default, Debug)]
+pub(super) struct Servo {
+    pub(super) motors: Motors,
+    pub(super) supervision: Supervision,
+    /// The fault that the supervision has found, and in which motion, until it is taken.
+    pub(super) trouble: Option<(Fault, Option<(File, u32)>)>,
+}
+
+/// Checks that an axis can be moved by this much.
 fn is_distance(by: f64) -> Result<(), String> {
     if by.abs() <= FARTHEST {
         Ok(())
@@ -41,30 +51,30 @@ fn is_distance(by: f64) -> Result<(), String> {
 }
 
 impl Unit {
-    /// What the motors do.
+    /// The state of the motors.
     pub(crate) fn motors(&self) -> Motors {
-        self.motors
+        self.servo.motors
     }
 
     /// Whether the motors hold the robot, and are to go on doing so.
     pub(crate) fn has_servo(&self) -> bool {
-        self.motors == Motors::On
+        self.servo.motors == Motors::On
     }
 
     /// Comes to rest on the path, until [`Unit::go_on`].
     pub(crate) fn pause(&mut self) {
         self.queue.stop_on_path(Stop::General);
-        self.halted = true;
+        self.jogging.halted = true;
     }
 
-    /// Goes on after a pause; back to the path first, at manual speed, where the robot was moved. `place` stands for
-    /// the way back where no motion is under way.
+    /// Goes on after a pause; back to the path first, at manual speed, where the robot was moved. `place` is the place
+    /// of the motion back where no motion was executed yet.
     pub(crate) fn go_on(&mut self, place: (File, u32)) {
-        if !std::mem::take(&mut self.halted) {
+        if !std::mem::take(&mut self.jogging.halted) {
             return;
         }
-        if std::mem::take(&mut self.jogged) {
-            let (file, line) = self.pointer.unwrap_or(place);
+        if std::mem::take(&mut self.jogging.jogged) {
+            let (file, line) = self.files.pointer.unwrap_or(place);
             self.start_again(Start { skip: 0, manual: true, line }, file);
         }
         self.queue.resume();
@@ -75,15 +85,15 @@ impl Unit {
         (!self.queue.idle()).then(|| self.queue.current().unwrap_or(self.planned))
     }
 
-    /// Stops on the path; at rest the brakes close and the motors let go.
+    /// Stops on the path; at rest the brakes close and the motors go off.
     pub(crate) fn servo_off(&mut self) {
-        match self.motors {
+        match self.servo.motors {
             Motors::On => {
-                self.motors = Motors::GoingOff;
+                self.servo.motors = Motors::GoingOff;
                 self.let_go();
                 self.pause();
             }
-            // The robot stands.
+            // The robot is at rest.
             Motors::ComingOn => self.switch_off(),
             Motors::GoingOff | Motors::Off => {}
         }
@@ -92,38 +102,39 @@ impl Unit {
     /// Switches the motors off at once: an emergency, in which the robot brakes by itself. Its motions stop where they
     /// are.
     pub(crate) fn cut_power(&mut self) {
-        if self.motors != Motors::Off {
-            self.motors = Motors::Off;
+        if self.servo.motors != Motors::Off {
+            self.servo.motors = Motors::Off;
             self.let_go();
             self.pause();
         }
-        // Also one that is off: there are robots whose power is somebody else's, and which hold where they stand.
-        self.switch(Power::Cut);
+        // Also where they are off: the power of some robots is switched elsewhere, and they hold their position.
+        self.link.switch(Power::Cut);
     }
 
-    /// Switches motors off that are to go off, where the robot rests.
+    /// Switches off motors that are going off, once the robot is at rest.
     pub(super) fn switch_off_at_rest(&mut self) {
         let stands = self.queue.rests() && self.commanded.at == self.commanded.before;
-        if self.motors == Motors::GoingOff && stands && self.is_settled() {
+        if self.servo.motors == Motors::GoingOff && stands && self.is_settled() {
             self.switch_off();
         }
     }
 
     fn switch_off(&mut self) {
-        self.motors = Motors::Off;
-        self.switch(Power::Off);
+        self.servo.motors = Motors::Off;
+        self.link.switch(Power::Off);
     }
 
-    /// Switches the motors on. The set-point is where the robot reports to be; with a threshold, in deg (mm), it stays
-    /// what it was where no axis is farther off than that. Returns whether that was so, where it was asked for.
+    /// Switches the motors on. The set-point is then the position that the robot reports; with a threshold, in deg
+    /// (mm), it keeps its value where no axis is farther off than that. Returns whether it did, where a threshold was
+    /// given.
     ///
     /// # Errors
-    /// The robot moves, it is not known where it is, or it is where its axes cannot be.
+    /// The robot moves, its position is not known, or it is outside the ranges of its axes.
     pub(crate) fn servo_on(&mut self, threshold: Option<f64>) -> Result<bool, String> {
-        match self.motors {
+        match self.servo.motors {
             Motors::On | Motors::ComingOn => return Ok(true),
-            Motors::GoingOff if !self.supervision.has_found() => {
-                self.motors = Motors::On;
+            Motors::GoingOff if !self.servo.supervision.has_found() => {
+                self.servo.motors = Motors::On;
                 return Ok(true);
             }
             Motors::GoingOff => return Err("the robot has not stopped yet".into()),
@@ -142,8 +153,8 @@ impl Unit {
         let here = self.reported.at;
         let near = threshold.is_some_and(|threshold| self.commanded.at.is_at(&here, threshold));
         if !near && here != self.commanded.at {
-            if self.jogged {
-                // What moved it beside its path when its motors went off is over.
+            if self.jogging.jogged {
+                // The motions beside the path when the motors went off are over.
                 self.queue.drop_added();
             }
             self.step_beside();
@@ -151,13 +162,13 @@ impl Unit {
                 return Err("its motions are still under way".into());
             }
         }
-        self.supervision.begin();
-        let is_on = self.switch(Power::On) == Drives::On;
-        self.motors = if is_on { Motors::On } else { Motors::ComingOn };
+        self.servo.supervision.begin();
+        let is_on = self.link.switch(Power::On) == Drives::On;
+        self.servo.motors = if is_on { Motors::On } else { Motors::ComingOn };
         Ok(near || threshold.is_none())
     }
 
-    /// Puts the set-point where the robot is; whether that could be done.
+    /// Sets the set-point to the position of the robot; returns whether that was possible.
     fn go_where_it_is(&mut self) -> bool {
         let here = self.reported.at;
         let placed = self.queue.place(here);
@@ -167,58 +178,58 @@ impl Unit {
         placed
     }
 
-    /// Looks at what the robot has said. What is wrong with it stops it, by what is still possible.
+    /// Checks the feedback of the robot. A fault stops it, by what is still possible.
     pub(super) fn supervise(&mut self, feedback: &Feedback, setpoint: &Setpoint) {
-        if self.motors == Motors::Off {
+        if self.servo.motors == Motors::Off {
             return;
         }
-        if self.motors == Motors::ComingOn && feedback.drives == Some(Drives::On) {
-            // It may have been moved since they were told to.
-            if self.jogged {
+        if self.servo.motors == Motors::ComingOn && feedback.drives == Some(Drives::On) {
+            // It may have been moved since they were switched on.
+            if self.jogging.jogged {
                 self.go_where_it_is();
             }
-            self.motors = Motors::On;
+            self.servo.motors = Motors::On;
         }
         let now = Now {
             robot: &self.robot,
             asked: &setpoint.position,
             period: setpoint.period,
             silent: self.silent,
-            coming_on: self.motors == Motors::ComingOn,
+            coming_on: self.servo.motors == Motors::ComingOn,
             rests: self.queue.rests(),
             settled: self.is_settled(),
         };
-        let is_first = !self.supervision.has_found();
-        let Some(fault) = self.supervision.look(feedback, now) else { return };
-        let place = self.pointer.filter(|_| self.executing.1 != 0);
+        let is_first = !self.servo.supervision.has_found();
+        let Some(fault) = self.servo.supervision.look(feedback, now) else { return };
+        let place = self.files.pointer.filter(|_| self.executing.1 != 0);
         match fault {
-            // Nobody follows set-points any more.
+            // The drives do not follow set-points any more.
             Fault::Drives(_) => self.cut_power(),
-            // Set-points lead to rest, and the motors go off there.
+            // Set-points lead to rest, where the motors go off.
             _ => {
-                self.motors = Motors::GoingOff;
+                self.servo.motors = Motors::GoingOff;
                 self.let_go();
             }
         }
         self.stop();
         if is_first {
-            self.trouble = Some((fault, place));
+            self.servo.trouble = Some((fault, place));
         }
     }
 
-    /// What is wrong with the robot, and in which motion, once.
+    /// The fault of the robot, and in which motion it was, once.
     pub(crate) fn take_trouble(&mut self) -> Option<(Fault, Option<(File, u32)>)> {
-        self.trouble.take()
+        self.servo.trouble.take()
     }
 
     /// Sets the motions aside, so that the robot can be moved beside its path.
     fn step_beside(&mut self) {
-        if !std::mem::replace(&mut self.jogged, true) {
+        if !std::mem::replace(&mut self.jogging.jogged, true) {
             self.set_aside(Stop::General, BESIDE);
         }
     }
 
-    /// Whether the robot can be moved beside its program now.
+    /// Checks that the robot can be moved beside its program now.
     pub(super) fn may_be_jogged(&self) -> Result<(), String> {
         if !self.has_servo() {
             return Err("the servo is off".into());
@@ -229,38 +240,39 @@ impl Unit {
         Ok(())
     }
 
-    /// Moves an axis, from 1, at manual speed. While it was paused, the robot goes back to its path before it goes on.
+    /// Moves an axis, from 1, at manual speed. Where the program is paused, the robot goes back to its path before it
+    /// goes on.
     pub(crate) fn jog(&mut self, axis: usize, by: f64) -> Result<(), String> {
         is_distance(by)?;
         self.may_be_jogged()?;
         let mut target = *self.target();
-        if self.halted && !self.jogged {
+        if self.jogging.halted && !self.jogging.jogged {
             target = *self.setpoint();
         }
         *self.axis_of(&mut target, axis)? += by;
-        // External axes have speeds of their own in place of a share.
+        // External axes have absolute speeds in place of a percentage.
         let own = self.robot.axes.get(axis - 1).map_or(1.0, |axis| axis.vel * JOGGING / 100.0);
         let speed = Speed { percent: JOGGING, tcp: 1.0, ori: 1.0, exj: own, exl: own };
         self.go_beside(Target::Joints(target), speed)
     }
 
-    /// Goes somewhere beside the program, at manual speed, with what the robot carries.
+    /// Plans a motion beside the program, at manual speed, with what the robot carries.
     pub(super) fn go_beside(&mut self, target: Target, speed: Speed) -> Result<(), String> {
         let rig = self.rig();
-        if self.halted {
+        if self.jogging.halted {
             self.step_beside();
         }
         let command = Command { target, rig, speed, duration: None, zone: Zone::NONE, line: 0 };
         self.queue.resume();
         let settings = Settings { manual: true, ..Settings::default() };
-        let file = self.file;
+        let file = self.files.last;
         self.plan(&command, &settings, Mounts::default(), file).map_err(|alarm| alarm.fault.to_string())
     }
 
     /// Moves an axis, from 1, while the servo is off.
     pub(crate) fn move_by_hand(&mut self, axis: usize, by: f64) -> Result<(), String> {
         is_distance(by)?;
-        if self.motors != Motors::Off {
+        if self.servo.motors != Motors::Off {
             return Err("its servo is on: the motors hold it".into());
         }
         if !self.queue.rests() {
@@ -268,7 +280,7 @@ impl Unit {
         }
         let mut here = self.reported.at;
         *self.axis_of(&mut here, axis)? += by;
-        self.driver.moved_by_hand(&here);
+        self.link.moved_by_hand(&here);
         Ok(())
     }
 

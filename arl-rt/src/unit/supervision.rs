@@ -6,31 +6,31 @@ use crate::unit::range::{self, unit};
 use crate::unit::robot_driver::{Drives, Feedback};
 use arl_robot::robot::{Axis, ROBOT_AXES, Robot};
 
-/// So many cycles without a position are no trouble yet, however long they are.
+/// This many cycles without a position are not a fault yet, however long they are.
 const FEWEST_CYCLES: u32 = 4;
-/// A robot is told, and tells, some cycles late.
+/// By how many cycles set-points and feedback are delayed.
 const LATE_CYCLES: f64 = 3.0;
 /// How long drives may take to come on, in s.
 const COMING_ON_S: f64 = 5.0;
 
-/// What the controller knows when it looks.
+/// The state of the controller in this cycle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Now<'a> {
     pub(super) robot: &'a Robot,
     pub(super) asked: &'a Joints,
     /// The length of the cycle in s.
     pub(super) period: f64,
-    /// For how many cycles no position has come.
+    /// For how many cycles no position has arrived.
     pub(super) silent: u32,
-    /// The motors are told to come on, and have not said that they are.
+    /// The motors were switched on, and have not reported that they are on.
     pub(super) coming_on: bool,
-    /// The set-point stands.
+    /// The set-point is at rest.
     pub(super) rests: bool,
     /// The robot has settled on it.
     pub(super) settled: bool,
 }
 
-/// What was found so far. It tells of one trouble, until it [begins anew](Supervision::begin).
+/// The state of the supervision. It reports one fault, until it [begins again](Supervision::begin).
 #[derive(Default, Debug)]
 pub(super) struct Supervision {
     /// How long the robot has not settled, and how long its motors have been coming on, in s.
@@ -45,13 +45,13 @@ impl Supervision {
         *self = Self::default();
     }
 
-    /// Whether something was found.
+    /// Whether a fault was found.
     pub(super) fn has_found(&self) -> bool {
         self.found
     }
 
-    /// Looks at what a robot says whose motors are on, or should be: what is wrong. That is told once, but for drives
-    /// that nobody is to move against any more.
+    /// Checks the feedback of a robot whose motors are on, or should be; returns the fault. That is reported once,
+    /// except for drives, against which the robot must not be commanded any more.
     pub(super) fn look(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
         let fault = self.trouble(feedback, now)?;
         let counts = !self.found || matches!(fault, Fault::Drives(_));
@@ -103,7 +103,7 @@ impl Supervision {
     }
 }
 
-/// What is wrong with where it is, or with not knowing it.
+/// A wrong position, or a missing one.
 fn position(position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
     let Some(position) = position else {
         let lasts = f64::from(now.silent) * now.period;
@@ -118,11 +118,11 @@ fn position(position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
         return Some(Fault::NoFeedback(outside.to_string().into()));
     }
     if now.coming_on {
-        // Its set-point is where it reports to be, which has to be a place for it.
+        // Its set-point is the position that it reports, which has to be within its ranges.
         return outside().map(|outside| Fault::NotFollowing(outside.to_string().into()));
     }
     let off = axes_off(position, now).zip(&now.robot.drives.following).map(|((off, axis), limit)| {
-        // What it says is of some cycles ago.
+        // The feedback is some cycles old.
         (off, axis, limit.max(axis.vel * LATE_CYCLES * now.period))
     });
     let (off, axis, limit) =
@@ -134,14 +134,14 @@ fn position(position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
     Some(Fault::NotFollowing(text.into()))
 }
 
-/// What is wrong with the torques that it measures: nobody would find a collision by them.
+/// An error in the measured torques: collisions could not be detected with them.
 fn torque(feedback: &Feedback) -> Option<Fault> {
     let torque = feedback.torque.as_ref()?;
     let text = "a motor torque that the robot reports is not a number";
     (!is_all_finite(torque)).then(|| Fault::NoFeedback(text.into()))
 }
 
-/// Whether all of these are numbers.
+/// Whether all values are finite.
 pub(super) fn is_all_finite(values: &[f64; ROBOT_AXES]) -> bool {
     values.iter().all(|value| value.is_finite())
 }
@@ -154,7 +154,7 @@ fn axes_off<'a>(position: &'a Joints, now: Now<'a>) -> impl Iterator<Item = (f64
     pairs.zip(&now.robot.axes).map(|((asked, is), axis)| ((asked - is).abs(), axis))
 }
 
-/// Whether all axes of a robot are at numbers.
+/// Whether the positions of all axes of a robot are finite.
 pub(super) fn is_finite(position: &Joints, robot: &Robot) -> bool {
     range::axes_at(position, robot).all(|(_, at)| at.is_finite())
 }

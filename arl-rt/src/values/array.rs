@@ -10,7 +10,7 @@ pub trait Store<T, const N: usize>: Clone {
     fn build(make: impl FnMut(usize) -> T) -> Self;
     /// The elements.
     fn elements(&self) -> &[T; N];
-    /// The elements, to be changed.
+    /// The elements, for writing.
     fn elements_mut(&mut self) -> &mut [T; N];
 }
 
@@ -51,29 +51,29 @@ impl<T: Clone, const N: usize> Store<T, N> for Box<[T; N]> {
     }
 }
 
-/// An array of N elements, whatever the number of its dimensions. The elements live on the heap, so that large
-/// arrays neither fill the stack nor the state of a waiting function; see [`SmallArray`] for the others.
+/// An array of N elements, whatever the number of its dimensions. The elements live on the heap, so that large arrays
+/// fill neither the stack nor the state of a waiting function; see [`SmallArray`] for small ones.
 #[derive(Clone)]
 pub struct Array<T, const N: usize, S = Box<[T; N]>> {
     elements: S,
     of: PhantomData<T>,
 }
 
-/// An array that lives where it is declared: the right one up to about 1 KiB.
+/// An array that lives where it is declared: suitable up to about 1 KiB.
 pub type SmallArray<T, const N: usize> = Array<T, N, [T; N]>;
 
 impl<T: Clone + Default, const N: usize, S: Store<T, N>> Array<T, N, S> {
-    /// All elements have their start value.
+    /// An array whose elements have their start value.
     pub fn start() -> Self {
         Self::build(|_| T::default())
     }
 
-    /// Each element is made from its index.
+    /// An array whose elements are each made from their index.
     pub(super) fn build(make: impl FnMut(usize) -> T) -> Self {
         Self { elements: S::build(make), of: PhantomData }
     }
 
-    /// The first elements have these values, the others their start value; values beyond N are left out.
+    /// An array whose first elements have these values, the others their start value; values beyond N are ignored.
     pub fn from_values(values: &[T]) -> Self {
         Self { elements: S::build(|at| values.get(at).cloned().unwrap_or_default()), of: PhantomData }
     }
@@ -86,13 +86,13 @@ impl<T: Clone + Default, const N: usize, S: Store<T, N>> Array<T, N, S> {
 }
 
 impl<T, const N: usize, S: Store<T, N>> Array<T, N, S> {
-    /// Where the elements are, for a loop that uses many of them.
+    /// Direct access to the elements, for a loop that reads many of them.
     #[inline]
     pub fn elements(&self) -> &[T; N] {
         self.elements.elements()
     }
 
-    /// Where the elements are, for a loop that writes to them.
+    /// Direct write access to the elements, for a loop.
     #[inline]
     pub fn elements_mut(&mut self) -> &mut [T; N] {
         self.elements.elements_mut()

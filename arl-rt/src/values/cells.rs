@@ -1,18 +1,18 @@
-//! Global arrays of values that are copied: every element is a cell of its own, so that reaching one costs no more than
-//! in an array.
+//! Global arrays of values that are copied: every element is a cell of its own, so that access to one costs no more
+//! than in an array.
 
 use super::{Array, Store};
 use std::cell::Cell;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A global array of numbers, structures or enumerations. `S` tells where a copy of the whole array keeps its elements.
+/// A global array of numbers, structures or enumerations. `S` is where a copy of the whole array keeps its elements.
 pub struct Cells<T, const N: usize, S = Box<[T; N]>> {
     elements: Box<[Cell<T>; N]>,
     of: PhantomData<S>,
 }
 
-/// The variable for a [`super::SmallArray`].
+/// A global array that is copied as a [`super::SmallArray`].
 pub type SmallCells<T, const N: usize> = Cells<T, N, [T; N]>;
 
 impl<T: Copy + Default, const N: usize, S: Store<T, N>> Cells<T, N, S> {
@@ -21,14 +21,14 @@ impl<T: Copy + Default, const N: usize, S: Store<T, N>> Cells<T, N, S> {
         Array::build(|at| self.item(at))
     }
 
-    /// Puts a whole array in.
+    /// Sets the whole array.
     pub fn set(&self, values: Array<T, N, S>) {
         for (cell, value) in self.elements.iter().zip(&*values) {
             cell.set(*value);
         }
     }
 
-    /// Where the elements are, for a loop that uses many of them.
+    /// Direct access to the elements, for a loop that uses many of them.
     #[inline]
     pub fn elements(&self) -> Elements<'_, T, N> {
         Elements(&self.elements)
@@ -40,7 +40,7 @@ impl<T: Copy + Default, const N: usize, S: Store<T, N>> Cells<T, N, S> {
         self.elements().item(index)
     }
 
-    /// Puts a value into the element with this index; nothing happens beyond the last.
+    /// Sets the element with this index; does nothing beyond the last.
     #[inline]
     pub fn set_item(&self, index: usize, value: T) {
         self.elements().set_item(index, value);
@@ -61,11 +61,12 @@ impl<T: Copy + Default, const N: usize> Elements<'_, T, N> {
     /// The element with this index; the start value beyond the last.
     #[inline]
     pub fn item(self, index: usize) -> T {
-        // Indexing behind a test of the index: rustc sees that it cannot fail. The test of what `get` returns stays.
+        // After this test of the index rustc knows that indexing cannot fail. With `get`, the test of its result would
+        // remain.
         if index < N { self.0[index].get() } else { T::default() }
     }
 
-    /// Puts a value into the element with this index; nothing happens beyond the last.
+    /// Sets the element with this index; does nothing beyond the last.
     #[inline]
     pub fn set_item(self, index: usize, value: T) {
         if index < N {

@@ -1,8 +1,9 @@
-//! Structures of one robot family as those of the other, and positions as arrays.
+//! Conversions between the structures of the robot families, and between positions and arrays.
 
 use super::{Joint, JointScara, Jvel, JvelScara, Pose, Slip, SlipScara, UNSET};
 
-/// Joins two structures that share components by name; what the target has alone keeps its start value.
+/// Converts between structures that share components by name; components that only the target has keep their start
+/// value.
 macro_rules! shares {
     ($($from:ident => $to:ident { $($field:ident)* })*) => { $(
         impl From<$from> for $to {
@@ -50,7 +51,7 @@ lists! {
 }
 
 impl Joint {
-    /// The robot's axes with `j1` to `j6`, external axes unset.
+    /// A target with the robot's axes `j1` to `j6`; the external axes are unset.
     pub const fn of_axes([j1, j2, j3, j4, j5, j6]: [f64; 6]) -> Self {
         let ej = UNSET;
         Self { j1, j2, j3, j4, j5, j6, ej1: ej, ej2: ej, ej3: ej, ej4: ej, ej5: ej, ej6: ej }

@@ -17,7 +17,7 @@ pub trait Enumeration: Copy + Default + 'static {
     /// The constant that stands for a number; `None` beyond the last.
     fn from_index(index: i32) -> Option<Self>;
 
-    /// The constant of this name, whatever its case; the manual's other names count, too.
+    /// The constant of this name, whatever its case; the manual's aliases are accepted, too.
     fn from_name(name: &str) -> Option<Self>;
 }
 
@@ -112,11 +112,11 @@ macro_rules! enumerations {
 }
 
 enumerations! {
-    /// The course of speed along a motion.
+    /// The speed profile of a motion.
     VelProfile "$VEL_PROFILE" {
         T "T_TYPE" "Trapezoidal: acceleration jumps.",
-        S "S_TYPE" "Jerk-limited with constant limits along the path.",
-        O "O_TYPE" "The fastest that the limits of every axis allow.",
+        S "S_TYPE" "Jerk-limited: as fast at each place as every axis allows.",
+        O "O_TYPE" "The same as `S_TYPE`.",
     }
 
     /// Where `print` sends its text.

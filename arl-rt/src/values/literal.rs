@@ -10,16 +10,16 @@ use std::fmt::Write;
 
 /// A value that a literal can be read into.
 pub trait Literal: Print {
-    /// Reads the literal; what it leaves out stays.
+    /// Reads the literal; components and elements that it leaves out keep their value.
     ///
     /// # Errors
-    /// What does not fit, and in which component.
+    /// Returns what does not fit, and in which component.
     fn put(&mut self, value: &Expr, names: &Interner) -> Result<(), TeachError>;
 
-    /// The same for an array of these sizes.
+    /// Like `put`, for an array of these sizes.
     ///
     /// # Errors
-    /// What does not fit, and in which component.
+    /// Returns what does not fit, and in which component.
     fn put_nested(&mut self, value: &Expr, _sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
         self.put(value, names)
     }
@@ -28,13 +28,13 @@ pub trait Literal: Print {
     fn write(&self, out: &mut String);
 }
 
-/// A literal, read.
+/// A literal that has been read.
 enum Read<'a> {
     Int(Number),
     Double(f64),
     Bool(bool),
     Text(&'a str),
-    /// A name, with its number where it is an enumeration's constant.
+    /// A name, with its number if it is the constant of an enumeration.
     Name(Option<i32>),
     Brace(&'a [BraceItem]),
     Other,
@@ -99,7 +99,7 @@ impl<'a> Read<'a> {
         }
     }
 
-    /// A word that is a constant by itself or a hexadecimal number, or else the name of a constant.
+    /// A word: a built-in constant, a hexadecimal number, or else the name of a constant.
     fn word(word: &'a str) -> Self {
         match word {
             "pi" => return Read::Double(std::f64::consts::PI),
@@ -213,7 +213,7 @@ fn put_structure<S: Structure + Typed>(place: &mut S, value: &Expr, names: &Inte
     })
 }
 
-/// What reading a structure has to know of its type: so it is compiled once, not for each of them.
+/// What is needed of a structure's type to read it, so that reading is compiled once and not for each structure.
 struct Shape {
     name: &'static str,
     components: &'static [&'static str],
@@ -222,7 +222,7 @@ struct Shape {
 }
 
 impl Shape {
-    /// Reads braces, and hands on each value with the number of its component.
+    /// Reads braces and passes each value with the number of its component to `put`.
     fn read(
         &self,
         value: &Expr,
@@ -272,7 +272,7 @@ fn write_constant<E: Enumeration>(constant: &E, out: &mut String) {
     out.push_str(name.copied().unwrap_or_default());
 }
 
-/// The components by their names, but for those that are not set.
+/// Writes the components by name, except those that are not set.
 fn write_structure<S: Structure>(structure: &S, out: &mut String) {
     out.push('{');
     for (at, name) in S::COMPONENTS.iter().enumerate() {
@@ -286,7 +286,7 @@ fn write_structure<S: Structure>(structure: &S, out: &mut String) {
     out.push('}');
 }
 
-/// How the number is written that says that a component is not set.
+/// The text of the number that marks a component as not set.
 const UNSET_TEXT: &str = "9e9";
 
 macro_rules! literals {
@@ -328,7 +328,7 @@ impl<T: Literal + Typed + Clone, const N: usize, S: Store<T, N>> Literal for Arr
         let Err(error) = put_elements(self, &[N], value, names) else {
             return Ok(());
         };
-        // The sizes are not known here: full rows are clear without them.
+        // The sizes are not known here; full rows are unambiguous without them.
         let mut rows: Vec<&BraceItem> = braces::<T>(self, value, names)?.iter().collect();
         while !rows.is_empty() && rows.len() < N {
             let Some(inner) = rows.iter().map(|row| row_of(row)).collect::<Option<Vec<_>>>() else {
@@ -390,7 +390,7 @@ fn put_elements<T: Literal + Typed + Clone>(
         }
     }
     let flat = put_flat(elements, items, value, names);
-    // Where neither works, the deeper braces tell what was meant.
+    // If neither works, the deeper braces show what was meant.
     let nested = items.iter().filter_map(row_of).flatten().any(|item| row_of(item).is_some());
     match (flat, rows_error) {
         (Err(flat), Some(rows)) => Err(if nested || flat.path.starts_with('[') { rows } else { flat }),

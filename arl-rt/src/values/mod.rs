@@ -27,7 +27,7 @@ pub use teach::{Fixed, Onto, Teach, teach_variable};
 pub use teach_error::{TeachError, TeachProblem};
 pub use watched::Watched;
 
-/// What a component is that nobody has set: "keep what was".
+/// The value of a component that is not set: "keep the previous value".
 pub const UNSET: f64 = 9e9;
 
 /// Whether a component has been set.

@@ -1,11 +1,11 @@
-//! System variables as the programs of SCARA robots see them: the controller keeps them with the components that
-//! six-axis robots have besides.
+//! System variables as the programs of SCARA robots see them: the controller keeps them with the additional components
+//! of six-axis robots.
 
 use std::cell::Cell;
 
 use super::{Array, Shared, Store};
 
-/// A variable seen with a SCARA robot's components. What these lack is unset after a write.
+/// A variable seen with a SCARA robot's components. Components that these lack are unset after a write.
 #[derive(Debug)]
 pub struct AsScara<'a, V>(&'a V);
 
@@ -24,7 +24,7 @@ macro_rules! views {
                 self.0.get().into()
             }
 
-            /// Puts a value in.
+            /// Sets the value.
             pub fn set(&self, value: super::$scara) {
                 self.0.set(value.into());
             }
@@ -41,7 +41,7 @@ macro_rules! views {
                 self.0.with(|array| Array::build(|at| array.at(at).into()))
             }
 
-            /// Puts a whole array in.
+            /// Sets the whole array.
             pub fn set(&self, values: Array<super::$scara, N>) {
                 self.0.set(Array::build(|at| values.at(at).into()));
             }
@@ -51,17 +51,17 @@ macro_rules! views {
                 self.0.item(index).into()
             }
 
-            /// Puts a value into the element with this index; nothing happens beyond the last.
+            /// Sets the element with this index; does nothing beyond the last.
             pub fn set_item(&self, index: usize, value: super::$scara) {
                 self.0.set_item(index, value.into());
             }
 
-            /// What the function finds out about the value.
+            /// Returns the result of the function for the value.
             pub fn with<R>(&self, look: impl FnOnce(&Array<super::$scara, N>) -> R) -> R {
                 look(&self.get())
             }
 
-            /// What the function returns after it changed the value.
+            /// Changes the value with the function and returns its result.
             pub fn update<R>(&self, change: impl FnOnce(&mut Array<super::$scara, N>) -> R) -> R {
                 let mut values = self.get();
                 let result = change(&mut values);

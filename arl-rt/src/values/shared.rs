@@ -1,12 +1,12 @@
-//! A place for values that are not `Copy`, shared by everything that sees the global variables.
+//! A cell for values that are not `Copy`, shared by all parts that access the global variables.
 
 use super::{Array, Store};
 use std::cell::RefCell;
 
-/// A variable that several parts of a program see: strings, arrays, workpieces.
+/// A variable that several parts of a program access: strings, arrays, workpieces.
 ///
-/// Each access is over when its call returns. The closures of [`Shared::with`] and [`Shared::update`] look at their
-/// argument only, never at this same variable again.
+/// Each access ends when its call returns. The closures of [`Shared::with`] and [`Shared::update`] use their argument
+/// only and never access the same variable again.
 #[derive(Default, Debug)]
 pub struct Shared<T>(RefCell<T>);
 
@@ -26,21 +26,21 @@ impl<T> Shared<T> {
         self.0.borrow().clone()
     }
 
-    /// Puts a value in.
+    /// Sets the value.
     #[inline]
     #[track_caller]
     pub fn set(&self, value: T) {
         drop(self.0.replace(value));
     }
 
-    /// What the function finds out about the value.
+    /// Returns the result of the function for the value.
     #[inline]
     #[track_caller]
     pub fn with<R>(&self, look: impl FnOnce(&T) -> R) -> R {
         look(&self.0.borrow())
     }
 
-    /// What the function returns after it changed the value.
+    /// Changes the value with the function and returns its result.
     #[inline]
     #[track_caller]
     pub fn update<R>(&self, change: impl FnOnce(&mut T) -> R) -> R {
@@ -56,7 +56,7 @@ impl<T: Clone + Default, const N: usize, S: Store<T, N>> Shared<Array<T, N, S>> 
         self.0.borrow().at(index)
     }
 
-    /// Puts a value into the element with this index; nothing happens beyond the last.
+    /// Sets the element with this index; does nothing beyond the last.
     #[inline]
     #[track_caller]
     pub fn set_item(&self, index: usize, value: T) {

@@ -1,4 +1,4 @@
-//! The string of ARL: bytes, as a rule UTF-8.
+//! The string of ARL: bytes, usually UTF-8.
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
@@ -8,11 +8,11 @@ use std::ops::{Add, AddAssign};
 /// The longest text that is kept without an allocation.
 const INLINE: usize = 15;
 
-/// A string value: any bytes, as a rule UTF-8. Length, order and comparison go by bytes.
+/// A string value: any bytes, usually UTF-8. Length, order and comparison work on bytes.
 #[derive(Clone)]
 pub struct Str(Text);
 
-/// The vector's niche holds the variant, so that a string is three words wide.
+/// The variant is stored in the vector's niche, so a string is three words wide.
 #[derive(Clone)]
 enum Text {
     Inline { length: u8, bytes: [u8; INLINE] },
@@ -21,7 +21,7 @@ enum Text {
 }
 
 impl Str {
-    /// How many bytes a string of a program may have: 16 MiB.
+    /// The most bytes that a string of a program may have: 16 MiB.
     pub const MOST: usize = 16 << 20;
 
     /// The empty string.
@@ -49,7 +49,7 @@ impl Str {
         }
     }
 
-    /// How many bytes there are.
+    /// The number of bytes.
     #[inline]
     pub fn len(&self) -> usize {
         match &self.0 {
@@ -59,7 +59,7 @@ impl Str {
         }
     }
 
-    /// Whether it is `""`.
+    /// Whether the string is empty.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -111,7 +111,7 @@ impl Str {
         self.push_bytes(&[byte]);
     }
 
-    /// Empties it and keeps its memory.
+    /// Empties the string and keeps its memory.
     pub fn clear(&mut self) {
         if let Text::Heap(bytes) = &mut self.0 {
             bytes.clear();
@@ -120,8 +120,8 @@ impl Str {
         }
     }
 
-    /// Two texts one after the other. What takes more than half of the room without an allocation will hardly stay
-    /// there: mostly a third text follows.
+    /// Concatenates two texts. A result longer than half of the inline room is allocated at once: usually a third text
+    /// follows, and the whole would not stay inline.
     fn sum(first: &[u8], second: &[u8]) -> Str {
         let length = first.len() + second.len();
         if length <= INLINE / 2 {
@@ -135,7 +135,7 @@ impl Str {
         Self(Text::Heap(joined))
     }
 
-    /// All parts one after the other.
+    /// Concatenates all parts.
     pub fn concat(parts: &[&Str]) -> Str {
         let mut all = Str::with_capacity(parts.iter().map(|part| part.len()).sum());
         for part in parts {
@@ -161,8 +161,8 @@ fn small(text: &[u8]) -> [u8; INLINE] {
     bytes
 }
 
-/// Writes a short text at an offset, where there is room for it. Two moves that may overlap do it for any length: a
-/// call of `memcpy` would cost more than so few bytes.
+/// Writes a short text at an offset if there is room for it. Two moves that may overlap cover any length: for so few
+/// bytes a call of `memcpy` would cost more.
 #[inline]
 fn put(bytes: &mut [u8; INLINE], at: usize, text: &[u8]) {
     let Some(to) = bytes.get_mut(at..at + text.len()) else { return };
@@ -171,7 +171,7 @@ fn put(bytes: &mut [u8; INLINE], at: usize, text: &[u8]) {
     }
 }
 
-/// Writes the first and the last N bytes, where there are so many: up to twice N bytes are copied so.
+/// Writes the first and the last N bytes if there are at least N: this copies up to twice N bytes.
 #[inline]
 fn both_ends<const N: usize>(to: &mut [u8], from: &[u8]) -> bool {
     let (Some(first), Some(last)) = (from.first_chunk::<N>(), from.last_chunk::<N>()) else { return false };

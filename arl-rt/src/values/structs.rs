@@ -8,16 +8,16 @@ pub trait Structure: Default + Clone + 'static {
     /// The names of the components in order.
     const COMPONENTS: &'static [&'static str];
 
-    /// Other names of components, each with the right one.
+    /// Aliases of components, each with the proper name.
     const ALIASES: &'static [(&'static str, &'static str)] = &[];
 
-    /// How many of them values without names may reach.
+    /// The number of components that values without names can set.
     const POSITIONAL: usize;
 
     /// The component with this number.
     fn component(&self, index: usize) -> Option<&dyn Literal>;
 
-    /// The component with this number, to be set.
+    /// The component with this number, for writing.
     fn component_mut(&mut self, index: usize) -> Option<&mut dyn Literal>;
 
     /// The number of the component with this name, whatever its case.
@@ -27,7 +27,7 @@ pub trait Structure: Default + Clone + 'static {
         Self::COMPONENTS.iter().position(|component| component.eq_ignore_ascii_case(name))
     }
 
-    /// How many components are printed: the last one of some shows only where it was set.
+    /// The number of components that are printed: some structures print their last one only if it was set.
     fn shown(&self) -> usize {
         Self::COMPONENTS.len()
     }
@@ -54,7 +54,7 @@ macro_rules! structures {
         }
 
         impl Default for $rust {
-            // Inlined, the start values of a thousand variables are one function that takes minutes to compile.
+            // If inlined, the start values of a thousand variables become one function that takes minutes to compile.
             #[inline(never)]
             fn default() -> Self {
                 Self { $($field: $start,)* }
@@ -122,7 +122,7 @@ structures! {
         z "Along z, mm.": f64 = UNSET,
     }
 
-    /// A coordinate system, seen from another one.
+    /// A coordinate system, relative to another one.
     #[derive(Copy)]
     Frame "frame"; {
         x "Origin along x, mm.": f64 = 0.0,
@@ -297,7 +297,7 @@ structures! {
         izz "Component zz, g*mm2.": f64 = 0.0,
     }
 
-    /// A load: its mass, where it is, how it resists turning.
+    /// A load: its mass, centroid and inertia.
     #[derive(Copy)]
     ToolInertiaPara "ToolInertiaPara"; {
         m "The mass, g.": f64 = 0.0,

@@ -1,7 +1,7 @@
-//! Literal values from a `_data.arl` file, put into the variables of a program that is compiled already.
+//! Literal values from a `_data.arl` file, put into the variables of an already compiled program.
 //!
-//! The rules are those of a declaration: the same conversions, braces by name or by position, start values for what
-//! is left out.
+//! The rules of a declaration apply: the same conversions, braces by name or by position, start values for components
+//! that are left out.
 
 use super::{Array, Cells, Literal, Shared, Store, Str, TeachError, TeachProblem, Watched};
 use crate::values::text::{Print, Style};
@@ -11,43 +11,43 @@ use arl_lang::span::Span;
 use arl_lang::symbol::Interner;
 use std::cell::Cell;
 
-/// What a literal is put onto: it has what the literal leaves out.
+/// The value that supplies what a literal leaves out.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Onto {
     /// The start value.
     Start,
-    /// The value that the variable has.
+    /// The current value of the variable.
     Value,
 }
 
 /// A variable that takes a literal value.
 pub trait Teach {
-    /// Puts the value in; the variable stays as it was where the value does not fit.
+    /// Sets the variable; it keeps its value if the new one does not fit.
     ///
     /// # Errors
-    /// What does not fit, and in which component.
+    /// Returns what does not fit, and in which component.
     fn teach(&self, value: &Expr, names: &Interner) -> Result<(), TeachError> {
         self.teach_nested(value, &[], names)
     }
 
-    /// The same for an array of these sizes, outermost first. Without sizes, nested rows have to be full.
+    /// Like `teach`, for an array of these sizes, outermost first. Without sizes, nested rows have to be full.
     ///
     /// # Errors
-    /// What does not fit, and in which component.
+    /// Returns what does not fit, and in which component.
     fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
         self.teach_onto(Onto::Start, value, sizes, names)
     }
 
-    /// The same, onto what the variable has: components and elements that the literal leaves out are those.
+    /// Like `teach_nested`, but components and elements that the literal leaves out come from `onto`.
     ///
     /// # Errors
-    /// What does not fit, and in which component.
+    /// Returns what does not fit, and in which component.
     fn teach_onto(&self, onto: Onto, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError>;
 
     /// Gives the variable its start value.
     ///
     /// # Errors
-    /// [`TeachProblem::Constant`], where the value is fixed. The error has no place.
+    /// [`TeachProblem::Constant`] if the value is fixed. The error has no source position.
     fn restart(&self) -> Result<(), TeachError>;
 
     /// The name of the variable's type: `pose`, `int[6]`.
@@ -63,10 +63,10 @@ fn written(value: &impl Literal) -> String {
     text
 }
 
-/// Gives a variable the value of a literal, in words of ARL; `sizes` are those of an array of several dimensions.
+/// Gives a variable the value of a literal in ARL source text; `sizes` are those of an array of several dimensions.
 ///
 /// # Errors
-/// The text is not a literal, or does not fit: in words.
+/// Returns a message if the text is not a literal or does not fit.
 pub(crate) fn teach_text(variable: &dyn Teach, onto: Onto, sizes: &[usize], literal: &str) -> Result<(), String> {
     let mut names = Interner::default();
     let parsed = arl_lang::parse_expression(literal, &mut names, arl_lang::ParseOptions::default());
@@ -76,11 +76,11 @@ pub(crate) fn teach_text(variable: &dyn Teach, onto: Onto, sizes: &[usize], lite
     variable.teach_onto(onto, &parsed.expr, sizes, &names).map_err(|error| error.to_string())
 }
 
-/// Takes the value of a declaration, which has to be of the type that the variable was compiled with; `sizes` are those
-/// of an array of several dimensions. Without a value the variable gets its start value.
+/// Gives a variable the value of a declaration, which must have the type that the variable was compiled with; `sizes`
+/// are those of an array of several dimensions. Without a value the variable gets its start value.
 ///
 /// # Errors
-/// Another type, or what does not fit about the value.
+/// The type is another one, or the value does not fit.
 pub fn teach_variable(
     slot: &dyn Teach,
     sizes: &[usize],

@@ -1,41 +1,41 @@
-//! Why a literal is not taken as the value of a variable.
+//! Errors of a literal that cannot be the value of a variable.
 
 use std::fmt;
 
 use arl_lang::ast::Expr;
 use arl_lang::span::Span;
 
-/// Why a literal was not taken.
+/// The error of a literal that was not accepted.
 #[derive(Clone, PartialEq, Debug)]
 pub struct TeachError {
-    /// The component or element: `t_frame.x`, `[3].cfg`; empty where the value as a whole does not fit.
+    /// The component or element: `t_frame.x`, `[3].cfg`; empty if the value as a whole does not fit.
     pub path: String,
     /// What does not fit.
     pub problem: TeachProblem,
-    /// Where the value stands in its file.
+    /// The position of the value in its file.
     pub span: Span,
 }
 
 /// What does not fit about a literal.
 #[derive(Clone, PartialEq, Debug)]
 pub enum TeachProblem {
-    /// The declaration is of another type than the one that was compiled.
+    /// The declaration has another type than the compiled one.
     Declared {
-        /// The type that was compiled.
+        /// The compiled type.
         expected: String,
-        /// The type that stands there.
+        /// The type of the declaration.
         found: String,
     },
-    /// A constant, whose compiled value this is, has another value or none.
+    /// A constant whose compiled value is this one has another value, or none.
     Constant(String),
     /// The value is of another type.
     Type {
         /// The type of the variable or component.
         expected: String,
-        /// What stands there.
+        /// What was found.
         found: &'static str,
     },
-    /// A number that the type does not hold.
+    /// A number outside the range of the type.
     Range {
         /// The type of the variable or component.
         expected: String,
@@ -44,9 +44,9 @@ pub enum TeachProblem {
     Component {
         /// The structure.
         structure: &'static str,
-        /// The name that stands there.
+        /// The name that was found.
         name: String,
-        /// The names that it has.
+        /// The names of its components.
         known: &'static [&'static str],
     },
     /// A component that is set twice.
@@ -57,7 +57,7 @@ pub enum TeachProblem {
     TooMany {
         /// The structure or array.
         expected: String,
-        /// How many values it takes.
+        /// The most values it takes.
         most: usize,
     },
 }
@@ -67,7 +67,7 @@ impl TeachError {
         Self { path: String::new(), problem, span: value.span }
     }
 
-    /// The same error, seen from what holds the component.
+    /// The same error with the path seen from the value that contains the component.
     pub(super) fn inside(mut self, outer: &str) -> Self {
         let joint = if self.path.is_empty() || self.path.starts_with('[') { "" } else { "." };
         self.path = format!("{outer}{joint}{}", self.path);

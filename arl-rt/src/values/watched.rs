@@ -1,10 +1,10 @@
-//! A shared variable that knows whether it was written.
+//! A shared variable that records whether it was written.
 
 use std::cell::Cell;
 
 use super::{Array, Shared, Store};
 
-/// A variable like [`Shared`] that notes that it may have changed.
+/// A variable like [`Shared`] that records that it may have changed.
 #[derive(Default, Debug)]
 pub struct Watched<T> {
     value: Shared<T>,
@@ -26,33 +26,33 @@ impl<T> Watched<T> {
         self.value.get()
     }
 
-    /// Puts a value in.
+    /// Sets the value.
     #[track_caller]
     pub fn set(&self, value: T) {
         self.changed.set(true);
         self.value.set(value);
     }
 
-    /// What the function finds out about the value.
+    /// Returns the result of the function for the value.
     #[track_caller]
     pub fn with<R>(&self, look: impl FnOnce(&T) -> R) -> R {
         self.value.with(look)
     }
 
-    /// What the function returns after it changed the value.
+    /// Changes the value with the function and returns its result.
     #[track_caller]
     pub fn update<R>(&self, change: impl FnOnce(&mut T) -> R) -> R {
         self.changed.set(true);
         self.value.update(change)
     }
 
-    /// Whether it was written since it was asked last.
+    /// Whether the variable was written since the last `take_changed`.
     #[inline]
     pub(crate) fn is_changed(&self) -> bool {
         self.changed.get()
     }
 
-    /// Whether it was written since the last call.
+    /// Whether the variable was written since the last call of this function.
     pub(crate) fn take_changed(&self) -> bool {
         self.changed.take()
     }
@@ -65,7 +65,7 @@ impl<T: Clone + Default, const N: usize, S: Store<T, N>> Watched<Array<T, N, S>>
         self.value.item(index)
     }
 
-    /// Puts a value into the element with this index; nothing happens beyond the last.
+    /// Sets the element with this index; does nothing beyond the last.
     #[track_caller]
     pub fn set_item(&self, index: usize, value: T) {
         self.changed.set(true);

@@ -1,4 +1,4 @@
-//! `arl2rs new`: a folder with a program that works, its cell, a scenario and what it is to print.
+//! `arl2rs new`: a folder with a working program, its cell, a scenario and its expected output.
 
 use arl_lang::files::is_data;
 use arl_terminal::answer;
@@ -6,7 +6,7 @@ use arl_terminal::failure::Failure;
 use arl2rs::check::clean;
 use std::path::Path;
 
-/// Stands for the program's name in the files and their names.
+/// The placeholder for the program's name in the files and their names.
 const NAME: &str = "PROGRAM";
 
 /// The files: name and text.
@@ -20,7 +20,7 @@ const FILES: [(&str, &str); 7] = [
     (".gitignore", ".arl-state/\n"),
 ];
 
-/// Makes the folder, and says what can be done in it.
+/// Makes the folder, and prints what can be done in it.
 pub(crate) fn new(folder: &Path) -> Result<(), Failure> {
     let full = std::path::absolute(folder).map_err(|error| Failure::io("use", folder, &error))?;
     let name = clean(&full).file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
@@ -47,7 +47,7 @@ pub(crate) fn new(folder: &Path) -> Result<(), Failure> {
     answer::write(&format!("{folder} has a program, its points, a cell and a scenario. In that folder:\n\n{lines}"))
 }
 
-/// Whether a program can be called so.
+/// Checks that a program can have this name.
 fn check_name(name: &str) -> Result<(), Failure> {
     let wrong = |why: &str| Err(Failure::Usage(format!("a program cannot be called `{name}`: {why}")));
     let mut letters = name.chars();

@@ -23,28 +23,28 @@ use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
 use twox_hash::XxHash3_128;
 
-/// How many files of a program's folder go along with its runs, and how many bytes.
+/// The most files of a program's folder that go along with its runs, and the most bytes.
 const MOST_FILES: usize = 2000;
 const MOST_BYTES: usize = 64 << 20;
-/// A run that takes longer in the robot's time is ended, where nobody says otherwise: s.
+/// The default limit of a run in the robot's time: s.
 pub const MAX_TIME: f64 = 3600.0;
 /// The folder of the program's files in a bundle.
 pub(super) const SCRIPT: &str = "script";
-/// What belongs to a program without being named: programs and data files, and texts that it reads.
+/// Files that belong to a program without being named: programs and data files, and texts that it reads.
 const ENDINGS: [&str; 2] = ["arl", "txt"];
 /// The folder of robot files and scenarios.
 const NAMED: &str = "named";
 /// The compiled program in a bundle.
 pub(super) const PROGRAM: &str = "program";
 
-/// All that runs depend on but their parameters.
+/// All that runs depend on except their parameters.
 #[derive(Clone, Debug)]
 pub struct Bundle {
     /// The files, by their paths in the bundle, with slashes.
     pub files: Vec<(String, Vec<u8>)>,
-    /// In mm, where runs look for collisions; 0: for contacts only.
+    /// In mm, if runs look for collisions; 0: for contacts only.
     pub clearance: Option<f64>,
-    /// The words that all runs have.
+    /// The command-line words that all runs have.
     words: Vec<String>,
     /// Robot files and scenarios.
     named: Vec<NamedFile>,
@@ -53,26 +53,26 @@ pub struct Bundle {
 /// A file that is named by settings or parameters.
 #[derive(Clone, Debug)]
 struct NamedFile {
-    /// Where it is here, from the root.
+    /// Its path here, from the root.
     here: PathBuf,
-    /// How people here are told of it.
+    /// The path that users here are shown.
     shown: String,
-    /// Where it is in the bundle.
+    /// Its place in the bundle.
     place: String,
 }
 
 impl Bundle {
-    /// Compiles the program where needed, and gathers what it reads. `rows` may name robots and scenarios of their own.
+    /// Compiles the program if needed, and gathers what it reads. `rows` may name robots and scenarios of their own.
     ///
     /// # Errors
-    /// There is nothing to compile or to read, or no row has parameters that there are: that is a slip in a name.
+    /// There is nothing to compile or to read, or no row has known parameters, which is a slip in a name.
     pub fn new<'p>(settings: &Settings, rows: impl Iterator<Item = &'p Parameters> + Clone) -> Result<Self, Failure> {
         settings.check().map_err(Failure::Usage)?;
         let clearance = settings.clearance();
         let Settings { program, robot, cell, io, script_dir, files, .. } = settings.clone();
         let options = RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }.of_program(&program)?;
         let checking = options.checking();
-        variables::refuse_unknown(rows.clone(), (&program, options.cell.as_deref()), &checking)?;
+        variables::refuse_unknown(rows.clone(), &program, options.cell.as_deref(), &checking)?;
         let ready = prepare(Kind::Named, &program, options.cell.as_deref(), &checking)?;
         let executable = read(&ready.program)?;
         let sources = ready.sources;
@@ -80,7 +80,7 @@ impl Bundle {
         let main = full(&program)?;
         let own = || main.parent().map(Path::to_path_buf).unwrap_or_default();
         let folder = options.script_dir.as_deref().map_or_else(|| Ok(own()), full)?;
-        // What is read again while a program runs has to be there.
+        // What a running program reads again has to be there.
         let data = sources.iter().filter(|path| is_data(path)).map(|path| clean(path));
         let others = cell_programs::named(options.cell.as_deref(), options.robot.as_deref())?;
         let others = others.iter().map(|other| full(&other.path)).collect::<Result<Vec<_>, _>>()?;
@@ -129,10 +129,10 @@ impl Bundle {
         Ok(bundle)
     }
 
-    /// The words of a run with these parameters; what comes later goes first.
+    /// The words of a run with these parameters; later words take precedence.
     ///
     /// # Errors
-    /// There is no such parameter, or its value is none.
+    /// A parameter is unknown, or its value is not valid.
     pub fn words(&self, row: &Parameters) -> Result<Vec<String>, String> {
         if row.option("start-time").is_some_and(|time| time == "now") {
             return Err("start-time: a run of a sweep is the same every time, so `now` is not possible".into());
@@ -143,7 +143,7 @@ impl Bundle {
         Ok(words)
     }
 
-    /// What is said of a run, with the files as they are called here.
+    /// The result of a run, with the files by their names here.
     pub fn in_own_names(&self, mut result: RunResult) -> RunResult {
         let alarms = result.alarms.iter_mut().map(|alarm| &mut alarm.text);
         for text in result.problem.iter_mut().chain(alarms) {
@@ -156,7 +156,7 @@ impl Bundle {
         result
     }
 
-    /// A number that changes with everything that the runs depend on but their parameters.
+    /// A number that changes with everything that the runs depend on except their parameters.
     pub fn key(&self) -> String {
         let mut hasher = XxHash3_128::new();
         hasher.write(env!("CARGO_PKG_VERSION").as_bytes());
@@ -164,7 +164,7 @@ impl Bundle {
             hasher.write(b"collisions");
             hasher.write(&clearance.to_le_bytes());
         }
-        // Those that are named stand under their hash in the words of a run.
+        // Named files are in the words of a run, under their hash.
         for (path, bytes) in self.files.iter().filter(|(path, _)| !path.starts_with(NAMED)) {
             hasher.write(&(path.len() as u64).to_le_bytes());
             hasher.write(path.as_bytes());
@@ -201,7 +201,7 @@ impl Bundle {
         Ok(())
     }
 
-    /// Adds the files that a cell names, by the words that decide which these are; and sees to it that they are found
+    /// Adds the files that a cell names, by the words that decide which these are, and ensures that they are found
     /// where the runs are made.
     fn add_cell_files(&mut self, files: CellFiles<'_>, all_words: &BTreeSet<Vec<String>>) -> Result<(), Failure> {
         let (mut counts, mut problem) = (Vec::new(), None);
@@ -213,7 +213,7 @@ impl Bundle {
                         self.add_once(files.place(&file)?, || Ok(content))?;
                     }
                 }
-                // Where some runs can be made, the others say what is wrong.
+                // If some runs can be made, the others report what is wrong.
                 Err(failure) => problem = problem.or(Some(failure)),
             }
         }
@@ -243,7 +243,7 @@ impl Bundle {
         Ok(())
     }
 
-    /// Adds what belongs to a program in its folder.
+    /// Adds the files of a folder that belong to a program.
     fn add_folder(&mut self, folder: &Path) -> Result<(), Failure> {
         let mut all = Vec::new();
         gather(folder, &mut all)?;
@@ -262,16 +262,16 @@ impl Bundle {
     }
 }
 
-/// The bundle cannot be written to the disk.
+/// The error for a bundle that cannot be written to the disk.
 pub(super) fn not_written(error: std::io::Error) -> Failure {
     Failure::Other(format!("the program of the sweep cannot be written: {error}"))
 }
 
 impl Parameters {
-    /// The files that are named.
+    /// The files that the parameters name.
     fn files(&self) -> impl Iterator<Item = &str> {
         let named = ["robot", "io"].into_iter().filter_map(|name| Some((name, self.option(name)?.as_str()?)));
-        // What is not a file, and does not look like one, is told of by the run.
+        // What is not a file, and does not look like one, is reported by the run.
         let is_file = |file: &str| Path::new(file).is_file() || file.ends_with(".toml") || file.contains(['/', '\\']);
         let is_robot_file = move |file: &str| Robot::text(file).is_none() && is_file(file);
         named.filter(move |(name, file)| *name == "io" || is_robot_file(file)).map(|(_, file)| file)

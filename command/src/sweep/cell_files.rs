@@ -1,8 +1,8 @@
-//! The files that the cells of a sweep name, which differ where rows name others: robots of channels, and shapes where
+//! The files that the cells of a sweep name, which differ where rows name others: robots of channels, and shapes if
 //! runs look at them.
 //!
-//! A cell names files from its own folder, and so it does where the runs are made. So they lie there as far from the
-//! cell as here.
+//! A cell names files from its own folder, also where the runs are made. So the files are as far from the cell there as
+//! here.
 
 use super::bundle::{SCRIPT, full, read, with_slashes};
 use arl_robot::Robot;
@@ -13,7 +13,7 @@ use arl_terminal::failure::Failure;
 use arl2rs::check::clean;
 use std::path::{Path, PathBuf};
 
-/// The folder of a cell in a bundle that does not lie in the program's.
+/// The folder of a cell in a bundle that is not in the program's.
 const CELL: &str = "cell";
 
 /// The files of a cell.
@@ -28,10 +28,10 @@ pub(super) struct CellFiles<'a> {
 }
 
 impl CellFiles<'_> {
-    /// The place of a file in the bundle, as far from the cell's as it is on the disk.
+    /// The place of a file in the bundle, as far from the cell's as on the disk.
     ///
     /// # Errors
-    /// It lies outside of the folder that goes along: that of the program with a cell in it, else that of the cell.
+    /// It is outside the folder that goes along: that of the program if the cell is in it, else that of the cell.
     pub(super) fn place(&self, file: &Path) -> Result<String, Failure> {
         let (folder, place) = match self.cell.parent() {
             Some(folder) if !self.cell.starts_with(self.script) => (folder, CELL),
@@ -54,10 +54,10 @@ impl CellFiles<'_> {
         robots.chain(shapes.into_iter().flatten()).collect()
     }
 
-    /// The files that the cell names with the changes of these words: their whole paths, and what is in them.
+    /// The files that the cell names with the changes of these words: their full paths, and their contents.
     ///
     /// # Errors
-    /// A change is none, or a file cannot be read.
+    /// A change is not valid, or a file cannot be read.
     pub(super) fn read(&self, words: &[String]) -> Result<Vec<(PathBuf, Vec<u8>)>, Failure> {
         let changes = words.chunks_exact(2).filter(|pair| pair.iter().any(|word| word == "--set"));
         let changes: Vec<&str> = changes.filter_map(|pair| pair.get(1).map(String::as_str)).collect();
@@ -67,10 +67,10 @@ impl CellFiles<'_> {
         files.map(|file| full(&file).and_then(|file| Ok((file.clone(), read(&file)?)))).collect()
     }
 
-    /// That the same cell in the folder of a worker names so many files, all of that folder.
+    /// Checks that the same cell in the folder of a worker names `count` files, all of that folder.
     ///
     /// # Errors
-    /// It does not.
+    /// The cell does not.
     pub(super) fn check(&self, there: &Cell, folder: &Path, count: usize) -> Result<(), Failure> {
         let found = self.named(there);
         if found.len() == count && found.iter().all(|file| clean(file).starts_with(folder)) {

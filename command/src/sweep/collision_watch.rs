@@ -1,4 +1,4 @@
-//! Looks for collisions in the runs of a worker: each of them connects to a listener of its own, and says in each cycle
+//! Looks for collisions in the runs of a worker: each run connects to a listener of its own, and reports in each cycle
 //! where the robots are.
 
 use crate::run;
@@ -6,7 +6,7 @@ use arl_project::options::RunOptions;
 use arl_project::robots;
 use arl_robot::cell::Cell;
 use arl_runs::collide::Scene;
-use arl_runs::listen::{self, Heard, hear};
+use arl_runs::listen::{self, Received, receive};
 use arl_runs::scenery::{self, Scenery};
 use arl_terminal::failure::Failure;
 use arl_terminal::port::{Port, Secret};
@@ -18,9 +18,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// The words before those that decide what stands in a cell.
+/// The words before those that decide what is in a cell.
 const DECIDING: [&str; 3] = ["--robot", "--cell", "--set"];
-/// Where the places of `--set` begin that do.
+/// How the places of `--set` that decide it begin.
 const PLACES: [&str; 2] = ["robot.", "cell."];
 /// The keys of a cell file that name files.
 const NAMING: [&str; 3] = ["mesh", "urdf", "robot"];
@@ -28,73 +28,72 @@ const NAMING: [&str; 3] = ["mesh", "urdf", "robot"];
 /// What touched in a run, or came too near, as far as that is known.
 #[derive(PartialEq, Debug)]
 pub(super) enum Contacts {
-    /// Nobody looked.
+    /// They were not looked for.
     Unasked,
     /// All of them.
     All(Vec<Contact>),
-    /// The run was in real time, and could not say all.
+    /// The run was in real time, and could not report all.
     Unknown,
-    /// The run was not heard from its begin to its end.
+    /// The run was not received from its beginning to its end.
     Broken,
 }
 
-/// Who looks for collisions.
+/// Looks for collisions.
 #[derive(Debug)]
 pub(super) struct Looking {
     /// mm; 0: contacts only.
     clearance: f64,
-    /// What the worker's process knows.
+    /// The secret that the worker's process knows.
     secret: Secret,
-    /// The folder of the worker, which files are named from.
+    /// The folder of the worker, from which files are named.
     folder: PathBuf,
-    /// What stood in the cell of the last run, and the words that decided it: mostly it is the same again.
+    /// The scene of the last run, and the words that decided it: mostly it is the same again.
     last: Option<(Vec<String>, Scene)>,
 }
 
 impl Looking {
-    /// Who looks at the runs of a process that works in this folder and knows this secret.
+    /// Looks at the runs of a process that works in this folder and knows this secret.
     pub(super) fn new(clearance: f64, folder: &Path, secret: Secret) -> Self {
         Self { clearance, secret, folder: folder.to_owned(), last: None }
     }
 
-    /// Has `make` make the run of these words and of those that it is given besides; gives what touched with what it
-    /// gives.
+    /// Lets `make` make the run of these words and of those that are added to them; returns what touched, with the
+    /// result of `make`.
     ///
     /// # Errors
-    /// What stands in the cell cannot be read, or this computer has no connection to itself; then nothing ran.
+    /// The scene cannot be read, or this computer has no connection to itself; then nothing ran.
     pub(super) fn look<T>(
         &mut self,
         words: &[String],
         make: impl FnOnce(Vec<String>) -> T,
     ) -> Result<(T, Contacts), String> {
         let scene = self.scene(words)?;
-        // The next run must not find the connection of one that was lost: each has a port of its own.
+        // The next run must not find the connection of a lost run: each run has a port of its own.
         let port = Port::open(self.secret.clone()).map_err(|failure| failure.to_string())?;
         let asked = [listen::OPTION.to_owned(), port.address(), "--each-cycle".to_owned()];
         let words: Vec<String> = words.iter().cloned().chain(asked).collect();
         let (is_over, clearance) = (AtomicBool::new(false), self.clearance);
         Ok(std::thread::scope(|scope| {
             let is_over = &is_over;
-            let heard = scope.spawn(move || {
+            let received = scope.spawn(move || {
                 let (watchers, found) = scene.watch(clearance, false);
                 let over = || Ok(is_over.load(Ordering::Acquire).then_some(()));
-                match port.accept(over).map(|connected| connected.map(|stream| hear(stream, watchers))) {
-                    Ok(Ok(Heard::All)) => Contacts::All(std::mem::take(&mut found.borrow_mut().contacts)),
-                    Ok(Ok(Heard::WithGaps)) => Contacts::Unknown,
+                match port.accept(over).map(|connected| connected.map(|stream| receive(stream, watchers))) {
+                    Ok(Ok(Received::All)) => Contacts::All(std::mem::take(&mut found.borrow_mut().contacts)),
+                    Ok(Ok(Received::WithGaps)) => Contacts::Unknown,
                     _ => Contacts::Broken,
                 }
             });
             let made = make(words);
             is_over.store(true, Ordering::Release);
-            (made, heard.join().unwrap_or(Contacts::Broken))
+            (made, received.join().unwrap_or(Contacts::Broken))
         }))
     }
 
-    /// What stands in the cell of the run of these words. A robot whose shape cannot be read is told of, and has
-    /// capsules.
+    /// The scene of the run of these words. A robot whose shape cannot be read is reported, and has capsules.
     ///
     /// # Errors
-    /// Something cannot be read, in words that do not name the folder of the worker.
+    /// Something cannot be read; the message does not name the folder of the worker.
     pub(super) fn scene(&mut self, words: &[String]) -> Result<Scene, String> {
         let deciding = deciding(words);
         if let Some((_, scene)) = self.last.as_ref().filter(|(last, _)| *last == deciding) {
@@ -104,7 +103,7 @@ impl Looking {
         let without_folder = |text: &str| text.replace(&format!("{}/", self.folder.display()), "");
         let tell = |text: &str| tell_once(&without_folder(text));
         let scene = || {
-            // What lies elsewhere is not what goes along with the runs.
+            // Files elsewhere do not go along with the runs.
             let cell = run::cell(&options)?;
             let outside = scenery::named(&cell).find(|file| !clean(file).starts_with(&self.folder) || !file.is_file());
             if let Some(file) = outside {
@@ -121,12 +120,12 @@ impl Looking {
     /// The cell of the run of these words.
     ///
     /// # Errors
-    /// It cannot be read, or changed like that.
+    /// It cannot be read, or cannot be changed like that.
     pub(super) fn cell(&self, words: &[String]) -> Result<Cell, Failure> {
         run::cell(&self.options(&deciding(words)))
     }
 
-    /// What comes later goes before.
+    /// The options of these words; later words take precedence.
     fn options(&self, deciding: &[String]) -> RunOptions {
         let mut options = RunOptions::default();
         for pair in deciding.chunks_exact(2) {
@@ -144,7 +143,7 @@ impl Looking {
     }
 }
 
-/// The words of a run that decide what stands in its cell, in pairs.
+/// The words of a run that decide what is in its cell, in pairs.
 fn deciding(words: &[String]) -> Vec<String> {
     let mut all = Vec::new();
     for (word, value) in words.iter().zip(words.iter().skip(1)) {
@@ -157,7 +156,7 @@ fn deciding(words: &[String]) -> Vec<String> {
     all
 }
 
-/// Tells what was not told before in this process: the runs of a sweep have much in common, and so have sweeps.
+/// Reports what was not reported before in this process: the runs of a sweep have much in common, and so have sweeps.
 fn tell_once(text: &str) {
     static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     if TOLD.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_owned()) {
@@ -206,7 +205,7 @@ mod tests {
         assert_eq!(options.changes, ["cell.body.1.at=[1, 2, 3]"]);
     }
 
-    /// What is found in a run that says these lines, by who looks in a folder without a cell.
+    /// What is found in a run that sends these lines, looked for in a folder without a cell.
     fn found(lines: &str) -> Contacts {
         let mut looking = Looking::new(0.0, Path::new("/nowhere"), Secret::new().unwrap());
         let secret = looking.secret.clone();
@@ -229,7 +228,7 @@ mod tests {
         assert_eq!(found(&format!("{hello}what?\n{{\"ended\":0}}\n")), Contacts::Broken);
         let mut looking = Looking::new(0.0, Path::new("/nowhere"), Secret::new().unwrap());
         assert_eq!(looking.look(&[], |_| ()), Ok(((), Contacts::Broken)), "it did not connect");
-        // The next run is heard by itself.
+        // The next run is received by itself.
         assert_eq!(found(&all), Contacts::All(Vec::new()));
     }
 }

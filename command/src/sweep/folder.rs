@@ -1,4 +1,4 @@
-//! The folder that a worker's program runs in, which is that of the bundle again before each run.
+//! The folder in which a worker's program runs; before each run it is restored to that of the bundle.
 
 use super::bundle::{Bundle, PROGRAM};
 use arl_project::cache::Content;
@@ -10,28 +10,28 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant, SystemTime};
 
-/// A bundle that lies on the disk: its program once, its other files for each worker.
+/// A bundle on the disk: its program once, its other files for each worker.
 #[derive(Clone, Debug)]
 pub struct Spread {
     files: Arc<Vec<(String, Vec<u8>)>>,
-    /// The program, which is written again where it is damaged.
+    /// The program, which is written again if it is damaged.
     program: Arc<Vec<u8>>,
     root: Arc<Root>,
 }
 
-/// A folder that goes with its last owner. A file in it is locked as long as there is one: what an owner has left that
-/// was killed goes with the next folder that is made.
+/// A folder that is removed with its last owner. A file in it is locked as long as there is an owner: what an owner
+/// that was killed has left is removed when the next folder is made.
 #[derive(Debug)]
 struct Root {
     folder: PrivateFolder,
     _lock: File,
 }
 
-/// How such folders are called, before a number.
+/// How the names of these folders begin, before a number.
 const ROOT: &str = "arl2rs-sweep-";
 /// The file that is locked while a folder is made.
 const TURN: &str = "arl2rs-sweeps.lock";
-/// So long it takes at most to make a folder.
+/// The most time that making a folder takes.
 const LONGEST_TURN: Duration = Duration::from_secs(2);
 /// The file that is locked.
 const LOCK: &str = "lock";
@@ -49,8 +49,9 @@ impl Root {
     }
 }
 
-/// As long as this lives nobody else removes what was left: he would take a folder that is not locked yet for such.
-/// `None` where the file is somebody else's, who cannot remove ours either, or keeps it: no sweep waits for him.
+/// As long as this value lives, no other process removes what was left: it would take a folder that is not locked yet
+/// for that. `None` if the file is another user's, who cannot remove our folder either, or stays locked: no sweep waits
+/// for that.
 fn turn() -> Option<File> {
     let path = std::env::temp_dir().join(TURN);
     let file = File::options().write(true).create(true).truncate(false).open(path).ok()?;
@@ -80,15 +81,15 @@ impl Spread {
     /// Writes the program into a new folder.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The program cannot be written.
     pub fn new(bundle: &Bundle) -> io::Result<Self> {
         Self::of(bundle.files.clone())
     }
 
-    /// The same of the files of a bundle.
+    /// The same for the files of a bundle.
     ///
     /// # Errors
-    /// They cannot be written, or have no program.
+    /// They cannot be written, or include no program.
     pub fn of(mut files: Vec<(String, Vec<u8>)>) -> io::Result<Self> {
         let is_inside = |place: &str| Path::new(place).components().all(|part| matches!(part, Component::Normal(_)));
         if let Some((place, _)) = files.iter().find(|(place, _)| !is_inside(place)) {
@@ -103,7 +104,7 @@ impl Spread {
         Ok(spread)
     }
 
-    /// Writes the program to the disk. One that runs cannot be written over, but another one can take its name.
+    /// Writes the program to the disk. A running program cannot be written over, but another file can take its name.
     fn write_program(&self) -> io::Result<()> {
         static NEXT: AtomicUsize = AtomicUsize::new(0);
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
@@ -115,7 +116,7 @@ impl Spread {
     }
 }
 
-/// When files are said to have been written that no run has changed.
+/// The modification time that is given to files, which no run has changed.
 const LONG_AGO: SystemTime = SystemTime::UNIX_EPOCH;
 
 /// The folder of a worker.
@@ -123,7 +124,7 @@ const LONG_AGO: SystemTime = SystemTime::UNIX_EPOCH;
 pub(super) struct Folder {
     spread: Spread,
     path: PathBuf,
-    /// The files as they were written: where, how long, when.
+    /// The files as they were written: path, length, time.
     written: Vec<Seen>,
 }
 
@@ -145,7 +146,7 @@ impl Folder {
     /// The program, as it was compiled.
     ///
     /// # Errors
-    /// It is damaged, and cannot be written again.
+    /// The program is damaged, and cannot be written again.
     pub(super) fn program(&self) -> io::Result<PathBuf> {
         let path = self.spread.root.folder.path().join(PROGRAM);
         if !Content::of(&self.spread.program).is_in(&path) {
@@ -154,7 +155,7 @@ impl Folder {
         Ok(path)
     }
 
-    /// Makes it that of the bundle again, if a run has changed something.
+    /// Restores the folder to that of the bundle, if a run has changed something.
     pub(super) fn restore(&mut self) -> io::Result<()> {
         let mut seen = Vec::new();
         if look(&self.path, &mut seen).is_ok() {
@@ -177,7 +178,7 @@ impl Folder {
             let path = self.path.join(place);
             path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
             std::fs::write(&path, bytes)?;
-            // So that a change is seen that comes within a tick of the clock of the disk.
+            // So that a change within a tick of the disk's clock is seen, too.
             File::options().write(true).open(&path)?.set_modified(LONG_AGO)?;
         }
         self.written.clear();
@@ -189,7 +190,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // It goes with the root at the latest.
+        // It is removed with the root at the latest.
         let _ = std::fs::remove_dir_all(&self.path);
     }
 }

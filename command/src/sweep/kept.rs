@@ -9,7 +9,7 @@ use std::path::Path;
 use std::time::SystemTime;
 use twox_hash::XxHash3_64;
 
-/// The results that are known of a bundle.
+/// The known results of a bundle.
 #[derive(Debug)]
 pub struct Kept {
     known: HashMap<Vec<String>, RunResult>,
@@ -20,7 +20,7 @@ pub struct Kept {
 struct Line {
     words: Vec<String>,
     result: RunResult,
-    /// What the rest of the line gives, so that one that is damaged is none.
+    /// A hash of the rest of the line, by which damaged lines are recognised.
     check: u64,
 }
 
@@ -29,14 +29,14 @@ fn check(words: &[String], result: &RunResult) -> u64 {
 }
 
 impl Kept {
-    /// Reads what is known. Lines that are damaged, as by a full disk, are not.
+    /// Reads the known results. Damaged lines, as after a full disk, are left out.
     ///
     /// # Errors
-    /// The file cannot be made.
+    /// The file cannot be created.
     pub fn open(path: &Path) -> io::Result<Self> {
         path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
         let mut file = OpenOptions::new().read(true).append(true).create(true).open(path)?;
-        // What is used stays; where the time cannot be set, it stays for less long.
+        // A file in use stays; if its time cannot be set, it stays for less long.
         let _ = file.set_modified(SystemTime::now());
         let (mut known, mut is_whole) = (HashMap::new(), true);
         let mut reader = BufReader::new(&file);
@@ -61,7 +61,7 @@ impl Kept {
         Self { known: HashMap::new(), file: None }
     }
 
-    /// What came of the run of these words.
+    /// The result of the run of these words.
     pub fn find(&self, words: &[String]) -> Option<&RunResult> {
         self.known.get(words)
     }
@@ -69,7 +69,7 @@ impl Kept {
     /// Keeps a result.
     ///
     /// # Errors
-    /// It cannot be written. Nothing more is then.
+    /// The result cannot be written. No more are written then.
     pub fn keep(&mut self, words: &[String], result: &RunResult) -> io::Result<()> {
         let Some(file) = &mut self.file else { return Ok(()) };
         let line = Line { words: words.to_vec(), result: result.clone(), check: check(words, result) };

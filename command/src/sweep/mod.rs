@@ -1,8 +1,8 @@
-//! `arl2rs sweep`: a program runs once for each row of a table of parameters, on all cores, and what came of it is a
-//! table again.
+//! `arl2rs sweep`: a program runs once for each row of a table of parameters, on all cores, and the results are a table
+//! again.
 //!
-//! Runs are functions of what they depend on. So each has a folder of its own with all files that it reads, its result
-//! is kept under a hash of them, and a process that is lost is asked again.
+//! A run is a function of what it depends on. So each run has a folder of its own with all files that it reads, its
+//! result is kept under a hash of them, and if its process is lost, it is made again.
 
 mod bundle;
 mod cell_files;
@@ -34,7 +34,7 @@ use std::path::Path;
 pub use table::{Settings, Sweep};
 pub use worker::{TIMEOUT, Worker};
 
-/// What is said where runs did not come to an end of their own.
+/// The exit code if runs did not come to an end of their own.
 const LOST: u8 = 1;
 
 /// Makes all runs of a sweep: a JSON object for each on the standard output, in order, and with `-o` a Parquet file.
@@ -104,11 +104,22 @@ fn said(row: &Row) -> Result<(), Failure> {
     answer::write(&(line + "\n"))
 }
 
-/// Makes runs for a host: as [`sweep`] does it.
+/// How the runs of a sweep are made.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct SweepSettings {
+    /// The number of processes; 0: one for each core.
+    pub processes: usize,
+    /// The time on the computer's clock after which a run is given up: s. `None`: [`TIMEOUT`].
+    pub timeout: Option<f64>,
+    /// Whether known results are reused, and new ones are kept.
+    pub keeps: bool,
+}
+
+/// Makes runs for a host, as [`sweep`] does.
 pub(crate) fn all(
     bundle: &Bundle,
     rows: &[Parameters],
-    (processes, timeout, keeps): (usize, Option<f64>, bool),
+    SweepSettings { processes, timeout, keeps }: SweepSettings,
     is_enough: &(dyn Fn() -> bool + Sync),
     take: &mut dyn FnMut(Row),
     warn: &mut dyn FnMut(&str),
@@ -123,7 +134,7 @@ pub(crate) fn all(
     pool::run(Work { bundle, rows: &rows, processes, timeout, kept, is_enough }, warn, take).map_err(not_written)
 }
 
-/// What is known of this bundle. Where that cannot be kept, the sweep goes on without.
+/// The known results of this bundle. If results cannot be kept, the sweep continues without them.
 fn kept(bundle: &Bundle, mut warn: impl FnMut(&str)) -> Result<Kept, Failure> {
     let path = Cache::find()?.results(&bundle.key());
     Ok(Kept::open(&path).unwrap_or_else(|error| {

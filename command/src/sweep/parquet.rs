@@ -23,7 +23,7 @@ enum Column {
 /// Writes the rows into a file.
 ///
 /// # Errors
-/// It cannot be written.
+/// The file cannot be written.
 pub(super) fn write(path: &Path, rows: &[Row]) -> Result<()> {
     let columns = columns(rows);
     let fields: Result<Vec<TypePtr>> = columns.iter().map(|(name, column)| field(name, column)).collect();

@@ -1,4 +1,4 @@
-//! Runs on several processes of this computer, their results in the order of the table.
+//! Makes runs on several processes of this computer, with their results in the order of the table.
 
 use super::bundle::Bundle;
 use super::folder::Spread;
@@ -13,7 +13,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 
-/// What is asked of a pool.
+/// The work of a pool.
 pub(super) struct Work<'a> {
     pub(super) bundle: &'a Bundle,
     /// The numbers of runs, from 1, and their parameters.
@@ -21,11 +21,11 @@ pub(super) struct Work<'a> {
     pub(super) processes: usize,
     pub(super) timeout: Option<f64>,
     pub(super) kept: Kept,
-    /// Whether nobody wants the rest any more.
+    /// Whether the rest is no longer wanted.
     pub(super) is_enough: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// A result as it comes: which row, its words, and whether it is new and worth keeping.
+/// A result as it arrives: which row, its words, and whether it is new and worth keeping.
 struct Came {
     at: usize,
     words: Vec<String>,
@@ -33,7 +33,8 @@ struct Came {
     keeps: bool,
 }
 
-/// Makes all runs and hands out their rows in order, until somebody has had enough. What cannot be kept is said once.
+/// Makes all runs and passes on their rows in order, until no more are wanted. Results that cannot be kept are reported
+/// once.
 ///
 /// # Errors
 /// The program cannot be written to the disk.
@@ -109,7 +110,7 @@ fn one(
     Some(Came { at, words, result, keeps })
 }
 
-/// A panic beside leaves what is known as it is.
+/// A panic elsewhere leaves the known results valid.
 fn lock(kept: &Mutex<Kept>) -> std::sync::MutexGuard<'_, Kept> {
     kept.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }

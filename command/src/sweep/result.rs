@@ -1,4 +1,4 @@
-//! What came of a run: a row of the results.
+//! The result of a run: a row of the table.
 
 use super::collision_watch::Contacts;
 use crate::parameters::Parameters;
@@ -12,12 +12,12 @@ pub struct Row {
     pub run: usize,
     /// Its parameters.
     pub parameters: Parameters,
-    /// What came of it.
+    /// Its result.
     #[serde(flatten)]
     pub result: RunResult,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct RunResult {
     /// `ended`, `alarm`, `time_over`, `stuck`; `refused` where it could not begin, `crashed` and `hung` where its
@@ -29,15 +29,15 @@ pub struct RunResult {
     pub cycle_time: Option<f64>,
     /// How long the first robot moved, in s.
     pub moving: Option<f64>,
-    /// How long it stood, in s.
+    /// How long it was at rest, in s.
     pub standing: Option<f64>,
     /// How many motions it executed.
     pub motions: Option<u64>,
-    /// How far its TCP went, in mm.
+    /// The length of its TCP's path, in mm.
     pub way: Option<f64>,
     /// The alarms.
     pub alarms: Vec<Alarm>,
-    /// What touched, or came too near to each other, where that was looked for.
+    /// What touched, or came too near to each other, if that was looked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub collisions: Option<Vec<Collision>>,
     /// What the program printed, a line each.
@@ -52,17 +52,17 @@ pub struct RunResult {
 pub struct Alarm {
     /// Its number.
     pub number: u32,
-    /// What it says.
+    /// Its text.
     pub text: String,
     /// The file of the program.
     pub file: String,
-    /// The line, from 1; 0 where no line is to blame.
+    /// The line, from 1; 0 if it concerns no line.
     pub line: u32,
     /// The channel whose program it is.
     pub channel: String,
 }
 
-/// Two bodies that touch for the first time, or the nearest that they come.
+/// Two bodies that touch for the first time, or their closest approach.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub struct Collision {
     /// When, in s of the robot's time.
@@ -73,7 +73,7 @@ pub struct Collision {
     pub line: u32,
     /// Their names.
     pub bodies: [String; 2],
-    /// How far they are apart, in mm; 0: they touch.
+    /// Their distance, in mm; 0: they touch.
     pub distance: f64,
 }
 
@@ -84,7 +84,7 @@ impl From<Contact> for Collision {
     }
 }
 
-/// What a compiled program answers.
+/// The answer of a compiled program.
 #[derive(Deserialize)]
 struct Answer {
     summary: Option<Summary>,
@@ -119,17 +119,17 @@ struct Message {
 }
 
 impl RunResult {
-    /// The result that a program's answer tells, with what was found in its run where that was looked for, and whether
-    /// the same run gives it again.
+    /// The result in a program's answer, with what was found in its run if that was looked for, and whether the same
+    /// run gives it again.
     ///
     /// # Errors
-    /// This is not an answer, or the run was not heard to its end.
+    /// This is not an answer, or the run was not received to its end.
     pub(super) fn of_answer(line: &str, contacts: Contacts) -> Result<(Self, bool), String> {
         let answer: Answer = serde_json::from_str(line).map_err(|error| error.to_string())?;
         let Some(Summary { outcome, code, cycle_time, moving, standing, motions, way, alarms, real_time }) =
             answer.summary
         else {
-            // It may be for something outside, as an io island that is switched off.
+            // The reason may be something outside, such as an io island that is switched off.
             return Ok((Self::lost("refused", answer.refused.unwrap_or_default()), false));
         };
         let collisions = match contacts {

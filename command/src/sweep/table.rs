@@ -9,13 +9,13 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// So many runs a sweep has at most: more is a slip of the pen.
+/// The most runs of a sweep: more is a slip.
 const MOST: usize = 10_000_000;
 
-/// Longer than anybody waits: s.
+/// The longest time that makes sense: s.
 const LONGEST: f64 = 1e9;
 
-/// What is run again and again.
+/// The settings that all runs share.
 #[derive(Clone, Default, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Settings {
@@ -29,27 +29,27 @@ pub struct Settings {
     pub io: Option<PathBuf>,
     /// The folder of the program's files; its own if absent.
     pub script_dir: Option<PathBuf>,
-    /// Files that the program reads beside programs, data files and texts, counted from that folder.
+    /// Files that the program reads besides programs, data files and texts, relative to that folder.
     #[serde(default)]
     pub files: Vec<PathBuf>,
-    /// How many seconds of the robot's time a run has at most.
+    /// The limit of a run, in seconds of the robot's time.
     pub max_time: Option<f64>,
-    /// After how many seconds on the clock of the computer a run is given up.
+    /// After how many seconds on the computer's clock a run is given up.
     pub timeout: Option<f64>,
-    /// Whether it is looked for collisions.
+    /// Whether to look for collisions.
     #[serde(default)]
     pub collisions: bool,
-    /// In mm: what comes nearer to each other without touching is told, too. It is looked for collisions then.
+    /// In mm: what comes nearer to each other without touching is reported, too. It implies looking for collisions.
     pub clearance: Option<f64>,
 }
 
 impl Settings {
-    /// The clearance where it is looked for collisions, in mm; 0: contacts only.
+    /// The clearance if collisions are looked for, in mm; 0: contacts only.
     pub(super) fn clearance(&self) -> Option<f64> {
         self.clearance.or(self.collisions.then_some(0.0))
     }
 
-    /// Whether its times and lengths are such.
+    /// Checks that its times and lengths are valid.
     pub(super) fn check(&self) -> Result<(), String> {
         if let Some(clearance) = self.clearance.filter(|clearance| !clearance.is_finite() || *clearance < 0.0) {
             return Err(format!("clearance: expected a distance in mm, 0 or more, found {clearance}"));
@@ -66,7 +66,7 @@ impl Settings {
 /// A sweep: what is run, and the parameters of each run.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Sweep {
-    /// What is run.
+    /// The settings that all runs share.
     pub settings: Settings,
     /// The parameters, run by run.
     pub rows: Vec<Parameters>,
@@ -87,22 +87,22 @@ struct File {
     #[serde(default)]
     collisions: bool,
     clearance: Option<f64>,
-    /// The same in all runs.
+    /// The parameters that are the same in all runs.
     #[serde(default)]
     set: Parameters,
-    /// Each value with each of the others.
+    /// Each value is combined with each of the others.
     #[serde(default)]
     grid: Parameters,
-    /// Run by run.
+    /// The parameters run by run.
     #[serde(default)]
     run: Vec<Parameters>,
 }
 
 impl Sweep {
-    /// Reads the file. Its paths count from its own folder.
+    /// Reads the file. Its paths start from its own folder.
     ///
     /// # Errors
-    /// It cannot be read, or is not as a sweep is written: its line.
+    /// It cannot be read, or is not a valid sweep: its line.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let text = regular_file::read_text(path).map_err(|error| Failure::io("read", path, &error))?;
         let name = show::path(path).display().to_string();

@@ -1,4 +1,4 @@
-//! A process of the program that makes run after run, in a folder of its own.
+//! A process of the program that makes one run after another, in a folder of its own.
 
 use super::collision_watch::{Contacts, Looking};
 use super::folder::{Folder, Spread};
@@ -9,14 +9,14 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-/// A run that takes longer on the clock of the computer is given up, where nobody says otherwise: s.
+/// The default time on the computer's clock after which a run is given up: s.
 pub const TIMEOUT: f64 = 600.0;
 
 /// How long a process may take to end by itself.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// How often it is looked whether somebody wants to stop.
+/// How often to check whether the user wants to stop.
 const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
-/// How often it is looked whether a process has ended.
+/// How often to check whether a process has ended.
 const LOOK_INTERVAL: Duration = Duration::from_millis(1);
 
 /// A process that makes runs.
@@ -25,7 +25,7 @@ pub struct Worker {
     folder: Folder,
     timeout: Duration,
     process: Option<Process>,
-    /// What its process says where it connects to who looks.
+    /// The secret that its process sends when it connects to the listener.
     secret: Secret,
     looking: Option<Looking>,
 }
@@ -39,20 +39,20 @@ struct Process {
 
 /// Why there is no answer.
 enum Lost {
-    /// The process has ended; how.
+    /// The process has ended, in this way.
     Crashed(String),
     /// It takes too long.
     Hung,
-    /// Nobody wants it any more.
+    /// The answer is no longer wanted.
     Enough,
 }
 
 impl Worker {
-    /// A worker for a bundle that lies on the disk; its process begins with the first run. With a clearance, in mm, it
-    /// looks for collisions.
+    /// A worker for a bundle on the disk; its process begins with the first run. With a clearance, in mm, it looks for
+    /// collisions.
     ///
     /// # Errors
-    /// Its folder cannot be made, in words.
+    /// The reason why its folder cannot be made.
     pub fn new(spread: &Spread, timeout: Option<f64>, clearance: Option<f64>) -> Result<Self, String> {
         let timeout =
             Duration::try_from_secs_f64(timeout.unwrap_or(TIMEOUT)).map_err(|error| format!("timeout: {error}"))?;
@@ -62,9 +62,9 @@ impl Worker {
         Ok(Self { folder, timeout, process: None, secret, looking })
     }
 
-    /// Makes the run of these words: its result, and whether the same run gives it again. A process that is lost is
-    /// begun anew, and asked once more unless it hung: somebody may have ended it. `None` where `is_enough` said so in
-    /// between.
+    /// Makes the run of these words; returns its result, and whether the same run gives it again. A lost process is
+    /// started again, and asked once more unless it hung: it may have been ended from outside. `None` if `is_enough`
+    /// became true in between.
     pub fn run(&mut self, words: &[String], is_enough: &dyn Fn() -> bool) -> Option<(RunResult, bool)> {
         let mut why = String::new();
         for _ in 0..2 {
@@ -98,7 +98,7 @@ impl Worker {
         if is_enough() { None } else { Some((RunResult::lost("crashed", why), false)) }
     }
 
-    /// What the program answers, and what touched in its run, where somebody looks; or why it cannot be looked for.
+    /// The program's answer, and what touched in its run, if that is looked for; or why it cannot be looked for.
     fn answer(
         &mut self,
         words: &[String],
@@ -119,7 +119,7 @@ impl Worker {
         };
         let question: Vec<String> = words.iter().map(|word| escaped(word)).collect();
         let question = question.join("\t") + "\n";
-        // Where nobody reads it, there is no answer, either.
+        // If nothing reads the question, there is no answer, either.
         let _ = process.questions.write_all(question.as_bytes());
         let begun = Instant::now();
         let answer = loop {
@@ -179,10 +179,10 @@ impl Drop for Worker {
     }
 }
 
-/// Ends a process, which has a moment to end by itself; how it ended.
+/// Ends a process, which has a moment to end by itself; returns how it ended.
 fn end(process: Process, patience: Duration) -> String {
     let Process { mut child, questions, .. } = process;
-    // Without questions it has nothing more to do.
+    // When its input is closed, it has nothing more to do.
     drop(questions);
     let until = Instant::now() + patience;
     loop {

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub(super) struct EmittedCase {
     /// The ARL file.
     pub(super) source: PathBuf,
-    /// What it became, with the programs that its cell names.
+    /// Its Rust code, with the programs that its cell names.
     pub(super) rust: Emitted,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Compiled {
 /// The environment variable that names the case to run.
 pub(super) const CASE: &str = "ARL2RS_CASE";
 
-/// Compiles all cases; for each, in their order, the program or rustc's errors.
+/// Compiles all cases; returns for each, in their order, the program or rustc's errors.
 pub(super) fn compile(
     place: &Place,
     runtime: &Unpacked,
@@ -66,7 +66,7 @@ pub(super) fn compile(
     Err(Failure::Other("bug in arl2rs: the emitted Rust does not compile, whichever case is left out".into()))
 }
 
-/// Stands between the name of a case and the number of a program beside it.
+/// Separates the name of a case from the number of a program beside it.
 const BESIDE: &str = "__beside_";
 
 /// Notes an error for the case whose file it is in.
@@ -114,7 +114,7 @@ fn write(
     kept: impl Iterator<Item = usize>,
     parts: usize,
 ) -> Result<(), Failure> {
-    package::manifest(&place.folder, &place.name, runtime, (Kind::Program, 0))?;
+    package::manifest(&place.folder, &place.name, runtime, Kind::Program, 0)?;
     let bin = place.folder.join("src/bin");
     let mut programs: BTreeMap<usize, (String, String)> = (0..parts).map(|part| (part, Default::default())).collect();
     for at in kept {
@@ -156,7 +156,7 @@ fn remove_others(folder: &Path, keep: impl Fn(&str) -> bool) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for entry in entries.filter_map(Result::ok) {
         if !keep(&entry.file_name().to_string_lossy()) {
-            // What stays is not compiled, but for parts, which cargo would complain about.
+            // Files that stay are not compiled, except for parts, which cargo would complain about.
             let _ = std::fs::remove_file(entry.path());
         }
     }

@@ -1,4 +1,4 @@
-//! `--bless`: what came becomes what is expected.
+//! `--bless`: the actual results become the expected ones.
 
 use super::case::Case;
 use super::execute::Outcome;
@@ -6,7 +6,7 @@ use super::expect::{FoundError, find_alarm};
 use arl_terminal::show;
 use std::path::Path;
 
-/// Writes what came of a case that runs into its `.out` and `.alarm`. Whether it is something that can be expected.
+/// Writes the results of a case that runs into its `.out` and `.alarm`. Fails if they cannot be expected results.
 pub(super) fn run(case: &Case, came: &Outcome) -> Result<(), String> {
     let alarm = find_alarm(&came.said);
     let ended = match came.code {
@@ -22,7 +22,7 @@ pub(super) fn run(case: &Case, came: &Outcome) -> Result<(), String> {
     if case.out.is_some() || case.is_new || alarm.is_none() {
         write(&case.source, "out", Some(&came.out))?;
     }
-    // Who expects any number goes on to do so.
+    // A case that expects any number continues to do so.
     let any = case.alarm.is_some_and(|alarm| alarm.number.is_none());
     let text = alarm.map(|(number, line)| {
         let number = if any { "*".to_owned() } else { number.to_string() };
@@ -31,13 +31,13 @@ pub(super) fn run(case: &Case, came: &Outcome) -> Result<(), String> {
     write(&case.source, "alarm", text.as_deref())
 }
 
-/// Writes the errors that came into `.err`.
+/// Writes the errors that were found into `.err`.
 pub(super) fn errors(case: &Case, came: &[FoundError]) -> Result<(), String> {
     if came.is_empty() {
         return Err("it no longer has errors: remove its .err".into());
     }
     let line = |error: &FoundError| {
-        // What was expected of a line and came stays as somebody wrote it.
+        // An expected error that was found stays as it was written.
         let mut expected = case.errors.iter().flatten();
         if let Some(known) = expected.find(|known| known.fits(error)) {
             return format!("{} {}", known.line, known.fragment).trim_end().to_owned() + "\n";

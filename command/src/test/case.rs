@@ -19,7 +19,7 @@ pub(super) struct Case {
     pub(super) errors: Option<Vec<ExpectedError>>,
     /// The alarm that ends it.
     pub(super) alarm: Option<ExpectedAlarm>,
-    /// What the outside does.
+    /// What happens outside the program.
     pub(super) scenario: Option<PathBuf>,
     /// Whether it has no expected results yet.
     pub(super) is_new: bool,
@@ -27,7 +27,7 @@ pub(super) struct Case {
     pub(super) robot: Option<String>,
     /// The cell, likewise.
     pub(super) cell: Option<PathBuf>,
-    /// The folder that `/home/ae/script/` in an import means, where its project says so.
+    /// The folder that `/home/ae/script/` in an import means, if its project sets it.
     pub(super) script_dir: Option<PathBuf>,
     /// How it is run.
     pub(super) options: CaseOptions,
@@ -62,7 +62,7 @@ pub(super) struct CaseOptions {
     pub(super) override_percent: Option<f64>,
 }
 
-/// A case, or why it cannot be one.
+/// A case, or the reason why it cannot be one.
 pub(super) struct Found {
     pub(super) source: PathBuf,
     pub(super) case: Result<Case, String>,
@@ -79,8 +79,7 @@ struct Group {
 /// Endings of sidecars with settings.
 const SETTINGS: [&str; 2] = [".io.toml", ".toml"];
 
-/// Finds all cases below a folder, in the order of their paths; with `new` those, too, of which nothing is expected
-/// yet.
+/// Finds all cases below a folder, in the order of their paths; with `new` also those without expected results yet.
 pub(super) fn find(folder: &Path, new: bool) -> std::io::Result<Vec<Found>> {
     let mut found = Vec::new();
     let mut groups: BTreeMap<String, Group> = BTreeMap::new();
@@ -151,7 +150,7 @@ fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, Str
     });
     let case = Case {
         out: bytes(".out")?,
-        // What is to be written anew may be damaged, or empty yet.
+        // What is to be written again may be damaged, or still empty.
         errors: match text(".err")?.map(|text| parse_errors(&text)).transpose() {
             Err(_) if new => Some(Vec::new()),
             errors => errors.map_err(told(".err"))?,

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// What ran of a file.
+/// What ran in a file.
 #[derive(Default)]
 struct File {
     /// How often each line with a statement ran.
@@ -18,17 +18,17 @@ struct File {
     functions: BTreeMap<(u32, String), u64>,
 }
 
-/// What ran of all programs.
+/// What ran in all programs.
 #[derive(Default)]
 pub(super) struct Coverage {
     files: BTreeMap<PathBuf, File>,
 }
 
-/// Where the files of a case lie, by what its programs call them.
+/// The paths of the files of a case, by their names in its programs.
 pub(super) struct Places(BTreeMap<(String, String, String), PathBuf>);
 
 impl Coverage {
-    /// Takes in the lines of a case's programs: none of them ran yet.
+    /// Adds the lines of a case's programs: none of them has run yet.
     pub(super) fn add(&mut self, case: &Case) -> Result<Places, String> {
         let (robot, cell, script_dir) = (case.robot.clone(), case.cell.clone(), case.script_dir.clone());
         let options = RunOptions { robot, cell, script_dir, ..RunOptions::default() };

@@ -5,7 +5,7 @@ const AROUND: usize = 2;
 /// Texts with more lines are compared up to the first difference only.
 const MOST_LINES: usize = 2000;
 
-/// The differences of two texts, line by line: `-` expected, `+` came. Characters that cannot be seen are escaped.
+/// The differences of two texts, line by line: `-` expected, `+` actual. Characters that cannot be seen are escaped.
 pub(super) fn diff(expected: &[u8], came: &[u8]) -> String {
     let old = lines(expected);
     let new = lines(came);
@@ -29,7 +29,7 @@ enum Step<'a> {
     Came(&'a str),
 }
 
-/// The lines, the last one marked where it has no line end.
+/// The lines, the last one marked if it has no line end.
 fn lines(text: &[u8]) -> Vec<String> {
     let text = String::from_utf8_lossy(text);
     let mut lines: Vec<String> = text.split_inclusive('\n').map(visible).collect();

@@ -11,12 +11,12 @@ use std::time::{Duration, Instant};
 
 /// Seconds of real time that a case may take.
 const LONGEST: u64 = 60;
-/// Controller seconds after which a case is stopped that sets no limit of its own.
+/// Controller seconds after which a case without a limit of its own is stopped.
 const CONTROLLER_SECONDS: f64 = 3600.0;
 /// Bytes of output that are kept.
 const MOST_OUTPUT: u64 = 32 << 20;
 
-/// How a case went.
+/// The outcome of a case.
 #[derive(Default, Debug)]
 pub(super) struct Outcome {
     pub(super) out: Vec<u8>,
@@ -24,27 +24,27 @@ pub(super) struct Outcome {
     pub(super) said: String,
     /// The exit code; `None` where a signal or the time limit ended it.
     pub(super) code: Option<i32>,
-    /// It had to be ended.
+    /// Whether it had to be ended.
     pub(super) late: bool,
     /// How long it took, s.
     pub(super) seconds: f64,
-    /// Controller seconds, where it came to an end.
+    /// Controller seconds, if it came to an end.
     pub(super) cycle_time: Option<f64>,
-    /// How often its statements ran, where they were counted.
+    /// How often its statements ran, if they were counted.
     pub(super) counted: String,
 }
 
 /// The folder below the script directory that stands for the USB store.
 const USB: &str = "USB";
 
-/// Runs a case in a folder of its own, so that files that it writes do not meet those of others.
+/// Runs a case in a folder of its own, so that its files do not meet those of other cases.
 pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path, counts: bool) -> std::io::Result<Outcome> {
     let folder = scratch.join(&compiled.name);
     let script = folder.join("script");
     std::fs::create_dir_all(&script)?;
     if let Some(beside) = case.source.parent() {
         copy_files(beside, &script)?;
-        // What stands for the USB store (`gettextstr`).
+        // The folder that stands for the USB store (`gettextstr`).
         if beside.join(USB).is_dir() {
             std::fs::create_dir_all(script.join(USB))?;
             copy_files(&beside.join(USB), &script.join(USB))?;
@@ -65,7 +65,7 @@ pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path, counts: 
         counted: read(&counted),
         ..outcome
     });
-    // What stays in a scratch folder does no harm.
+    // Files left in a scratch folder do no harm.
     let _ = std::fs::remove_dir_all(&folder);
     outcome
 }
@@ -98,7 +98,7 @@ fn arguments(case: &Case) -> Vec<OsString> {
     arguments
 }
 
-/// Copies what programs may read: data files, and all files but programs and sidecars.
+/// Copies what programs may read: data files, and all files except programs and sidecars.
 fn copy_files(from: &Path, to: &Path) -> std::io::Result<()> {
     const OURS: [&str; 5] = ["arl", "out", "err", "alarm", "toml"];
     let files = std::fs::read_dir(from)?.filter_map(|entry| Some(entry.ok()?.path())).filter(|path: &PathBuf| {
@@ -140,7 +140,7 @@ fn collect<R: Read + Send + 'static>(stream: Option<R>) -> std::thread::JoinHand
     std::thread::spawn(move || {
         let mut bytes = Vec::new();
         if let Some(stream) = stream {
-            // What was read before an error is still worth showing.
+            // Bytes read before an error are still worth showing.
             let _ = stream.take(MOST_OUTPUT).read_to_end(&mut bytes);
         }
         bytes

@@ -1,4 +1,4 @@
-//! What sidecars expect, and whether it came.
+//! What sidecars expect, and whether it was found.
 
 /// A line of NAME.err.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -15,7 +15,7 @@ impl ExpectedError {
     }
 }
 
-/// An error that came.
+/// An error that was found.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct FoundError {
     pub(super) line: u32,
@@ -26,7 +26,7 @@ pub(super) struct FoundError {
 /// NAME.alarm
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct ExpectedAlarm {
-    /// Any number where absent.
+    /// `None`: any number.
     pub(super) number: Option<u32>,
     pub(super) line: u32,
 }
@@ -61,7 +61,7 @@ pub(super) fn parse_alarm(text: &str) -> Result<ExpectedAlarm, String> {
     expected.ok_or_else(|| format!("1: expected NUMBER LINE, where NUMBER may be *, found `{}`", text.trim()))
 }
 
-/// The difference between the errors that were expected and those that came; `None` if there is none.
+/// The difference between the errors that were expected and those that were found; `None` if there is none.
 pub(super) fn compare_errors(expected: &[ExpectedError], found: &[FoundError]) -> Option<String> {
     let mut left: Vec<&FoundError> = found.iter().collect();
     let mut missing = Vec::new();
@@ -85,13 +85,13 @@ pub(super) fn compare_errors(expected: &[ExpectedError], found: &[FoundError]) -
     Some(missing.chain(surplus).collect::<Vec<_>>().join("\n"))
 }
 
-/// Number and line of the alarm in what a program said on standard error: `alarm 10064: text (file.arl:12)`.
+/// Number and line of the alarm in what a program wrote to standard error: `alarm 10064: text (file.arl:12)`.
 pub(super) fn find_alarm(said: &str) -> Option<(u32, u32)> {
     said.lines().find_map(|line| {
         let (number, rest) = line.strip_prefix("alarm ")?.split_once(':')?;
         let (_, place) = rest.rsplit_once(" (")?;
         let (_, line) = place.strip_suffix(')')?.rsplit_once(':')?;
-        // The channel stands behind the line where there are several.
+        // The channel follows the line if there are several.
         let line = line.split(',').next()?;
         Some((number.parse().ok()?, line.parse().ok()?))
     })

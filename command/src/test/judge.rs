@@ -1,10 +1,10 @@
-//! Compares what came of a case that ran with what was expected.
+//! Compares the results of a case that ran with the expected ones.
 
 use super::case::Case;
 use super::execute::Outcome;
 use super::{Done, Verdict, bless, diff, expect};
 
-/// Judges a case that ran; what came becomes what is expected where that is asked for.
+/// Judges a case that ran; the results become the expected ones if that is requested.
 pub(super) fn judged(case: &Case, outcome: &Outcome, bless: bool) -> Done {
     let verdict = match judge(case, outcome) {
         Err(problem) if bless => bless::run(case, outcome).map_err(|why| format!("{problem}\n{why}")),
@@ -13,7 +13,7 @@ pub(super) fn judged(case: &Case, outcome: &Outcome, bless: bool) -> Done {
     Done { verdict, seconds: outcome.seconds, cycle_time: outcome.cycle_time }
 }
 
-/// Compares what came with what was expected.
+/// Compares the results with the expected ones.
 fn judge(case: &Case, outcome: &Outcome) -> Verdict {
     let mut problems = Vec::new();
     if case.is_new {
@@ -54,7 +54,7 @@ fn judge(case: &Case, outcome: &Outcome) -> Verdict {
     if problems.is_empty() { Ok(()) } else { Err(problems.join("\n")) }
 }
 
-/// What a program says that waits in vain.
+/// What a program reports that waits in vain.
 const STANDSTILL: &str = "nothing can change any more";
 
 fn ending(outcome: &Outcome) -> String {

@@ -35,15 +35,15 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// What a case came to: nothing to say, or how it failed.
+/// The verdict on a case: nothing, or how it failed.
 type Verdict = Result<(), String>;
 
-/// A case that was looked at.
+/// A case that was checked or run.
 struct Done {
     verdict: Verdict,
     /// How long it took, s.
     seconds: f64,
-    /// Controller seconds, where it ran.
+    /// Controller seconds, if it ran.
     cycle_time: Option<f64>,
 }
 
@@ -113,7 +113,7 @@ fn find(dirs: &[PathBuf], new: bool) -> Result<Vec<Found>, Failure> {
         }
         all.extend(found);
     }
-    // Folders may lie in each other.
+    // Folders may be inside each other.
     all.sort_by(|one, other| one.source.cmp(&other.source));
     all.dedup_by(|one, other| one.source == other.source);
     Ok(all)
@@ -136,7 +136,7 @@ fn said(failure: Failure) -> String {
     }
 }
 
-/// The Rust of a case that is to run, with the programs that its cell names.
+/// The Rust of a case that should run, with the programs that its cell names.
 fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
     let checking = checking(case);
     let cell = case.cell.as_deref();
@@ -164,7 +164,7 @@ fn shown_errors(compiled: &Compiled) -> String {
     compiled.errors().map(|error| human(error, &compiled.checked.files, false)).collect()
 }
 
-/// Checks a case that is to have errors.
+/// Checks a case that should have errors.
 fn check(case: &Case, bless: bool) -> Done {
     let start = Instant::now();
     let look = || {
@@ -195,13 +195,13 @@ fn found_errors(compiled: &Compiled, files: &Files) -> Vec<FoundError> {
     compiled.errors().map(found).collect()
 }
 
-/// What the programs of a run are kept by: another run of the same folders finds them again.
+/// The name under which the programs of a run are kept: another run of the same folders finds them again.
 fn name_of_run(dirs: &[PathBuf], kept_as: &str) -> PathBuf {
     let folders: PathBuf = dirs.iter().filter_map(|dir| std::path::absolute(dir).ok()).collect();
     folders.join(kept_as)
 }
 
-/// Compiles the cases that run, and runs them, several at once. The programs are kept by this name.
+/// Compiles the cases that run, and runs them, several at once. The programs are kept under this name.
 fn run_all(
     name: &Path,
     runs: &[(usize, &Case)],
@@ -225,7 +225,7 @@ fn run_all(
     let mut places = Vec::new();
     if options.coverage.is_some() {
         for (_, case) in runs {
-            // What cannot be checked was told of before.
+            // What cannot be checked was reported before.
             places.push(coverage.add(case).ok());
         }
     }

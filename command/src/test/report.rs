@@ -1,4 +1,4 @@
-//! Tells how the cases went.
+//! Reports how the cases went.
 
 use super::case::Found;
 use super::{Done, Verdict};
@@ -13,14 +13,14 @@ use std::path::Path;
 
 /// A case that was looked at, or could not be.
 struct Told<'a> {
-    /// Its path, as short as it can be said from here.
+    /// Its path, as short as possible from here.
     path: &'a Path,
     verdict: &'a Verdict,
     seconds: f64,
     cycle_time: Option<f64>,
 }
 
-/// Tells how the cases went; fails where one failed.
+/// Reports how the cases went; fails if one failed.
 pub(super) fn report(found: &[Found], done: &[Done], format: TestFormat) -> Result<Exit, Failure> {
     let told: Vec<Told<'_>> = found
         .iter()
@@ -41,7 +41,7 @@ pub(super) fn report(found: &[Found], done: &[Done], format: TestFormat) -> Resu
     Ok(if failed == 0 { Exit::SUCCESS } else { Exit::FAILURE })
 }
 
-/// What failed, then how many.
+/// The failures, then the counts.
 fn human(told: &[Told<'_>], failed: usize) -> Result<(), Failure> {
     for Told { path, verdict, .. } in told {
         if let Err(problem) = verdict {
@@ -65,7 +65,7 @@ fn object(case: &Told<'_>) -> serde_json::Value {
     })
 }
 
-/// The XML that JUnit writes, and what runs tests reads: a suite, a case for each program.
+/// The XML of JUnit, which test tools read: a suite, a case for each program.
 fn junit(told: &[Told<'_>], failed: usize) -> String {
     let time = told.iter().map(|case| case.seconds).fold(0.0, |sum, seconds| sum + seconds);
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -90,7 +90,7 @@ fn junit(told: &[Told<'_>], failed: usize) -> String {
     text + "</testsuite>\n"
 }
 
-/// A text as XML holds it; characters that XML cannot hold are left out.
+/// A text in the form of XML; characters that XML cannot hold are left out.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -9,22 +9,22 @@ use arl_rt::clock::{Clock, Lateness};
 
 use super::link::Link;
 
-/// For so long the controller stands still where no message comes, and for so many cycles at least. A robot gives up
-/// soon after that, and the inputs and the pendant want to be heard.
+/// How long, and at least for how many cycles, the controller waits without a message. A robot gives up soon after
+/// that, and the inputs and the pendant must be served.
 const PATIENT: Duration = Duration::from_millis(30);
 const PATIENT_CYCLES: f64 = 3.0;
 
-/// How long to wait for a message in the time of the world, where cycles are `period` s long.
+/// How long to wait for a message in real time, with cycles of `period` s.
 pub(super) fn longest_wait(period: f64) -> Duration {
     PATIENT.max(Duration::from_secs_f64(period * PATIENT_CYCLES))
 }
 
-/// Cycles begin when the robot sends. A message that is missing is a cycle that is lost: the motion does not go on
-/// without it. Where none comes for 30 ms and three cycles, they go on at their own pace: then the controller finds
-/// that no position comes, and the run ends.
+/// A clock whose cycles begin when the robot sends. A missing message is a lost cycle: the motion does not continue
+/// without it. Without a message for 30 ms and three cycles, cycles continue at their own rate: then the controller
+/// notices that positions are missing, and the run ends.
 pub struct RsiBeat {
     link: Rc<RefCell<Link>>,
-    /// When the last message should have come, or came.
+    /// When the last message was due, or arrived.
     point: Option<Instant>,
     silent: bool,
     lateness: Lateness,
@@ -56,16 +56,16 @@ impl Clock for RsiBeat {
             link.note_silence();
         }
         let came = Instant::now();
-        // Those that were lost had points, too.
+        // Lost messages had due times, too.
         let due = due + Duration::from_millis(received.step).saturating_sub(Duration::from_secs_f64(period));
-        // One that was there already came at its point, as far as anybody knows.
+        // A message that was already there arrived when due, as far as is known.
         self.point = Some(if received.was_there { due.min(came) } else { came });
         if is_simulated || !received.any {
             return;
         }
         self.lateness.note(if received.was_there { came.saturating_duration_since(due) } else { Duration::ZERO });
         let beats = (received.step as f64 / (period * 1e3)).round() as u64;
-        // Those that waited together were sent in time, and not taken; of the others none has come.
+        // Messages that waited together were sent in time, but not taken; the others have not arrived.
         let waited = received.count.clamp(1, beats.max(1)) - 1;
         let missing = beats.saturating_sub(1 + waited);
         if waited > 0 {

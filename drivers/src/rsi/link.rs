@@ -1,4 +1,4 @@
-//! The socket that the robot's controller sends to.
+//! The socket to which the robot's controller sends.
 
 use std::io::ErrorKind;
 use std::net::{SocketAddr, UdpSocket};
@@ -11,12 +11,12 @@ use super::sender::Sender;
 use crate::patience::Patience;
 use crate::readable;
 
-/// Where nothing has come for so long, RSI may begin anew: with another time, from another port.
+/// After this silence RSI may have restarted: with another time, from another port.
 const ANEW: Duration = Duration::from_millis(500);
-/// So many packets are looked at in a cycle: whoever sends more does not keep it from ending.
+/// The most packets examined in a cycle, so that a sender of more cannot keep it from ending.
 const MOST: usize = 64;
 
-/// What the driver and the beat share.
+/// The state shared by the driver and the beat.
 #[derive(Debug)]
 pub(super) struct Link {
     listen: String,
@@ -25,19 +25,19 @@ pub(super) struct Link {
     newest: Option<Newest>,
     /// The message of this cycle, until it is taken.
     message: Option<Message>,
-    /// RSI has begun anew, or cycles went on without its messages: what it was asked for does not hold any more.
+    /// RSI has restarted, or cycles continued without its messages: earlier commands no longer apply.
     interrupted: bool,
     /// The time of the message that was answered last, in ms.
     answered: Option<u64>,
-    /// A robot that had no answer for more ms of its time has given up.
+    /// A robot without an answer for longer than this, in ms of its time, has given up.
     pub(super) given_up_ms: u64,
-    /// Whether something has come that is not a message.
+    /// Whether a packet has arrived that is not a message.
     odd: bool,
-    /// Where the robot's time counts: for how long to wait for it.
+    /// How long to wait for the robot, if the run uses the robot's time.
     pub(super) patience: Option<Patience>,
 }
 
-/// The newest message that has come.
+/// The newest message that has arrived.
 #[derive(Clone, Copy, Debug)]
 struct Newest {
     from: SocketAddr,
@@ -46,21 +46,21 @@ struct Newest {
     ready: bool,
 }
 
-/// What there was when a cycle waited.
+/// The messages received in the wait of a cycle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Received {
-    /// Whether a message has come.
+    /// Whether a message has arrived.
     pub(super) any: bool,
-    /// By how many ms the robot's time has gone on since the message before.
+    /// The advance of the robot's time since the previous message, in ms.
     pub(super) step: u64,
-    /// How many messages have come.
+    /// The number of messages that have arrived.
     pub(super) count: u64,
-    /// Whether it had come before somebody waited.
+    /// Whether the message had arrived before the wait.
     pub(super) was_there: bool,
 }
 
 impl Link {
-    /// Hears what comes to `listen` from the robot at an address, or from the first one that sends.
+    /// A link that receives on `listen` from the robot at an address, or from the first sender.
     pub(super) fn new(listen: String, address: Option<String>) -> Self {
         Self {
             listen,
@@ -95,7 +95,7 @@ impl Link {
         })
     }
 
-    /// Waits for the message of the next cycle. Of several that have come the newest counts.
+    /// Waits for the message of the next cycle. Of several messages the newest counts.
     pub(super) fn receive(&mut self, until: Instant) -> Received {
         let mut received = Received { any: self.message.is_some(), was_there: true, step: 0, count: 0 };
         for packet in 0.. {
@@ -104,7 +104,7 @@ impl Link {
                     received.any |= step > 0;
                     received.step = received.step.saturating_add(step);
                     received.count += u64::from(step > 0);
-                    // Whoever sends what does not count gets no more time than the robot.
+                    // A sender of packets that do not count gets no more time than the robot.
                     if packet >= MOST && (received.any || Instant::now() >= until) {
                         break;
                     }
@@ -122,8 +122,8 @@ impl Link {
         received
     }
 
-    /// Takes what has come: by how much the robot's time has gone on, 0 where it does not count; `None`: nothing has
-    /// come.
+    /// Takes a packet; returns the advance of the robot's time, 0 if the packet does not count; `None` if there is
+    /// none.
     fn take_packet(&mut self) -> Option<u64> {
         let mut bytes = [0; LONGEST];
         let (length, from) = match self.socket.as_ref()?.recv_from(&mut bytes) {
@@ -166,7 +166,7 @@ impl Link {
         Some(step)
     }
 
-    /// Puts a message back that the next cycle is to have.
+    /// Puts a message back for the next cycle.
     pub(super) fn give_back(&mut self, message: Message) {
         self.message = Some(message);
     }
@@ -176,22 +176,22 @@ impl Link {
         self.message.take()
     }
 
-    /// A cycle went on without a message.
+    /// Records that a cycle continued without a message.
     pub(super) fn note_silence(&mut self) {
         self.interrupted = true;
     }
 
-    /// What the user should know of who sends, once.
+    /// Returns a message for the user about the senders, once.
     pub(super) fn take_warning(&mut self) -> Option<String> {
         self.sender.take_warning(&self.listen)
     }
 
-    /// Whether messages were interrupted since this was asked last.
+    /// Whether messages were interrupted since the last call.
     pub(super) fn take_interruption(&mut self) -> bool {
         std::mem::take(&mut self.interrupted)
     }
 
-    /// Whether the robot has said last that its drives are on, or does not say that.
+    /// Whether the robot has last reported its drives as on, or does not report their state.
     pub(super) fn is_ready(&self) -> bool {
         self.newest.is_some_and(|newest| newest.ready)
     }
@@ -201,7 +201,7 @@ impl Link {
         let (Some(socket), Some(Newest { from, ipoc, .. })) = (&self.socket, self.newest) else { return };
         self.answered = Some(ipoc);
         let answer = Answer { ipoc, correction: *correction, external, stop }.to_bytes();
-        // What cannot be sent is late for the robot, which counts that.
+        // An answer that cannot be sent is late for the robot, which counts late answers.
         let _ = socket.send_to(answer.as_bytes(), from);
     }
 }

@@ -1,5 +1,5 @@
-//! The messages of RSI. Which elements there are says the configuration of the robot's controller; the order is free,
-//! and what is not known here is passed over.
+//! The messages of RSI. The configuration of the robot's controller determines the elements; their order is free, and
+//! unknown ones are ignored.
 
 use std::io::Write;
 
@@ -7,43 +7,43 @@ use arl_rt::motion::Joints;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-/// No message is longer, in bytes.
+/// The longest message, in bytes.
 pub const LONGEST: usize = 4096;
-/// The same of an answer.
+/// The longest answer, in bytes.
 const LONGEST_ANSWER: usize = 1024;
 
-/// What the robot's controller says in a cycle.
+/// A message of the robot's controller in a cycle.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Message {
-    /// Its time in ms: the answer has to repeat it.
+    /// The time of the message in ms, which the answer has to repeat.
     pub ipoc: u64,
-    /// Where the axes are: `AIPos`, `EIPos`, in deg (mm).
+    /// The positions of the axes: `AIPos`, `EIPos`, in deg (mm).
     pub position: Joints,
-    /// How many external axes it has.
+    /// The number of external axes in it.
     pub external: usize,
-    /// How many answers were late or missing: the attribute `D` of `Delay`.
+    /// The number of late or missing answers: the attribute `D` of `Delay`.
     pub delay: u64,
-    /// Whether the drives are on: `Ready`, where that is wired.
+    /// Whether the drives are on: `Ready`, if that is wired.
     pub ready: Option<bool>,
-    /// What the motors give at the axes, in Nm: `Torque`, where that is wired.
+    /// The torques of the motors at the axes, in Nm: `Torque`, if that is wired.
     pub torque: Option<[f64; 6]>,
 }
 
-/// What it is answered.
+/// The answer to a message.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Answer {
     /// The time of the message.
     pub ipoc: u64,
-    /// How far the axes shall be from where they were when RSI began, in deg (mm): `AK`, `EK`.
+    /// The desired offset of the axes from their positions at the start of RSI, in deg (mm): `AK`, `EK`.
     pub correction: Joints,
-    /// How many external axes there are.
+    /// The number of external axes.
     pub external: usize,
     /// Whether the robot shall stop: `Stop`.
     pub stop: bool,
 }
 
 impl Message {
-    /// What a message says; `None`: it is none, or it lacks the time or the axes.
+    /// Parses a message; `None` if the bytes are not a message, or if it lacks the time or the axes.
     ///
     /// ```
     /// use arl_drivers::rsi::message::Message;
@@ -105,7 +105,7 @@ impl Message {
     }
 }
 
-/// Which element the text is in.
+/// The element that contains a text.
 enum Field {
     Ipoc,
     Ready,
@@ -125,7 +125,7 @@ fn number_of(tag: &BytesStart<'_>, key: &str) -> Option<u64> {
         .ok()
 }
 
-/// The attributes `A1` to `A6`, with another letter for other axes; `None`: one is not a number.
+/// The attributes `A1` to `A6`, with another letter for other axes; `None` if one is not a number.
 fn numbers(tag: &BytesStart<'_>, letter: u8, places: &mut [Option<f64>; 6]) -> Option<()> {
     for attribute in tag.attributes().with_checks(false) {
         let attribute = attribute.ok()?;
@@ -153,7 +153,7 @@ impl AnswerBytes {
 }
 
 impl Answer {
-    /// The message. It takes no memory beyond itself.
+    /// The bytes of the answer. This allocates no memory.
     ///
     /// ```
     /// use arl_drivers::rsi::message::Answer;
@@ -169,7 +169,7 @@ impl Answer {
     pub fn to_bytes(&self) -> AnswerBytes {
         let mut bytes = [0; LONGEST_ANSWER];
         let mut place = &mut bytes[..];
-        // Numbers are within the ranges of axes: all fits, which a test holds.
+        // Numbers are within the ranges of axes, so that everything fits, which a test checks.
         let _ = self.write(&mut place);
         let left = place.len();
         AnswerBytes { bytes, length: LONGEST_ANSWER - left }
@@ -227,7 +227,7 @@ mod tests {
         ] {
             assert_eq!(Message::parse(WHOLE.replace(right, wrong).as_bytes()), None, "{wrong}");
         }
-        // A number that is none is the controller's to find.
+        // The controller has to detect values that are not a number.
         let none = Message::parse(WHOLE.replace("A1=\"1.5\"", "A1=\"NaN\"").as_bytes()).unwrap();
         assert!(none.position.axes[0].is_nan());
     }

@@ -1,5 +1,6 @@
-//! A KUKA robot whose controller runs RobotSensorInterface (RSI): it sends where the axes are in each of its cycles, 4
-//! ms or 12 ms long, and takes corrections of the axes in the answer. So it gives the beat: our cycles are its own.
+//! A KUKA robot whose controller runs RobotSensorInterface (RSI): it sends the positions of the axes in each of its
+//! cycles, 4 ms or 12 ms long, and accepts corrections of the axes in the answer. So it sets the beat: the runtime's
+//! cycles are those of the robot.
 
 mod beat;
 mod link;
@@ -20,18 +21,18 @@ use message::Message;
 use crate::patience::Patience;
 use crate::position::difference;
 
-/// How long to wait at the start: somebody has to start RSI on the robot's pendant.
+/// How long to wait at the start, as RSI has to be started on the robot's pendant.
 const BEGIN: Duration = Duration::from_secs(30);
-/// How long to wait for another message at the end, so that the robot is told to stop.
+/// How long to wait for another message at the end, to tell the robot to stop.
 const END: Duration = Duration::from_millis(50);
-/// How many messages are looked at before cycles begin, behind the first one.
+/// The number of messages examined before cycles begin, after the first one.
 const FIRST: usize = 4;
-/// A robot stands whose axes have moved by no more than that meanwhile, in deg (mm).
+/// A robot is at rest if its axes have moved by no more than this meanwhile, in deg (mm).
 const STANDS: f64 = 0.1;
-/// How many answers tell a robot to stop: a packet may be lost.
+/// The number of answers that tell a robot to stop, as a packet may be lost.
 const STOPS: u32 = 5;
 
-/// A robot that speaks RSI. Its [beat](RsiArm::beat) has to be the clock of the controller, whose cycles are as long as
+/// A robot that uses RSI. Its [beat](RsiArm::beat) has to be the clock of the controller, whose cycles are as long as
 /// those of the robot.
 ///
 /// ```no_run
@@ -44,25 +45,27 @@ const STOPS: u32 = 5;
 #[derive(Debug)]
 pub struct RsiArm {
     link: Rc<RefCell<Link>>,
-    /// Where the axes were when RSI began: what corrections count from.
+    /// The axis positions when RSI began, the origin of corrections.
     origin: Joints,
-    /// The correction that was sent last.
+    /// The last correction sent.
     correction: Joints,
     external: usize,
     power: Power,
-    /// How many answers have told the robot to stop.
+    /// The number of answers that have told the robot to stop.
     stops: u32,
-    /// Messages were interrupted, or the robot was told to stop: nothing is answered any more.
+    /// Messages were interrupted, or the robot was told to stop: no more answers are sent.
     ended: bool,
 }
 
 impl RsiArm {
-    /// The first robot that sends to this address and port of the computer; a warning of the controller names it.
+    /// A driver for the first robot that sends to this address and port of the computer; a warning of the controller
+    /// names the robot.
     pub fn new(listen: impl Into<String>) -> Self {
         Self::following(listen.into(), None)
     }
 
-    /// The robot at an address, host or host and port, that sends to this address and port of the computer.
+    /// A driver for the robot at an address, host or host and port, that sends to this address and port of the
+    /// computer.
     pub fn of_robot(listen: impl Into<String>, address: impl Into<String>) -> Self {
         Self::following(listen.into(), Some(address.into()))
     }
@@ -73,18 +76,18 @@ impl RsiArm {
         Self { link, origin, correction: origin, external: 0, power: Power::On, stops: 0, ended: false }
     }
 
-    /// A robot that is simulated, and whose time counts: each cycle waits for it, two seconds at most.
+    /// A driver for a simulated robot that sets the time: each cycle waits for it, at most two seconds.
     pub fn in_its_own_time(self) -> Self {
         self.link.borrow_mut().patience = Some(Patience::default());
         self
     }
 
-    /// The clock whose cycles begin when a message comes.
+    /// The clock whose cycles begin when a message arrives.
     pub fn beat(&self) -> RsiBeat {
         RsiBeat::new(Rc::clone(&self.link))
     }
 
-    /// What its message tells.
+    /// The feedback of a message.
     fn feedback(&self, message: &Message) -> Feedback {
         let drives = match message.ready {
             _ if self.ended || self.stops > 0 => Drives::Fault("RSI has ended: start it and the run again".into()),
@@ -148,16 +151,16 @@ impl RobotDriver for RsiArm {
         let Some(message) = self.link.borrow_mut().take() else { return Feedback::none() };
         self.ended |= self.link.borrow_mut().take_interruption();
         if self.ended {
-            // Nobody knows any more where corrections count from: without an answer the robot ends RSI.
+            // The origin of corrections is no longer known: without an answer the robot ends RSI.
             return self.feedback(&message);
         }
-        // While it is off, the robot's own controller holds it where it was told to be.
+        // While it is off, the robot's own controller holds it at its last set-point.
         if self.power == Power::On {
             self.correction = difference(&setpoint.position, &self.origin);
         }
         let stops = self.power == Power::Cut;
         self.answer(stops);
-        // Whoever goes on sending behind that has begun anew.
+        // A robot that continues to send after that has restarted.
         self.stops += u32::from(stops);
         self.ended = self.stops >= STOPS;
         self.feedback(&message)
@@ -168,7 +171,7 @@ impl RobotDriver for RsiArm {
         if self.power != Power::Cut {
             self.power = power;
         }
-        // On they are where the robot says so, or says nothing of it.
+        // The drives are on if the robot reports so, or does not report their state.
         let is_on = self.power == Power::On && !self.ended && self.link.borrow().is_ready();
         if is_on { Drives::On } else { Drives::Off }
     }
@@ -178,7 +181,7 @@ impl RobotDriver for RsiArm {
     }
 
     fn close(&mut self) {
-        // Messages of some cycles are there where the run took long to end: the newest one is answered.
+        // If the run took long to end, messages of several cycles are waiting: the newest one is answered.
         let has_message = self.link.borrow_mut().wait(END).is_ok();
         self.ended |= self.link.borrow_mut().take_interruption();
         if has_message && !self.ended {
@@ -187,14 +190,14 @@ impl RobotDriver for RsiArm {
     }
 }
 
-/// By how many ms a message may come behind the one that was answered last. A robot has given up that had no answer for
-/// longer than the beat waits for a message.
+/// The longest time, in ms, between the message answered last and the next one. A robot without an answer for longer
+/// than the beat waits for a message has given up.
 fn given_up_ms(period: f64) -> u64 {
     ((beat::longest_wait(period).as_secs_f64() + period) * 1e3).ceil() as u64
 }
 
-/// The cycles of the robot, whose time counts in ms, have to be as long as ours. Messages may be lost: then a step is
-/// longer.
+/// Checks that the cycles of the robot, whose time counts in ms, are as long as those of the controller. Messages may
+/// be lost: then a step is longer.
 fn fits(steps: &[u64], period: f64) -> Result<(), String> {
     let step = steps.iter().min().copied().unwrap_or_default();
     let own = period * 1e3;

@@ -1,19 +1,19 @@
-//! Whose packets count.
+//! The sender whose packets count.
 
 use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
 
-/// The robot that the cell names, or whoever sent first. Nobody else is heard.
+/// The robot named in the cell, or the first sender. All others are ignored.
 #[derive(Debug)]
 pub(super) struct Sender {
-    /// What the cell says: a host, with or without a port.
+    /// The address in the cell: a host, with or without a port.
     address: Option<String>,
-    /// The addresses that this stands for; port 0 is any port.
+    /// The resolved addresses; port 0 is any port.
     named: Vec<SocketAddr>,
     /// The robot that is followed.
     followed: Option<SocketAddr>,
-    /// The first other one that has sent something.
+    /// The first other sender.
     other: Option<SocketAddr>,
-    /// Whether the user knows of both.
+    /// Whether the user has been told about them.
     followed_is_known: bool,
     other_is_known: bool,
 }
@@ -24,10 +24,10 @@ impl Sender {
         Self { address, named, followed: None, other: None, followed_is_known, other_is_known: false }
     }
 
-    /// Looks up what the cell says.
+    /// Resolves the address in the cell.
     ///
     /// # Errors
-    /// There is no such host.
+    /// The host does not exist.
     pub(super) fn resolve(&mut self) -> Result<(), String> {
         let Some(address) = &self.address else { return Ok(()) };
         let is_host = address.parse::<IpAddr>().is_ok() || !address.contains(':');
@@ -36,25 +36,25 @@ impl Sender {
         if self.named.is_empty() { Err(format!("{address}: no address")) } else { Ok(()) }
     }
 
-    /// Whether what came from there counts. Another port of the robot followed is for the link to judge: RSI that
-    /// begins anew has one.
+    /// Whether packets from an address count. Another port of the followed robot is for the link to judge, as a
+    /// restarted RSI has another one.
     pub(super) fn is_robot(&self, from: SocketAddr) -> bool {
         let is_host = |robot: &SocketAddr| is_same_host(robot.ip(), from.ip());
         let is_named = |robot: &SocketAddr| is_host(robot) && (robot.port() == 0 || robot.port() == from.port());
         (self.address.is_none() || self.named.iter().any(is_named)) && self.followed.as_ref().is_none_or(is_host)
     }
 
-    /// From now on this one is followed.
+    /// Follows this robot from now on.
     pub(super) fn follow(&mut self, robot: SocketAddr) {
         self.followed.get_or_insert(robot);
     }
 
-    /// Somebody else sends, too.
+    /// Records another sender.
     pub(super) fn note_other(&mut self, other: SocketAddr) {
         self.other.get_or_insert(other);
     }
 
-    /// What the user should know of who sends to `listen`, once.
+    /// Returns a message for the user about the senders to `listen`, once.
     pub(super) fn take_warning(&mut self, listen: &str) -> Option<String> {
         let followed = self.followed?;
         if !std::mem::replace(&mut self.followed_is_known, true) {
@@ -68,7 +68,7 @@ impl Sender {
         Some(format!("{other} sends to {listen}, too, and is ignored: the robot is {followed}"))
     }
 
-    /// Why nothing that counts has come to `listen` for `seconds`, where anything has come at all.
+    /// The reason why nothing that counts has arrived at `listen` for `seconds`.
     pub(super) fn missing(&self, listen: &str, seconds: u64) -> String {
         if let Some(robot) = self.followed {
             return format!(
@@ -90,7 +90,7 @@ impl Sender {
     }
 }
 
-/// Whether two are the same, an IPv4 address that is written as one of IPv6 included.
+/// Whether two addresses are the same, including IPv4 addresses written as IPv6.
 fn is_same_host(one: IpAddr, other: IpAddr) -> bool {
     one.to_canonical() == other.to_canonical()
 }

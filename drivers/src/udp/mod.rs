@@ -1,4 +1,4 @@
-//! An arm that takes packets of set-points over UDP.
+//! An arm that receives packets of set-points over UDP.
 
 pub mod packet;
 
@@ -14,20 +14,20 @@ use crate::patience::Patience;
 use crate::readable;
 use packet::{Command, STATE_LENGTH, State};
 
-/// How long the arm may take to answer at the start, and to switch its drives on.
+/// The longest time for the arm to answer at the start, and to switch its drives on.
 const ANSWER: Duration = Duration::from_secs(3);
 const COMING_ON: Duration = Duration::from_secs(5);
-/// How often it is told at the start.
+/// The interval of packets at the start.
 const AGAIN: Duration = Duration::from_millis(20);
-/// How often it is told at the end: a packet may be lost.
+/// The number of packets at the end, as a packet may be lost.
 const FAREWELLS: usize = 5;
-/// An arm that does not hear any more, in time and in cycles at least.
+/// The silence after which an arm no longer receives, as a time and as a least number of cycles.
 const DEAF: Duration = Duration::from_millis(50);
 const DEAF_CYCLES: f64 = 8.0;
-/// So many packets are taken in a cycle: whoever sends more does not keep it from ending.
+/// The most packets taken in a cycle, so that a sender of more cannot keep it from ending.
 const MOST: usize = 64;
 
-/// An arm behind an address. It has to answer each packet with its state.
+/// An arm at an address. It has to answer each packet with its state.
 ///
 /// ```no_run
 /// use arl_drivers::udp::UdpArm;
@@ -41,18 +41,18 @@ const MOST: usize = 64;
 pub struct UdpArm {
     address: String,
     link: Option<Link>,
-    /// Where the robot's time counts: for how long to wait for it.
+    /// How long to wait for the robot, if the run uses the robot's time.
     patience: Option<Patience>,
 }
 
 impl UdpArm {
-    /// The arm that listens at an address: host and port.
+    /// A driver for the arm that listens at an address: host and port.
     pub fn new(address: impl Into<String>) -> Self {
         Self { address: address.into(), link: None, patience: None }
     }
 
-    /// An arm that is simulated, and whose time counts: each exchange waits for its answer, two seconds at most. So a
-    /// run is the same each time, if the simulator is.
+    /// A driver for a simulated arm that sets the time: each exchange waits for its answer, at most two seconds. Thus a
+    /// run is reproducible if the simulator is.
     pub fn in_its_own_time(self) -> Self {
         Self { patience: Some(Patience::default()), ..self }
     }
@@ -70,9 +70,9 @@ impl RobotDriver for UdpArm {
     fn exchange(&mut self, setpoint: &Setpoint) -> Feedback {
         let Some(link) = &mut self.link else { return Feedback::none() };
         link.send(setpoint, true);
-        let heard = match &mut self.patience {
+        let received = match &mut self.patience {
             None => match link.newest() {
-                // What is wrong with it is worth hearing, whatever it has heard.
+                // A fault is reported even if the state is outdated.
                 Some(state) if !link.is_of_now(&state) => {
                     let fault = Some(state.drives).filter(|drives| matches!(drives, Drives::Fault(_)));
                     return fault.map_or_else(Feedback::none, |fault| Feedback::none().with_drives(fault));
@@ -86,10 +86,10 @@ impl RobotDriver for UdpArm {
                 answer
             }
         };
-        let Some(state) = heard else { return Feedback::none() };
+        let Some(state) = received else { return Feedback::none() };
         let mut feedback = Feedback::at(state.position);
         (feedback.velocity, feedback.torque) = (state.velocity, state.torque);
-        // That they are on counts only where the arm knew that they should be.
+        // Drives count as on only if the arm had received the command to switch them on.
         let is_early = state.drives == Drives::On && state.answers < link.powered;
         feedback.with_drives(if is_early { Drives::Off } else { state.drives })
     }
@@ -98,7 +98,7 @@ impl RobotDriver for UdpArm {
         if let Some(link) = &mut self.link {
             link.switch(power);
         }
-        // Whether they are on says the arm.
+        // The arm reports whether they are on.
         Drives::Off
     }
 
@@ -113,20 +113,21 @@ impl RobotDriver for UdpArm {
     }
 }
 
-/// What is between us and the arm.
+/// The connection to the arm.
 #[derive(Debug)]
 struct Link {
-    /// Connected to the arm: the system drops what others send. What they sent before that is of no session of ours.
+    /// Connected to the arm, so that the system drops packets from others. Packets that they sent before belong to
+    /// another session.
     socket: UdpSocket,
     session: u32,
     axes: (u8, u8),
     power: Power,
-    /// The number of the first command with this power.
+    /// The number of the first command with this value of `power`.
     powered: u64,
     sent: u64,
     /// The number of the newest state.
-    heard: u64,
-    /// What was sent last.
+    received: u64,
+    /// The set-point sent last.
     last: Setpoint,
 }
 
@@ -141,10 +142,10 @@ impl Link {
         let count = |axes: usize| u8::try_from(axes).unwrap_or(u8::MAX);
         let axes = (count(start.robot.own_axes().len()), count(start.robot.external_axes().len()));
         let last = Setpoint::resting(*start.home, start.period);
-        Ok(Self { socket, session: session(), axes, power: Power::Off, powered: 0, sent: 0, heard: 0, last })
+        Ok(Self { socket, session: session(), axes, power: Power::Off, powered: 0, sent: 0, received: 0, last })
     }
 
-    /// Says hello until the arm answers.
+    /// Sends packets until the arm answers.
     fn meet(&mut self, address: &str) -> Result<State, String> {
         let until = Instant::now() + ANSWER;
         let hello = self.last;
@@ -164,8 +165,8 @@ impl Link {
         Err(format!("no arm answers at {address}: no valid answer within {} s", ANSWER.as_secs()))
     }
 
-    /// Switches the motors on, and waits until they are; where the arm is then. Until that it is asked to stay where it
-    /// is.
+    /// Switches the motors on and waits until they are; returns the position of the arm then. Until then the arm is
+    /// commanded to stay at its position.
     fn switch_on(&mut self, start: &Start<'_>, position: Joints) -> Result<Joints, String> {
         let mut here = start.begin_at(position)?;
         self.switch(Power::On);
@@ -192,7 +193,7 @@ impl Link {
         Err(problem)
     }
 
-    /// Tells the arm that it is on its own, with its motors off, until it has heard that, or does not answer.
+    /// Releases the arm, with its motors off, until it has confirmed that or does not answer.
     fn let_go(&mut self) {
         if self.power == Power::On {
             self.power = Power::Off;
@@ -212,8 +213,8 @@ impl Link {
         self.powered = self.sent + 1;
     }
 
-    /// Whether the arm has had what was sent lately: one that says only where it is, and hears nothing, is as good as
-    /// lost.
+    /// Whether the arm has received recent packets: an arm that only reports its position, but receives nothing, is as
+    /// good as lost.
     fn is_of_now(&self, state: &State) -> bool {
         let late = (DEAF.as_secs_f64() / self.last.period).max(DEAF_CYCLES) as u64;
         state.answers.saturating_add(late) >= self.sent
@@ -224,11 +225,11 @@ impl Link {
         self.last = *setpoint;
         let Self { session, sent: sequence, axes, power, .. } = *self;
         let command = Command { session, sequence, axes, power, is_cyclic, setpoint: *setpoint };
-        // What cannot be sent is lost as on the way: the arm brakes, and says nothing new.
+        // A packet that cannot be sent counts as lost in transit: the arm brakes and reports nothing new.
         let _ = self.socket.send(&command.to_bytes());
     }
 
-    /// The newest state that has come.
+    /// The newest state that has arrived.
     fn newest(&mut self) -> Option<State> {
         let mut newest = None;
         for _ in 0..MOST {
@@ -240,12 +241,12 @@ impl Link {
         newest
     }
 
-    /// Waits for the answer to this command, or one behind it.
+    /// Waits for the answer to this command or to a later one.
     fn answer(&mut self, until: Instant, command: u64) -> Option<State> {
         loop {
             match self.receive() {
                 Ok(Some(state)) if state.answers >= command => return Some(state),
-                // Who sends without end what is not an answer does not keep it from ending.
+                // An endless stream of packets that are not answers does not keep the wait from ending.
                 Ok(_) if Instant::now() < until => {}
                 Ok(_) => return None,
                 Err(Empty) if readable::wait_until(&self.socket, until) => {}
@@ -254,28 +255,28 @@ impl Link {
         }
     }
 
-    /// Takes a packet: a state that is newer than all before it, or something that does not count.
+    /// Receives a packet: a state that is newer than all before it, or `None` for one that does not count.
     fn receive(&mut self) -> Result<Option<State>, Empty> {
         let mut bytes = [0; STATE_LENGTH + 1];
         match self.socket.recv(&mut bytes) {
             Ok(length) => {
                 let state = bytes.get(..length).and_then(State::from_bytes);
-                let state = state.filter(|state| state.session == self.session && state.sequence > self.heard);
-                self.heard = state.as_ref().map_or(self.heard, |state| state.sequence);
+                let state = state.filter(|state| state.session == self.session && state.sequence > self.received);
+                self.received = state.as_ref().map_or(self.received, |state| state.sequence);
                 Ok(state)
             }
-            // Nobody listens there (any more), as the system has heard: the next one may come.
+            // The system reports that no receiver is there (any more): the next packet may still arrive.
             Err(error) if matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::Interrupted) => Ok(None),
             Err(_) => Err(Empty),
         }
     }
 }
 
-/// Nothing is there to receive.
+/// There is nothing to receive.
 struct Empty;
 
-/// A number that no other run has, by chance and not by the time of day: a clock that is set back gives no number
-/// again.
+/// A number that differs from that of other runs; it is random and not from the time of day, as a clock that is set
+/// back would repeat numbers.
 fn session() -> u32 {
     let random = std::hash::RandomState::new().build_hasher().finish();
     ((random >> 32) as u32).max(1)

@@ -3,15 +3,15 @@
 use arl_rt::motion::Joints;
 use arl_rt::robot_driver::{Drives, Power, Setpoint};
 
-/// How long packets are, in bytes.
+/// The length of a command packet, in bytes.
 pub const COMMAND_LENGTH: usize = 320;
-/// The same of what the arm says.
+/// The length of a state packet from the arm, in bytes.
 pub const STATE_LENGTH: usize = 344;
 
 const COMMAND: [u8; 4] = *b"ARLC";
 const STATE: [u8; 4] = *b"ARLS";
 const VERSION: u16 = 1;
-/// How many bytes a fault's text may have.
+/// The most bytes of a fault's text.
 const TEXT: usize = 64;
 
 /// Flags of a command.
@@ -21,46 +21,46 @@ const HAS_TORQUE: u32 = 2;
 const MEASURES_VELOCITY: u32 = 1;
 const MEASURES_TORQUE: u32 = 2;
 
-/// What an arm is told.
+/// A command to an arm.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Command {
-    /// Which run this is: the arm answers to one at a time.
+    /// The number of the run: the arm answers to one run at a time.
     pub session: u32,
-    /// How many packets of this run there were, with this one.
+    /// The number of packets of this run, including this one.
     pub sequence: u64,
-    /// How many axes the robot has, and how many external ones.
+    /// The number of axes of the robot, and of external ones.
     pub axes: (u8, u8),
-    /// What the motors are told.
+    /// The command to the motors.
     pub power: Power,
-    /// Whether another one follows within a cycle: an arm that gets none any more has to brake.
+    /// Whether another command follows within a cycle: an arm that then gets none has to brake.
     pub is_cyclic: bool,
-    /// Where the arm shall be.
+    /// The set-point of the arm.
     pub setpoint: Setpoint,
 }
 
-/// What an arm says.
+/// The state of an arm.
 #[derive(Clone, PartialEq, Debug)]
 pub struct State {
-    /// The run that it answers to.
+    /// The run to which it answers.
     pub session: u32,
-    /// How many packets the arm has sent, with this one: an older one that comes later does not count.
+    /// The number of packets that the arm has sent, including this one: an older one that arrives later does not count.
     pub sequence: u64,
-    /// The newest command that the arm had.
+    /// The newest command that the arm has received.
     pub answers: u64,
-    /// How many axes the arm has, and how many external ones.
+    /// The number of axes of the arm, and of external ones.
     pub axes: (u8, u8),
-    /// How its drives are.
+    /// The state of its drives.
     pub drives: Drives,
-    /// Where its axes are, in deg (mm).
+    /// The positions of its axes, in deg (mm).
     pub position: Joints,
-    /// How fast they move, in deg/s (mm/s), where it measures that.
+    /// The speeds of its axes, in deg/s (mm/s), if it measures them.
     pub velocity: Option<Joints>,
-    /// What its motors give at the axes, in Nm (N), where it measures that.
+    /// The torques of its motors at the axes, in Nm (N), if it measures them.
     pub torque: Option<[f64; 6]>,
 }
 
 impl Command {
-    /// The packet.
+    /// The bytes of the packet.
     pub fn to_bytes(&self) -> [u8; COMMAND_LENGTH] {
         let Setpoint { position, velocity, acceleration, torque, period, .. } = &self.setpoint;
         let mut bytes = [0; COMMAND_LENGTH];
@@ -88,7 +88,7 @@ impl Command {
 }
 
 impl State {
-    /// What a packet says; `None`: it is not a state of an arm.
+    /// Parses a packet; `None` if it is not a state of an arm.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         if bytes.len() != STATE_LENGTH {
             return None;
@@ -127,7 +127,7 @@ impl State {
     }
 }
 
-/// Writes one thing behind the other. What does not fit is left out: the lengths above are held by a test.
+/// Writes values one after the other. Values that do not fit are left out; a test checks the lengths above.
 struct Writer<'a>(&'a mut [u8]);
 
 impl Writer<'_> {
@@ -148,7 +148,7 @@ impl Writer<'_> {
     }
 }
 
-/// Reads one thing behind the other.
+/// Reads values one after the other.
 struct Reader<'a>(&'a [u8]);
 
 impl Reader<'_> {

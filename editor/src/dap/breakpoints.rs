@@ -1,4 +1,4 @@
-//! Breakpoints: the lines that the program halts at, and what the adapter asks then.
+//! Breakpoints: the lines at which the program halts, and the conditions that the adapter checks then.
 
 use super::evaluate::unreadable;
 use super::program::{FileKey, Programs};
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// A breakpoint as the editor wants it.
+/// A breakpoint as the editor requests it.
 #[derive(Clone, PartialEq, Default, Deserialize, Debug)]
 #[serde(rename_all = "camelCase", default)]
 struct Wanted {
@@ -22,7 +22,7 @@ struct Wanted {
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Breakpoint {
     pub(super) id: i64,
-    /// None before its place is known.
+    /// `None` before its place is known.
     file: Option<FileKey>,
     line: u32,
     pub(super) condition: Option<String>,
@@ -44,7 +44,7 @@ enum HitCondition {
 /// A rule by its number.
 type Rule = fn(u64) -> HitCondition;
 
-/// How a hit count is written: the sign in front of the number. The first that fits counts.
+/// How a hit count is written: the sign before the number. The first sign that fits counts.
 const HIT_CONDITIONS: [(&str, Rule); 5] = [
     (">=", HitCondition::From),
     ("==", HitCondition::Exactly),
@@ -74,7 +74,7 @@ impl HitCondition {
 /// All breakpoints.
 #[derive(Default, Debug)]
 pub(super) struct Breakpoints {
-    /// What the editor wants for each file; it may come before the program is known.
+    /// What the editor requests for each file; it may come before the program is known.
     wanted: BTreeMap<String, Vec<Value>>,
     wanted_functions: Vec<Value>,
     of_lines: Vec<(String, Breakpoint)>,
@@ -83,7 +83,7 @@ pub(super) struct Breakpoints {
 }
 
 impl Breakpoints {
-    /// Those of a file are these, and no others. What the editor is told of each.
+    /// Sets the breakpoints of a file, and no others. Returns what the editor is told of each.
     pub(super) fn set_lines(&mut self, path: &str, wanted: &[Value], programs: Option<&Programs>) -> Vec<Value> {
         self.wanted.insert(path.to_owned(), wanted.to_vec());
         self.of_lines.retain(|(known, _)| known != path);
@@ -110,7 +110,7 @@ impl Breakpoints {
         told
     }
 
-    /// Those of functions are these, and no others.
+    /// Sets the breakpoints of functions, and no others. Returns what the editor is told of each.
     pub(super) fn set_functions(&mut self, wanted: &[Value], programs: Option<&Programs>) -> Vec<Value> {
         self.wanted_functions = wanted.to_vec();
         self.of_functions.clear();
@@ -160,7 +160,7 @@ impl Breakpoints {
         })
     }
 
-    /// Finds their places, now that the program is known; what the editor is told of each.
+    /// Finds their places, now that the program is known; returns what the editor is told of each.
     pub(super) fn find_places(&mut self, programs: &Programs) -> Vec<Value> {
         let wanted: Vec<(String, Vec<Value>)> = self.wanted.clone().into_iter().collect();
         let mut told = Vec::new();
@@ -171,7 +171,7 @@ impl Breakpoints {
         told
     }
 
-    /// The lines of each file, also of those that have none any more.
+    /// The breakpoint lines of each file, also of files that no longer have any.
     pub(super) fn lines(&self, programs: &Programs) -> BTreeMap<FileKey, BTreeSet<u32>> {
         let files = self.wanted.keys().flat_map(|path| programs.files(Path::new(path)));
         let mut lines: BTreeMap<FileKey, BTreeSet<u32>> = files.map(|file| (file, BTreeSet::new())).collect();
@@ -187,19 +187,19 @@ impl Breakpoints {
         self.of_lines.iter_mut().map(|(_, breakpoint)| breakpoint).chain(&mut self.of_functions)
     }
 
-    /// Those of a line.
+    /// The breakpoints of a line.
     pub(super) fn at(&mut self, file: &FileKey, line: u32) -> Vec<&mut Breakpoint> {
         self.all_mut().filter(|breakpoint| breakpoint.file.as_ref() == Some(file) && breakpoint.line == line).collect()
     }
 
-    /// Forgets the hits behind a statement: the run has gone back to it. 0: another run begins.
+    /// Forgets the hits after a statement: the run has gone back to it. 0: another run begins.
     pub(super) fn go_back_to(&mut self, statement: u64) {
         self.all_mut().for_each(|breakpoint| breakpoint.hits.retain(|hit| *hit <= statement));
     }
 }
 
 impl Breakpoint {
-    /// Notes a hit at the statement with this number; whether this one counts.
+    /// Notes a hit at the statement with this number; returns whether the hit counts.
     pub(super) fn hit(&mut self, statement: u64) -> bool {
         self.hits.push(statement);
         self.hit_condition.is_none_or(|condition| condition.holds(self.hits.len() as u64))

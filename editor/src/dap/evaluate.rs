@@ -1,8 +1,8 @@
-//! Expressions of ARL while the program stands: variables and their parts, operators, and functions that change
+//! Expressions of ARL while the program is halted: variables and their parts, operators, and functions that change
 //! nothing.
 //!
 //! Operators are those of the checker ([`operators`]). What is declared `const` is not known here: where an operator
-//! takes two values only if one of them is a constant, names count as such.
+//! takes two values only if one of them is a constant, names count as constants.
 
 use super::literal::{Literal, Part};
 use arl_lang::ast::{BinaryOp, Expr, ExprKind, Radix, UnaryOp};
@@ -32,36 +32,36 @@ pub(super) struct Variable {
     pub(super) value: Literal,
 }
 
-/// What an expression may ask for.
+/// What an expression can refer to.
 pub(super) trait Source {
-    /// A variable or constant by its name; `module` is what stands in front of `::`.
+    /// A variable or constant by its name; `module` is the name before `::`.
     ///
     /// # Errors
-    /// There is none.
+    /// There is no such variable.
     fn variable(&mut self, module: Option<&str>, name: &str) -> Result<Variable>;
 
     /// A system variable by its name without `$`.
     ///
     /// # Errors
-    /// There is none.
+    /// There is no such variable.
     fn system(&mut self, name: &str) -> Result<Variable>;
 
     /// A signal: `di`, `do`, `ai`, `ao`.
     ///
     /// # Errors
-    /// There is none.
+    /// There is no such signal.
     fn signal(&mut self, kind: &str, number: i32) -> Result<Value>;
 
-    /// What a function gives for these arguments.
+    /// The result of a function for these arguments.
     ///
     /// # Errors
-    /// It cannot be called while the program is halted, or does not take them.
+    /// The function cannot be called while the program is halted, or does not take these arguments.
     fn call(&mut self, function: &str, arguments: &[String]) -> Result<Variable>;
 
     fn family(&self) -> Family;
 }
 
-/// What is named by an expression: a variable, and the way to a part of it.
+/// What an expression names: a variable, and the path to a part of it.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct NamedPlace {
     pub(super) root: Root,
@@ -126,7 +126,7 @@ fn parsed(text: &str, names: &mut Interner) -> Result<Expr> {
     }
 }
 
-/// What an expression names.
+/// The place that an expression names.
 pub(super) fn place(text: &str, source: &mut dyn Source) -> Result<NamedPlace> {
     let mut names = Interner::default();
     let expr = parsed(text, &mut names)?;
@@ -162,7 +162,7 @@ impl Value {
         }
     }
 
-    /// As a literal that can be assigned.
+    /// The value as a literal that can be assigned.
     pub(super) fn literal(&self) -> Literal {
         let mut written = String::new();
         match self {
@@ -177,7 +177,7 @@ impl Value {
         Literal::Plain(written)
     }
 
-    /// The same for operators; `None`: no operator has a value for it.
+    /// The value for operators; `None`: no operator takes it.
     fn scalar(&self) -> Option<hir::Value> {
         Some(match self {
             Self::Int(value) => hir::Value::Int(*value),
@@ -223,12 +223,12 @@ impl From<hir::Value> for Value {
     }
 }
 
-/// What an operand gives.
+/// The value of an operand.
 struct Given {
     value: Value,
-    /// How it was written, where it is a constant.
+    /// How it was written, if it is a constant.
     written: Option<operators::Literal>,
-    /// It is the name of a variable, which may be declared as a constant.
+    /// Whether it is the name of a variable, which may be declared as a constant.
     is_name: bool,
 }
 
@@ -247,7 +247,7 @@ struct Evaluator<'a> {
 }
 
 impl Evaluator<'_> {
-    /// A value that is assigned: also braces, which have no type of their own.
+    /// A value to be assigned: also braces, which have no type of their own.
     fn assigned(&mut self, expr: &Expr) -> Result<Value> {
         match &expr.kind {
             ExprKind::Brace(items) => {
@@ -318,7 +318,7 @@ impl Evaluator<'_> {
 
     fn given(&mut self, expr: &Expr) -> Result<Given> {
         let (mut value, written) = (self.value(expr)?, self.written(expr));
-        // A pattern has 32 bits and no sign of its own: an int, until its place wants something else.
+        // A pattern has 32 bits and no sign of its own: an int, until its place requires something else.
         if let (Value::Uint(bits), Some(operators::Literal::Pattern)) = (&value, written) {
             value = Value::Int(*bits as i32);
         }
@@ -330,7 +330,7 @@ impl Evaluator<'_> {
         binary(op, &self.given(left)?, &self.given(right)?)
     }
 
-    /// How a constant is written; `None`: it is none.
+    /// How a constant is written; `None`: the expression is not a constant.
     fn written(&mut self, expr: &Expr) -> Option<operators::Literal> {
         use operators::Literal as Written;
         match &expr.kind {
@@ -339,7 +339,7 @@ impl Evaluator<'_> {
             ExprKind::Int(..) | ExprKind::Double(_) | ExprKind::String(_) | ExprKind::Bool(_) => Some(Written::None),
             ExprKind::Name(symbol) => {
                 let name = self.names.name(*symbol).to_owned();
-                // A variable may be called like a number.
+                // A variable may have the name of a number.
                 hexadecimal(&name).filter(|_| self.source.variable(None, &name).is_err()).map(|_| Written::Pattern)
             }
             ExprKind::Unary(UnaryOp::Complement, inner) => match self.written(inner)? {
@@ -352,7 +352,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The value as its place has it; what has no place among plain values is left to the program.
+    /// The value in the form of its place; what is not a plain value is left to the program.
     fn fitting(&mut self, place: &NamedPlace, given: Given) -> Result<Value> {
         let (ty, _) = self.found(place)?;
         let wanted = base_type(&ty.to_ascii_lowercase());
@@ -512,7 +512,7 @@ fn operand<'a>(value: &'a hir::Value, given: &Given) -> Operand<'a> {
     Operand { base: value.base(), constant: given.written.map(|_| value), literal }
 }
 
-/// The same if it is declared as a constant.
+/// The same operand, declared as a constant.
 fn constant<'a>(value: &'a hir::Value, given: &Given) -> Operand<'a> {
     Operand { constant: Some(value), ..operand(value, given) }
 }

@@ -1,12 +1,12 @@
-//! The session's own copy of the compiled program: others may compile it anew in the meantime, and the way back runs it
-//! again.
+//! The session's own copy of the compiled program: others may compile it again in the meantime, and stepping back runs
+//! it again.
 
 use super::leftovers::PREFIX;
 use arl_project::program::Ready;
 use arl_terminal::private_folder::PrivateFolder;
 use std::path::{Path, PathBuf};
 
-/// A copy that goes with the session.
+/// A copy that is removed with the session.
 pub(super) struct Executable {
     path: PathBuf,
     _folder: PrivateFolder,
@@ -16,7 +16,7 @@ impl Executable {
     /// Copies a program.
     ///
     /// # Errors
-    /// It cannot be copied.
+    /// The program cannot be copied.
     pub(super) fn of(ready: &Ready) -> Result<Self, String> {
         let folder = PrivateFolder::new(PREFIX)
             .map_err(|error| format!("cannot make a temporary folder for the program: {error}"))?;

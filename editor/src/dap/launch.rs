@@ -1,11 +1,11 @@
-//! What the editor's launch configuration says.
+//! The editor's launch configuration.
 
 use arl_project::arl_toml;
 use arl_project::options::{Clock, Mode, RunOptions};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
-/// The arguments of `launch`. Relative paths count from `cwd`, or the program's folder.
+/// The arguments of `launch`. Relative paths start from `cwd`, or the program's folder.
 #[derive(Clone, PartialEq, Default, Deserialize, Debug)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct Launch {
@@ -35,7 +35,7 @@ impl Launch {
     /// The options of the run.
     ///
     /// # Errors
-    /// A word that means nothing.
+    /// A word is not known.
     pub(super) fn options(&self) -> Result<RunOptions, String> {
         let clock = match self.clock.as_deref() {
             None => None,

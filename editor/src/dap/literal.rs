@@ -21,13 +21,13 @@ pub(super) enum Part {
 }
 
 impl Literal {
-    /// Reads what a program writes; what is none stays as it is.
+    /// Reads what a program writes; text that is not a literal stays as it is.
     pub(super) fn parse(text: &str) -> Self {
         let mut reader = Reader { rest: text };
         reader.value()
     }
 
-    /// As it is written.
+    /// The literal as it is written.
     pub(super) fn text(&self) -> String {
         let joined = |parts: Vec<String>| format!("{{{}}}", parts.join(","));
         match self {
@@ -39,7 +39,7 @@ impl Literal {
         }
     }
 
-    /// With the elements of an array of several dimensions, which are written flat, in rows.
+    /// The value with the elements of an array of several dimensions, which are written flat, in rows.
     pub(super) fn in_rows(self, sizes: &[usize]) -> Self {
         let [_, inner @ ..] = sizes else { return self };
         let Literal::Listed(parts) = self else { return self };
@@ -50,7 +50,7 @@ impl Literal {
         Literal::Listed(parts.chunks(row).map(|row| Literal::Listed(row.to_vec()).in_rows(inner)).collect())
     }
 
-    /// The parts with their names; none of a plain value.
+    /// The parts with their names; a plain value has none.
     pub(super) fn parts(&self) -> Vec<(Part, &Literal)> {
         match self {
             Literal::Plain(_) => Vec::new(),
@@ -72,7 +72,7 @@ impl Literal {
         inner.part(rest)
     }
 
-    /// The same with another part; a component that was not set is added.
+    /// The same value with another part; a component that was not set is added.
     pub(super) fn with(mut self, path: &[Part], value: Literal) -> Option<Literal> {
         let [first, rest @ ..] = path else { return Some(value) };
         match (&mut self, first) {
@@ -127,7 +127,7 @@ impl Reader<'_> {
         if listed.is_empty() { Literal::Named(named) } else { Literal::Listed(listed) }
     }
 
-    /// A name with a blank behind it.
+    /// A name with a blank after it.
     fn name(&mut self) -> Option<String> {
         let end = self.rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))?;
         let (name, rest) = self.rest.split_at(end);

@@ -1,9 +1,9 @@
 //! `arl2rs dap`: a debug adapter on standard input and output.
 //!
 //! The program is compiled with hooks (`emit/hooks.rs`) and runs as a process of its own; it connects to the adapter
-//! and halts where that says (`arl-rt/src/command/debug/`). The adapter knows the editor's side: breakpoints with
-//! conditions, frames, variables and expressions. A step backward is a run from the start to one statement earlier: on
-//! the virtual clock a run repeats itself.
+//! and halts where the adapter says (`arl-rt/src/command/debug/`). The adapter handles the editor's side: breakpoints
+//! with conditions, frames, variables and expressions. A step backward is a run from the start to one statement
+//! earlier: on the virtual clock a run repeats itself.
 
 mod breakpoints;
 mod evaluate;
@@ -25,13 +25,13 @@ use arl_terminal::exit::Exit;
 use session::Session;
 use std::sync::mpsc::channel;
 
-/// What the adapter hears of.
+/// An event for the adapter.
 enum Event {
     /// A request of the editor.
     Request(protocol::Request),
     /// The editor is gone.
     Gone,
-    /// Something of the program with this number: each run is one.
+    /// News of the program with this number; each run has its own.
     Process(u64, process::News),
 }
 
@@ -42,7 +42,7 @@ pub fn dap() -> Exit {
     std::thread::spawn(move || {
         let mut input = Messages::new(std::io::stdin().lock());
         while let Some(body) = input.next_message() {
-            // What is not a request has nobody who waits for an answer.
+            // What is not a request needs no answer.
             if let Ok(request) = serde_json::from_slice::<protocol::Request>(&body)
                 && requests.send(Event::Request(request)).is_err()
             {

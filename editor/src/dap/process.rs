@@ -12,13 +12,13 @@ use std::time::{Duration, Instant};
 /// How long a program may take from its start until it connects.
 const LONGEST_START: Duration = Duration::from_secs(20);
 
-/// What is new of a program.
+/// News of a program.
 pub(super) enum News {
-    /// Something that it says by itself.
+    /// A message that it sends by itself.
     Said(Value),
     /// What it prints, on `stdout` or `stderr`.
     Output(&'static str, String),
-    /// It is gone; its exit code, where it ended before it could be asked for that.
+    /// It is gone; its exit code, if it ended before that could be requested.
     Ended(Option<i32>),
 }
 
@@ -31,10 +31,10 @@ pub(super) struct Process {
 }
 
 impl Process {
-    /// Starts a program; what is new of it comes under this number.
+    /// Starts a program; its news come under this number.
     ///
     /// # Errors
-    /// It cannot be started, or ends before it connects: what it says then is new of it, too, and that it has ended.
+    /// The program cannot be started, or ends before it connects: then its output and its end are news, too.
     pub(super) fn start(mut command: Command, number: u64, events: &Sender<Event>) -> Result<Self, String> {
         let port = Secret::new().and_then(Port::open).map_err(|failure| failure.to_string())?;
         port.ask(&mut command, "--debug");
@@ -78,10 +78,10 @@ impl Process {
         Ok(Self { child, stream, answers, asked: 0 })
     }
 
-    /// Asks for something, and waits for the answer.
+    /// Sends a request, and waits for the answer.
     ///
     /// # Errors
-    /// What the program says against it, or that it is gone.
+    /// The program's refusal, or that it is gone.
     pub(super) fn ask(&mut self, word: &str, values: &[&str]) -> Result<Value, String> {
         let gone = "the program has ended";
         self.asked += 1;

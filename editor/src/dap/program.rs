@@ -1,5 +1,5 @@
-//! The programs that are debugged, as the checker knows them: files, functions, the lines that a program can be halted
-//! at.
+//! The programs that are debugged, as the checker knows them: files, functions, the lines at which a program can be
+//! halted.
 
 use arl_lang::span::LineIndex;
 use arl_lang::written;
@@ -20,7 +20,7 @@ pub struct Programs(Vec<One>);
 /// A function of a program, and the lines of its statements.
 pub struct Lines {
     pub file: FileKey,
-    /// Where the file lies.
+    /// Where the file is.
     pub path: PathBuf,
     pub function: String,
     /// The line that the function begins at.
@@ -28,7 +28,7 @@ pub struct Lines {
     pub lines: BTreeSet<u32>,
 }
 
-/// What a running program is told by: the folder of its files, counted from the script directory, and its main file.
+/// What identifies a running program: the folder of its files, relative to the script directory, and its main file.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Default, Debug)]
 pub struct Key {
     /// The folder of its files.
@@ -47,7 +47,7 @@ pub struct FileKey {
 }
 
 impl Key {
-    /// What is told of a channel, a stack or a motion.
+    /// The program that a message on a channel, a stack or a motion names.
     pub(super) fn of(told: &serde_json::Value) -> Self {
         let text = |key: &str| told.get(key).and_then(serde_json::Value::as_str).unwrap_or_default().to_owned();
         Self { folder: text("folder"), main: text("program") }
@@ -82,7 +82,7 @@ impl One {
 }
 
 impl Programs {
-    /// Checks them; `report` is shown what there is to say.
+    /// Checks the programs; `report` gets the texts to be shown.
     ///
     /// # Errors
     /// A program has errors, or cannot be checked.
@@ -125,18 +125,18 @@ impl Programs {
         self.of(key)?.program()
     }
 
-    /// Where a file of a program lies; nothing where the program is not known.
+    /// Where a file of a program is; `None` if the program is not known.
     pub(super) fn path(&self, key: &Key, file: &str) -> Option<PathBuf> {
         self.of(key).map(|one| one.path(file))
     }
 
-    /// What running programs call the file of an editor.
+    /// The names that running programs have for the file of an editor.
     pub(super) fn files(&self, path: &Path) -> Vec<FileKey> {
         let of_one = |one: &One| one.modules(path).map(|(_, module)| one.key_of(&module.file)).collect::<Vec<_>>();
         self.0.iter().flat_map(of_one).collect()
     }
 
-    /// The lines of a file that programs can be halted at, function by function.
+    /// The lines of a file at which programs can be halted, function by function.
     pub(super) fn functions(&self, path: &Path) -> Vec<BTreeSet<u32>> {
         let mut found = Vec::new();
         for one in &self.0 {
@@ -150,7 +150,7 @@ impl Programs {
         found
     }
 
-    /// The lines that a function can be halted at.
+    /// The lines at which a function can be halted.
     pub(super) fn lines_of(&self, key: &Key, file: &str, name: &str) -> BTreeSet<u32> {
         let module = |func: &Func| self.program(key)?.modules.get(func.module.0 as usize);
         let found = self.function(key, file, name).and_then(|func| Some((func, module(func)?)));
@@ -234,12 +234,12 @@ fn text(value: &Value) -> String {
     text
 }
 
-/// The lines of statements, with those inside.
+/// The lines of statements, including nested ones.
 fn lines(block: &[Stmt], index: &LineIndex) -> BTreeSet<u32> {
     lines_of(&block.iter().collect::<Vec<_>>(), index, &lines)
 }
 
-/// Those that can be reached.
+/// The lines that can be reached.
 fn reached_lines(block: &[Stmt], index: &LineIndex) -> BTreeSet<u32> {
     lines_of(&flow::reachable(block), index, &reached_lines)
 }

@@ -14,7 +14,7 @@ pub(super) struct Request {
     pub(super) arguments: Value,
 }
 
-/// What goes to the editor, numbered.
+/// Messages to the editor, numbered.
 #[derive(Default, Debug)]
 pub(super) struct Outgoing {
     sent: Cell<i64>,
@@ -24,7 +24,7 @@ impl Outgoing {
     fn send(&self, mut message: Value) {
         self.sent.set(self.sent.get() + 1);
         message["seq"] = json!(self.sent.get());
-        // Nobody may read any more: then the requests end, too.
+        // The editor may no longer read: then the requests end, too.
         let _ = framing::write(&mut std::io::stdout().lock(), &message);
     }
 
@@ -41,13 +41,12 @@ impl Outgoing {
         self.send(answer);
     }
 
-    /// Says that something has happened.
+    /// Reports that something has happened.
     pub(super) fn event(&self, event: &str, body: Value) {
         self.send(json!({"type": "event", "event": event, "body": body}));
     }
 
-    /// Shows a text: `stdout` what the program prints, `stderr` mistakes and alarms, `console` what the adapter has to
-    /// say.
+    /// Shows a text: `stdout` what the program prints, `stderr` mistakes and alarms, `console` messages of the adapter.
     pub(super) fn output(&self, category: &str, text: &str) {
         self.event("output", json!({"category": category, "output": text}));
     }

@@ -1,4 +1,4 @@
-//! One debugging session: what the editor asks for, and what the program says.
+//! One debugging session: the requests of the editor, and the messages of the program.
 
 mod inspect;
 mod pointer;
@@ -26,7 +26,7 @@ use std::collections::VecDeque;
 use std::process::Command;
 use std::sync::mpsc::{Receiver, Sender};
 
-/// What an answer to the editor is.
+/// An answer to the editor.
 type Answer = Result<Value, String>;
 
 /// One session.
@@ -34,12 +34,12 @@ pub(super) struct Session {
     out: Outgoing,
     sender: Sender<Event>,
     events: Receiver<Event>,
-    /// Events that came while others were waited for.
+    /// Events that came while another one was awaited.
     waiting: VecDeque<Event>,
     breakpoints: Breakpoints,
     /// What else the program halts at: `alarms`, `events`.
     kinds: Vec<String>,
-    /// Ends before what it runs from goes.
+    /// Ends before its executable is removed.
     process: Option<Process>,
     launched: Option<Launched>,
     /// The number of the run, from 1.
@@ -51,7 +51,7 @@ pub(super) struct Session {
     replay: replay::Record,
     /// The lines that the editor may set the program pointer to, by their numbers.
     targets: pointer::Targets,
-    /// Whether a way back is looked for: breakpoints are counted, but say nothing.
+    /// Whether a search backwards is under way: breakpoints are counted, but not reported.
     searches: bool,
     /// Whether the next halt is the one at the beginning.
     enters: bool,
@@ -67,7 +67,7 @@ struct Launched {
     state: State,
 }
 
-/// Where the programs stand.
+/// Where the programs are halted.
 #[derive(Clone, PartialEq, Debug)]
 struct Halt {
     why: String,
@@ -117,8 +117,8 @@ impl Session {
                     self.out.answer(&request, answer);
                     self.follow(&request, done);
                 }
-                // What an earlier run said does not count any more.
-                Event::Process(run, news) if run == self.run => self.hear(news),
+                // News of an earlier run no longer counts.
+                Event::Process(run, news) if run == self.run => self.receive(news),
                 Event::Process(..) => {}
             }
         }
@@ -161,7 +161,7 @@ impl Session {
         }
     }
 
-    /// What comes behind the answer to a request, which was done or refused.
+    /// Does what follows the answer to a request, which was done or refused.
     fn follow(&mut self, request: &Request, done: bool) {
         match request.command.as_str() {
             "launch" if self.launched.is_some() => self.out.event("initialized", json!({})),
@@ -214,7 +214,7 @@ impl Session {
         Ok(Value::Null)
     }
 
-    /// Starts the program, which stands before its first cycle then.
+    /// Starts the program, which then waits before its first cycle.
     fn begin(&mut self) -> Result<(), String> {
         let launched = self.launched.as_ref().ok_or("nothing was launched")?;
         let mut command = Command::new(launched.executable.path());
@@ -239,7 +239,7 @@ impl Session {
         self.send_kinds()
     }
 
-    /// Waits until the program says something; what comes meanwhile comes later.
+    /// Waits for an event of the program; other events are kept for later.
     fn wait_for(&mut self, event: &str) -> Answer {
         loop {
             match self.events.recv().map_err(|_| "the program is gone")? {
@@ -268,7 +268,7 @@ impl Session {
         self.process.as_mut().ok_or("no program runs")?.ask(word, values)
     }
 
-    /// Lets the program go on.
+    /// Lets the program continue.
     fn go(&mut self, word: &str, values: &[&str]) -> Result<(), String> {
         self.ask(word, values)?;
         self.halt = None;
@@ -352,8 +352,8 @@ impl Session {
         Ok(json!({"exceptionId": "alarm", "description": halt.text, "breakMode": "always"}))
     }
 
-    /// Something is new of the program that runs.
-    fn hear(&mut self, news: News) {
+    /// Handles news of the running program.
+    fn receive(&mut self, news: News) {
         match news {
             News::Output(category, text) => {
                 if self.replay.is_new(category) {
@@ -375,7 +375,8 @@ impl Session {
         }
     }
 
-    /// Takes note of where the program stands; false where it goes on, since a breakpoint's condition does not hold.
+    /// Notes where the program is halted; returns false where it continues, since a breakpoint's condition does not
+    /// hold.
     fn arrive(&mut self, value: &Value) -> bool {
         let text = |key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
         let number = |key: &str| value.get(key).and_then(Value::as_u64).unwrap_or_default();
@@ -393,7 +394,7 @@ impl Session {
         if halt.why == "breakpoint" && !self.is_wanted(halt.channel) {
             let also = text("also");
             if also.is_empty() {
-                // A program that is gone says so by itself.
+                // A program that is gone reports that by itself.
                 let _ = self.go("again", &[]);
                 return false;
             }
@@ -403,7 +404,7 @@ impl Session {
         true
     }
 
-    /// Whether one of the breakpoints where a channel stands is to halt it; messages are shown.
+    /// Whether one of the breakpoints at a channel's place should halt the program; their messages are shown.
     fn is_wanted(&mut self, channel: usize) -> bool {
         let Ok(Some(frame)) = self.top_frame(channel) else { return true };
         let place = FileKey { program: frame.program.clone(), file: frame.file.clone() };
@@ -451,7 +452,7 @@ impl Session {
         }
     }
 
-    /// A message with the values of what stands in braces.
+    /// A message with the values of the expressions in braces.
     fn filled(&mut self, message: &str, frame: usize) -> String {
         let (mut out, mut rest) = (String::new(), message);
         while let Some((before, behind)) = rest.split_once('{') {
@@ -469,7 +470,7 @@ impl Session {
         out + rest
     }
 
-    /// Tells the editor where the program stands.
+    /// Reports to the editor where the program is halted.
     fn say_halt(&mut self) {
         let Some(halt) = &self.halt else { return };
         let (reason, description) = match halt.why.as_str() {
@@ -491,7 +492,7 @@ impl Session {
         self.out.event("stopped", body);
     }
 
-    /// Shows which motion the robot of a channel executes.
+    /// Reports which motion the robot of a channel executes.
     fn tell_motion(&self, value: &Value) {
         let channel = value.get("channel").and_then(Value::as_u64).unwrap_or_default() as usize;
         let file = value.get("file").and_then(Value::as_str).unwrap_or_default();
@@ -504,7 +505,7 @@ impl Session {
     }
 }
 
-/// Whether nobody wants the program to run any more.
+/// Whether the program is no longer needed.
 fn ends_session(event: &Event) -> bool {
     match event {
         Event::Gone => true,

@@ -1,31 +1,31 @@
-//! The state that the controller keeps between runs: each run of a session begins with a copy of what is there, so that
-//! runs repeat each other. What they keep goes with the session.
+//! The state that the controller keeps between runs: each run of a session begins with a copy of the present state, so
+//! that runs repeat each other. What they keep is removed with the session.
 
 use super::leftovers::PREFIX;
 use arl_terminal::private_folder::PrivateFolder;
 use std::path::{Path, PathBuf};
 
-/// Where it is where nobody says otherwise, below the program's folder.
+/// Where the state is by default, below the program's folder.
 const STATE_DIR: &str = ".arl-state";
 
-/// A copy that goes with the session.
+/// A copy that is removed with the session.
 pub(super) struct State {
     original: PathBuf,
-    /// None where none can be made.
+    /// An error where no folder can be made.
     copy: std::io::Result<PrivateFolder>,
 }
 
 impl State {
-    /// For programs that keep their state in a folder, or else below that of their files.
+    /// For programs that keep their state in a folder, or else below the folder of their files.
     pub(super) fn new(folder: Option<&Path>, files: &Path) -> Self {
         let original = folder.map_or_else(|| files.join(STATE_DIR), Path::to_path_buf);
         Self { original, copy: PrivateFolder::new(PREFIX) }
     }
 
-    /// The folder for another run, which finds what is in the original.
+    /// The folder for another run, with the content of the original.
     ///
     /// # Errors
-    /// It cannot be copied.
+    /// The state cannot be copied.
     pub(super) fn begin(&self) -> Result<&Path, String> {
         let failed = |error: &std::io::Error| format!("cannot copy {}: {error}", self.original.display());
         let copy = self

@@ -1,4 +1,4 @@
-//! What the editor shows of a program that stands: frames, scopes, variables with their parts.
+//! What the editor shows of a halted program: frames, scopes, variables with their parts.
 
 use super::evaluate::{Root, Variable, part_type};
 use super::literal::{Literal, Part};
@@ -6,20 +6,20 @@ use super::program::Key;
 use arl_lang::catalog::Family;
 use serde_json::{Value, json};
 
-/// Something that has parts, under the number that the editor asks for it by.
+/// Something that has parts, under the number by which the editor requests it.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Container {
     /// The locals of a frame.
     Locals(usize),
     /// The global variables of the frame's program, file by file.
     Globals(usize),
-    /// Those of one file.
+    /// The global variables of one file.
     File(usize, String),
     /// The system variables.
     System(usize),
     /// Inputs and outputs.
     Signals,
-    /// One kind of them.
+    /// One kind of signals.
     Kind(&'static str),
     /// The axes and the TCP of the frame's channel.
     Robot(usize),
@@ -89,7 +89,7 @@ impl Shown {
         }
     }
 
-    /// What has this number.
+    /// The container with this number.
     pub(super) fn container_of(&self, number: usize) -> Option<&Container> {
         self.containers.get(number.checked_sub(1)?)
     }
@@ -164,7 +164,7 @@ fn expression(target: &Target, path: &[Part]) -> Option<String> {
 }
 
 impl Target {
-    /// What an expression names, where a local goes before a global variable.
+    /// The variable that an expression names; a local variable goes before a global one.
     pub(super) fn of(
         root: &Root,
         locals: &[String],

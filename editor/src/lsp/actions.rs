@@ -1,4 +1,4 @@
-//! Quick fixes: what a diagnostic says would be right, put there.
+//! Quick fixes: the corrections that diagnostics suggest.
 
 use super::server::{Refusal, Server};
 use arl2rs::diagnostics::Diagnostic as Found;

@@ -1,4 +1,4 @@
-//! Who calls a function, and whom it calls.
+//! The callers of a function, and the functions that it calls.
 
 use super::navigation::uses_of;
 use super::programs::Program;

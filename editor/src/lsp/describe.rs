@@ -1,4 +1,4 @@
-//! What a meaning is, in Markdown: the declaration, the comment above it, the reference of what is built in.
+//! What a meaning is, in Markdown: the declaration, the comment above it, the reference of built-ins.
 
 use super::frame::frames;
 use super::programs::Program;
@@ -110,7 +110,7 @@ pub(super) fn value_text(value: &Value) -> String {
     }
 }
 
-/// What stands behind the name of a declaration on its line: code, and a comment.
+/// The text after the name of a declaration on its line: code, and a comment.
 fn behind(program: &Program, at: Location) -> Option<(&str, &str)> {
     let file = program.checked.files.get(at.file)?;
     let line = file.lines.line_span(&file.text, file.lines.line(at.span.start))?;
@@ -119,14 +119,14 @@ fn behind(program: &Program, at: Location) -> Option<(&str, &str)> {
     text.split_at_checked(code.map_or(0, |(_, span)| span.end as usize))
 }
 
-/// What stands behind the `=` of a declaration, where it is on one line.
+/// The value after the `=` of a declaration, if it is on one line.
 fn initialiser(program: &Program, at: Location) -> Option<String> {
     let (code, _) = behind(program, at)?;
     let value = code.trim_start().strip_prefix('=')?.trim();
     (!value.is_empty() && value.len() <= 200).then(|| value.to_string())
 }
 
-/// The comment behind a declaration on its line.
+/// The comment after a declaration on its line.
 fn comment_behind(program: &Program, at: Location) -> Option<String> {
     let (_, comment) = behind(program, at)?;
     let comment = comment.trim_start().strip_prefix("//")?.trim();
@@ -158,7 +158,7 @@ fn code(text: &str) -> String {
     format!("```arl\n{text}\n```")
 }
 
-/// The parts that are there, as paragraphs.
+/// The parts that are not empty, as paragraphs.
 fn joined<const N: usize>(parts: [String; N]) -> String {
     let there: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     there.join("\n\n")

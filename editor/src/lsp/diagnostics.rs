@@ -1,4 +1,4 @@
-//! What is wrong with a file, as the protocol writes it.
+//! The diagnostics of a file, in the form of the protocol.
 
 use super::programs::Program;
 use super::server::Server;
@@ -8,7 +8,7 @@ use arl2rs::diagnostics::{Diagnostic as Found, Severity};
 use gen_lsp_types::*;
 use std::path::Path;
 
-/// How many diagnostics of a file are told: nobody reads more, and thousands make editors slow.
+/// The most diagnostics that are sent for a file: nobody reads more, and thousands make editors slow.
 pub(super) const MOST_TOLD: usize = 1000;
 
 /// The diagnostics of a file, errors first where there are too many.
@@ -26,7 +26,7 @@ pub(super) fn of(server: &Server, path: &Path) -> Vec<Diagnostic> {
     found.into_iter().filter_map(|one| diagnostic(server, &file.program, one)).collect()
 }
 
-/// What is told where the compiler itself failed: nothing else is known then.
+/// The diagnostic where the compiler itself failed: nothing else is known then.
 pub(super) fn of_bug(bug: &Bug) -> Diagnostic {
     Diagnostic {
         severity: Some(DiagnosticSeverity::Error),

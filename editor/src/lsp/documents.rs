@@ -1,4 +1,4 @@
-//! The files that are open in the editor, whose text goes before that of the disk.
+//! The files that are open in the editor, whose text takes precedence over that of the disk.
 
 use super::text::{Encoding, Text};
 use super::uri::{beside, path_of, uri_of};
@@ -59,7 +59,7 @@ pub(super) struct Documents {
 }
 
 impl Documents {
-    /// Takes in an open file; its path.
+    /// Adds an open file; returns its path.
     pub(super) fn open(&mut self, uri: &Uri, document: Document) -> PathBuf {
         let path = path_of(uri);
         self.open.insert(path.clone(), document);
@@ -67,8 +67,7 @@ impl Documents {
         path
     }
 
-    /// The address of a file, as the client spells it where it has said so, of the file or of another one in its
-    /// folder.
+    /// The address of a file, in the client's spelling if that is known for the file or for another one in its folder.
     pub(super) fn uri(&self, path: &Path) -> Uri {
         let own = || self.spelled.get(path).cloned();
         let beside = || {
@@ -102,7 +101,7 @@ impl Documents {
 
 impl Sources for Documents {
     fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
-        // An import may say `../rack.arl`; what is open is known by its plain path.
+        // An import may say `../rack.arl`; open files are known by their plain paths.
         match self.open.get(&clean(path)) {
             Some(document) => Ok(document.text.clone().into_bytes()),
             None => FileSystem.read(path),

@@ -26,8 +26,8 @@ fn range(start_line: u32, end_line: u32, kind: Option<FoldingRangeKind>) -> Fold
     FoldingRange { start_line, start_character: None, end_line, end_character: None, kind, collapsed_text: None }
 }
 
-/// Blocks, from the line that opens one to the line before the one that closes it, as the parser sees them. What closes
-/// nothing folds nothing; what is not closed ends with what is around it.
+/// Blocks, from the line that opens one to the line before the one that closes it, as the parser sees them. A closing
+/// line without a block folds nothing; an unclosed block ends with the block around it.
 fn blocks(text: Text<'_>) -> Vec<FoldingRange> {
     let mut open: Vec<(BlockKind, u32)> = Vec::new();
     let mut found = Vec::new();
@@ -51,7 +51,7 @@ fn blocks(text: Text<'_>) -> Vec<FoldingRange> {
     found
 }
 
-/// Comments of several lines, and what stands between `// region` and `// endregion`.
+/// Comments of several lines, and what is between `// region` and `// endregion`.
 fn comments(text: Text<'_>) -> Vec<FoldingRange> {
     let mut found = Vec::new();
     let mut regions = Vec::new();
@@ -77,7 +77,7 @@ fn comments(text: Text<'_>) -> Vec<FoldingRange> {
     found
 }
 
-/// `/* .. */` over several lines; the last one stays where something else stands on it, too.
+/// `/* .. */` over several lines; the last line stays where something else is on it, too.
 fn long_comments(text: Text<'_>) -> Vec<FoldingRange> {
     let code = lexemes(text.text).filter(|(lexeme, _)| *lexeme != Ok(Lexeme::Newline)).map(|(_, span)| span);
     let end = text.text.len() as u32;
@@ -110,7 +110,7 @@ fn long_comments_of(text: &str) -> Vec<(usize, usize)> {
             found.push((start, end));
             end
         } else if rest.starts_with("//") {
-            // What stands in the rest of the line begins nothing.
+            // The rest of the line begins nothing.
             rest.find('\n').map_or(text.len(), |end| start + end)
         } else {
             start + 1

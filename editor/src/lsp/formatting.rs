@@ -1,4 +1,4 @@
-//! Layout: the whole text, and what comes of itself when a line is ended.
+//! Layout: the whole text, and automatic changes when a line is ended.
 
 use super::server::{Refusal, Server};
 use super::text::Text;
@@ -47,8 +47,8 @@ fn lines(text: &str) -> Vec<&str> {
     text.split_inclusive('\n').collect()
 }
 
-/// After Enter behind a line that opens a block or a branch: the new line goes one level in, and where nothing closes
-/// the block, what closes it is put below.
+/// After Enter at the end of a line that opens a block or a branch: the new line is indented by one level, and if
+/// nothing closes the block, its closing line is added below.
 pub(super) fn typed(server: &Server, params: DocumentOnTypeFormattingParams) -> Result<Option<Vec<TextEdit>>, Refusal> {
     let find = || {
         let document = server.documents.get(&path_of(&params.text_document.uri))?;
@@ -84,7 +84,7 @@ fn below_opener(text: Text<'_>, position: Position) -> Option<Vec<TextEdit>> {
     }
 }
 
-/// Whether the text has fewer mistakes with a line that closes such a block in the place of a blank one.
+/// Whether the text has fewer mistakes with a line that closes a block of this kind in the place of a blank one.
 fn is_unclosed(text: &str, blank: Span, kind: BlockKind) -> bool {
     let closer = if kind == BlockKind::Repeat { "until(a)" } else { kind.closer() };
     let mut closed = text.to_string();
@@ -102,7 +102,7 @@ mod tests {
     use crate::lsp::text::Encoding;
     use arl_lang::span::LineIndex;
 
-    /// The text after Enter was pressed at the `|`, which stands on the new line.
+    /// The text after Enter was pressed at the `|`, which is on the new line.
     fn after_enter(source: &str) -> String {
         let offset = source.find('|').unwrap() as u32;
         let source = source.replacen('|', "", 1);

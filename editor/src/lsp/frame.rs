@@ -1,4 +1,4 @@
-//! The workpiece frame that a pose is meant in: what the motions say that it is the target of.
+//! The workpiece frame that a pose is meant in, according to the motions that it is the target of.
 
 use super::programs::Program;
 use arl_lang::catalog::{Base, ParamType, Struct};
@@ -6,11 +6,11 @@ use arl2rs::diagnostics::{FileId, Location};
 use arl2rs::index::{Argument, Callee, Meaning};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// The parameter that names the frame of a target, and what stands in where it is missing.
+/// The parameter that names the frame of a target, and what replaces it where it is missing.
 const FRAME: &str = "w";
 const STANDS_IN: &str = "$DFWOBJ";
 
-/// The most lines that are named of a frame.
+/// The most lines that are named for a frame.
 const MOST_LINES: usize = 3;
 
 /// A sentence about the frames of a pose; empty where no motion goes to it.

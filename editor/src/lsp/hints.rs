@@ -41,7 +41,7 @@ pub(super) fn hints(server: &Server, params: InlayHintParams) -> Result<Option<V
     Ok(find())
 }
 
-/// The name of the parameter, where the value does not say it itself: a literal is not a name.
+/// The name of the parameter, if the value does not name it: a literal is not a name.
 fn label(file: &File, argument: &Argument) -> Option<String> {
     if argument.labelled || !is_literal(file.program.at(argument.at)) {
         return None;
@@ -52,7 +52,7 @@ fn label(file: &File, argument: &Argument) -> Option<String> {
             let (name, _, _) = function.params.get(argument.parameter)?;
             Some(name.clone())
         }
-        // Functions of one parameter say by their name what it is.
+        // The name of a function of one parameter tells what the parameter is.
         Callee::Builtin(entry) if entry.params.len() < 2 => None,
         Callee::Builtin(entry) => {
             let param = entry.params.get(argument.parameter)?;
@@ -62,7 +62,7 @@ fn label(file: &File, argument: &Argument) -> Option<String> {
     }
 }
 
-/// The unit of a number that stands without one.
+/// The unit of a number that is written without one.
 fn unit(file: &File, argument: &Argument) -> Option<&'static str> {
     let Callee::Builtin(entry) = argument.callee else { return None };
     let unit = entry.params.get(argument.parameter)?.units.first()?;

@@ -25,7 +25,7 @@ fn find(server: &Server, at: &TextDocumentPositionParams) -> Option<Hover> {
     Some(Hover { contents, range: Some(range) })
 }
 
-/// The page of the word of a control structure at an offset, and where the word stands.
+/// The page of the word of a control structure at an offset, and where the word is.
 fn keyword(text: &str, offset: u32) -> Option<(String, Span)> {
     let (lexeme, span) = lexemes(text).find(|(_, span)| span.end >= offset)?;
     let word = span.text(text);
@@ -33,7 +33,7 @@ fn keyword(text: &str, offset: u32) -> Option<(String, Span)> {
     Some((topic.shown(), span))
 }
 
-/// The name of the signal whose number stands at a place.
+/// The name of the signal whose number is at a place.
 fn signal(place: &FilePlace) -> Option<(String, Span)> {
     let argument = signals::argument_at(&place.file, place.offset)?;
     let (signal, name) = signals::named(&place.file, argument)?;

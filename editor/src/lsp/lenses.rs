@@ -1,4 +1,4 @@
-//! What can be done with a program, above its `main`. The commands are the editor's: it knows where to show what comes.
+//! What can be done with a program, above its `main`. The commands are the editor's: it knows where to show the output.
 
 use super::server::{Refusal, Server};
 use super::uri::path_of;

@@ -2,7 +2,7 @@
 
 use gen_lsp_types::*;
 
-/// Where a client shows Markdown: where it says that it does.
+/// For which texts a client shows Markdown, as far as it says so.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Formats {
     pub(super) hover: Format,
@@ -19,7 +19,7 @@ pub(super) enum Format {
 }
 
 impl Formats {
-    /// What a client says of itself.
+    /// Reads the capabilities of a client.
     pub(super) fn of(text: Option<&TextDocumentClientCapabilities>) -> Self {
         let hover = || text?.hover.as_ref()?.content_format.as_deref();
         let item = || text?.completion.as_ref()?.completion_item.as_ref()?.documentation_format.as_deref();
@@ -37,7 +37,7 @@ impl Format {
         }
     }
 
-    /// A text that is written in Markdown.
+    /// A text that is written in Markdown, in this format.
     pub(super) fn content(self, markdown: String) -> MarkupContent {
         match self {
             Self::Markdown => MarkupContent { kind: MarkupKind::Markdown, value: markdown },
@@ -45,7 +45,7 @@ impl Format {
         }
     }
 
-    /// The same for what belongs to an item. A text without a kind is one that all clients show.
+    /// The same for the documentation of an item. A text without a kind is one that all clients show.
     pub(super) fn documentation(self, markdown: String) -> Documentation {
         match self {
             Self::Markdown => Documentation::MarkupContent(self.content(markdown)),
@@ -73,7 +73,7 @@ fn plain(markdown: &str) -> String {
     out.trim_end().to_owned()
 }
 
-/// A line of prose; what stands in backticks stays as it is.
+/// A line of prose; text in backticks stays as it is.
 fn unmarked(line: &str, out: &mut String) {
     for (at, part) in line.split('`').enumerate() {
         if at % 2 == 1 {

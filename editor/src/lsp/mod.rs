@@ -1,7 +1,7 @@
 //! `arl2rs lsp`: a language server on standard input and output.
 //!
-//! Messages come in (`transport`), change the open files (`documents`) or ask for something, which a file each answers
-//! from the index of the program (`programs`). Everything is checked anew after a change: that is fast enough for each
+//! Messages come in (`transport`), change the open files (`documents`) or are requests, each of which one file answers
+//! from the index of the program (`programs`). Everything is checked again after a change: that is fast enough for each
 //! key, and nothing can be out of date.
 
 mod actions;
@@ -44,7 +44,7 @@ pub fn lsp() -> Exit {
     let incoming = transport::reader();
     let (outgoing, writer) = transport::writer();
     let ended_well = server::Server::new(outgoing).serve(&incoming);
-    // What was said last is still written.
+    // The last messages are still written.
     let _ = writer.join();
     if ended_well { Exit::SUCCESS } else { Exit::FAILURE }
 }

@@ -29,7 +29,7 @@ pub(super) fn references(server: &Server, params: ReferenceParams) -> Result<Opt
     Ok(Some(found.filter_map(|(program, mention)| server.location(&program, mention.at)).collect()))
 }
 
-/// All places, in all programs that know it, of what the place means. In an order that does not depend on the place.
+/// All places, in all programs that know it, of what the place means, in an order that does not depend on the place.
 pub(super) fn uses_of(server: &Server, uri: &Uri, position: Position) -> Vec<(Rc<Program>, Mention)> {
     let Some(place) = server.place_at(uri, position) else { return Vec::new() };
     let Some(mention) = place.mention() else { return Vec::new() };
@@ -50,7 +50,7 @@ pub(super) fn uses_of(server: &Server, uri: &Uri, position: Position) -> Vec<(Rc
     found.into_iter().map(|(_, program, mention)| (program, mention)).collect()
 }
 
-/// The programs in which something declared there may be used. What is built in is looked for where one is.
+/// The programs in which something declared there may be used. A built-in is looked for in its own program only.
 fn programs_with(server: &Server, own: &Rc<Program>, declared: Option<&Declared>) -> Vec<Rc<Program>> {
     let Some(declared) = declared else { return vec![own.clone()] };
     let mut roots: Vec<PathBuf> = server.workspace.dependents(&declared.path);
@@ -64,7 +64,7 @@ fn programs_with(server: &Server, own: &Rc<Program>, declared: Option<&Declared>
     programs
 }
 
-/// What `meaning` of another program is in this one: ids differ, places do not.
+/// What `meaning` of another program is in this program: ids differ, places do not.
 fn meaning_of(program: &Program, declared: &Declared, meaning: Meaning) -> Option<Meaning> {
     let file = program.file(&declared.path)?;
     if let Meaning::Module(_) = meaning {

@@ -1,4 +1,4 @@
-//! From places of the protocol to places of a program, and back.
+//! Converts places of the protocol to places of a program, and back.
 
 use super::programs::Program;
 use super::server::Server;
@@ -40,7 +40,7 @@ impl FilePlace {
 }
 
 impl Server {
-    /// The file with this path, in the program that tells about it.
+    /// The file with this path, in the program that it is checked with.
     pub(super) fn file(&self, path: &Path) -> Option<File> {
         let program = self.program(path)?;
         let id = program.file(path)?;
@@ -64,7 +64,7 @@ impl Server {
         Some(FilePlace { file, offset })
     }
 
-    /// A place of a program as the protocol writes it.
+    /// A place of a program in the form of the protocol.
     pub(super) fn location(&self, program: &Program, at: Location) -> Option<gen_lsp_types::Location> {
         let uri = self.documents.uri(program.path(at.file)?);
         let range = program.text(at.file, self.encoding)?.range(at.span);

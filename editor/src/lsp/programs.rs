@@ -1,7 +1,7 @@
 //! The programs that open files belong to, checked as they are now.
 //!
-//! A file is checked as a program of its own, as `arl2rs check` does; a data file with the program beside it. What was
-//! found out stays until a file that was read for it, or looked for in vain, changes.
+//! A file is checked as a program of its own, as `arl2rs check` does; a data file with the program beside it. The
+//! results stay until a file that was read for them, or looked for in vain, changes.
 
 use super::documents::Documents;
 use super::text::{Encoding, Text};
@@ -30,9 +30,9 @@ pub(super) struct Program {
     read: Vec<PathBuf>,
     /// The kind of robot that it is for.
     pub(super) family: Family,
-    /// What its cell calls signals.
+    /// The cell's names of signals.
     pub(super) names: Names,
-    /// Freeing the trees takes a good part of the time of a check, for which nobody has to wait.
+    /// Freeing the trees takes a good part of the time of a check; no request should wait for it.
     unneeded: RefCell<Option<Unneeded>>,
 }
 
@@ -101,12 +101,12 @@ pub(super) struct CheckedPrograms {
 }
 
 impl CheckedPrograms {
-    /// The main file of the program that tells about a file: a data file is seen by the program beside it.
+    /// The main file of the program that a file is checked with: a data file is checked with the program beside it.
     pub(super) fn root(&self, path: &Path, documents: &Documents) -> PathBuf {
         owner(path).filter(|owner| documents.exists(owner)).unwrap_or_else(|| path.to_path_buf())
     }
 
-    /// The program that tells about a file, checked now if it was not since the last change.
+    /// The program that a file is checked with, checked now if it was not since the last change.
     ///
     /// # Errors
     /// The compiler itself failed at it.
@@ -125,7 +125,7 @@ impl CheckedPrograms {
         self.known.borrow().get(root)?.clone().ok()
     }
 
-    /// Forgets what depends on a file; gives the main files of those programs.
+    /// Forgets what depends on a file; returns the main files of those programs.
     pub(super) fn forget(&self, path: &Path) -> Vec<PathBuf> {
         let mut gone = Vec::new();
         self.known.borrow_mut().retain(|root, program| {
@@ -150,7 +150,7 @@ impl CheckedPrograms {
         self.known.borrow_mut().clear();
     }
 
-    /// Keeps what open files need only.
+    /// Keeps only what open files need.
     pub(super) fn keep(&self, documents: &Documents) {
         let roots: Vec<PathBuf> = documents.paths().map(|path| self.root(path, documents)).collect();
         self.known.borrow_mut().retain(|root, _| roots.contains(root));

@@ -1,4 +1,4 @@
-//! The `arl.toml` files that hold for the files of an editor, and how their programs are checked.
+//! The `arl.toml` files that apply to the files of an editor, and how their programs are checked.
 
 use arl_project::arl_toml::{self, ArlToml};
 use arl2rs::CheckOptions;
@@ -7,12 +7,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// What was found out since the settings, a robot, a cell or an `arl.toml` changed.
+/// What was found since the settings, a robot, a cell or an `arl.toml` last changed.
 #[derive(Debug, Default)]
 pub(super) struct Projects {
-    /// The file that holds for the programs of a folder.
+    /// The file that applies to the programs of a folder.
     files: RefCell<BTreeMap<PathBuf, Option<PathBuf>>>,
-    /// How programs are checked for which a file holds; nothing where it is wrong, which was told.
+    /// How the programs of a file are checked; `None` if the file is wrong, which was reported.
     options: RefCell<BTreeMap<PathBuf, Option<Rc<CheckOptions>>>>,
 }
 
@@ -22,7 +22,7 @@ impl Projects {
         self.options.borrow_mut().clear();
     }
 
-    /// The `arl.toml` that holds for a program.
+    /// The `arl.toml` that applies to a program.
     pub(super) fn find(&self, program: &Path) -> Option<PathBuf> {
         let folder = program.parent()?.to_path_buf();
         self.files.borrow_mut().entry(folder).or_insert_with(|| arl_toml::find(program)).clone()
@@ -31,7 +31,7 @@ impl Projects {
     /// How the programs of a project are checked.
     ///
     /// # Errors
-    /// What is wrong with its files, the first time that it is asked for.
+    /// What is wrong with its files, the first time that they are needed.
     pub(super) fn options(
         &self,
         file: &Path,

@@ -1,6 +1,6 @@
-//! Another name for something that the program declares.
+//! Renames something that the program declares.
 //!
-//! The new text is checked before anything is changed: every name of every program has to mean what it meant.
+//! The new text is checked before anything is changed: every name of every program has to keep its meaning.
 
 use super::navigation::uses_of;
 use super::places::{Declared, FilePlace};
@@ -64,15 +64,15 @@ pub(super) fn rename(server: &Server, params: RenameParams) -> Result<Option<Wor
     Ok(Some(edits(server, &uses, name)))
 }
 
-/// Refuses where the old name stands somewhere that the checker did not get to, behind a mistake: nobody knows whether
-/// it means the same there.
+/// Refuses if the old name occurs where the checker did not get to, after a mistake: whether it means the same there is
+/// not known.
 fn is_known_everywhere(place: &FilePlace, program: &Program) -> Result<(), Refusal> {
     let Some(mention) = place.mention() else { return Ok(()) };
     let (old, own) = (place.file.program.at(mention.at), place.file.index());
     if !program.checked.has_errors() {
         return Ok(());
     }
-    // What is local is known in its function only; a parameter is a label of calls, too.
+    // A local name is known in its function only; a parameter is a label of calls, too.
     let is_parameter = |at| own.local(at).is_some_and(|info| info.parameter);
     let local = match mention.meaning {
         Meaning::Local(at) | Meaning::Label(at) if !is_parameter(at) => {
@@ -98,7 +98,7 @@ fn is_known_everywhere(place: &FilePlace, program: &Program) -> Result<(), Refus
     Ok(())
 }
 
-/// Whether the language takes a word as a name.
+/// Whether the language accepts a word as a name.
 fn may_be_a_name(name: &str) -> Result<(), Refusal> {
     let mut characters = name.chars();
     let begins_well = characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
@@ -134,7 +134,7 @@ fn edits(server: &Server, uses: &[(Rc<Program>, Mention)], name: &str) -> Worksp
     WorkspaceEdit { changes: Some(changes), ..WorkspaceEdit::default() }
 }
 
-/// The sources as they will be.
+/// The sources as they will be after the change.
 struct Edited<'a> {
     server: &'a Server,
     texts: BTreeMap<PathBuf, String>,
@@ -157,7 +157,7 @@ impl<'a> Edited<'a> {
         Self { server, texts: texts.collect() }
     }
 
-    /// Refuses the name where any name of a program would mean something else than now, or an error would come.
+    /// Refuses the name if any name of a program would change its meaning, or an error would result.
     fn means_the_same(&self, server: &Server, program: &Program, name: &str) -> Result<(), Refusal> {
         let Some(root) = program.path(arl2rs::diagnostics::FileId(0)) else { return Ok(()) };
         let Ok(after) = Program::check(root, self, &server.options_of(root)) else {
@@ -202,7 +202,7 @@ impl Sources for Edited<'_> {
     }
 }
 
-/// What a name means, told so that it can be compared after texts moved: by the number of the declaring name in its
+/// The meaning of a name in a form that can be compared after texts moved: by the number of the declaring name in its
 /// file.
 #[derive(PartialEq)]
 enum Target {

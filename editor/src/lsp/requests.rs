@@ -51,7 +51,7 @@ fn answer_one(server: &Server, id: &Id, method: &str, params: Value) -> Value {
     }
 }
 
-/// A request on its way to who answers it.
+/// A request on its way to its handler.
 struct Call<'a> {
     server: &'a Server,
     id: &'a Id,

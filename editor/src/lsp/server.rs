@@ -1,8 +1,8 @@
-//! The server's state and its loop: what comes in, in which order it is done, what goes out.
+//! The server's state and its loop: what comes in, in which order it is handled, what goes out.
 //!
-//! One thread does everything. Messages that wait are taken in first, so that a request that was cancelled meanwhile
-//! costs nothing, and the diagnostics of a text that changed again are never computed. A handler that panics is
-//! answered with an error; the server goes on.
+//! One thread does everything. Waiting messages are taken in first, so that a request that was cancelled meanwhile
+//! costs nothing, and the diagnostics of a text that changed again are never computed. If a handler panics, the answer
+//! is an error; the server continues.
 
 use super::documents::{Document, Documents};
 use super::markup::Formats;
@@ -37,14 +37,14 @@ pub(super) struct Refusal {
 }
 
 impl Refusal {
-    /// What was asked for cannot be done.
+    /// A request that cannot be fulfilled.
     pub(super) fn new(message: impl Into<String>) -> Self {
         // The protocol's RequestFailed, for which there is no name.
         Self { code: ErrorCodes::Custom(-32803), message: message.into() }
     }
 }
 
-/// How far the connection is.
+/// The phase of the connection.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Phase {
     New,
@@ -60,19 +60,19 @@ pub(super) struct Server {
     pub(super) encoding: Encoding,
     /// Whether the client fills in places that a completion leaves open.
     pub(super) snippets: bool,
-    /// What texts the client shows.
+    /// The formats of text that the client shows.
     pub(super) formats: Formats,
-    /// Whether the client lets us ask for news of files on the disk.
+    /// Whether the client can be asked to report changes of files on the disk.
     watches: bool,
     folders: Vec<PathBuf>,
     settings: Settings,
-    /// How files are checked for which no `arl.toml` says more.
+    /// How files are checked that no `arl.toml` applies to.
     options: Rc<CheckOptions>,
     projects: Projects,
     pub(super) documents: Documents,
     programs: CheckedPrograms,
     pub(super) workspace: Workspace,
-    /// Files whose diagnostics have to be told, the most urgent ones first, each once.
+    /// Files whose diagnostics have to be sent, the most urgent ones first, each once.
     stale: VecDeque<PathBuf>,
     /// Files of which the client has diagnostics.
     told: BTreeSet<PathBuf>,
@@ -99,7 +99,7 @@ impl Server {
         }
     }
 
-    /// Serves until `exit`, or until nothing comes any more. Whether the client said goodbye as it should.
+    /// Serves until `exit`, or until no more messages come. Returns whether the client shut down as it should.
     pub(super) fn serve(mut self, incoming: &Receiver<Incoming>) -> bool {
         let mut queue = VecDeque::new();
         while self.fill(&mut queue, incoming) {
@@ -112,7 +112,7 @@ impl Server {
         self.phase == Phase::ShutDown
     }
 
-    /// Takes in what has come; waits where there is nothing to do. `false` when nothing will come any more.
+    /// Takes in the messages that have come; waits if there is nothing to do. `false` once no more will come.
     fn fill(&mut self, queue: &mut VecDeque<Incoming>, incoming: &Receiver<Incoming>) -> bool {
         loop {
             let has_work = !queue.is_empty() || self.has_work();
@@ -132,7 +132,7 @@ impl Server {
         }
     }
 
-    /// Answers a request that still waits and is not wanted any more.
+    /// Answers a waiting request that is no longer wanted.
     fn cancel(&self, queue: &mut VecDeque<Incoming>, params: &Value) {
         let Some(id) = params.get("id").and_then(|id| serde_json::from_value::<Id>(id.clone()).ok()) else { return };
         let waits = queue.iter().position(|message| matches!(message, Incoming::Request(own, ..) if *own == id));
@@ -206,7 +206,7 @@ impl Server {
         InitializeResult { capabilities: capabilities::all(self.encoding), server_info: Some(capabilities::info()) }
     }
 
-    /// Takes over settings; what is wrong with them is told, and the old ones stay.
+    /// Takes over settings; errors in them are reported, and the old ones stay.
     fn set(&mut self, value: Value) {
         match Settings::read(&value) {
             Ok(settings) => self.apply(settings.unwrap_or_else(|| self.settings.clone())),
@@ -214,7 +214,7 @@ impl Server {
         }
     }
 
-    /// Reads the files that the settings name, and checks everything anew.
+    /// Reads the files that the settings name, and checks everything again.
     fn apply(&mut self, settings: Settings) {
         let folder = self.folders.first().cloned();
         match settings.options(folder.as_deref(), None) {
@@ -233,7 +233,7 @@ impl Server {
         }
     }
 
-    /// Shows the user something that is wrong.
+    /// Shows the user an error.
     fn complain(&self, text: &str) {
         self.send(notification("window/showMessage", &json!({"type": 1, "message": text})));
     }
@@ -280,7 +280,7 @@ impl Server {
                         server.apply(server.settings.clone());
                     }
                     for path in paths {
-                        // What is open is as the editor has it.
+                        // Open files are as the editor has them.
                         if server.documents.get(&path).is_none() {
                             server.changed(&path);
                         }
@@ -301,7 +301,7 @@ impl Server {
         }
     }
 
-    /// Asks the client to tell of files that change on the disk.
+    /// Asks the client to report changes of files on the disk.
     fn ask_for_news(&self) {
         if !self.watches {
             return;
@@ -316,7 +316,7 @@ impl Server {
         self.send(json!({"jsonrpc": "2.0", "id": 0, "method": "client/registerCapability", "params": params}));
     }
 
-    /// Forgets what depends on a file; its diagnostics and those of all that use it are to be told again.
+    /// Forgets what depends on a file; the diagnostics of the file and of all that use it are to be sent again.
     fn changed(&mut self, path: &Path) {
         let mut roots: BTreeSet<PathBuf> = self.programs.forget(path).into_iter().collect();
         roots.extend(self.workspace.dependents(path));
@@ -326,7 +326,7 @@ impl Server {
         let mut stale: BTreeSet<PathBuf> = self.documents.paths().filter(of_roots).cloned().collect();
         stale.extend(roots.into_iter().filter(|root| self.is_shown(root)));
         if self.told.contains(path) || self.is_shown(path) {
-            // What is typed goes before what depends on it.
+            // The file that is being edited goes before what depends on it.
             stale.remove(path);
             self.stale.retain(|other| other != path);
             self.stale.push_front(path.to_path_buf());
@@ -338,7 +338,7 @@ impl Server {
         }
     }
 
-    /// Whether the diagnostics of a file are told: it is open, or one of the workspace.
+    /// Whether the diagnostics of a file are sent: it is open, or one of the workspace.
     fn is_shown(&self, path: &Path) -> bool {
         self.documents.get(path).is_some() || self.workspace.knows(path)
     }
@@ -347,7 +347,7 @@ impl Server {
         self.phase == Phase::Running && (!self.stale.is_empty() || self.workspace.is_open())
     }
 
-    /// Does a piece of what nobody waits for: tells one file's diagnostics, or looks at one file of the workspace.
+    /// Does a piece of background work: sends one file's diagnostics, or looks at one file of the workspace.
     fn work(&mut self) {
         let Some(path) = self.stale.pop_front() else {
             if let Err(bug) = guard(|| self.look()) {
@@ -356,7 +356,7 @@ impl Server {
             return;
         };
         let version = self.documents.get(&path).map(|document| document.version);
-        // A file that is neither open nor used by what is open has nothing to be told.
+        // A file that is neither open nor used by what is open has no diagnostics.
         let found = match self.is_shown(&path) {
             true => guard(|| diagnostics::of(self, &path)).unwrap_or_else(|bug| vec![diagnostics::of_bug(&bug)]),
             false => Vec::new(),
@@ -373,22 +373,22 @@ impl Server {
         self.programs.free();
     }
 
-    /// The main file of the program that tells about a file.
+    /// The main file of the program that a file is checked with.
     pub(super) fn root(&self, path: &Path) -> PathBuf {
         self.programs.root(path, &self.documents)
     }
 
-    /// The program that tells about a file, as it is now.
+    /// The program that a file is checked with, as it is now.
     pub(super) fn program(&self, path: &Path) -> Option<Rc<Program>> {
         self.check(path).ok()
     }
 
-    /// The same, or why the compiler failed at it.
+    /// The same, or the failure of the compiler.
     pub(super) fn check(&self, path: &Path) -> Result<Rc<Program>, Bug> {
         self.programs.of(path, &self.documents, &self.options_of(path))
     }
 
-    /// How a file is checked: as the settings say, then the `arl.toml` beside it or above it.
+    /// How a file is checked: by the settings, then by the `arl.toml` beside it or above it.
     pub(super) fn options_of(&self, path: &Path) -> Rc<CheckOptions> {
         let Some(project) = self.projects.find(path) else { return self.options.clone() };
         let folder = self.folders.first().map(PathBuf::as_path);
@@ -405,7 +405,7 @@ impl Server {
         self.options_of(path).family
     }
 
-    /// Looks at one file more of the workspace.
+    /// Looks at one more file of the workspace.
     fn look(&mut self) {
         let Some(path) = self.workspace.next() else { return };
         let options = self.options_of(&path);
@@ -417,7 +417,7 @@ impl Server {
         self.programs.keep(&self.documents);
     }
 
-    /// Looks at all files of the workspace that were not looked at yet.
+    /// Looks at all files of the workspace that have not been looked at yet.
     pub(super) fn look_at_all(&mut self) {
         while self.workspace.is_open() {
             self.look();
@@ -425,7 +425,7 @@ impl Server {
     }
 }
 
-/// Whether a change names a range that is none: without it the change would be that of the whole document.
+/// Whether a change has an invalid range: without the range the change would be that of the whole document.
 fn has_range_of_none(params: &Value) -> bool {
     let changes = params.get("contentChanges").and_then(Value::as_array).into_iter().flatten();
     let mut ranges = changes.filter_map(|change| change.get("range")).filter(|range| !range.is_null());

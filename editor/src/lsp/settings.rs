@@ -1,4 +1,4 @@
-//! What the client says of the robot and the cell that programs are for.
+//! The client's settings: the robot and the cell that programs are for.
 
 use arl_project::arl_toml::ArlToml;
 use arl_project::options::Checking;
@@ -18,15 +18,15 @@ pub(super) struct Settings {
     cell: Option<PathBuf>,
     /// The folder that `/home/ae/script/` in an import means.
     script_dir: Option<PathBuf>,
-    /// Whether to warn of what the controller would not take.
+    /// Whether to warn of what the controller would not accept.
     strict: bool,
 }
 
-/// What they are called.
+/// The names of the settings.
 const NAMES: [&str; 4] = ["robot", "cell", "scriptDir", "strict"];
 
 impl Settings {
-    /// The settings in what a client sends: theirs alone, or under `arl2rs`. `None` where there are none: clients send
+    /// The settings in what a client sends: by themselves, or under `arl2rs`. `None` if there are none: clients send
     /// the settings of others, too, or nothing at all.
     pub(super) fn read(value: &serde_json::Value) -> Result<Option<Self>, String> {
         let own = match value.get("arl2rs") {
@@ -38,7 +38,8 @@ impl Settings {
         read.map(Some).map_err(|error| format!("invalid settings of arl2rs: {error}"))
     }
 
-    /// How to check with them. Relative paths count from the workspace's folder. `beside` says what they do not.
+    /// How to check with the settings. Relative paths start from the workspace's folder. `beside` gives what the
+    /// settings do not.
     pub(super) fn options(&self, folder: Option<&Path>, beside: Option<&ArlToml>) -> Result<CheckOptions, String> {
         let below = |path: &PathBuf| folder.map_or_else(|| path.clone(), |folder| folder.join(path));
         let given = |text: &&String| !text.trim().is_empty();

@@ -1,11 +1,11 @@
-//! What the cell calls the signals that a program names by their numbers.
+//! The cell's names of the signals that a program refers to by their numbers.
 
 use super::places::File;
 use arl_lang::catalog::Space;
 use arl_robot::cell::{Signal, SignalKind};
 use arl2rs::index::{Argument, Callee};
 
-/// The signal that an argument is, where it is a plain number, and its name in the cell.
+/// The signal that an argument refers to, if it is a plain number, and its name in the cell.
 pub(super) fn named<'a>(file: &'a File, argument: &Argument) -> Option<(Signal, &'a str)> {
     let Callee::Builtin(entry) = argument.callee else { return None };
     let kind = match entry.params.get(argument.parameter)?.addresses? {
@@ -19,7 +19,7 @@ pub(super) fn named<'a>(file: &'a File, argument: &Argument) -> Option<(Signal, 
     Some((signal, file.program.names.of(signal)?))
 }
 
-/// The argument at an offset: of several in each other the innermost.
+/// The argument at an offset, the innermost of nested ones.
 pub(super) fn argument_at(file: &File, offset: u32) -> Option<&Argument> {
     let holds = |one: &&Argument| (one.at.span.start..=one.at.span.end).contains(&offset);
     file.index().arguments(file.id).filter(holds).min_by_key(|one| one.at.span.end - one.at.span.start)

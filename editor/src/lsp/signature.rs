@@ -74,7 +74,7 @@ fn information(format: Format, label: String, params: Vec<(String, String)>, doc
 }
 
 fn help(signatures: Vec<SignatureInformation>, chosen: usize, parameter: Option<usize>) -> SignatureHelp {
-    // Without a number editors mark the first parameter: one behind the last marks none.
+    // Without a number editors mark the first parameter: a number past the last one marks none.
     let behind = || signatures.iter().filter_map(|one| one.parameters.as_ref()).map(Vec::len).max().unwrap_or(0);
     let parameter = parameter.unwrap_or_else(behind);
     SignatureHelp {
@@ -128,7 +128,7 @@ fn built_in(entry: &'static Entry, list: &ArgumentList, family: Family, format: 
         });
         information(format, reference::signature(one, Some(family)), params.collect(), one.doc.to_string())
     });
-    // Its place among those that are shown.
+    // Its index among those that are shown.
     let parameter = list.parameter.map(|at| entry.params.iter().take(at).filter(has).count());
     help(signatures.collect(), chosen, parameter)
 }

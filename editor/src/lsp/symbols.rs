@@ -1,4 +1,4 @@
-//! What a file declares, and what the workspace does.
+//! The declarations of a file, and those of the workspace.
 
 use super::places::File;
 use super::server::{Refusal, Server};

@@ -3,17 +3,17 @@
 use arl_lang::span::{LineIndex, Span};
 use gen_lsp_types::{Position, PositionEncodingKind, Range};
 
-/// What the characters of a line are counted in.
+/// The units in which the characters of a line are counted.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(super) enum Encoding {
     Utf8,
-    /// What every client can do.
+    /// What every client supports.
     #[default]
     Utf16,
 }
 
 impl Encoding {
-    /// The encoding to use with a client that knows these: bytes where it can, as they need no counting.
+    /// The encoding to use with a client that knows these: bytes if it supports them, as they need no counting.
     pub(super) fn of(offered: &[PositionEncodingKind]) -> Self {
         if offered.contains(&PositionEncodingKind::UTF8) { Self::Utf8 } else { Self::Utf16 }
     }
@@ -25,7 +25,7 @@ impl Encoding {
         }
     }
 
-    /// How long a text is.
+    /// The length of a text.
     pub(super) fn length(self, text: &str) -> u32 {
         match self {
             Self::Utf8 => text.len() as u32,
@@ -34,7 +34,7 @@ impl Encoding {
         }
     }
 
-    /// The bytes of `line` in front of the character with this number; all where there are not so many.
+    /// The bytes of `line` before the character with this number; all if the line is shorter.
     fn bytes(self, line: &str, character: u32) -> usize {
         let mut counted = 0;
         for (at, one) in line.char_indices() {
@@ -50,7 +50,7 @@ impl Encoding {
     }
 }
 
-/// A text whose places are asked for.
+/// A text in which places are looked up.
 #[derive(Clone, Copy)]
 pub(super) struct Text<'a> {
     pub(super) text: &'a str,
@@ -59,7 +59,7 @@ pub(super) struct Text<'a> {
 }
 
 impl<'a> Text<'a> {
-    /// The byte that a position means; the end of its line, or of the text, where there is no such place.
+    /// The byte at a position; the end of its line, or of the text, if there is no such place.
     pub(super) fn offset(&self, position: Position) -> u32 {
         let Some(span) = self.lines.line_span(self.text, position.line.saturating_add(1)) else {
             return self.text.len() as u32;

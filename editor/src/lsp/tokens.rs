@@ -11,7 +11,7 @@ use gen_lsp_types::*;
 const KINDS: [&str; 9] =
     ["variable", "parameter", "function", "namespace", "type", "enumMember", "property", "label", "keyword"];
 
-/// What else there is to say, in the order of the bits.
+/// Further properties, in the order of the bits.
 const MODIFIERS: [&str; 4] = ["declaration", "readonly", "defaultLibrary", "modification"];
 const DECLARATION: u32 = 1;
 const READONLY: u32 = 2;

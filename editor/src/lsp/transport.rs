@@ -1,7 +1,7 @@
 //! Messages over standard input and output.
 //!
-//! A message that is not JSON, or not what the protocol allows, is answered and passed over: its header tells its
-//! length. What stands between messages and is not a header is passed over, too.
+//! A message that is not JSON, or not what the protocol allows, is answered and skipped: its header gives its length.
+//! What is between messages and is not a header is skipped, too.
 
 use crate::framing::{self, Messages};
 use gen_lsp_types::ErrorCodes;
@@ -11,10 +11,10 @@ use serde_json::{Value, json};
 use std::io::BufRead;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// What came in.
+/// An incoming message.
 #[derive(PartialEq, Debug)]
 pub(super) enum Incoming {
-    /// To be answered under its number.
+    /// A request, which is answered under its number.
     Request(Id, String, Value),
     Notification(String, Value),
     /// The answer to a request of ours.
@@ -36,7 +36,7 @@ pub(super) fn refusal(id: &Id, code: ErrorCodes, message: &str) -> Value {
     json!({"jsonrpc": "2.0", "id": id, "error": {"code": code, "message": message}})
 }
 
-/// A message that wants no answer.
+/// A message without an answer.
 pub(super) fn notification(method: &str, params: &impl Serialize) -> Value {
     json!({"jsonrpc": "2.0", "method": method, "params": params})
 }
@@ -55,7 +55,7 @@ pub(super) fn reader() -> Receiver<Incoming> {
     receiver
 }
 
-/// Starts the thread that writes. It ends when the sender is dropped or nobody reads any more.
+/// Starts the thread that writes. It ends when the sender is dropped or the output is closed.
 pub(super) fn writer() -> (Sender<Value>, std::thread::JoinHandle<()>) {
     let (sender, receiver) = channel::<Value>();
     let thread = std::thread::spawn(move || {
@@ -78,7 +78,7 @@ fn read(input: &mut Messages<impl BufRead>) -> Option<Incoming> {
     })
 }
 
-/// A message of the protocol, or what to answer to something else.
+/// A message of the protocol, or the answer to anything else.
 fn message(mut value: Value) -> Incoming {
     let id = value.get("id").map(|id| serde_json::from_value::<Id>(id.clone()).ok());
     let method = value.get("method").and_then(Value::as_str).map(ToString::to_string);

@@ -1,4 +1,4 @@
-//! The place where somebody types: what kind of text is around it, and what the checker expects there.
+//! The place where the user types: what kind of text is around it, and what the checker expects there.
 
 use super::places::File;
 use super::programs::Program;
@@ -14,7 +14,7 @@ use gen_lsp_types::TextDocumentPositionParams;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// What may be missing behind a name for its line to be readable: nothing but brackets; the colon of a `case`; the rest
+/// What may be missing after a name for its line to be readable: nothing but brackets; the colon of a `case`; the rest
 /// of a `for`; the action of an event.
 const RESTS: [&str; 4] = ["", ":", ";", ", 0"];
 
@@ -37,9 +37,9 @@ pub(super) enum Surroundings {
     Type,
     /// Any other place of the program's text.
     Code,
-    /// Behind a number, at the byte where it begins.
+    /// After a number, at the byte where it begins.
     Number(u32),
-    /// In the path of an `import`, at the byte behind its quote.
+    /// In the path of an `import`, at the byte after its quote.
     Import(u32),
     /// In a comment or a text.
     Quiet,
@@ -69,7 +69,7 @@ impl<'a> Typing<'a> {
         None
     }
 
-    /// The file as it is without the name before the cursor: a unit that is not whole would make its number unreadable.
+    /// The file without the name before the cursor: an incomplete unit would make its number unreadable.
     pub(super) fn without_word(&self, server: &Server) -> Option<File> {
         let mut text = self.text.text.to_string();
         text.replace_range(self.word.start as usize..self.word.end as usize, "");
@@ -80,8 +80,8 @@ impl<'a> Typing<'a> {
     }
 
     /// The text with [`HERE`] at the cursor, in place of the rest of a name there, and with what may be missing to the
-    /// end of the line, where nothing but a comment follows there. `None` where something follows and something is to
-    /// be put between.
+    /// end of the line, if nothing but a comment follows there. `None` if something follows and `rest` would have to be
+    /// put between.
     fn marked(&self, rest: &str) -> Option<String> {
         let (before, behind) = self.text.text.split_at(self.offset as usize);
         let behind = behind.trim_start_matches(|one: char| one.is_ascii_alphanumeric() || one == '_');
@@ -122,7 +122,7 @@ fn closers(before: &str) -> String {
     open.into_iter().rev().collect()
 }
 
-/// What is around a place in front of which `word` begins: what becomes of another word there tells it.
+/// What is around the place where `word` begins, found by reading another word there.
 fn surroundings(text: &str, word: u32) -> Surroundings {
     let before = text.get(..word as usize).unwrap_or_default();
     let probed = format!("{before} x");
@@ -146,7 +146,7 @@ fn surroundings(text: &str, word: u32) -> Surroundings {
     }
 }
 
-/// Where a word is not a word: in a text, where that is the path of an import, or in a comment.
+/// Where a word is not read as a word: in a text, which may be the path of an import, or in a comment.
 fn unread(text: &str, line: &[(Lexeme, Span)]) -> Surroundings {
     if let [(_, first), .., (Lexeme::Faulty, last)] = line
         && first.text(text).eq_ignore_ascii_case("import")
@@ -157,7 +157,7 @@ fn unread(text: &str, line: &[(Lexeme, Span)]) -> Surroundings {
     Surroundings::Quiet
 }
 
-/// Whether a type is to be written: behind `const`, behind `func`, and in front of each of a function's parameters.
+/// Whether a type is expected: after `const`, after `func`, and before each of a function's parameters.
 fn wants_type(text: &str, line: &[(Lexeme, Span)], last: Lexeme, at: Span) -> bool {
     let is = |span: Span, word: &str| span.text(text).eq_ignore_ascii_case(word);
     let of_func = line.first().is_some_and(|(_, first)| is(*first, "func"));
@@ -179,7 +179,7 @@ fn closes_condition(text: &str, line: &[(Lexeme, Span)]) -> bool {
     begins && opened_twice.filter(|open| *open == 0).count() == 2
 }
 
-/// The sources with one text as it would be.
+/// The sources with one text replaced.
 struct Marked<'a> {
     server: &'a Server,
     path: &'a Path,

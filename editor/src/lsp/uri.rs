@@ -1,4 +1,4 @@
-//! Addresses of files as the protocol writes them.
+//! Addresses of files in the form of the protocol.
 
 use arl2rs::check::clean;
 use gen_lsp_types::Uri;
@@ -9,7 +9,7 @@ const FILE: &str = "file://";
 /// The path of a file's address. An address of another kind (a buffer that was never saved) stands for itself.
 pub(super) fn path_of(uri: &Uri) -> PathBuf {
     let Some(rest) = uri.0.strip_prefix(FILE) else { return PathBuf::from(&uri.0) };
-    // Between the slashes there may be a host, which is this machine.
+    // There may be a host between the slashes, which is this machine.
     let path = rest.find('/').and_then(|at| rest.get(at..)).unwrap_or(rest);
     let path = decoded(path);
     let drive = path.strip_prefix('/').filter(|rest| rest.as_bytes().get(1) == Some(&b':'));
@@ -30,7 +30,7 @@ pub(super) fn uri_of(path: &Path) -> Uri {
 /// The address of a file in the folder of another one, whose address is known.
 pub(super) fn beside(uri: &Uri, other: &Path, path: &Path) -> Option<Uri> {
     let (folder, name) = uri.0.rsplit_once('/')?;
-    // What stands behind the name in an address may have a slash.
+    // What follows the name in an address may contain a slash.
     let is_name = other.file_name().is_some_and(|other| decoded(name) == other.to_string_lossy());
     is_name.then_some(Uri(format!("{folder}/{}", encoded(&path.file_name()?.to_string_lossy()))))
 }

@@ -1,4 +1,4 @@
-//! The files of the workspace: which of them use which, so that a change is told to all that depend on it.
+//! The files of the workspace: which of them use which, so that all that depend on a changed file are updated.
 
 use super::programs::Program;
 use arl_lang::files::is_data;
@@ -6,11 +6,11 @@ use arl2rs::{CheckOptions, Sources};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// How many files a workspace is searched for.
+/// The most files that are looked for in a workspace.
 const MOST_FILES: usize = 5_000;
-/// How many folders deep they are looked for.
+/// The most levels of folders that are searched.
 const MOST_DEPTH: usize = 12;
-/// How many folders are searched.
+/// The most folders that are searched.
 const MOST_FOLDERS: usize = 5_000;
 /// Folders that hold no programs.
 const PASSED_OVER: [&str; 2] = ["target", "node_modules"];
@@ -20,7 +20,7 @@ const PASSED_OVER: [&str; 2] = ["target", "node_modules"];
 pub(super) struct Workspace {
     /// What each looked-at file reads or looks for.
     reads: BTreeMap<PathBuf, Vec<PathBuf>>,
-    /// Those that were not looked at since they changed.
+    /// The files that were not looked at since they changed.
     open: BTreeSet<PathBuf>,
 }
 
@@ -54,7 +54,7 @@ impl Workspace {
         }
     }
 
-    /// All files are to be looked at again: what an import means has changed.
+    /// Marks all files to be looked at again: what an import means has changed.
     pub(super) fn look_again(&mut self) {
         self.open.extend(self.reads.keys().cloned());
     }
@@ -92,7 +92,7 @@ impl Workspace {
         }
     }
 
-    /// The main files of all programs that depend on a file, itself not counted.
+    /// The main files of all programs that depend on a file, not counting the file itself.
     pub(super) fn dependents(&self, path: &Path) -> Vec<PathBuf> {
         let reading = self.reads.iter().filter(|(root, read)| *root != path && read.iter().any(|read| read == path));
         reading.map(|(root, _)| root.clone()).collect()

@@ -9,19 +9,19 @@ export function casesAmong(files: readonly string[]): string[] {
   return [...new Set(programs)].filter((program) => all.has(program) && !isHidden(program)).sort();
 }
 
-/** The folders to give to the command: those of these cases, without folders that lie in other ones. */
+/** The folders to pass to the command: those of these cases, without folders that lie inside others. */
 export function foldersOf(cases: readonly string[]): string[] {
   const folders = [...new Set(cases.map(folderOf))].sort();
   const isBelow = (inner: string, outer: string): boolean => inner !== outer && inner.startsWith(`${outer}/`);
   return folders.filter((folder) => !folders.some((other) => isBelow(folder, other)));
 }
 
-/** The folder of a path; parts are separated by `/`. */
+/** The folder of a path whose parts are separated by `/`. */
 export function folderOf(path: string): string {
   return path.slice(0, Math.max(path.lastIndexOf("/"), 0));
 }
 
-/** The command looks into no folder whose name begins with a point. */
+/** The command skips folders whose names begin with a dot. */
 function isHidden(path: string): boolean {
   return folderOf(path).split("/").some((part) => part.startsWith("."));
 }

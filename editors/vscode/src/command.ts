@@ -1,4 +1,4 @@
-// The command `arl2rs` of this machine, and what to say where it is missing.
+// The command `arl2rs` on this machine, and the message if it is missing.
 
 import * as fs from "node:fs";
 import * as os from "node:os";
@@ -6,17 +6,17 @@ import * as vscode from "vscode";
 import { environmentFor, locate, type Surroundings } from "./locate";
 import { commandSetting, firstFolder } from "./settings";
 
-/** The path of the command, if it is there. */
+/** The path of the command, if it exists. */
 export function findCommand(): string | undefined {
   return locate(surroundings());
 }
 
-/** The variables of the environment that the command needs beyond those of the editor. */
+/** The environment variables that the command needs in addition to those of the editor. */
 export function commandEnvironment(): Record<string, string> {
   return environmentFor(surroundings());
 }
 
-/** The path of the command. Where it is missing, the user is told, and may try again. */
+/** The path of the command. If it is missing, the user is informed and may try again. */
 export async function requireCommand(): Promise<string | undefined> {
   for (;;) {
     const found = findCommand();

@@ -8,7 +8,7 @@ import { options } from "./settings";
 /** The type of debugging sessions. */
 export const DEBUG_TYPE = "arl2rs";
 
-/** What the adapter says of a robot's motion; no file where it executes none. */
+/** What the adapter reports about a robot's motion; no file if it executes none. */
 interface MotionPointer {
   readonly channel: number;
   readonly file?: string | null;
@@ -43,7 +43,7 @@ async function adapter(): Promise<vscode.DebugAdapterDescriptor | undefined> {
   return new vscode.DebugAdapterExecutable(command, ["dap"], { env: commandEnvironment() });
 }
 
-/** Lets the program of the active thread run until its robot begins another motion. */
+/** Continues the program of the active thread until its robot begins another motion. */
 async function nextMotion(): Promise<void> {
   const session = vscode.debug.activeDebugSession;
   if (session?.type === DEBUG_TYPE) {

@@ -1,4 +1,4 @@
-// The extension begins here.
+// The entry point of the extension.
 
 import * as vscode from "vscode";
 import { registerDebugging } from "./debug";

@@ -1,8 +1,8 @@
-// What a launch configuration leaves out comes from the settings.
+// Fills in a launch configuration from the settings.
 
 import type { Options } from "./options";
 
-/** A launch configuration, as far as it is known. */
+/** A launch configuration, as far as it is given. */
 export interface Configuration {
   type: string;
   request: string;
@@ -10,7 +10,7 @@ export interface Configuration {
   [key: string]: unknown;
 }
 
-/** The whole configuration; nothing where there is no program to debug. */
+/** The complete configuration; undefined if there is no program to debug. */
 export function launchConfiguration<T extends Configuration>(
   given: T,
   program: string | undefined,
@@ -21,7 +21,7 @@ export function launchConfiguration<T extends Configuration>(
   const defaults = Object.entries({ program, cwd: folder, robot, cell, io, scriptDir });
   const filled: Configuration = { ...given };
   if (!given.type) {
-    // Nothing is configured: the active program is debugged.
+    // Without a configuration the active program is debugged.
     Object.assign(filled, { type: "arl2rs", request: "launch", name: "Debug ARL Program" });
   }
   for (const [key, value] of defaults) {

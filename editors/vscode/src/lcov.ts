@@ -13,7 +13,7 @@ export interface FunctionCoverage {
   readonly count: number;
 }
 
-/** Reads lcov; lines that mean nothing here are passed over. */
+/** Reads lcov; lines without meaning here are skipped. */
 export function readLcov(text: string): FileCoverage[] {
   const files: FileCoverage[] = [];
   let file = "";

@@ -4,18 +4,18 @@ import * as path from "node:path";
 
 /** What the search depends on. */
 export interface Surroundings {
-  /** The setting `arl2rs.path`; empty where nothing is set. */
+  /** The setting `arl2rs.path`; empty if not set. */
   readonly setting: string;
   readonly environment: Readonly<Record<string, string | undefined>>;
   readonly home: string;
-  /** The folder that a relative path in the setting counts from. */
+  /** The folder to which a relative path in the setting is relative. */
   readonly folder: string | undefined;
   readonly windows: boolean;
-  /** Whether a file is there that can be executed. */
+  /** Whether there is an executable file at a path. */
   readonly isCommand: (file: string) => boolean;
 }
 
-/** The path of the command. With a setting nothing else is tried. */
+/** The path of the command. If the setting is given, nothing else is tried. */
 export function locate(around: Surroundings): string | undefined {
   if (around.setting !== "") {
     return spellings(expanded(around), around.windows).find(around.isCommand);
@@ -25,13 +25,13 @@ export function locate(around: Surroundings): string | undefined {
     .find(around.isCommand);
 }
 
-/** The environment for the command. It calls `cargo`, so the folder that has it must be in `PATH`. */
+/** The environment for the command, which calls `cargo`: the folder of `cargo` must be in `PATH`. */
 export function environmentFor(around: Surroundings): Record<string, string> {
   const key = pathKey(around);
   return { [key]: searched(around).join(paths(around).delimiter) };
 }
 
-/** The folders of `PATH`, and those that cargo installs into. */
+/** The folders of `PATH` and the folders into which cargo installs. */
 function searched(around: Surroundings): string[] {
   const { join, delimiter } = paths(around);
   const listed = (around.environment[pathKey(around)] ?? "").split(delimiter);
@@ -40,7 +40,7 @@ function searched(around: Surroundings): string[] {
   return [...new Set(all.filter((folder) => folder !== ""))];
 }
 
-/** Windows spells it `Path`. */
+/** The name of the variable `PATH`, which Windows spells `Path`. */
 function pathKey(around: Surroundings): string {
   const same = (key: string) => (around.windows ? key.toUpperCase() === "PATH" : key === "PATH");
   return Object.keys(around.environment).find(same) ?? "PATH";

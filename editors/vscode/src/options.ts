@@ -1,4 +1,4 @@
-// The options of the command `arl2rs`, and the argument lists that they become.
+// The options of the command `arl2rs`, and the argument lists made from them.
 
 export interface Options {
   readonly robot: string;
@@ -8,10 +8,10 @@ export interface Options {
   readonly strict: boolean;
 }
 
-/** What a task can do. */
+/** The actions of a task. */
 export type Action = "run" | "check" | "test" | "pendant";
 
-/** The arguments for an action on a program, or on a folder with cases. */
+/** The arguments for an action on a program, or on a folder of cases. */
 export function argumentsOf(action: Action, path: string, options: Options, more: readonly string[] = []): string[] {
   switch (action) {
     case "run":
@@ -25,7 +25,7 @@ export function argumentsOf(action: Action, path: string, options: Options, more
   }
 }
 
-/** What the language server takes: only what is set. */
+/** The options for the language server: only those that are set. */
 export function serverOptions(options: Options): Record<string, string | boolean> {
   const { robot, cell, scriptDir, strict } = options;
   const texts = Object.entries({ robot, cell, scriptDir }).filter(([, value]) => value !== "");

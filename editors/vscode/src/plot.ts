@@ -1,11 +1,11 @@
-// Shows the drawing of a run beside the program.
+// Shows the plot of a run beside the program.
 
 import * as vscode from "vscode";
 
 export class PlotView implements vscode.Disposable {
   private panel: vscode.WebviewPanel | undefined;
 
-  /** Shows a drawing. Nothing happens where the run made none; it has said why. */
+  /** Shows a plot. Does nothing if the run made none: the run has reported the reason. */
   async show(drawing: vscode.Uri): Promise<void> {
     const bytes = await vscode.workspace.fs.readFile(drawing).then((read) => read, () => undefined);
     if (bytes === undefined) {
@@ -31,7 +31,7 @@ export class PlotView implements vscode.Disposable {
   }
 }
 
-/** The drawing stands in the page itself, so that its own tips work; scripts do not. */
+/** The plot is embedded in the page itself, so that its tooltips work; scripts are not allowed. */
 function page(svg: string): string {
   const drawing = svg.replace(/^\s*<\?xml[^>]*\?>/, "");
   return [

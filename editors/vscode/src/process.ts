@@ -1,11 +1,11 @@
-// Runs the command: collects what it prints, or asks whether it knows a subcommand.
+// Runs the command: collects its output, or checks whether it has a subcommand.
 
 import { execFile, spawn } from "node:child_process";
 import type * as vscode from "vscode";
 import { commandEnvironment } from "./command";
 
 export interface Ended {
-  /** The exit code; absent where the command was ended from outside. */
+  /** The exit code; absent if the command was ended from outside. */
   readonly code: number | undefined;
   readonly out: string;
   readonly err: string;

@@ -1,4 +1,4 @@
-// The commands that do something with a program: run, check, test, plot, pendant.
+// The commands that act on a program: run, check, test, plot, pendant.
 
 import * as path from "node:path";
 import * as vscode from "vscode";
@@ -67,7 +67,7 @@ async function ended(task: vscode.Task): Promise<void> {
   }
 }
 
-/** The file that a code lens names, or that of the active editor; saved, and shown, as alarms are relative to it. */
+/** The file of a code lens, or of the active editor; it is saved and shown, as alarms are relative to it. */
 async function program(uri: unknown): Promise<string | undefined> {
   const document = await documentOf(uri);
   if (document === undefined) {

@@ -2,18 +2,18 @@
 
 /** A case that did not pass. */
 export interface Failure {
-  /** Its path as it was printed. */
+  /** The path as printed. */
   readonly file: string;
   readonly message: string;
-  /** What was expected and what came, where outputs or errors differ. */
+  /** The expected and the actual text, if outputs or errors differ. */
   readonly difference?: { readonly expected: string; readonly actual: string };
-  /** Where the message points to; lines and columns from 1. */
+  /** The place that the message points to; lines and columns from 1. */
   readonly place?: { readonly file: string; readonly line: number; readonly column: number };
 }
 
 export interface Report {
   readonly failures: readonly Failure[];
-  /** The counts of the last line. Without them the command gave up before. */
+  /** The counts of the last line. Without them, the command gave up early. */
   readonly counts: { readonly passed: number; readonly failed: number } | undefined;
 }
 

@@ -14,10 +14,10 @@ import { options } from "./settings";
 
 export class Server implements vscode.Disposable {
   private client: LanguageClient | undefined;
-  /** Starts and stops come one after the other. */
+  /** Starts and stops are executed one after the other. */
   private last: Promise<void> = Promise.resolve();
 
-  /** Starts the server, or starts it anew. */
+  /** Starts or restarts the server. */
   restart(): Promise<void> {
     return this.then(async () => {
       await this.end();
@@ -25,7 +25,7 @@ export class Server implements vscode.Disposable {
     });
   }
 
-  /** Tells the server what the settings say now. */
+  /** Sends the current settings to the server. */
   settingsChanged(): Promise<void> {
     return this.then(async () => {
       const settings = { arl2rs: serverOptions(options()) };
@@ -53,7 +53,7 @@ export class Server implements vscode.Disposable {
   private async begin(): Promise<void> {
     const command = findCommand();
     if (command === undefined) {
-      // The message may stay for long; nothing waits for it.
+      // The message may stay for a long time; nothing waits for it.
       void requireCommand().then((found) => (found === undefined ? undefined : this.restart()));
       return;
     }
@@ -82,7 +82,7 @@ export class Server implements vscode.Disposable {
   private async end(): Promise<void> {
     const client = this.client;
     this.client = undefined;
-    // A client that never started refuses to stop.
+    // Stopping a client that never started fails.
     await client?.dispose().catch(() => undefined);
   }
 }

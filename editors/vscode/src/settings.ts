@@ -3,7 +3,7 @@
 import * as vscode from "vscode";
 import type { Options } from "./options";
 
-/** What `arl2rs.path` says; empty where it says nothing. */
+/** The setting `arl2rs.path`; empty if not set. */
 export function commandSetting(): string {
   return vscode.workspace.getConfiguration("arl2rs").get("path", "").trim();
 }
@@ -21,7 +21,7 @@ export function options(): Options {
   };
 }
 
-/** The folder that relative paths in settings count from. */
+/** The folder to which relative paths in settings are relative. */
 export function firstFolder(): string | undefined {
   return vscode.workspace.workspaceFolders?.find((folder) => folder.uri.scheme === "file")?.uri.fsPath;
 }

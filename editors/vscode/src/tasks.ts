@@ -7,7 +7,7 @@ import { firstFolder, options } from "./settings";
 
 export const TASK_TYPE = "arl2rs";
 
-/** A task as `tasks.json` has it. */
+/** A task as in `tasks.json`. */
 interface Definition extends vscode.TaskDefinition {
   readonly command: Action;
   readonly path?: string;
@@ -15,7 +15,7 @@ interface Definition extends vscode.TaskDefinition {
 }
 
 const ACTIONS: readonly Action[] = ["run", "check", "test", "pendant"];
-/** What to look for in the output. Cases name their files as seen from their folders: the test view shows those. */
+/** The problem matchers for the output. Cases name files relative to their own folders: the test view shows those. */
 const MATCHERS: Readonly<Record<Action, string[]>> = {
   run: ["$arl2rs", "$arl2rs-alarm"],
   check: ["$arl2rs"],
@@ -23,7 +23,7 @@ const MATCHERS: Readonly<Record<Action, string[]>> = {
   pendant: ["$arl2rs-alarm"],
 };
 
-/** A task that does something with a program, or with a folder of cases. */
+/** A task that acts on a program or on a folder of cases. */
 export function taskFor(command: string, action: Action, path: string, more: readonly string[] = []): vscode.Task {
   return build(command, { type: TASK_TYPE, command: action, path, args: [...more] });
 }

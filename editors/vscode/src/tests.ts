@@ -1,4 +1,4 @@
-// The view of tests: cases of the workspace, run by `arl2rs test`.
+// The test view: the cases of the workspace, run by `arl2rs test`.
 
 import { readFile, rm } from "node:fs/promises";
 import * as os from "node:os";
@@ -13,7 +13,7 @@ import { firstFolder } from "./settings";
 
 const FILES = "**/*.{arl,out,err,alarm}";
 const LEFT_OUT = "**/{node_modules,target}/**";
-/** How long to wait for more changes of files before looking anew, in ms. */
+/** How long to wait for more file changes before searching again, in ms. */
 const QUIET = 300;
 
 export class TestView implements vscode.Disposable {
@@ -112,7 +112,7 @@ export class TestView implements vscode.Disposable {
     }
   }
 
-  /** The cases that are asked for. */
+  /** The requested cases. */
   private wanted(request: vscode.TestRunRequest): vscode.TestItem[] {
     const left_out = new Set(request.exclude ?? []);
     const cases: vscode.TestItem[] = [];
@@ -135,7 +135,7 @@ export class TestView implements vscode.Disposable {
   }
 }
 
-/** A file of which the editor is told what ran of it. */
+/** A file with its coverage for the editor. */
 class CoveredFile extends vscode.FileCoverage {
   constructor(
     uri: vscode.Uri,
@@ -161,7 +161,7 @@ function detailsOf(told: FileCoverage): vscode.FileCoverageDetail[] {
   return [...lines, ...functions];
 }
 
-/** Tells the view how the cases ended. The command runs whole folders, so that it may speak of others, too. */
+/** Reports to the view how the cases ended. The command runs whole folders, so it may report others, too. */
 function conclude(run: vscode.TestRun, cases: readonly vscode.TestItem[], ended: Ended): void {
   run.appendOutput(`${ended.err}${ended.out}`.replace(/\r?\n/g, "\r\n"));
   const report = readReport(ended.out);
@@ -207,7 +207,7 @@ function message(item: vscode.TestItem, failure: Failure): vscode.TestMessage {
   return told;
 }
 
-/** The path of an item with `/` between its parts. */
+/** The path of an item, with `/` between its parts. */
 function slashed(item: vscode.TestItem): string {
   return (item.uri?.fsPath ?? "").replaceAll("\\", "/");
 }

@@ -1,4 +1,4 @@
-//! What a file of the cache held when it was made: disks fill up, processes are killed, bits flip.
+//! Records what a file of the cache contained when it was made: disks fill up, processes are killed, bits flip.
 
 use arl_robot::regular_file;
 use std::io;
@@ -13,47 +13,47 @@ pub struct Content {
 }
 
 impl Content {
-    /// Of these bytes.
+    /// The content of these bytes.
     pub fn of(bytes: &[u8]) -> Self {
         Self { length: bytes.len() as u64, hash: XxHash3_64::oneshot(bytes) }
     }
 
-    /// Of a file.
+    /// The content of a file.
     ///
     /// # Errors
-    /// It cannot be read.
+    /// The file cannot be read.
     pub fn of_file(path: &Path) -> io::Result<Self> {
         Ok(Self::of(&regular_file::read(path)?))
     }
 
-    /// Whether a file holds this.
+    /// Whether a file has this content.
     pub fn is_in(self, path: &Path) -> bool {
-        // Most damage shows without reading.
+        // Most damage is detected without reading the file.
         let is_long_enough = path.metadata().is_ok_and(|about| about.len() == self.length);
         is_long_enough && Self::of_file(path).is_ok_and(|now| now == self)
     }
 
-    /// As [`parse`](Self::parse) reads it.
+    /// The text form that [`parse`](Self::parse) reads.
     pub fn text(self) -> String {
         format!("{}:{:016x}", self.length, self.hash)
     }
 
-    /// What [`text`](Self::text) wrote.
+    /// Parses the output of [`text`](Self::text).
     pub fn parse(text: &str) -> Option<Self> {
         let (length, hash) = text.split_once(':')?;
         Some(Self { length: length.parse().ok()?, hash: u64::from_str_radix(hash, 16).ok()? })
     }
 }
 
-/// What the last line of a sealed text begins with.
+/// The beginning of the last line of a sealed text.
 const SEAL: &str = "whole ";
 
-/// A text with a line behind it that tells whether it is whole.
+/// A text followed by a line that shows whether it is complete.
 pub fn sealed(text: &str) -> String {
     format!("{text}{SEAL}{}\n", Content::of(text.as_bytes()).text())
 }
 
-/// The text of a file that was [`sealed`]; nothing where there is none, or it is damaged.
+/// The text of a file that was [`sealed`]; `None` if the file does not exist or is damaged.
 pub fn read_sealed(path: &Path) -> Option<String> {
     let mut text = regular_file::read_text(path).ok()?;
     let seal = text.trim_end().rfind('\n')? + 1;
@@ -80,7 +80,7 @@ mod tests {
             let mut changed = text.clone().into_bytes();
             changed[at] ^= 1;
             std::fs::write(&path, &changed).expect("written");
-            // What stands in a line end's place belongs to no line.
+            // The byte in place of the line end belongs to no line.
             let is_end = at + 1 == text.len();
             assert!(read_sealed(&path).is_none() || is_end, "{at}");
             std::fs::write(&path, text.get(..at).expect("ASCII")).expect("written");

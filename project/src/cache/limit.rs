@@ -1,23 +1,23 @@
-//! How large the cache may become.
+//! Limits the size of the cache.
 
 use super::old::{Entry, Removed, bytes};
 use super::{Cache, Place};
 use arl_terminal::failure::Failure;
 use std::path::Path;
 
-/// The variable that says how many gigabytes the cache may take.
+/// The environment variable that limits the size of the cache, in gigabytes.
 const VARIABLE: &str = "ARL2RS_CACHE_LIMIT";
 
-/// What it may take where nobody says anything: some hundred programs.
+/// The default limit: some hundred programs.
 const USUAL: u64 = 4_000_000_000;
 
-/// Less would not hold a runtime with a program and its tests.
+/// The minimum limit: less would not hold a runtime with a program and its tests.
 const LEAST: u64 = 1_000_000_000;
 
-/// How many bytes the cache may take; none for any number.
+/// The maximum size of the cache in bytes; `None` for no limit.
 ///
 /// # Errors
-/// The variable has no number, or one that is too small.
+/// The variable is not a number, or the number is too small.
 pub(super) fn read() -> Result<Option<u64>, Failure> {
     match std::env::var(VARIABLE) {
         Ok(words) if !words.trim().is_empty() => of(words.trim()).ok_or_else(|| {
@@ -31,8 +31,9 @@ pub(super) fn read() -> Result<Option<u64>, Failure> {
 }
 
 impl Cache {
-    /// Removes programs, runtimes and results of sweeps, first what was not used for longest, until the rest is within
-    /// the limit. The program that was just made stays. Its runtime goes last: the next program then compiles it again.
+    /// Removes programs, runtimes and results of sweeps, the least recently used first, until the rest is within the
+    /// limit. The program that was just made stays. Its runtime is removed last: the next program would then compile it
+    /// again.
     pub fn keep_limit(&self, made: &Place, runtime: &Path) -> Removed {
         let mut removed = Removed::default();
         let Some(limit) = self.limit else { return removed };

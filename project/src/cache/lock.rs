@@ -1,4 +1,4 @@
-//! Folders of the cache that one process changes at a time.
+//! Locks folders of the cache, so that one process at a time changes them.
 
 use crate::build_failure;
 use arl_terminal::failure::Failure;
@@ -8,26 +8,26 @@ use std::io::ErrorKind;
 use std::path::Path;
 use std::time::SystemTime;
 
-/// Held until dropped, or until the process becomes the program.
+/// A lock, held until dropped, or until the process becomes the program.
 #[derive(Debug)]
 pub struct Lock {
     _file: File,
 }
 
 impl Lock {
-    /// Locks a folder, which is made where there is none, and notes that it is used now. `words` say what is waited
-    /// for.
+    /// Locks a folder, which is created if it does not exist, and records that it is used now. `words` is the text
+    /// shown while waiting.
     ///
     /// # Errors
-    /// The folder cannot be made, or not be locked.
+    /// The folder cannot be created or cannot be locked.
     pub fn take(folder: &Path, shared: bool, words: &str) -> Result<Self, Failure> {
         loop {
             std::fs::create_dir_all(folder).map_err(|error| unusable("make the folder", folder, &error))?;
             let path = folder.join(NAME);
             let lock = lock(&path, shared, words).map_err(|error| unusable("lock", &path, &error))?;
-            // Who was waited for may have removed the folder.
+            // The process that held the lock may have removed the folder.
             if path.exists() {
-                // Where the time cannot be set it is older than it should be: the folder goes earlier, and is made
+                // If the time cannot be set, it is older than it should be: the folder is removed earlier and made
                 // again.
                 let _ = lock.set_modified(SystemTime::now());
                 return Ok(Self { _file: lock });
@@ -35,7 +35,7 @@ impl Lock {
         }
     }
 
-    /// Locks a folder that nobody uses; nothing where somebody does. Notes no use.
+    /// Locks a folder that is not in use; `None` if it is. Does not record a use.
     pub(super) fn of_unused(folder: &Path) -> Option<Self> {
         let file = File::options().read(true).write(true).open(folder.join(NAME)).ok()?;
         match file.try_lock() {
@@ -46,7 +46,7 @@ impl Lock {
     }
 }
 
-/// Why a file or folder of the cache cannot be used, and what to do.
+/// The reason why a file or folder of the cache cannot be used, and what to do.
 fn unusable(doing: &str, path: &Path, error: &std::io::Error) -> Failure {
     match Failure::io(doing, path, error) {
         Failure::Other(said) => Failure::Other(build_failure::of(&said).unwrap_or(said)),
@@ -54,7 +54,7 @@ fn unusable(doing: &str, path: &Path, error: &std::io::Error) -> Failure {
     }
 }
 
-/// Opens the file of a lock, which is made where there is none. What is only started needs no more than to be read.
+/// Opens the file of a lock, which is created if it does not exist. To start a program, read access is sufficient.
 fn open(path: &Path, shared: bool) -> std::io::Result<File> {
     let opened = File::options().read(true).write(true).create(true).truncate(false).open(path);
     match opened {
@@ -75,28 +75,28 @@ fn lock(path: &Path, shared: bool, words: &str) -> std::io::Result<File> {
             let _waiting = Progress::start(words);
             if shared { file.lock_shared() } else { file.lock() }?;
         }
-        // A file system without locks: two runs at once are the user's business there.
+        // A file system without locks: the user must avoid two runs at once there.
         Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
         Err(TryLockError::Error(error)) => return Err(error),
     }
     Ok(file)
 }
 
-/// Whether a folder was locked once: then it is one of the cache.
+/// Whether a folder has ever been locked: it then belongs to the cache.
 pub(super) fn is_lockable(folder: &Path) -> bool {
     folder.join(NAME).is_file()
 }
 
-/// When a folder or a file was used last; that of its making, where nobody locked it. A time in the future is one of a
-/// clock that was wrong, or is: it counts as now, is made so, and ages from now on. Otherwise what was used then would
-/// stay longer than all that is used since.
+/// The time of the last use of a folder or a file, or of its creation if it was never locked. A time in the future
+/// comes from a clock that was or is wrong: it counts as now, is set to now, and ages from now on. Otherwise anything
+/// used at that time would stay longer than everything used since.
 pub(super) fn last_use(path: &Path) -> Option<SystemTime> {
     let of = |path: &Path| std::fs::metadata(path).and_then(|data| data.modified()).ok();
     let lock = path.join(NAME);
     let (used, noted) = of(&lock).map(|used| (used, lock.as_path())).or_else(|| Some((of(path)?, path)))?;
     let now = SystemTime::now();
     if used > now {
-        // Where it cannot be set, it is in the future the next time, too.
+        // If it cannot be set, it will be in the future the next time, too.
         let _ = File::options().write(true).open(noted).and_then(|file| file.set_modified(now));
     }
     Some(used.min(now))
@@ -104,7 +104,7 @@ pub(super) fn last_use(path: &Path) -> Option<SystemTime> {
 
 const NAME: &str = "lock";
 
-/// Has a folder of the cache be one that was used then.
+/// Sets the time of the last use of a folder of the cache.
 #[cfg(test)]
 pub(super) fn used_at(folder: &Path, when: SystemTime) {
     let lock = File::options().write(true).open(folder.join(NAME)).expect("the lock");

@@ -1,10 +1,10 @@
-//! What cargo made, as it was then: cargo itself looks at times only, and takes what is damaged for good.
+//! Records the files that cargo made: cargo itself compares only times and accepts damaged files.
 
 use super::content::{Content, read_sealed, sealed};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// The file of the record, in the folder of a program or a runtime.
+/// The file with the record, in the folder of a program or a runtime.
 pub const RECORD: &str = "made";
 
 /// The files that cargo made for a program or a runtime.
@@ -16,7 +16,7 @@ pub struct Made {
 }
 
 impl Made {
-    /// What is recorded in a folder. Where there is no record, or a damaged one, nothing is known.
+    /// Reads the record of a folder. If it does not exist or is damaged, no files are known.
     pub fn read(folder: &Path) -> Self {
         let record = folder.join(RECORD);
         let text = read_sealed(&record).unwrap_or_default();
@@ -27,8 +27,8 @@ impl Made {
         Self { record, files: text.lines().filter_map(entry).collect(), is_changed: false }
     }
 
-    /// The files that are not as they were made, which are not known any more. Those that are gone cargo makes again by
-    /// itself.
+    /// Returns the files that have changed since they were made and removes them from the record. Missing files are
+    /// made again by cargo itself.
     pub fn take_damaged(&mut self) -> Vec<PathBuf> {
         let is_damaged =
             |(path, content): (&PathBuf, &Content)| (path.exists() && !content.is_in(path)).then(|| path.clone());
@@ -40,12 +40,12 @@ impl Made {
         damaged
     }
 
-    /// Takes the record from the disk, until it is [written](Self::write) again.
+    /// Removes the record from the disk until it is [written](Self::write) again.
     pub fn forget(&mut self) {
         self.is_changed |= std::fs::remove_file(&self.record).is_ok();
     }
 
-    /// Records a file: one that was made now, or one that is not known.
+    /// Records a file that was made now or is not known yet.
     pub fn add(&mut self, path: &Path, is_new: bool) {
         let is_line = path.to_str().is_some_and(|path| !path.contains(['\n', '\r']));
         if !is_line || (!is_new && self.files.contains_key(path)) {
@@ -56,7 +56,7 @@ impl Made {
         }
     }
 
-    /// Writes the record. Without one nothing is known the next time: that is no reason to fail.
+    /// Writes the record. Without a record no files are known the next time, which is not an error.
     pub fn write(mut self) {
         let before = self.files.len();
         self.files.retain(|path, _| path.exists());

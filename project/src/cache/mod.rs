@@ -1,6 +1,6 @@
-//! Where compiled programs are kept: a folder `programs` with one for each program, and a folder `runtime` with one for
-//! each runtime: its sources, where the command carries them, and what cargo made with it; and a folder `results` with
-//! what came of sweeps.
+//! The storage of compiled programs: a folder `programs` with a folder for each program; a folder `runtime` with a
+//! folder for each runtime, which contains its sources if the command carries them, and what cargo made with it; and a
+//! folder `results` with the results of sweeps.
 
 mod content;
 mod limit;
@@ -20,22 +20,22 @@ use std::path::{Path, PathBuf};
 const PROGRAMS: &str = "programs";
 const RUNTIMES: &str = "runtime";
 const RESULTS: &str = "results";
-/// How files of results end.
+/// The extension of result files.
 const RESULTS_END: &str = "jsonl";
 
 /// The folder of all compiled programs of a user.
 #[derive(Clone, Debug)]
 pub struct Cache {
     root: PathBuf,
-    /// How many bytes it may take; none for any number.
+    /// The maximum size in bytes; `None` for no limit.
     limit: Option<u64>,
 }
 
 impl Cache {
-    /// `$ARL2RS_CACHE`, else the user's cache folder.
+    /// `$ARL2RS_CACHE`, otherwise the user's cache folder.
     ///
     /// # Errors
-    /// There is no such folder, or `$ARL2RS_CACHE_LIMIT` is not a limit.
+    /// There is no such folder, or `$ARL2RS_CACHE_LIMIT` is not a valid limit.
     pub fn find() -> Result<Self, Failure> {
         let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let home = || {
@@ -56,17 +56,17 @@ impl Cache {
         Ok(Self { root, limit: limit::read()? })
     }
 
-    /// Its folder.
+    /// The root folder.
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// The file of what came of runs, by what they depend on.
+    /// The file with the results of runs, by a key of what they depend on.
     pub fn results(&self, key: &str) -> PathBuf {
         self.root.join(RESULTS).join(key).with_extension(RESULTS_END)
     }
 
-    /// The folder of a program that was given as text, by the hash of that. It goes with the programs.
+    /// The folder of a program that was given as text, by the hash of the text. It belongs to the programs.
     pub fn text(&self, hash: &str) -> PathBuf {
         self.root.join(PROGRAMS).join(format!("text-{hash}"))
     }
@@ -98,7 +98,7 @@ impl Cache {
             .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
             .take(40)
             .collect();
-        // A package's name begins with a letter.
+        // The name of a package must begin with a letter.
         let name = format!("arl-{stem}-{:08x}", hasher.finish() as u32);
         Place { folder: self.root.join(PROGRAMS).join(&name), name }
     }
@@ -107,13 +107,13 @@ impl Cache {
 /// The folder of one program, and the name of its package.
 #[derive(Clone, Debug)]
 pub struct Place {
-    /// Where it is.
+    /// The path of the folder.
     pub folder: PathBuf,
-    /// What its package is called.
+    /// The name of the package.
     pub name: String,
 }
 
-/// What a program is compiled into. Each has a place of its own.
+/// What a program is compiled into. Each kind has a place of its own.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub enum Kind {
     /// A program.
@@ -128,7 +128,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// How the names of packages end that are not of programs.
+    /// The endings of package names for kinds other than `Program`.
     const ENDINGS: [&str; 3] = ["debug", "library", "named"];
 
     fn ending(self) -> Option<&'static str> {
@@ -143,19 +143,19 @@ impl Kind {
 }
 
 impl Place {
-    /// The place of what this program is compiled into.
+    /// The place of this program when compiled into `kind`.
     pub fn of(self, kind: Kind) -> Self {
         let Some(ending) = kind.ending() else { return self };
         let name = format!("{}-{ending}", self.name);
         Self { folder: self.folder.with_file_name(&name), name }
     }
 
-    /// The file that says what the program was compiled from.
+    /// The file that records what the program was compiled from.
     pub fn stamp(&self) -> PathBuf {
         self.folder.join("stamp")
     }
 
-    /// The file of what was said when the program was checked.
+    /// The file with the messages shown when the program was checked.
     pub fn said(&self) -> PathBuf {
         self.folder.join("said")
     }
@@ -169,10 +169,10 @@ impl Place {
     }
 }
 
-/// Writes a file unless it already has this content; says whether it wrote.
+/// Writes a file unless it already has this content; returns whether the file was written.
 ///
 /// # Errors
-/// It cannot be written.
+/// The file cannot be written.
 pub fn write_if_changed(path: &Path, content: &[u8]) -> Result<bool, Failure> {
     match arl2rs::sources::write_if_changed(path, content) {
         Ok(written) => Ok(written),

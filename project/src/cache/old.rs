@@ -1,11 +1,11 @@
-//! What the cache holds, and how it is removed.
+//! The contents of the cache, and their removal.
 
 use super::lock::{Lock, is_lockable, last_use};
 use super::{Cache, Kind, PROGRAMS, RESULTS, RESULTS_END, RUNTIMES};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// What was removed, and what was not.
+/// What was removed and what was not.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub struct Removed {
     /// Compiled programs.
@@ -14,20 +14,20 @@ pub struct Removed {
     pub runtimes: usize,
     /// Files with results of sweeps.
     pub results: usize,
-    /// What they took, in bytes.
+    /// The size of what was removed, in bytes.
     pub bytes: u64,
-    /// The folders that were not: another process uses them, or they cannot be removed.
+    /// The folders that were not removed: another process uses them, or they cannot be removed.
     pub kept: Vec<PathBuf>,
 }
 
-/// What an entry of the cache is.
+/// The kind of an entry of the cache.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum What {
     /// The folder of a program.
     Program,
     /// The folder of a runtime.
     Runtime,
-    /// The file with what came of a sweep.
+    /// The file with the results of a sweep.
     Results,
 }
 
@@ -40,7 +40,8 @@ pub(super) struct Entry {
 }
 
 impl Cache {
-    /// What it holds, results and programs first, each from the one that was not used for longest.
+    /// The contents of the cache: results, then programs, then runtimes; in each group the least recently used comes
+    /// first.
     pub(super) fn entries(&self) -> Vec<Entry> {
         let mut all = Vec::new();
         for (name, what) in [(RESULTS, What::Results), (PROGRAMS, What::Program), (RUNTIMES, What::Runtime)] {
@@ -54,11 +55,11 @@ impl Cache {
         all
     }
 
-    /// Removes what was not used for so long.
+    /// Removes everything that has not been used for this duration.
     pub fn clean(&self, unused_for: Duration) -> Removed {
         let now = SystemTime::now();
         let mut removed = Removed::default();
-        // What is used in the future is not old, unless all is to go.
+        // An entry with a time in the future is not old, unless everything is to be removed.
         let is_old = |entry: &Entry| {
             unused_for.is_zero() || now.duration_since(entry.used).is_ok_and(|unused| unused >= unused_for)
         };
@@ -68,9 +69,9 @@ impl Cache {
         removed
     }
 
-    /// Removes a program with what cargo keeps of it, a runtime, or results; not a folder that somebody uses.
+    /// Removes a program with what cargo keeps of it, a runtime, or results; but not a folder that is in use.
     pub(super) fn remove(&self, Entry { path, what, .. }: &Entry, removed: &mut Removed) {
-        // Who writes results goes on in the file that he has, and the next one begins anew.
+        // A process that is writing results continues in its open file; the next one starts a new file.
         let lock = (*what != What::Results).then(|| Lock::of_unused(path));
         if matches!(lock, Some(None)) {
             removed.kept.push(path.clone());
@@ -81,7 +82,8 @@ impl Cache {
             let runtimes = folders(&self.root.join(RUNTIMES));
             bytes += runtimes.map(|runtime| remove_made(path, &runtime.join("target"))).sum::<u64>();
         }
-        // Windows removes no folder with an open file in it; elsewhere nobody gets in between.
+        // Windows cannot remove a folder that contains an open file; on other systems the lock keeps other processes
+        // out until the end.
         let lock = (!cfg!(windows)).then_some(lock);
         bytes += remove(path);
         drop(lock);
@@ -95,8 +97,7 @@ impl Cache {
     }
 }
 
-/// Whether an entry was made by this command: the folder that is named for the cache may hold other things, and links
-/// to such.
+/// Whether an entry was made by this command: the folder given as the cache may contain other things and links to them.
 fn is_ours(path: &Path, what: What) -> bool {
     let kind = std::fs::symlink_metadata(path).map(|about| about.file_type());
     match what {
@@ -107,12 +108,12 @@ fn is_ours(path: &Path, what: What) -> bool {
     }
 }
 
-/// Removes what cargo made of a program, for its own use; how many bytes that gave back.
+/// Removes what cargo made of a program for its own use; returns the number of bytes freed.
 pub fn remove_made(program: &Path, target: &Path) -> u64 {
     made_of(program, target).iter().map(|path| remove(path)).sum()
 }
 
-/// What cargo made of a program in its folder for what it makes.
+/// The files that cargo made of a program in its target folder.
 fn made_of(program: &Path, target: &Path) -> Vec<PathBuf> {
     let Some(package) = program.file_name().map(|name| name.to_string_lossy().into_owned()) else { return Vec::new() };
     let profiles = folders(target);
@@ -124,9 +125,9 @@ fn made_of(program: &Path, target: &Path) -> Vec<PathBuf> {
     paths.filter(|path| path.file_name().is_some_and(|name| is_made_of(&name.to_string_lossy(), &package))).collect()
 }
 
-/// Whether cargo gives this name to something that it makes of a package: `package`, `package-0123456789abcdef.d`,
-/// `libpackage.so`, or the parts of a program of tests, `package-part1`; not what it makes of the same program for
-/// something else, `package-debug`.
+/// Whether this is the name of something that cargo makes of a package: `package`, `package-0123456789abcdef.d`,
+/// `libpackage.so`, or the parts of a program of tests, `package-part1`; but not of what it makes of the same program
+/// for another purpose, `package-debug`.
 fn is_made_of(name: &str, package: &str) -> bool {
     let name = name.strip_prefix(std::env::consts::DLL_PREFIX).unwrap_or(name);
     let is_other =
@@ -140,7 +141,7 @@ fn is_made_of(name: &str, package: &str) -> bool {
         })
 }
 
-/// How many bytes the files below a folder take, or a file; one with several names counts once among them.
+/// The size in bytes of a file, or of all files below a folder; a file with several names counts once among them.
 pub(super) fn bytes(path: &Path) -> u64 {
     let Ok(data) = std::fs::symlink_metadata(path) else { return 0 };
     if data.is_dir() { entries(path).map(|path| bytes(&path)).sum() } else { data.len() / names(&data) }
@@ -156,7 +157,7 @@ fn names(_: &std::fs::Metadata) -> u64 {
     1
 }
 
-/// Removes a folder or a file and says how many bytes that gave back. What cannot be removed stays.
+/// Removes a folder or a file and returns the number of bytes freed. What cannot be removed stays.
 fn remove(path: &Path) -> u64 {
     let before = bytes(path);
     let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
@@ -222,7 +223,7 @@ mod tests {
         program("arl-c-00000003", 3);
         drop(Lock::take(&root.join("runtime/r"), true, "").expect("a lock"));
         std::fs::write(root.join("not ours"), "stays").expect("written");
-        // Folders and files of somebody else, and links to such.
+        // Folders and files of other programs, and links to them.
         std::fs::create_dir_all(root.join("programs/mine")).expect("a folder");
         std::fs::create_dir_all(root.join("results")).expect("a folder");
         std::fs::write(root.join("results/mine.txt"), "stays").expect("written");
@@ -253,7 +254,7 @@ mod tests {
         std::fs::remove_dir_all(&root).expect("removed");
     }
 
-    /// The clock of the computer was set back since it was used.
+    /// The clock of the computer was set back since the entry was used.
     #[test]
     fn what_was_used_in_the_future_ages_from_now_on() {
         let root = std::env::temp_dir().join(format!("arl2rs-future-{}", std::process::id()));
@@ -275,7 +276,7 @@ mod tests {
         let is_now =
             |path: &Path| path.metadata().and_then(|data| data.modified()).expect("a time") <= SystemTime::now();
         assert!(is_now(&future.join("lock")) && is_now(&results), "they would stay for ten years");
-        // What is used after that goes later.
+        // An entry used after that is removed later.
         let later = stamped("arl-b-00000002", SystemTime::now());
         let order: Vec<PathBuf> = cache.entries().into_iter().map(|entry| entry.path).collect();
         assert_eq!(order, [results, future, later]);

@@ -6,7 +6,9 @@ import numpy as np
 import arl2rs
 
 program = arl2rs.compile("pick.arl", scenario="scenario.toml", robot="six-10", cell=None)
-text = arl2rs.compile(source="func void main()\nendfunc\n", beside={"program_data.arl": arl2rs.points("weld", np.zeros((5, 6)))})
+text = arl2rs.compile(
+    source="func void main()\nendfunc\n", beside={"program_data.arl": arl2rs.points("weld", np.zeros((5, 6)))}
+)
 result: arl2rs.Result = program.run(globals={"pitch": 100}, points={"feeder": {"y": -400}}, override=80, watch=["do.1"])
 assert result.outcome == "ended" or result.outcome == "alarm"
 slow = program.run(mode="manual")

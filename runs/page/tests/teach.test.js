@@ -66,7 +66,7 @@ test("a point is moved by 50 mm: git diff shows it, and the program goes there",
   await page.getByRole("button", { name: "Reset" }).click();
   await page.waitForFunction(() => window.page.run.told.log.some((log) => log.text === "950"), undefined, { timeout: 20000 });
   await page.getByRole("button", { name: "Undo" }).click();
-  await page.waitForFunction(() => window.page.teach.told.undo === 0);
+  await page.waitForFunction(() => window.page.teach.data.undo === 0);
   assert.equal(points(), POINTS);
   assert.deepEqual(troubles, []);
 });
@@ -79,10 +79,10 @@ test("groups are shifted and mirrored, configurations offered, the TCP dragged",
   for (const name of ["feeder", "pallet"]) await page.getByRole("checkbox", { name }).click();
   await page.getByLabel("by z").fill("25");
   await page.getByRole("button", { name: "Shift" }).click();
-  await page.waitForFunction(() => window.page.teach.told.undo === 1);
+  await page.waitForFunction(() => window.page.teach.data.undo === 1);
   assert.match(points(), /feeder = {x 900, y -500, z 425,.*\n.*pallet = {x 800, y 300, z 375,/);
   await page.getByRole("button", { name: "Mirror y" }).click();
-  await page.waitForFunction(() => window.page.teach.told.undo === 2);
+  await page.waitForFunction(() => window.page.teach.data.undo === 2);
   assert.match(points(), /feeder = {x 900, y 500, z 425,.*\n.*pallet = {x 800, y -300, z 375,/);
   // All configurations are offered, those that do not reach with a reason.
   await page.getByText("feeder", { exact: true }).click();
@@ -94,9 +94,9 @@ test("groups are shifted and mirrored, configurations offered, the TCP dragged",
   );
   // Dragged out of reach it says so, and nothing can be taught there.
   await page.evaluate(() => {
-    const teach = window.page.teach;
-    teach.handle.position.set(4, 0, 1);
-    teach.dragged();
+    const { robot } = window.page.teach;
+    robot.handle.position.set(4, 0, 1);
+    robot.dragged();
   });
   await page.locator(".teach .hint", { hasText: "out of reach" }).waitFor();
   assert.ok(await page.getByRole("button", { name: "Teach", exact: true }).isDisabled());
@@ -104,7 +104,7 @@ test("groups are shifted and mirrored, configurations offered, the TCP dragged",
   await page.getByText("pallet", { exact: true }).click();
   await page.waitForFunction(() => window.page.teach.place?.nearest !== null);
   await page.getByRole("button", { name: "Map" }).click();
-  await page.waitForFunction(() => window.page.teach.mapped?.children.length === 1);
+  await page.waitForFunction(() => window.page.teach.mapped?.group.children.length === 1);
   assert.deepEqual(troubles, []);
 });
 

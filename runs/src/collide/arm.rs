@@ -6,18 +6,18 @@ use parry3d_f64::math::{Pose, Rotation, Vector};
 
 use arl_wire::{Moves, Runs, placed};
 
-/// A robot's arm in its base, which stands in the world; or a carrier, with those that it is on as links. Lengths are
-/// mm.
+/// A robot's arm on its base, which is placed in the world; or a carrier, with the carriers that it is on as links.
+/// Lengths are in mm.
 pub(super) struct Arm {
     /// The channel of the robot, from 0.
     channel: usize,
     joints: Vec<Joint>,
     /// Which of the robot's axes are its own, in the order of its joints.
     own: Vec<usize>,
-    /// What external axes move stands where it is built, whatever `$BASE` is.
+    /// Whether it is a carrier: what external axes move is where it is built, whatever `$BASE` is.
     is_carrier: bool,
     flange: Pose,
-    /// x, y, z in mm, a, b, c in deg; empty as long as that is not known.
+    /// x, y, z in mm, a, b, c in deg; empty as long as the base is not known.
     base: Vec<f64>,
     base_pose: Pose,
     based: u32,
@@ -29,7 +29,7 @@ pub(super) struct Arm {
 
 struct Joint {
     joint: LinkJoint,
-    /// The farthest that the link's origin gets from that of the link before, in mm.
+    /// The greatest distance of the link's origin from that of the link before, in mm.
     length: f64,
 }
 
@@ -46,10 +46,11 @@ impl Arm {
         let joint = |(joint, axis): (&arl_wire::LinkJoint, &arl_wire::Axis)| Joint::new(joint.joint(), axis);
         let joints: Vec<Joint> = runs.links.iter().zip(&runs.axes).map(joint).collect();
         let own = (0..joints.len()).collect();
-        Self::of(channel, (joints, own), of_frame(&placed(&runs.flange)), false)
+        Self::of(channel, joints, own, of_frame(&placed(&runs.flange)), false)
     }
 
-    /// What an external axis of the robot of a channel moves, with what that is on; `None`: the robot has no such axis.
+    /// What an external axis of a channel's robot moves, with the carriers that it is on; `None` if the robot has no
+    /// such axis.
     pub(super) fn carrier(carriers: &[Carrier], at: usize, all: &[Runs]) -> Option<Self> {
         let channel = carriers.get(at)?.channel as usize - 1;
         let runs = all.get(channel)?;
@@ -59,10 +60,10 @@ impl Arm {
             joints.push(Joint::new(carrier.joint(axis.is_linear()), axis));
             own.push(number);
         }
-        Some(Self::of(channel, (joints, own), Pose::IDENTITY, true))
+        Some(Self::of(channel, joints, own, Pose::IDENTITY, true))
     }
 
-    fn of(channel: usize, (joints, own): (Vec<Joint>, Vec<usize>), flange: Pose, is_carrier: bool) -> Self {
+    fn of(channel: usize, joints: Vec<Joint>, own: Vec<usize>, flange: Pose, is_carrier: bool) -> Self {
         let (base, axes) = (Vec::new(), vec![0.0; joints.len()]);
         let (base_pose, links) = (Pose::IDENTITY, Vec::new());
         let mut arm = Self { channel, joints, own, is_carrier, flange, base, base_pose, based: 0, axes, links };
@@ -70,12 +71,12 @@ impl Arm {
         arm
     }
 
-    /// The channel of the robot that it is, or whose axes move it, from 0.
+    /// The channel, from 0, of the robot that it is, or of the one whose axes move it.
     pub(super) fn channel(&self) -> usize {
         self.channel
     }
 
-    /// Takes in where it is. Where its base stands is known once it has moved.
+    /// Moves the arm to its present position. The place of its base is known once the robot has moved.
     pub(super) fn go_to(&mut self, moves: &Moves) {
         let is_based = moves.line > 0 && !self.is_carrier;
         let base = if is_based { &moves.base[..] } else { &[] };
@@ -97,12 +98,12 @@ impl Arm {
         self.place_links();
     }
 
-    /// Whether it is a robot, no carrier.
+    /// Whether it is a robot, not a carrier.
     pub(super) fn is_robot(&self) -> bool {
         !self.is_carrier
     }
 
-    /// How many of its joints are those of another arm, from the world or the base on.
+    /// How many joints it shares with another arm, from the world or the base on.
     pub(super) fn shared_with(&self, other: &Arm) -> usize {
         if (self.channel, self.is_carrier) != (other.channel, other.is_carrier) {
             return 0;
@@ -110,12 +111,12 @@ impl Arm {
         self.own.iter().zip(&other.own).take_while(|(one, other)| one == other).count()
     }
 
-    /// Whether it is known where its base stands.
+    /// Whether the place of its base is known.
     pub(super) fn is_based(&self) -> bool {
         self.is_carrier || !self.base.is_empty()
     }
 
-    /// How often its base came to stand elsewhere.
+    /// How often the place of its base has changed.
     pub(super) fn based(&self) -> u32 {
         self.based
     }
@@ -153,10 +154,10 @@ impl Arm {
         &self.axes
     }
 
-    /// The most that a place of the last of these links moves against the link before the first one, in mm, while the
-    /// axes go from `before` to where they are now. The place is no farther from its link's origin than `away`.
+    /// The most that a point of the last of these links moves relative to the link before the first one, in mm, while
+    /// the axes go from `before` to their present positions. The point is at most `away` from its link's origin.
     pub(super) fn moved(&self, before: &[f64], links: std::ops::Range<usize>, away: f64) -> f64 {
-        // From the last joint on back, each one swings all that is behind it.
+        // From the last joint backwards, each joint swings all links after it.
         let mut reach = away;
         let mut moved = 0.0;
         let all = self.joints.iter().zip(self.axes.iter().zip(before));
@@ -169,7 +170,7 @@ impl Arm {
     }
 }
 
-/// A frame of the robot's kinematics.
+/// Converts a frame of the robot's kinematics.
 pub(super) fn of_frame(frame: &Frame) -> Pose {
     let (at, turned) = (frame.translation.vector, frame.rotation.coords);
     Pose::from_parts(Vector::new(at.x, at.y, at.z), Rotation::from_xyzw(turned.x, turned.y, turned.z, turned.w))

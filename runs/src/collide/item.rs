@@ -13,23 +13,24 @@ use arl_wire::Runs;
 #[derive(Clone)]
 pub(super) struct Item {
     pub(super) name: String,
-    /// What all of its kind are called: bodies of a `count`, or that limb of every robot.
+    /// The common name of its kind: of the bodies of a `count`, or of the same limb of every robot.
     pub(super) kind: Option<String>,
     pub(super) shape: SharedShape,
     pub(super) holder: Holder,
     /// Where the shape is in its holder.
     pub(super) at: Pose,
-    /// What it is of a robot, if it is.
+    /// Which limb of a robot it is, if any.
     pub(super) limb: Option<Limb>,
-    /// How far its places are from its shape's origin at most, in mm.
+    /// The greatest distance of its points from its shape's origin, in mm.
     pub(super) radius: f64,
-    /// It is there only while this has this level.
+    /// It is there only while this signal has this level.
     pub(super) when: Option<(Signal, bool)>,
-    /// What it is of a body that a robot takes along, if it is.
+    /// Which form it is of a body that a robot takes along, if any.
     pub(super) part: Option<CarriedForm>,
-    /// Such a body is not there, or it is held and this is how it stands, or the other way round.
+    /// Whether such a form is not in use: the body is not there, or it is held and this is its standing form, or the
+    /// other way round.
     pub(super) absent: bool,
-    /// The names of what it may touch, and of kinds.
+    /// The names of the items, and of the kinds, that it may touch.
     pub(super) may_touch: Vec<String>,
 }
 
@@ -38,7 +39,7 @@ pub(super) struct Item {
 pub(super) enum Limb {
     /// A capsule: its place from the base on, its length and its radius in mm.
     Capsule { at: usize, length: f64, radius: f64 },
-    /// A form of a link, of so many links; the base is 0.
+    /// A form of a link, with the number of links; the base is 0.
     Link { link: usize, of: usize },
 }
 
@@ -53,7 +54,7 @@ pub(super) struct CarriedForm {
     pub(super) by: usize,
 }
 
-/// What an item is fixed to. Arms are the robots of the channels, from 0, and behind them what carriers are.
+/// What an item is fixed to. Arms are the robots of the channels, from 0, followed by the carriers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Holder {
     World,
@@ -78,7 +79,7 @@ impl Holder {
         }
     }
 
-    /// The same, once robots are known: a carrier is the last link of an arm behind those of so many channels.
+    /// The holder once the robots are known: a carrier is the last link of an arm after those of the channels.
     pub(super) fn in_arms(self, channels: usize, arms: &[Option<Arm>]) -> Self {
         let Self::Carrier(number) = self else { return self };
         let arm = channels + number;
@@ -88,18 +89,18 @@ impl Holder {
 }
 
 impl Item {
-    /// A shape that reaches so far, in mm, on something.
-    fn new(name: String, (shape, radius): (SharedShape, f64), holder: Holder, at: Pose) -> Self {
+    /// A shape that reaches `radius` mm, fixed to a holder.
+    fn new(name: String, shape: SharedShape, radius: f64, holder: Holder, at: Pose) -> Self {
         let (kind, limb, when, part, absent, may_touch) = (None, None, None, None, false, Vec::new());
         Self { name, kind, shape, holder, at, limb, radius, when, part, absent, may_touch }
     }
 
-    /// Whether it says that it may touch another one.
+    /// Whether it is declared that it may touch another item.
     pub(super) fn may_touch(&self, other: &Self) -> bool {
         self.may_touch.iter().any(|name| *name == other.name || other.kind.as_ref() == Some(name))
     }
 
-    /// How far its places are from its holder's origin at most, in mm.
+    /// The greatest distance of its points from its holder's origin, in mm.
     pub(super) fn farthest(&self) -> f64 {
         self.at.translation.length() + self.radius
     }
@@ -113,23 +114,22 @@ pub(super) fn limbs(channel: usize, runs: &Runs) -> Vec<Item> {
         let radius = from.length().max(to.length()) + limb.radius;
         let holder = Holder::Link { arm: channel, link: limb.link };
         let kind = Limb::Capsule { at, length: (to - from).length(), radius: limb.radius };
-        Item { limb: Some(kind), ..Item::new(limb.name.clone(), (shape, radius), holder, Pose::IDENTITY) }
+        Item { limb: Some(kind), ..Item::new(limb.name.clone(), shape, radius, holder, Pose::IDENTITY) }
     };
     runs.limbs.iter().enumerate().map(limb).collect()
 }
 
-/// A link of a robot by its forms: each mesh as its convex hull.
-pub(super) fn of_link(channel: usize, (link, of): (usize, usize), looks: &Looks) -> Result<Vec<Item>, String> {
+/// The forms of a link of a robot, each mesh as its convex hull.
+pub(super) fn of_link(channel: usize, link: usize, of: usize, looks: &Looks) -> Result<Vec<Item>, String> {
     let item = |piece: &Piece| {
         let (shape, at, radius) = form(piece, Meshes::Hulls)?;
         let limb = Some(Limb::Link { link, of });
-        Ok(Item { limb, ..Item::new(String::new(), (shape, radius), Holder::Link { arm: channel, link }, at) })
+        Ok(Item { limb, ..Item::new(String::new(), shape, radius, Holder::Link { arm: channel, link }, at) })
     };
     looks.touched.iter().map(item).collect()
 }
 
-/// The forms of a body of the cell, which is number `number` of them. What a robot takes along is there twice, standing
-/// and held.
+/// The forms of body `number` of the cell. A body that a robot takes along is there twice, standing and held.
 pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<Item>, String> {
     let holder = match body.holder {
         cell::Holder::World => Holder::World,
@@ -141,13 +141,13 @@ pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<I
     for piece in &looks.touched {
         let (shape, piece, radius) = form(piece, Meshes::Surfaces)?;
         let (kind, may_touch) = (body.kind.clone(), body.may_touch.clone());
-        let item = Item { kind, may_touch, ..Item::new(body.name.clone(), (shape, radius), holder, place * piece) };
+        let item = Item { kind, may_touch, ..Item::new(body.name.clone(), shape, radius, holder, place * piece) };
         let Some(grip) = body.grip else {
             items.push(Item { when: body.when, ..item });
             continue;
         };
         let by = grip.channel as usize - 1;
-        // Where it is will be said.
+        // Its place will be reported.
         let standing = Item { part: Some(CarriedForm { body: number, piece, by }), absent: true, ..item };
         items.push(Item { holder: Holder::Flange { arm: by }, ..standing.clone() });
         items.push(standing);
@@ -155,20 +155,20 @@ pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<I
     Ok(items)
 }
 
-/// The forms of a body, each where it is in the body: each mesh as its convex hull, in which places are, too.
+/// The forms of a body, each where it is in the body: each mesh as its convex hull, which points can be inside.
 pub(super) fn hulls(looks: &Looks) -> Result<Vec<(SharedShape, Pose)>, String> {
     let hull = |piece: &Piece| form(piece, Meshes::Hulls).map(|(shape, at, _)| (shape, at));
     looks.touched.iter().map(hull).collect()
 }
 
-/// What of a mesh counts.
+/// Which shape of a mesh counts.
 #[derive(Clone, Copy, PartialEq)]
 enum Meshes {
     Surfaces,
     Hulls,
 }
 
-/// The shape of a piece, where that is in what the piece belongs to, and how far it reaches from there, in mm.
+/// The shape of a piece, its place in what the piece belongs to, and how far it reaches from there, in mm.
 fn form(piece: &Piece, meshes: Meshes) -> Result<(SharedShape, Pose, f64), String> {
     let at = of_frame(&piece.at);
     Ok(match &piece.solid {
@@ -177,7 +177,7 @@ fn form(piece: &Piece, meshes: Meshes) -> Result<(SharedShape, Pose, f64), Strin
             (SharedShape::new(Cuboid::new(half)), at, half.length())
         }
         Solid::Cylinder { radius, length } => {
-            // The library's stands along y.
+            // The library's cylinder is along y.
             let upright = Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2);
             let at = at * Pose::from_parts(Vector::ZERO, upright);
             (SharedShape::new(Cylinder::new(0.5 * length, *radius)), at, radius.hypot(0.5 * length))

@@ -10,14 +10,14 @@ use parry3d_f64::transformation::try_convex_hull;
 
 use crate::scenery::stl;
 
-/// Triangles by the numbers of their corners, which are in mm.
+/// Triangles by the indices of their corners, which are in mm.
 pub(super) struct Mesh {
     corners: Vec<Vector>,
     triangles: Vec<[u32; 3]>,
 }
 
 impl Mesh {
-    /// That of an STL file whose unit is so many mm along x, y and z.
+    /// Reads an STL file whose unit is `scale` mm along x, y and z.
     pub(super) fn load(file: &Path, scale: [f64; 3]) -> Result<Self, String> {
         let cannot = |why: &str| cannot(file, why);
         let bytes = regular_file::read(file).map_err(|error| cannot(&error.to_string()))?;
@@ -32,7 +32,7 @@ impl Mesh {
         Ok(Self { corners, triangles: stl.triangles })
     }
 
-    /// How far its corners are from its origin at most, in mm.
+    /// The greatest distance of its corners from its origin, in mm.
     pub(super) fn farthest(&self) -> f64 {
         self.corners.iter().map(|corner| corner.length()).fold(0.0, f64::max)
     }
@@ -43,7 +43,7 @@ impl Mesh {
         Ok(SharedShape::new(mesh))
     }
 
-    /// Its convex hull; of what is flat, its surface.
+    /// Its convex hull; its surface if it is flat.
     pub(super) fn hull(self, file: &Path) -> Result<SharedShape, String> {
         let hull = try_convex_hull(&self.corners).ok();
         let hull = hull.and_then(|(corners, triangles)| SharedShape::convex_mesh(corners, &triangles));

@@ -1,9 +1,9 @@
-//! Collisions of a run: each cycle, robots with themselves, with each other, with the bodies of the cell, what they
-//! carry and what their external axes move.
+//! Collisions of a run, looked for in each cycle: robots with themselves, with each other, with the bodies of the cell,
+//! what they carry and what their external axes move.
 //!
-//! Each contact of a pair is told with the time and the place of the motion; once it has parted, the next one is
-//! another. With a clearance, so is the nearest that a pair that never touched comes to each other, where that is
-//! nearer.
+//! Each contact of a pair is reported with the time and the place of the motion; after the pair has parted, the next
+//! touch is another contact. With a clearance, the closest approach of a pair that never touched is reported as well,
+//! if it is below the clearance.
 
 mod arm;
 mod item;
@@ -23,7 +23,7 @@ use std::rc::Rc;
 use arl_robot::cell::{Carrier, MOST_FOREGROUND};
 use parry3d_f64::math::Pose;
 
-use crate::listen::Hears;
+use crate::listen::Subscriber;
 use crate::scenery::Scenery;
 use arl_terminal::failure::Failure;
 use arl_terminal::show;
@@ -33,21 +33,21 @@ use item::{Holder, Item};
 use pair::{Met, Pair};
 use parts::Parts;
 
-/// What was found, for who asked for it.
+/// The result of looking for collisions.
 #[derive(Default, Debug)]
 pub struct Found {
     /// Whether the program began, so that there was something to look at.
     pub begun: bool,
-    /// What came too near to each other, in the order of time.
+    /// The pairs that came too near to each other, in the order of time.
     pub contacts: Vec<Contact>,
 }
 
-/// What can touch and be touched, for run after run.
+/// Everything that can touch or be touched, for run after run.
 #[derive(Clone)]
 pub struct Scene {
     parts: Option<Parts>,
     bodies: Vec<Item>,
-    /// By channels, the forms of the robot's links, where it has such.
+    /// For each channel, the forms of the robot's links, where it has any.
     links: Vec<Vec<Item>>,
     carriers: Vec<Carrier>,
 }
@@ -59,7 +59,7 @@ impl fmt::Debug for Scene {
 }
 
 impl Scene {
-    /// That of a scenery. A robot whose shape cannot be read is told of, and has capsules.
+    /// The scene of a scenery. A robot whose shape cannot be read is reported to `tell`, and is checked as capsules.
     ///
     /// # Errors
     /// A mesh cannot be read.
@@ -68,8 +68,9 @@ impl Scene {
         Ok(Self { parts, bodies, links, carriers: scenery.carriers.clone() })
     }
 
-    /// Who watches bodies that robots take along, and who looks for collisions, in this order, and what that will have
-    /// found. With a clearance above 0, in mm, what comes nearer is told, too; whether as it comes, `tells` says.
+    /// Returns the subscriber that tracks bodies taken along by robots and the one that looks for collisions, in this
+    /// order, and what they will have found. With a clearance above 0, in mm, what comes nearer is reported, too;
+    /// `tells`: whether contacts are reported as they occur.
     pub fn watch(mut self, clearance: f64, tells: bool) -> (Watchers, Rc<RefCell<Found>>) {
         let mut watchers = Watchers::new();
         if let Some(parts) = self.parts.take() {
@@ -81,31 +82,31 @@ impl Scene {
     }
 }
 
-type Watchers = Vec<Box<dyn Hears>>;
+type Watchers = Vec<Box<dyn Subscriber>>;
 
 /// Watches where robots and bodies are.
 struct Collisions {
     bodies: Vec<Item>,
-    /// By channels, the forms of the robot's links, where it has such.
+    /// For each channel, the forms of the robot's links, where it has any.
     links: Vec<Vec<Item>>,
     carriers: Vec<Carrier>,
     /// mm; 0: contacts only.
     clearance: f64,
-    /// Those of the channels' robots, then what each carrier is to the bodies on it.
+    /// The arms of the channels' robots, followed by those of the carriers.
     arms: Vec<Option<Arm>>,
     items: Vec<Item>,
     pairs: Vec<Pair>,
-    /// What has touched each other, or was told as near, by names: a body may have several forms.
+    /// The pairs that have touched or were reported as near, by names: a body may have several forms.
     touched: BTreeSet<[String; 2]>,
-    /// How many forms of two things touch now, by their names.
+    /// How many forms of a pair touch now, by the names of the two.
     touching: BTreeMap<[String; 2], usize>,
     found: Rc<RefCell<Found>>,
-    /// Whether contacts are told as they come.
+    /// Whether contacts are reported as they occur.
     tells: bool,
 }
 
 impl Collisions {
-    /// In a scene; what it finds can be asked for.
+    /// Looks for collisions in a scene; also returns where its findings will be.
     fn new(scene: Scene, clearance: f64, tells: bool) -> (Self, Rc<RefCell<Found>>) {
         let Scene { bodies, links, carriers, .. } = scene;
         let found = Rc::<RefCell<Found>>::default();
@@ -150,7 +151,7 @@ impl Collisions {
         self.found.borrow_mut().begun = true;
     }
 
-    /// A body that robots take along is elsewhere.
+    /// Moves a body that robots take along to another place.
     fn place(&mut self, placing: &Placing) {
         for item in &mut self.items {
             let Some(part) = item.part.filter(|part| part.body == placing.body) else { continue };
@@ -169,7 +170,7 @@ impl Collisions {
         }
     }
 
-    /// Takes in where all robots are.
+    /// Moves all robots to their present positions.
     fn go_to(&mut self, cycle: &Cycle) {
         for arm in self.arms.iter_mut().flatten() {
             if let Some(moves) = cycle.channels.get(arm.channel()) {
@@ -178,7 +179,7 @@ impl Collisions {
         }
     }
 
-    /// Looks at all pairs that may have come near enough to each other to matter.
+    /// Checks all pairs that may have come near enough to each other to matter.
     fn cycle(&mut self, cycle: &Cycle) -> Vec<Contact> {
         self.go_to(cycle);
         let mut contacts = Vec::new();
@@ -194,7 +195,7 @@ impl Collisions {
                 continue;
             }
             let [Some(here), Some(there)] = [one, other].map(|item| place(item, &self.arms)) else { continue };
-            let Some(distance) = distance((&here, one), (&there, other)) else { continue };
+            let Some(distance) = distance(&here, one, &there, other) else { continue };
             let moves = pair.mover(&self.arms).and_then(|arm| cycle.channels.get(arm.channel()));
             let contact = |distance| Contact {
                 time: cycle.time,
@@ -220,7 +221,7 @@ impl Collisions {
         contacts
     }
 
-    /// The nearest that each pair came to each other, of those nearer than the clearance that did not touch; once.
+    /// The closest approach of each pair that came nearer than the clearance without touching; each is returned once.
     fn nearest(&mut self) -> Vec<Contact> {
         let mut near: Vec<Contact> = self.pairs.iter_mut().filter_map(Pair::take_nearest).collect();
         near.sort_by(|one, other| one.distance.total_cmp(&other.distance));
@@ -229,7 +230,7 @@ impl Collisions {
         near
     }
 
-    /// Tells contacts, and has them heard by those behind.
+    /// Reports contacts, and passes them on to the subscribers after this one.
     fn tell(&self, contacts: Vec<Contact>) -> Vec<Line> {
         if self.tells {
             contacts.iter().for_each(|contact| show::warning(&contact.to_string()));
@@ -239,12 +240,12 @@ impl Collisions {
     }
 }
 
-impl Hears for Collisions {
+impl Subscriber for Collisions {
     fn wants_each_cycle(&self) -> bool {
         true
     }
 
-    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+    fn receive(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
         let contacts = match line {
             Line::Hello(hello) => {
                 self.begin(hello);
@@ -266,12 +267,12 @@ impl Hears for Collisions {
     }
 }
 
-/// The names of two items, under which all forms of both are one pair.
+/// The names of two items, under which all their forms are one pair.
 fn names(items: [&Item; 2]) -> [String; 2] {
     items.map(|item| item.name.clone())
 }
 
-/// Takes in that two forms do not touch any more.
+/// Notes that two forms no longer touch.
 fn part(touching: &mut BTreeMap<[String; 2], usize>, items: [&Item; 2]) {
     if let Entry::Occupied(mut forms) = touching.entry(names(items)) {
         *forms.get_mut() -= 1;
@@ -281,11 +282,11 @@ fn part(touching: &mut BTreeMap<[String; 2], usize>, items: [&Item; 2]) {
     }
 }
 
-/// How far two items are apart, in mm; 0: they touch. `None` for forms that the library cannot measure, of which there
-/// are none.
-fn distance((here, one): (&Pose, &Item), (there, other): (&Pose, &Item)) -> Option<f64> {
+/// The distance between two items, in mm; 0 if they touch. `None` for forms that the library cannot measure, of which
+/// there are none.
+fn distance(here: &Pose, one: &Item, there: &Pose, other: &Item) -> Option<f64> {
     let found = parry3d_f64::query::distance(here, &*one.shape, there, &*other.shape).ok()?.distance;
-    // Where its search does not settle, the library says 0.
+    // Where its search does not settle, the library returns 0.
     let touches = || parry3d_f64::query::intersection_test(here, &*one.shape, there, &*other.shape);
     if found <= 0.0 && touches().is_ok_and(|touches| !touches.intersecting) {
         Some(f64::MIN_POSITIVE)
@@ -297,14 +298,14 @@ fn distance((here, one): (&Pose, &Item), (there, other): (&Pose, &Item)) -> Opti
 /// Where an item is in the world.
 fn place(item: &Item, arms: &[Option<Arm>]) -> Option<Pose> {
     match item.holder {
-        // Of carriers nothing is left once the robots are known.
+        // Carriers have become arms once the robots are known.
         Holder::World | Holder::Carrier(_) => Some(item.at),
         Holder::Link { arm, link } => Some(arms.get(arm)?.as_ref()?.link(link)? * item.at),
         Holder::Flange { arm } => Some(arms.get(arm)?.as_ref()?.flange() * item.at),
     }
 }
 
-/// Whether an item is there by the levels of inputs and outputs.
+/// Whether an item is there, given the levels of inputs and outputs.
 fn is_there(item: &Item, cycle: &Cycle) -> bool {
     item.when.map_or(!item.absent, |level| cycle.has(level))
 }
@@ -319,15 +320,15 @@ fn bodies(scenery: &Scenery) -> Result<Vec<Item>, Failure> {
     Ok(items)
 }
 
-/// The forms of the links of robots, by channels: none where a robot has no shape of its own, or where that cannot be
-/// read, which is told.
+/// The forms of the links of robots, by channels: empty where a robot has no shape of its own, or where its shape
+/// cannot be read, which is reported.
 fn links(scenery: &Scenery, tell: &dyn Fn(&str)) -> Vec<Vec<Item>> {
     let of_channel = |channel: usize| {
         let Some(shape) = scenery.shape(channel) else { return Vec::new() };
         let mut items = Vec::new();
         let last = shape.links().count().saturating_sub(1);
         for (link, looks) in shape.links() {
-            match item::of_link(channel, (link, last), looks) {
+            match item::of_link(channel, link, last, looks) {
                 Ok(forms) => items.extend(forms),
                 Err(problem) => {
                     let text = format!("{problem}; the robot of channel {} is checked as capsules", channel + 1);

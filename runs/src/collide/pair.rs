@@ -1,71 +1,72 @@
-//! Two items that may touch, and when they have to be looked at again.
+//! Two items that may touch, and when they have to be checked again.
 //!
-//! A pair that is far apart cannot touch before its robots have moved as far: how far the places of a link move while
-//! the axes change is bounded by the lengths of the arm. So each pair is looked at in few cycles, and no contact is
+//! A pair that is far apart cannot touch before its robots have moved as far: how far the points of a link move while
+//! the axes change is bounded by the lengths of the arm. So each pair is checked in few cycles, and no contact is
 //! missed in any.
 
 use super::arm::Arm;
 use super::item::{Holder, Item, Limb};
 use arl_wire::Contact;
 
-/// The nearest that a pair comes to each other is found to so many mm.
+/// The closest approach of a pair is found to within this distance, in mm.
 const RESOLUTION_MM: f64 = 0.05;
-/// Links with fewer than so many others between them are too near to each other to be kept apart.
+/// Links with fewer than this many others between them are too near to each other to be kept apart.
 const LINKS_BETWEEN: usize = 2;
-/// What touched has parted once it is so many mm apart: what grinds along something is one contact.
+/// Items that touched have parted once they are this far apart, in mm: what grinds along something is one contact.
 const PARTED_MM: f64 = 1.0;
 /// Rounding of distances and positions, in mm.
 const ROUNDING_MM: f64 = 1e-4;
 
-/// Two items, by their places in the list.
+/// Two items, by their indices in the list.
 pub(super) struct Pair {
     pub(super) items: [usize; 2],
     /// What moves each of them.
     ends: [End; 2],
-    /// Whether they are parts of one robot: that they are near each other is how it is built.
+    /// Whether they are parts of one robot, which are near each other by construction.
     is_own: bool,
-    /// Whether what touches before anything moves is built so: both are parts of one robot, or neither is of any.
+    /// Whether a touch before anything moves is by construction: both are parts of one robot, or neither is part of
+    /// any.
     is_built: bool,
-    /// How many of the joints that move each of them are the same ones, from the world or the base on.
+    /// How many of the joints that move them are shared, from the world or the base on.
     shared: usize,
-    /// Whether they overlap since before anything moved, or since one of them came or was taken there.
+    /// Whether they have overlapped since before anything moved, or since one of them appeared or was taken there.
     overlap: bool,
-    /// Whether one of them has just come, or was taken or put there.
+    /// Whether one of them has just appeared, or was taken or put there.
     is_new: bool,
-    /// Whether they are nearer to each other than the clearance since then.
+    /// Whether they have been nearer to each other than the clearance since then.
     stays_near: bool,
     state: State,
-    /// Where the robots were when it was last looked at, and how far the items may move from there.
+    /// Where the robots were at the last check, and how far the items may move from there.
     known: Option<Known>,
 }
 
-/// An item, as far as its motion goes.
+/// An item, as far as its motion is concerned.
 #[derive(Clone, Copy)]
 struct End {
     arm: Option<usize>,
     /// The link that it is on.
     link: usize,
-    /// How far its places are from the link's origin at most.
+    /// The greatest distance of its points from the link's origin.
     farthest: f64,
 }
 
-/// What has come of a pair.
+/// The state of a pair.
 enum State {
-    /// So far apart that there is nothing to tell.
+    /// So far apart that there is nothing to report.
     Apart,
-    /// Nearer than the clearance: the nearest so far.
+    /// Nearer than the clearance: the closest approach so far.
     Near(Contact),
-    /// It touches, as was told.
+    /// The two touch, which is reported.
     Touching,
-    /// All is told.
+    /// Everything is reported.
     Done,
 }
 
-/// What came of a pair in a cycle.
+/// What happened to a pair in a cycle.
 pub(super) enum Met {
-    /// Its items touch, which they did not before.
+    /// Its items touch; they did not before.
     Touched(Contact),
-    /// They do not touch any more.
+    /// They no longer touch.
     Parted,
 }
 
@@ -76,11 +77,11 @@ struct Known {
     room: f64,
 }
 
-/// All pairs that count, in the order of their items: nothing that is built together, nothing that stands in the world
-/// with something else that does.
+/// All pairs that count, in the order of their items: no items that are built together, and no two that both stand in
+/// the world.
 pub(super) fn pairs(items: &[Item], arms: &[Option<Arm>]) -> Vec<Pair> {
     let limbs: Vec<&Item> = items.iter().filter(|item| item.limb.is_some()).collect();
-    // A cell may have many bodies that stand: they are looked at with what moves only.
+    // A cell may have many bodies that stand: they are only paired with what moves.
     let (standing, moving): (Vec<_>, Vec<_>) = items.iter().enumerate().partition(|(_, item)| stands(item));
     let mut pairs = Vec::new();
     for (number, (at, one)) in moving.iter().enumerate() {
@@ -101,7 +102,7 @@ fn stands(item: &Item) -> bool {
     matches!(item.holder, Holder::World | Holder::Link { link: 0, .. })
 }
 
-/// Whether two items are looked at; `limbs` are those of all robots.
+/// Whether two items are checked; `limbs` are those of all robots.
 fn counts(limbs: &[&Item], one: &Item, other: &Item) -> bool {
     if one.may_touch(other) || other.may_touch(one) {
         return false;
@@ -120,8 +121,7 @@ fn counts(limbs: &[&Item], one: &Item, other: &Item) -> bool {
     }
 }
 
-/// Whether the first one is taken along by the second one, what is on the flange or the last limb: that it touches it
-/// is what it is for.
+/// Whether the second item, on the flange or the last limb, takes the first one along: they are meant to touch.
 fn takes(limbs: &[&Item], part: &Item, gripper: &Item) -> bool {
     let holds = |by: usize| match gripper.limb {
         Some(limb) => gripper.holder.arm() == Some(by) && is_last(limbs, gripper, limb),
@@ -130,12 +130,12 @@ fn takes(limbs: &[&Item], part: &Item, gripper: &Item) -> bool {
     part.part.is_some_and(|part| holds(part.by))
 }
 
-/// Whether both are forms of one part, here or there.
+/// Whether both are forms of one part, standing or held.
 fn are_one(one: &Item, other: &Item) -> bool {
     one.part.zip(other.part).is_some_and(|(one, other)| one.body == other.body)
 }
 
-/// Whether something keeps two limbs of the robot of an item apart.
+/// Whether what is between them keeps two limbs of an item's robot apart.
 fn are_apart(limbs: &[&Item], of: &Item, both: (Limb, Limb)) -> bool {
     match both {
         (Limb::Capsule { at, radius, .. }, Limb::Capsule { at: behind, radius: other_radius, .. }) => {
@@ -153,7 +153,7 @@ fn are_apart(limbs: &[&Item], of: &Item, both: (Limb, Limb)) -> bool {
     }
 }
 
-/// Whether a limb is the last one of the robot of an item; of links, what axes turn beside the flange is one limb.
+/// Whether a limb is the last one of the robot of an item; of links, the last two count as one.
 fn is_last(limbs: &[&Item], of: &Item, limb: Limb) -> bool {
     match limb {
         Limb::Capsule { .. } => {
@@ -165,7 +165,7 @@ fn is_last(limbs: &[&Item], of: &Item, limb: Limb) -> bool {
 }
 
 impl End {
-    /// What moves it.
+    /// The arm that moves it.
     fn arm(self, arms: &[Option<Arm>]) -> Option<&Arm> {
         arms.get(self.arm?)?.as_ref()
     }
@@ -200,15 +200,15 @@ impl Pair {
         self.is_own
     }
 
-    /// Takes in that one of its items, which are these, is elsewhere. Whether they touched until now.
+    /// Notes that one of its items is elsewhere; returns whether the two touched until now.
     pub(super) fn place(&mut self, items: [&Item; 2], arms: &[Option<Arm>]) -> bool {
         self.ends = items.map(|item| End::of(item, arms));
         self.is_new = true;
         self.leave()
     }
 
-    /// One of its items is not there, or elsewhere: it is looked at anew once both are there. Whether they touched
-    /// until now.
+    /// Notes that one of its items is absent or elsewhere: the pair is checked again once both are there. Returns
+    /// whether the two touched until now.
     pub(super) fn leave(&mut self) -> bool {
         self.known = None;
         let touched = matches!(self.state, State::Touching);
@@ -218,7 +218,7 @@ impl Pair {
         touched
     }
 
-    /// Whether it may have come near enough to matter.
+    /// Whether the two may have come near enough to matter.
     pub(super) fn is_due(&self, arms: &[Option<Arm>]) -> bool {
         let is_known = |end: &End| self.is_own || end.arm(arms).is_none_or(Arm::is_based);
         if matches!(self.state, State::Done) || !self.ends.iter().all(is_known) {
@@ -229,7 +229,7 @@ impl Pair {
         (based != known.based && !self.is_own) || self.moved(&known.axes, arms) >= known.room
     }
 
-    /// The arm that brought the two together: the one that has moved more since they were looked at.
+    /// The arm that brought the two together: the one that has moved more since the last check.
     pub(super) fn mover<'a>(&self, arms: &'a [Option<Arm>]) -> Option<&'a Arm> {
         let [one, other] = &self.ends;
         let (Some(first), Some(second)) = (one.arm(arms), other.arm(arms)) else {
@@ -244,8 +244,8 @@ impl Pair {
         }
     }
 
-    /// The most that the two have moved against each other since the axes were there, in mm: by what does not move
-    /// both.
+    /// The most that the two have moved relative to each other since the axes were at `before`, in mm, by joints that
+    /// do not move both.
     fn moved(&self, before: &[Vec<f64>; 2], arms: &[Option<Arm>]) -> f64 {
         let moved = |end: &End, before: &[f64]| {
             end.arm(arms).map_or(0.0, |arm| arm.moved(before, self.shared..end.link, end.farthest))
@@ -254,7 +254,7 @@ impl Pair {
         moved(one, here) + moved(other, there)
     }
 
-    /// Notes how far apart the two are now, in mm; what came of that.
+    /// Notes the present distance of the two, in mm; returns whether they met or parted.
     pub(super) fn note(
         &mut self,
         distance: f64,
@@ -296,14 +296,14 @@ impl Pair {
         met
     }
 
-    /// Takes in where the robots are: the pair matters again once its items have moved so far, in mm.
+    /// Notes where the robots are: the pair matters again once its items have moved `room` mm.
     fn know(&mut self, room: f64, arms: &[Option<Arm>]) {
         let axes = self.ends.map(|end| end.arm(arms).map_or_else(Vec::new, |arm| arm.axes().to_vec()));
         let based = self.ends.map(|end| end.arm(arms).map_or(0, Arm::based));
         self.known = Some(Known { axes, based, room: (room - ROUNDING_MM).max(0.0) });
     }
 
-    /// The nearest that the two came to each other, if that is to be told; once.
+    /// The closest approach of the two, if it is to be reported; once.
     pub(super) fn take_nearest(&mut self) -> Option<Contact> {
         match std::mem::replace(&mut self.state, State::Done) {
             State::Near(contact) => Some(contact),

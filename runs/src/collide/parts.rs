@@ -9,12 +9,12 @@ use parry3d_f64::shape::SharedShape;
 
 use super::arm::of_frame;
 use super::item;
-use crate::listen::Hears;
+use crate::listen::Subscriber;
 use crate::scenery::Scenery;
 use arl_terminal::failure::Failure;
 use arl_wire::{Line, Place, Placing, Runs, State};
 
-/// The bodies with a grip. While its gripper is on and holds nothing, a robot takes the nearest one that its TCP is
+/// The bodies with a grip. While its gripper is on and holds nothing, a robot takes the nearest body that its TCP is
 /// near to.
 #[derive(Clone)]
 pub(super) struct Parts {
@@ -28,18 +28,18 @@ pub(super) struct Part {
     /// Which body of the cell.
     body: usize,
     grip: Grip,
-    /// It stands there only at this level until it is taken.
+    /// Until it is taken, it is there only while this signal has this level.
     when: Option<(Signal, bool)>,
     /// Its forms, each where it is in the body.
     forms: Vec<(SharedShape, Pose)>,
     place: Place,
     was_taken: bool,
-    /// What was said of it last, if anything was.
+    /// What was last reported of it, if anything was.
     pub(super) said: Option<Placing>,
 }
 
 impl Parts {
-    /// Those of a scenery, if it has any.
+    /// The parts of a scenery, if it has any.
     ///
     /// # Errors
     /// A mesh cannot be read.
@@ -55,7 +55,7 @@ impl Parts {
         Ok((!parts.is_empty()).then_some(Self { parts, runs: Vec::new() }))
     }
 
-    /// What comes, what is taken, and what is put down.
+    /// Handles a state: which parts appear, are taken, and are put down.
     fn state(&mut self, state: &State) -> Vec<Placing> {
         let flanges = self.runs.iter().zip(&state.channels);
         let flanges: Vec<Frame> = flanges.map(|(runs, channel)| runs.flange_in_world(channel)).collect();
@@ -69,7 +69,7 @@ impl Parts {
         for (channel, flange) in flanges.iter().enumerate() {
             let tcp = state.channels.get(channel).and_then(|of| <[f64; 3]>::try_from(of.tcp.get(..3)?).ok());
             if let Some(tcp) = tcp {
-                self.take(state, channel, (Vector::from_array(tcp), flange), &there);
+                self.take(state, channel, Vector::from_array(tcp), flange, &there);
             }
         }
         let there = self.there(state);
@@ -81,7 +81,7 @@ impl Parts {
         .collect()
     }
 
-    /// Which of them are there.
+    /// Which of the parts are there.
     fn there(&self, state: &State) -> Vec<bool> {
         let mut before_was_taken = true;
         let mut is_there = |part: &Part| {
@@ -92,8 +92,8 @@ impl Parts {
         self.parts.iter().map(&mut is_there).collect()
     }
 
-    /// A robot takes parts along: for each of its grippers that is on and holds nothing, the nearest.
-    fn take(&mut self, state: &State, channel: usize, (tcp, flange): (Vector, &Frame), there: &[bool]) {
+    /// Lets a robot take parts along: the nearest one for each of its grippers that is on and holds nothing.
+    fn take(&mut self, state: &State, channel: usize, tcp: Vector, flange: &Frame, there: &[bool]) {
         let held = self.parts.iter().filter(|part| part.place.held_by == Some(channel));
         let mut busy: Vec<_> = held.map(|part| part.grip.by).collect();
         loop {
@@ -113,7 +113,7 @@ impl Parts {
 }
 
 impl Part {
-    /// How far a place of the world is from it, in mm; 0: in it.
+    /// The distance of a point of the world from it, in mm; 0 inside it.
     fn distance(&self, place: Vector) -> f64 {
         let here = of_frame(&self.place.at);
         let all = self.forms.iter().map(|(shape, at)| shape.distance_to_point(&(here * *at), place, true));
@@ -121,8 +121,8 @@ impl Part {
     }
 }
 
-impl Hears for Parts {
-    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+impl Subscriber for Parts {
+    fn receive(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
         match line {
             Line::Hello(hello) => self.runs.clone_from(&hello.channels),
             Line::State(state) => return Ok(self.state(state).into_iter().map(Line::Placing).collect()),

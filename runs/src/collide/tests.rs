@@ -1,4 +1,4 @@
-//! Contacts against a computation that looks at every pair in every cycle.
+//! Contacts compared with a computation that checks every pair in every cycle.
 
 use arl_robot::cell::Cell;
 use arl_robot::kinematics::random::Random;
@@ -10,7 +10,7 @@ use crate::scenery::tests::scenery_of;
 use crate::scenery::tests::{BALL, Files, ROD, arm};
 use arl_wire::{Cycle, Hello, Moves, State};
 
-/// What a program says of its robots.
+/// What a program reports of its robots.
 fn hello(robots: &[&str]) -> Hello {
     let channels: Vec<serde_json::Value> = robots
         .iter()
@@ -40,7 +40,7 @@ fn hello(robots: &[&str]) -> Hello {
 
 const BASES: [[f64; 6]; 2] = [[0.0; 6], [900.0, 0.0, 0.0, 180.0, 0.0, 0.0]];
 
-/// A cycle in which robots are there, on bases beside each other.
+/// A cycle in which robots are there, on bases side by side.
 fn cycle(step: u32, axes: &[Vec<f64>]) -> Cycle {
     let moves = |(axes, base): (&Vec<f64>, &[f64; 6])| Moves {
         file: "a.arl".into(),
@@ -80,8 +80,8 @@ fn motion(robot: &Robot, random: &mut Random) -> impl Fn(u32) -> Vec<f64> + use<
     }
 }
 
-/// Of each pair of a cell, the first cycle in which it touches, and the nearest that it comes before that, looked for
-/// in each cycle.
+/// For each pair of a cell, the first cycle in which it touches, and its closest approach before that, looked for in
+/// each cycle.
 fn by_looking_always(collisions: &mut Collisions, cycles: &[Cycle]) -> Vec<(String, String, Option<f64>, f64)> {
     let mut found: Vec<(String, String, Option<f64>, f64)> = collisions
         .pairs
@@ -169,7 +169,7 @@ fn begun_with_table(clearance: f64) -> Collisions {
     collisions
 }
 
-/// A cycle with the table; the second robot stands still.
+/// A cycle with the table; the second robot is at rest.
 fn cycle_with_table(step: u32, robot: Vec<f64>, external: [f64; 3]) -> Cycle {
     let standing = [&[0.0, -90.0, 90.0, 0.0, 0.0, 0.0], &external[..]].concat();
     let mut cycle = cycle(step, &[robot, standing]);
@@ -194,7 +194,7 @@ fn what_external_axes_move_counts_in_each_cycle() {
     let nearest = collisions.nearest();
     let of_table = |name: &String| ["frame", "part", "clamp", "drawer"].contains(&&**name);
     let expected: Vec<_> = expected.into_iter().filter(|(one, other, ..)| of_table(one) || of_table(other)).collect();
-    // What stands on one carrier does not count with what stands there, too; on another one it does.
+    // What is on one carrier does not count with what is on the same one; with what is on another one it does.
     let pair = |names: [&str; 2]| expected.iter().any(|(one, other, ..)| names == [&**one, &**other]);
     assert!(pair(["part", "post"]) && pair(["frame", "part"]) && pair(["frame", "drawer"]) && !pair(["part", "clamp"]));
     let (mut touched, mut near) = (0, 0);
@@ -202,7 +202,7 @@ fn what_external_axes_move_counts_in_each_cycle() {
         let is_it = |contact: &&Contact| (&contact.one, &contact.other) == (one, other);
         let found = contacts.iter().find(is_it);
         assert_eq!(found.map(|contact| contact.time), *first, "{one}, {other}");
-        // It is told with the place in the program whose axes move the carrier, where no robot does.
+        // It is reported with the place in the program whose axes move the carrier, where no robot moves.
         let by_carrier = of_table(one) && (of_table(other) || other == "post");
         assert!(found.is_none_or(|contact| contact.line > 0 && (!by_carrier || contact.file == "b.arl")), "{found:?}");
         touched += u32::from(found.is_some());
@@ -232,7 +232,7 @@ fn what_lies_on_carriers_touches_rightly_until_it_comes_apart() {
         found.extend(collisions.cycle(&here));
     }
     let post: Vec<_> = found.iter().filter(|contact| contact.other == "post" && contact.one == "frame").collect();
-    // It is told each time that it comes back, and not for how it stood at first.
+    // It is reported each time that it comes back, and not for how it was at first.
     assert_eq!(post.len(), 2, "{post:?}");
     assert!(post.iter().all(|contact| contact.time > 1.0 && contact.line > 0), "{post:?}");
 }
@@ -277,7 +277,7 @@ fn what_is_carried_counts_while_its_signal_says_so() {
 #[test]
 fn the_robot_that_moves_is_blamed_and_bases_count_once_they_are_known() {
     let mut collisions = begun("", 0.0, &["kr10-r1420", "kr10-r1420"]);
-    // Neither has moved, and both seem to stand in the same place.
+    // Neither has moved, and both seem to be in the same place.
     let home = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0];
     let standing = || Moves { axes: home.to_vec(), ..Moves::default() };
     assert_eq!(collisions.cycle(&Cycle { channels: vec![standing(), standing()], ..Cycle::default() }), []);
@@ -304,7 +304,7 @@ fn what_comes_to_rest_in_contact_touches_with_a_clearance_too() {
     let robot = Robot::load("hsr065").unwrap();
     let lift = &robot.axes[2];
     let flange = robot.kinematics.forward(&[10.0, 20.0, lift.min, 0.0, 0.0, 0.0]).translation.vector;
-    // Where the lift is 0.02 mm above its lowest place, the finger is as far in the plate.
+    // With the lift 0.02 mm above its lowest place, the finger is as far in the plate.
     let top = flange.z - 100.0 + 0.04;
     let text = format!(
         "[[body]]\nname = \"plate\"\nbox = [2000, 2000, 10]\nat = [0, 0, {}]\n\
@@ -360,7 +360,7 @@ fn what_is_wrong_with_bodies_is_said() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
-/// A solid as the script of the peers takes it.
+/// A solid in the form that the script of the peers takes.
 fn described(item: &Item, arms: &[Option<Arm>]) -> serde_json::Value {
     use parry3d_f64::math::{Rotation, Vector};
     let pose = place(item, arms).unwrap();
@@ -435,8 +435,8 @@ fn state(axes: [f64; 6], dout: &str) -> State {
     State { channels: vec![channel], dout: dout.into(), ..State::default() }
 }
 
-fn heard(parts: &mut Parts, state: State) -> Vec<Placing> {
-    let lines = parts.hear(&Line::State(state)).unwrap();
+fn received(parts: &mut Parts, state: State) -> Vec<Placing> {
+    let lines = parts.receive(&Line::State(state)).unwrap();
     lines.into_iter().filter_map(|line| if let Line::Placing(placing) = line { Some(placing) } else { None }).collect()
 }
 
@@ -455,22 +455,22 @@ fn parts_go_along_with_the_robot_and_stay_where_they_are_put() {
     };
     let scenery = scenery(&format!("{}{}{}", part("far", 30.0), part("near", 12.0), part("farther", 17.0)));
     let mut parts = Parts::of(&scenery).unwrap().unwrap();
-    parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+    parts.receive(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
     let said = |placings: Vec<Placing>| -> Vec<(usize, Option<Option<usize>>)> {
         placings.iter().map(|placing| (placing.body, placing.place.map(|place| place.held_by))).collect()
     };
-    assert_eq!(said(heard(&mut parts, state(here, "0"))), [(0, Some(None)), (1, Some(None)), (2, Some(None))]);
+    assert_eq!(said(received(&mut parts, state(here, "0"))), [(0, Some(None)), (1, Some(None)), (2, Some(None))]);
     // The nearest one alone: 12 mm away in the middle, 2 mm at its side.
-    assert_eq!(said(heard(&mut parts, state(here, "1"))), [(1, Some(Some(0)))]);
-    assert_eq!(said(heard(&mut parts, state(here, "1"))), []);
-    assert_eq!(said(heard(&mut parts, state(there, "1"))), []);
-    let put = heard(&mut parts, state(there, "0"));
+    assert_eq!(said(received(&mut parts, state(here, "1"))), [(1, Some(Some(0)))]);
+    assert_eq!(said(received(&mut parts, state(here, "1"))), []);
+    assert_eq!(said(received(&mut parts, state(there, "1"))), []);
+    let put = received(&mut parts, state(there, "0"));
     assert_eq!(said(put.clone()), [(1, Some(None))]);
     let wanted = robot.kinematics.forward(&there) * robot.kinematics.forward(&here).inverse() * scenery.bodies[1].0.at;
     assert!((put[0].place.unwrap().at.translation.vector - wanted.translation.vector).norm() < 1e-9);
     // On again where nothing is near: nothing; it is taken once it is near enough, not when the gripper goes on.
-    assert_eq!(said(heard(&mut parts, state([120.0, -70.0, 100.0, 0.0, 60.0, 0.0], "1"))), []);
-    assert_eq!(said(heard(&mut parts, state(there, "1"))), [(1, Some(Some(0)))]);
+    assert_eq!(said(received(&mut parts, state([120.0, -70.0, 100.0, 0.0, 60.0, 0.0], "1"))), []);
+    assert_eq!(said(received(&mut parts, state(there, "1"))), [(1, Some(Some(0)))]);
 }
 
 #[test]
@@ -483,9 +483,9 @@ fn parts_of_a_kind_come_after_each_other_with_their_signal() {
         at.x, at.y, at.z
     );
     let mut parts = Parts::of(&scenery(&text)).unwrap().unwrap();
-    parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+    parts.receive(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
     let mut there_are = |axes, dout| {
-        heard(&mut parts, state(axes, dout));
+        received(&mut parts, state(axes, dout));
         let places = parts.parts.iter().map(|part| part.said.as_ref().unwrap().place.map(|place| place.held_by));
         places.collect::<Vec<_>>()
     };
@@ -493,7 +493,7 @@ fn parts_of_a_kind_come_after_each_other_with_their_signal() {
     assert_eq!(there_are(here, "01"), [Some(None), None]);
     assert_eq!(there_are(here, "00"), [None, None]);
     assert_eq!(there_are(here, "10"), [None, None]);
-    // The next one is there as soon as the first one is taken, where the signal says so.
+    // The next one is there as soon as the first one is taken, if the signal says so.
     assert_eq!(there_are(here, "11"), [Some(Some(0)), Some(None)]);
     assert_eq!(there_are(there, "10"), [Some(Some(0)), None]);
     assert_eq!(there_are(there, "00"), [Some(None), None]);
@@ -505,7 +505,7 @@ fn a_part_that_is_held_runs_into_what_it_did_not_touch_where_it_stood() {
     let robot = Robot::load("kr10-r1420").unwrap();
     let here = [0.0, -70.0, 100.0, 0.0, 60.0, 0.0];
     let at = robot.kinematics.forward(&here).translation.vector;
-    // The finger touches the part, which is what it is for.
+    // The finger touches the part, as it is meant to.
     let text = format!(
         "[[body]]\nname = \"part\"\nbox = [20, 20, 300]\nat = [{}, {}, {}]\ngripped_by = \"do.1\"\n\
          [[body]]\nname = \"finger\"\nbox = [10, 10, 20]\nat = [0, 0, 10]\non = \"flange\"\n\
@@ -517,14 +517,14 @@ fn a_part_that_is_held_runs_into_what_it_did_not_touch_where_it_stood() {
     let run = |grips: bool| {
         let mut collisions = begun(&text, 0.0, &["kr10-r1420"]);
         let mut parts = Parts::of(&scenery(&text)).unwrap().unwrap();
-        parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+        parts.receive(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
         let mut found = Vec::new();
         for step in 0..400 {
             let axes = [0.1 * f64::from(step), here[1], here[2], here[3], here[4], here[5]];
             let dout = if grips { "1" } else { "0" };
             let mut state = state(axes, dout);
             state.channels[0].tcp[2] -= 10.0;
-            for placing in heard(&mut parts, state) {
+            for placing in received(&mut parts, state) {
                 collisions.place(&placing);
             }
             found.extend(collisions.cycle(&Cycle { dout: dout.into(), ..cycle(step, &[axes.to_vec()]) }));
@@ -567,7 +567,7 @@ fn a_robot_with_a_shape_of_its_own_touches_by_its_links() {
     assert_eq!(touched(bar, [0.0, -20.0, 90.0, 0.0, 0.0, 0.0]), [("the upper arm".to_owned(), "bar".to_owned())]);
     let block = "[[body]]\nname = \"block\"\nbox = [50, 50, 50]\nat = [985, 0, 880]\n";
     assert_eq!(touched(block, [0.0, -80.0, 90.0, 0.0, 0.0, 0.0]), [("the hand".to_owned(), "block".to_owned())]);
-    // Links that are neighbours do not count with each other; the hand, turned back on the upper arm, touches it.
+    // Links that are neighbours are not checked with each other; the hand, turned back on the upper arm, touches it.
     assert_eq!(touched("", [0.0, -60.0, 60.0, 0.0, 0.0, 0.0]), []);
     let long = "<collision><origin xyz=\"0.25 0 0\"/><geometry><box size=\"0.5 0.04 0.04\"/></geometry></collision>";
     files.write("arm.urdf", &arm(["", "", ROD, "", "", "", long]));
@@ -592,13 +592,13 @@ fn a_held_part_touches_others_but_not_where_it_is_taken() {
     let text = [part("part", at, "count = 3\n"), part("neighbour", beside, ""), part("other", other, "")].concat();
     let mut collisions = begun(&text, 0.0, &["kr10-r1420"]);
     let mut parts = Parts::of(&scenery(&text)).unwrap().unwrap();
-    parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+    parts.receive(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
     let mut found = Vec::new();
     for step in 0..600 {
         let on = if step < 100 { "0" } else { "1" };
         let turned = f64::from(step.max(200) - 200) * 0.1;
         let axes = [turned, here[1], here[2], here[3], here[4], here[5]];
-        for placing in heard(&mut parts, state(axes, on)) {
+        for placing in received(&mut parts, state(axes, on)) {
             collisions.place(&placing);
         }
         found.extend(collisions.cycle(&Cycle { dout: on.into(), ..cycle(step, &[axes.to_vec()]) }));
@@ -624,12 +624,12 @@ fn a_part_may_be_near_what_it_lay_on_until_it_has_left_it() {
     let told = |comes_back: bool| {
         let mut collisions = begun(&text, 20.0, &["kr10-r1420"]);
         let mut parts = Parts::of(&scenery(&text)).unwrap().unwrap();
-        parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+        parts.receive(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
         let mut found = Vec::new();
         for step in 0..=400 {
             let lifted = f64::from(if comes_back { step.min(400 - step) } else { step.min(200) }) * -0.05;
             let axes = [here[0], here[1] + lifted, here[2], here[3], here[4], here[5]];
-            for placing in heard(&mut parts, state(axes, "1")) {
+            for placing in received(&mut parts, state(axes, "1")) {
                 collisions.place(&placing);
             }
             found.extend(collisions.cycle(&Cycle { dout: "1".into(), ..cycle(step, &[axes.to_vec()]) }));
@@ -707,7 +707,7 @@ fn many_bodies_cost_by_their_number() {
     };
     let text: String = (0..BODIES).map(body).collect();
     let mut collisions = begun(&text, 0.0, &["kr10-r1420"]);
-    // Each with all limbs but the base, which stands as they do.
+    // Each with all limbs except the base, which is fixed as they are.
     let own = collisions.pairs.iter().filter(|pair| pair.is_own()).count();
     assert_eq!(collisions.pairs.len() - own, 5 * BODIES);
     assert!(collisions.pairs.is_sorted_by_key(|pair| pair.items));

@@ -1,5 +1,5 @@
-//! The same doors without a fuzzer: good files, changed at random places, with fixed seeds. `ARL_FILES_ROUNDS=N` tries
-//! N of each kind, `ARL_FILES_SEED=N` moves on to others.
+//! The same entry points without a fuzzer: valid files, changed at random places, with fixed seeds.
+//! `ARL_FILES_ROUNDS=N` tries N of each kind, `ARL_FILES_SEED=N` moves on to others.
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -26,7 +26,7 @@ impl Random {
     }
 }
 
-/// What stands in files where it should not.
+/// Texts in the place of what a file should contain.
 const WORDS: [&[u8]; 16] = [
     b"nan",
     b"inf",
@@ -46,7 +46,7 @@ const WORDS: [&[u8]; 16] = [
     b"end",
 ];
 
-/// A file with up to eight changes: bytes that are others, gone, twice, elsewhere, or words.
+/// A file with up to eight changes: bytes that are changed, removed, doubled or moved, or words.
 fn changed(good: &[u8], random: &mut Random) -> Vec<u8> {
     let mut bytes = good.to_vec();
     for _ in 0..=random.below(8) {
@@ -77,7 +77,7 @@ fn changed(good: &[u8], random: &mut Random) -> Vec<u8> {
     bytes
 }
 
-/// Shows a door good files, then changed ones.
+/// Gives an entry point valid files, then changed ones.
 fn rounds(goods: &[Vec<u8>], door: fn(&[u8])) {
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let mut random = Random(0x9E37_79B9_7F4A_7C15 ^ number("ARL_FILES_SEED").unwrap_or(1));

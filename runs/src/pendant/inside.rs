@@ -1,4 +1,4 @@
-//! The functions that run, and variables: what takes the place of axes and io while somebody looks into the program.
+//! The running functions and the variables, which replace axes and io while the user looks into the program.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -11,7 +11,7 @@ use arl_wire::{Inside, Variable};
 /// The most functions that are shown.
 const MOST_CALLS: usize = 6;
 
-/// Draws both, the variables without the first `scrolled` lines.
+/// Draws both, without the first `scrolled` lines of the variables.
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, inside: &Inside, scrolled: usize) {
     let calls = call_lines(inside);
     let height = calls.len() as u16 + 2;
@@ -25,7 +25,7 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, inside: &Inside, scrolled:
     frame.render_widget(Paragraph::new(shown).block(titled(title)), below);
 }
 
-/// The innermost function first.
+/// The lines of the calls, the innermost function first.
 fn call_lines(inside: &Inside) -> Vec<Line<'_>> {
     if inside.frames.is_empty() {
         return vec![Line::styled("no function runs", QUIET)];
@@ -41,7 +41,7 @@ fn call_lines(inside: &Inside) -> Vec<Line<'_>> {
     lines
 }
 
-/// Those of the innermost function, then those of the files.
+/// The variables of the innermost function, then those of the files.
 fn variable_lines(inside: &Inside) -> Vec<Line<'_>> {
     let mut lines: Vec<Line<'_>> = inside.variables.iter().chain(&inside.handles).map(variable_line).collect();
     for file in &inside.files {

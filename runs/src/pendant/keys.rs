@@ -5,16 +5,16 @@ use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use super::model::PendantModel;
 use arl_wire::Inside;
 
-/// What a key asks for.
+/// The request of a key.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Wish {
-    /// Something for the program, in the words of a scenario.
+    /// An order for the program, in the words of a scenario.
     Order(String),
     /// Stop the robot and leave.
     Leave,
 }
 
-/// The keys that are orders, and what stands for them on the screen.
+/// The keys that are orders, and how the screen shows them.
 pub(super) const ORDERS: [(char, &str, &str); 7] = [
     ('s', "start", "pendant = \"start\""),
     ('p', "pause", "pendant = \"pause\""),
@@ -31,7 +31,7 @@ const OVERRIDE_STEP: f64 = 10.0;
 /// By how many lines variables are scrolled at once.
 const PAGE: isize = 8;
 
-/// Does what a key asks of the screen, and says what it asks of the program.
+/// Does what a key asks of the screen, and returns what it asks of the program.
 pub(super) fn press(key: KeyEvent, model: &mut PendantModel) -> Option<Wish> {
     if key.kind == KeyEventKind::Release {
         return None;
@@ -45,7 +45,7 @@ pub(super) fn press(key: KeyEvent, model: &mut PendantModel) -> Option<Wish> {
     }
 }
 
-/// What was typed as an order. The key `i` begins with `di.`, where a name of the cell may follow, too.
+/// The order that was typed. The key `i` begins it with `di.`, which a name of the cell may follow, too.
 fn order_of(typed: String) -> String {
     match typed.strip_prefix("di.") {
         Some(name) if name.starts_with(|first: char| first.is_alphabetic() || first == '_') => name.to_owned(),
@@ -53,7 +53,7 @@ fn order_of(typed: String) -> String {
     }
 }
 
-/// A key while an order is being typed.
+/// Handles a key while an order is being typed.
 fn edit(key: KeyCode, mut typed: String, model: &mut PendantModel) -> Option<Wish> {
     match key {
         KeyCode::Enter if typed.trim().is_empty() => return None,
@@ -166,15 +166,15 @@ mod tests {
         model.state.speed_override = 100.0;
         assert_eq!(type_in(&mut model, "---"), Some(Wish::Order("override = 70".into())));
         assert_eq!(type_in(&mut model, "+"), Some(Wish::Order("override = 80".into())));
-        // States that were on their way say nothing of it, however many they are.
+        // States that were still on their way do not change it, however many there are.
         let state = |time: f64, speed_override: f64| State { time, speed_override, ..State::default() };
-        (1..60).for_each(|step| model.hear(Line::State(state(f64::from(step) * 0.004, 100.0))));
+        (1..60).for_each(|step| model.receive(Line::State(state(f64::from(step) * 0.004, 100.0))));
         assert_eq!(type_in(&mut model, "+"), Some(Wish::Order("override = 90".into())));
-        model.hear(Line::State(state(0.25, 90.0)));
+        model.receive(Line::State(state(0.25, 90.0)));
         assert_eq!(model.asked_override, None);
-        // One that was refused is forgotten.
+        // A refused request is forgotten.
         type_in(&mut model, "-");
-        model.hear(Line::State(state(0.6, 90.0)));
+        model.receive(Line::State(state(0.6, 90.0)));
         assert_eq!(type_in(&mut model, "-"), Some(Wish::Order("override = 80".into())));
     }
 

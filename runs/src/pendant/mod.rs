@@ -1,7 +1,7 @@
 //! `arl2rs run --pendant`: a live screen of a program that runs.
 //!
 //! The program is a process of its own, driven by lines (`link.rs`): a screen that hangs does not hold up a robot, and
-//! when the screen goes, the robot stops on its path.
+//! when the screen ends, the robot stops on its path.
 
 mod inside;
 mod keys;
@@ -17,28 +17,29 @@ use std::time::{Duration, Instant};
 use ratatui::crossterm::event::{self, Event};
 
 use crate::link::ProgramLink;
-use crate::listen::{self, Hears};
+use crate::listen::{self, Subscriber};
 use arl_terminal::failure::Failure;
 use arl_terminal::show;
 use keys::Wish;
 use model::PendantModel;
 use sources::Sources;
 
-/// How long the screen waits for a key before it looks for news.
+/// How long the screen waits for a key before it looks for new lines of the program.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// Runs a program of these files behind a screen; its exit code. Others may hear what it does. Once it runs, `lock`,
-/// which kept it as it is, is let go.
+/// Runs a program made from these files with a screen; returns its exit code. `subscribers` get its lines, too. Once
+/// the program runs, `lock`, which kept it unchanged, is released.
 ///
 /// # Errors
 /// The program cannot be started, or there is no terminal to draw on.
 pub fn run<L>(
     mut command: Command,
-    (files, lock): (&[PathBuf], L),
-    mut hearers: Vec<Box<dyn Hears>>,
+    files: &[PathBuf],
+    lock: L,
+    mut subscribers: Vec<Box<dyn Subscriber>>,
 ) -> Result<Exit, Failure> {
-    command.arg("--live").args(listen::wishes(&hearers));
-    if !hearers.is_empty() {
+    command.arg("--live").args(listen::wishes(&subscribers));
+    if !subscribers.is_empty() {
         command.args(["--state-interval", listen::STATE_INTERVAL]);
     }
     let program = PathBuf::from(command.get_program());
@@ -47,16 +48,16 @@ pub fn run<L>(
     drop(lock);
     let shown = ratatui::try_init().and_then(|mut terminal| {
         show::keep_warnings();
-        let shown = show(&mut terminal, &mut link, &mut model, &mut hearers);
+        let shown = show(&mut terminal, &mut link, &mut model, &mut subscribers);
         ratatui::try_restore()?;
         shown
     });
     // A program that was left at once ends now.
     drop(link);
-    // What the screen took with it.
+    // Prints what disappeared with the screen.
     model.lasting.iter().for_each(|text| show::say(&format!("{text}\n")));
     show::say_warnings();
-    listen::end(hearers, !model.hello.channels.is_empty());
+    listen::end(subscribers, !model.hello.channels.is_empty());
     let code = shown.map_err(|error| Failure::Other(format!("the terminal cannot be used: {error}")))?;
     Ok(Exit::from(code))
 }
@@ -66,22 +67,22 @@ fn show(
     terminal: &mut ratatui::DefaultTerminal,
     link: &mut ProgramLink,
     model: &mut PendantModel,
-    hearers: &mut Vec<Box<dyn Hears>>,
+    subscribers: &mut Vec<Box<dyn Subscriber>>,
 ) -> std::io::Result<u8> {
     loop {
-        // What it said before it ended comes before the end.
+        // Lines that the program sent before it ended come before the end.
         let ended = link.ended();
-        // Who hears slowly does not keep people from leaving.
+        // A slow subscriber does not keep the user from leaving.
         let until = Instant::now() + WAIT;
         let next = || match ended {
             Some(_) => link.last_lines().next(),
             None => link.line_before(until),
         };
         while let Some(line) = next() {
-            if !hearers.is_empty() {
-                listen::pass_on(line.clone(), hearers);
+            if !subscribers.is_empty() {
+                listen::pass_on(line.clone(), subscribers);
             }
-            model.hear(line);
+            model.receive(line);
         }
         show::take_warnings().iter().for_each(|text| model.warn(text));
         if let Some(code) = ended {
@@ -95,7 +96,7 @@ fn show(
             let Event::Key(key) = event::read()? else { continue };
             match keys::press(key, model) {
                 Some(Wish::Order(order)) => link.order(&order),
-                // Asked twice, it does not wait for the robot to stop.
+                // When asked twice, it does not wait for the robot to stop.
                 Some(Wish::Leave) if model.leaving => return Ok(Exit::INTERRUPTED.0),
                 Some(Wish::Leave) => {
                     model.leaving = true;

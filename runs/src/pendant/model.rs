@@ -5,15 +5,15 @@ use std::collections::VecDeque;
 use super::sources::Sources;
 use arl_wire::{Hello, Inside, Line, State};
 
-/// How many lines of the log are kept.
+/// The most lines of the log that are kept.
 const LOG: usize = 500;
 
-/// After so many s an order has been carried out or refused.
+/// The time after which an order has been carried out or refused, in s.
 const ORDER_S: f64 = 0.25;
-/// So many lines are said again once the screen is gone.
+/// The most lines that are printed again once the screen is gone.
 const MOST_LASTING: usize = 10_000;
 
-/// How much a line of the log matters.
+/// The importance of a line of the log.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Weight {
     Message,
@@ -29,18 +29,18 @@ pub(super) struct PendantModel {
     pub(super) sources: Sources,
     /// Messages, warnings and alarms, the newest last.
     pub(super) log: VecDeque<(Weight, String)>,
-    /// What the screen takes with it, and somebody may want to read or copy: alarms, what was said on the standard
-    /// error, and by those who hear the program, too.
+    /// Lines that disappear with the screen and that the user may want to read or copy: alarms, what was written to the
+    /// standard error, and warnings of subscribers.
     pub(super) lasting: Vec<String>,
     /// The channel that is shown, from 0.
     pub(super) shown: usize,
-    /// What is being typed, where something is.
+    /// The text being typed, if any.
     pub(super) typed: Option<String>,
-    /// The override that was asked for last, until a state tells of it: keys come faster than states.
+    /// The override that was requested last, until a state reports it: keys come faster than states.
     pub(super) asked_override: Option<f64>,
-    /// The controller time at which it was asked for.
+    /// The controller time of that request.
     asked_at: f64,
-    /// What is inside the program, where somebody looks; nothing is known of it at first.
+    /// The inside of the program while the user looks into it; empty at first.
     pub(super) inside: Option<Inside>,
     /// How many of its lines are scrolled out of sight.
     pub(super) scrolled: usize,
@@ -54,8 +54,8 @@ impl PendantModel {
         Self { sources, ..Self::default() }
     }
 
-    /// Takes in what the program says.
-    pub(super) fn hear(&mut self, line: Line) {
+    /// Takes a line of the program.
+    pub(super) fn receive(&mut self, line: Line) {
         match line {
             Line::Hello(hello) => self.hello = hello,
             Line::State(state) => {
@@ -65,7 +65,7 @@ impl PendantModel {
                 }
                 self.state = state;
             }
-            // What is of another channel, or comes behind the order to end, is late.
+            // A line of another channel, or one after the order to end, is late.
             Line::Inside(inside) => {
                 if self.inside.is_some() && inside.channel == self.shown + 1 {
                     self.scrolled = self.scrolled.min(inside.variable_lines().saturating_sub(1));
@@ -85,12 +85,12 @@ impl PendantModel {
         }
     }
 
-    /// Takes in a warning of those who hear the program, too.
+    /// Adds a warning of a subscriber.
     pub(super) fn warn(&mut self, text: &str) {
         self.note_lasting(Weight::Warning, format!("warning: {text}"));
     }
 
-    /// Notes what is said again once the screen is gone.
+    /// Adds a line to the log that is printed again once the screen is gone.
     fn note_lasting(&mut self, weight: Weight, text: String) {
         if self.lasting.len() < MOST_LASTING {
             self.lasting.push(text.clone());
@@ -98,12 +98,12 @@ impl PendantModel {
         self.note(weight, text);
     }
 
-    /// The override as it is, or will be by what was asked for.
+    /// The present override, or the requested one.
     pub(super) fn speed_override(&self) -> f64 {
         self.asked_override.unwrap_or(self.state.speed_override)
     }
 
-    /// Notes an override that was asked for.
+    /// Notes a requested override.
     pub(super) fn ask_for_override(&mut self, percent: f64) {
         self.asked_override = Some(percent);
         self.asked_at = self.state.time;

@@ -1,4 +1,4 @@
-//! What the screen looks like.
+//! The layout of the screen, and how it is drawn.
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
@@ -17,11 +17,11 @@ pub(super) const STRONG: Style = Style::new().add_modifier(Modifier::BOLD);
 /// How the screen is divided.
 #[derive(Clone, Copy)]
 struct Form {
-    /// How wide the column of axes, TCP and io is.
+    /// The width of the column of axes, TCP and io.
     side: u16,
-    /// How many characters show where an axis stands in its range.
+    /// How many characters show where an axis is in its range.
     bar: usize,
-    /// How many signals stand in a row.
+    /// How many signals are in a row.
     signals: usize,
     /// Columns and decimals of a number.
     number: (usize, usize),
@@ -29,12 +29,12 @@ struct Form {
 
 /// A screen with room.
 const WIDE: Form = Form { side: 50, bar: 15, signals: 32, number: (10, 3) };
-/// One of 80 columns: the text of the program has most of it.
+/// A screen of 80 columns: the text of the program has most of it.
 const NARROW: Form = Form { side: 31, bar: 0, signals: 16, number: (8, 2) };
-/// From so many columns on there is room.
+/// The least number of columns of a screen with room.
 const ROOM: u16 = 110;
 
-/// Draws everything anew.
+/// Draws the whole screen again.
 pub(super) fn draw(frame: &mut Frame<'_>, model: &PendantModel) {
     let form = if frame.area().width >= ROOM { WIDE } else { NARROW };
     let feet = foot_lines(model, frame.area().width);
@@ -157,7 +157,7 @@ fn decimals(value: f64, form: Form) -> String {
     format!("{value:width$.decimals$}")
 }
 
-/// The signals that have names, then all in rows.
+/// The signals that have names, then all signals in rows.
 fn io_lines(model: &PendantModel, form: Form) -> Vec<Line<'static>> {
     let state = &model.state;
     let mut lines: Vec<Line<'static>> =
@@ -175,7 +175,7 @@ fn io_lines(model: &PendantModel, form: Form) -> Vec<Line<'static>> {
     lines
 }
 
-/// A signal that has a name: how it is, its name, and where it is.
+/// A signal that has a name: its level, its name, and where it is.
 fn named_signal(signal: &str, name: &str, state: &State) -> Line<'static> {
     let (kind, channel) = signal.split_once('.').unwrap_or((signal, "1"));
     let at = channel.parse::<usize>().unwrap_or(1).saturating_sub(1);
@@ -280,7 +280,7 @@ mod tests {
     fn screen_of(width: u16, lines: &[&str], change: impl FnOnce(&mut PendantModel)) -> String {
         let mut model = PendantModel::new(Sources::of("pick.arl", "func void main()\nmovej p1\nlin p2\nendfunc"));
         for line in lines {
-            model.hear(serde_json::from_str::<Line>(line).unwrap());
+            model.receive(serde_json::from_str::<Line>(line).unwrap());
         }
         change(&mut model);
         let mut terminal = Terminal::new(TestBackend::new(width, 24)).unwrap();
@@ -342,7 +342,7 @@ mod tests {
             "files":[{"file":"pick.arl","variables":[{"name":"placed","value":"4"}]}]}}"#;
         let shown = screen_of(80, &[HELLO, STATE], |model| {
             model.inside = Some(Inside::default());
-            model.hear(serde_json::from_str(inside).unwrap());
+            model.receive(serde_json::from_str(inside).unwrap());
         });
         for words in ["grip  pick.arl:3", "main  pick.arl:2", "depth 12.5", "watch 0.250 s, runs", "placed 4"] {
             assert!(shown.contains(words), "{words}\n{shown}");
@@ -369,8 +369,8 @@ mod tests {
     #[test]
     fn a_small_terminal_is_no_reason_to_panic() {
         let mut model = PendantModel::default();
-        model.hear(serde_json::from_str(HELLO).unwrap());
-        model.hear(serde_json::from_str(STATE).unwrap());
+        model.receive(serde_json::from_str(HELLO).unwrap());
+        model.receive(serde_json::from_str(STATE).unwrap());
         for (width, height) in [(1, 1), (10, 3), (47, 9)] {
             let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
             terminal.draw(|frame| draw(frame, &model)).unwrap();

@@ -1,4 +1,4 @@
-//! The texts of the program, to be shown around the line that runs.
+//! The texts of the program, to show the lines around the running one.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use crate::texts::{self, Text, file_name};
 
 /// The lines of a file.
 struct Source {
-    /// As alarms show it.
+    /// The name that alarms show.
     name: String,
     lines: Vec<String>,
 }
@@ -38,7 +38,7 @@ impl Sources {
     }
 }
 
-/// Tabs would break the columns of the screen.
+/// Splits a text into lines, without tabs, which would break the columns of the screen.
 fn lines(text: &str) -> Vec<String> {
     text.lines().map(|line| line.replace('\t', "    ")).collect()
 }

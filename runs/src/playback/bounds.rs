@@ -1,10 +1,11 @@
-//! What a message of a recording may say: numbers that a run can have, and no more of anything than a cell has. A
-//! recording comes from anywhere; what is kept of it is shown in pages, which know no other numbers.
+//! Bounds on the messages of a recording: numbers that a run can have, and no more of anything than a cell has. A
+//! recording may come from anywhere; what is kept of it is shown in pages, which cannot handle other numbers.
 
 use arl_robot::channels::MOST_CHANNELS as MOST_SIGNALS;
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
-use super::store::MOST_PROGRAMS;
+use crate::record::RunMessage;
+use crate::record::message::MOST_PROGRAMS;
 use crate::record::messages::{
     Cell, Channel, Closest, Color, Contact, Controller, Cylinder, Io, Link, Model, Motion, Pose, SceneUpdate, Solid,
     Vector3,
@@ -12,20 +13,36 @@ use crate::record::messages::{
 
 /// No time, place, angle or speed of a run is larger, in s, mm, deg, and per s.
 const LARGEST: f64 = 1e9;
-/// So many axes has a robot with all external ones.
+/// The axes of a robot with all external ones.
 const MOST_AXES: usize = ROBOT_AXES + EXTERNAL_AXES;
-/// So many kinds of signals have names.
+/// How many kinds of signals have names.
 const KINDS_OF_SIGNALS: usize = 6;
 /// No cell has more bodies, and no body more solids.
 const MOST_SOLIDS: usize = 100_000;
 
-/// A message that can be held against what a run can say.
+/// A message that can be checked against what a run can have.
 pub(super) trait Bounded {
-    /// That every number is one, and every list of a length that a run can have.
+    /// Checks that every number is valid, and every list has a length that a run can have.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// What is wrong with the message.
     fn check(&self) -> Result<(), String>;
+}
+
+impl Bounded for RunMessage {
+    fn check(&self) -> Result<(), String> {
+        match self {
+            Self::Cell(message) => message.check(),
+            Self::Scene(message) => message.check(),
+            Self::Controller(message) => message.check(),
+            Self::Io(message) => message.check(),
+            Self::Channel(_, message) => message.check(),
+            Self::Motion(message) => message.check(),
+            Self::Contact(message) => message.check(),
+            // These have no numbers, or are for viewers only.
+            Self::Log(_) | Self::Frames(_) | Self::Joints(_) => Ok(()),
+        }
+    }
 }
 
 impl Bounded for Cell {
@@ -130,7 +147,7 @@ fn link(Link { origin, axis, .. }: &Link) -> Result<(), String> {
     numbers("a link", axis)
 }
 
-/// x, y, z, a, b, c, or nothing.
+/// x, y, z, a, b, c, or empty.
 fn frame(what: &str, values: &[f64]) -> Result<(), String> {
     at_most("numbers of a pose", values.len(), 6)?;
     numbers(what, values)

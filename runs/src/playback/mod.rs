@@ -1,4 +1,4 @@
-//! What a recording says of a run, laid out so that any stretch of time, any line and any signal can be asked for.
+//! The run in a recording, laid out so that any stretch of time, any line and any signal can be queried.
 
 mod bounds;
 mod read;

@@ -1,4 +1,4 @@
-//! Reads a recording. What is cut off is read as far as it goes.
+//! Reads a recording. A recording that is cut off is read as far as it goes.
 
 use std::collections::HashMap;
 use std::io::Read;
@@ -12,16 +12,16 @@ use super::store::Store;
 use crate::texts::Text;
 use arl_terminal::failure::Failure;
 
-/// No record of a recording is longer, in bytes; none is longer than its file either, whatever it says of itself.
+/// The greatest length of a record, in bytes; no record is longer than its file either, whatever length it states.
 const LONGEST_RECORD: usize = 1 << 30;
 
-/// Before each record stand its kind and its length.
+/// Each record begins with its kind and its length.
 const RECORD_HEAD: usize = 1 + 8;
 
-/// The run of a recording.
+/// Reads the run of a recording.
 ///
 /// # Errors
-/// There is no such file, or it is not a recording of a run.
+/// The file does not exist, or is not a recording of a run.
 pub(crate) fn read(path: &Path) -> Result<Store, Failure> {
     let cannot = |error: std::io::Error| Failure::io("read", path, &error);
     let mut file = regular_file::expect(path).and_then(|()| std::fs::File::open(path)).map_err(cannot)?;
@@ -29,10 +29,10 @@ pub(crate) fn read(path: &Path) -> Result<Store, Failure> {
     of(&mut file, size).map_err(|why| Failure::Other(format!("{} is not a recording of a run: {why}", path.display())))
 }
 
-/// The run of a recording of so many bytes.
+/// Reads the run of a recording of `size` bytes.
 ///
 /// # Errors
-/// It is none.
+/// It is not a recording of a run.
 pub(crate) fn of(file: &mut impl Read, size: u64) -> Result<Store, String> {
     let mut store = Store::default();
     let mut reading = Reading { store: &mut store, topics: HashMap::new() };
@@ -72,7 +72,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// The records of a chunk. None of them reaches beyond it, whatever it says of itself.
+    /// Reads the records of a chunk. None of them reaches beyond it, whatever length it states.
     fn chunk(&mut self, compression: &str, mut rest: &[u8]) -> Result<(), String> {
         if !compression.is_empty() {
             return Err(format!(

@@ -3,33 +3,27 @@
 use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 
-use arl_robot::cell::MOST_FOREGROUND;
 use arl_robot::kinematics::frame;
 use mcap::McapResult;
 use nalgebra::Vector3;
-use prost::Message as _;
 use twox_hash::XxHash3_128;
 
 use super::bounds::Bounded;
 use crate::record::messages::{Cell, Channel, Contact, Controller, Io, Link, Log, Motion, SceneUpdate};
-use crate::record::{Schema, Sink};
+use crate::record::{RunMessage, Sink};
 use crate::texts::Text;
 use arl_wire::{LinkJoint, placed as placed_frame, written};
 
-/// The topics of channels: `/arl/channel_1`.
-const CHANNEL: &str = "/arl/channel_";
-/// No controller runs more programs: those of robots, and those in the background.
-pub(super) const MOST_PROGRAMS: usize = MOST_FOREGROUND + u8::MAX as usize;
-/// What is farther apart in time was at rest between, in s: a robot that moves says so more often.
+/// Between messages that are farther apart than this, in s, the robot was at rest: a moving robot reports more often.
 const GAP_S: f64 = 0.06;
-/// A motion may be told again that is so far behind the last one.
+/// A motion up to this many before the last one may be reported again.
 pub(crate) const TOLD_AGAIN: usize = 64;
-/// How far messages are apart while a robot moves, in s.
+/// The interval of messages while a robot moves, in s.
 const STEP_S: f64 = 0.004;
-/// A TCP that is elsewhere on the flange by more than that, in mm, is that of another tool.
+/// A TCP whose place on the flange differs by more than this, in mm, is that of another tool.
 const OTHER_TOOL_MM: f64 = 0.01;
-/// Where the flange is not known, a TCP that gets faster than this, in mm/s2, when a motion begins is that of another
-/// tool.
+/// Where the flange is not known, a TCP that accelerates by more than this, in mm/s2, when a motion begins is that of
+/// another tool.
 const OTHER_TOOL_ACC: f64 = 5e5;
 
 /// A run as far as it is known.
@@ -38,12 +32,12 @@ pub(crate) struct Store {
     pub(crate) cell: Cell,
     pub(crate) sources: Vec<Text>,
     pub(crate) scene: Vec<(f64, SceneUpdate)>,
-    /// The meshes of the scene, each once, and for each model of the scene in turn which one it is.
+    /// The meshes of the scene, each once, and for each model of the scene, in order, the index of its mesh.
     pub(crate) meshes: Vec<Vec<u8>>,
     pub(crate) models: Vec<usize>,
-    /// The places of meshes, by their hash.
+    /// The indices of meshes, by their hash.
     pub(crate) known_meshes: HashMap<u128, usize>,
-    /// What the cell calls signals.
+    /// The cell's names of signals.
     pub(crate) names: HashMap<String, String>,
     pub(crate) tracks: Vec<Track>,
     /// Each signal's changes, by its name in files: `di.1`.
@@ -56,13 +50,13 @@ pub(crate) struct Store {
     pub(crate) motions: Vec<Motion>,
     /// The time of the last message in s.
     pub(crate) end: f64,
-    /// Whether a program runs that adds to it.
+    /// Whether a running program adds to it.
     pub(crate) goes_on: bool,
-    /// What of the recording could not be read, and why.
+    /// What of the recording could not be read, and the reason.
     pub(crate) trouble: Option<String>,
-    /// Counts the messages that were taken in.
+    /// Counts the messages that were added.
     pub(crate) version: u64,
-    /// The inputs and outputs as they are now.
+    /// The present inputs and outputs.
     pub(crate) io: Io,
 }
 
@@ -77,31 +71,31 @@ pub(crate) struct Signal {
 #[derive(Default)]
 pub(crate) struct Track {
     pub(crate) times: Vec<f64>,
-    /// So many axes in a row.
+    /// The number of axes in a row.
     pub(crate) width: usize,
     pub(crate) axes: Vec<f32>,
     /// x, y, z in mm, and a quaternion x, y, z, w.
     pub(crate) tcp: Vec<[f32; 7]>,
-    /// Of the TCP in mm/s.
+    /// The speed of the TCP in mm/s.
     pub(crate) speed: Vec<f32>,
     /// Whether the TCP is that of another tool than in the row before: it has not moved from there to here.
     pub(crate) jumps: Vec<bool>,
-    /// What was said last of where the robot is.
+    /// The last report of where the robot is.
     last: Option<Channel>,
     pub(crate) pointers: Vec<Pointers>,
-    /// The numbers of the files in which motions stand, as far as a motion was seen.
+    /// For each motion that was seen, the number of the file it is in.
     pub(crate) motion_files: BTreeMap<u32, u16>,
-    /// The names that pointers and states have numbers of.
+    /// The file names to which pointers and states refer by number.
     pub(crate) files: Vec<String>,
     numbers: HashMap<String, u16>,
     pub(crate) states: Vec<(f64, String)>,
-    /// What each line took, by the number of its file.
+    /// The time that each line took, by the number of its file.
     pub(crate) lines: BTreeMap<(u16, u32), Took>,
-    /// Where the base is, whenever that changes.
+    /// The places of the base, from each change on.
     pub(crate) bases: Vec<(f64, [f32; 7])>,
 }
 
-/// How long the robot moved for a line, and stood in it, in s.
+/// How long the robot moved for a line, and was at rest in it, in s.
 #[derive(Clone, Copy, Default, PartialEq, Debug)]
 pub(crate) struct Took {
     pub(crate) moving: f64,
@@ -125,29 +119,37 @@ impl fmt::Display for Signal {
 }
 
 impl Store {
-    /// What the cell calls a signal, if it has a name for it.
+    /// The cell's name of a signal, if it has one.
     pub(crate) fn name_of(&self, signal: Signal) -> Option<&str> {
         self.names.get(&signal.to_string()).map(String::as_str)
     }
 
-    /// Takes in a message; those of other people are passed over.
+    /// Adds a message of a recording, at a time in ns; messages of other origin are skipped.
     ///
     /// # Errors
-    /// It is none of ours, or says what no run can: why.
+    /// The reason why the message is not of the topic's kind, or has values that no run can have.
     pub(crate) fn take(&mut self, topic: &str, time: u64, message: &[u8]) -> Result<(), String> {
+        match RunMessage::decoded(topic, message).map_err(|error| error.to_string())? {
+            Some(message) => self.add(time, message),
+            None => Ok(()),
+        }
+    }
+
+    /// Adds a message, at a time in ns.
+    fn add(&mut self, time: u64, message: RunMessage) -> Result<(), String> {
+        message.check()?;
         let time = time as f64 / 1e9;
-        match topic {
-            "/arl/cell" => self.cell(decoded(message)?),
-            "/scene" => self.scene(time, decoded(message)?),
-            "/arl/controller" => self.controller.push(decoded(message)?),
-            "/arl/io" => self.io(decoded(message)?),
-            "/arl/motions" => self.motion(decoded(message)?),
-            "/arl/contacts" => self.contacts.push(decoded(message)?),
-            "/log" => self.log.push((time, Log::decode(message).map_err(|error| error.to_string())?)),
-            _ => match topic.strip_prefix(CHANNEL).and_then(|number| number.parse::<usize>().ok()) {
-                Some(number @ 1..=MOST_PROGRAMS) => self.channel(number - 1, decoded(message)?)?,
-                _ => return Ok(()),
-            },
+        match message {
+            RunMessage::Cell(cell) => self.cell(cell),
+            RunMessage::Scene(update) => self.scene(time, update),
+            RunMessage::Controller(controller) => self.controller.push(controller),
+            RunMessage::Io(io) => self.io(io),
+            RunMessage::Motion(motion) => self.motion(motion),
+            RunMessage::Contact(contact) => self.contacts.push(contact),
+            RunMessage::Log(log) => self.log.push((time, log)),
+            RunMessage::Channel(number, channel) => self.channel(number.saturating_sub(1), channel)?,
+            // These follow from other messages.
+            RunMessage::Frames(_) | RunMessage::Joints(_) => return Ok(()),
         }
         self.end = self.end.max(time);
         self.version += 1;
@@ -160,7 +162,7 @@ impl Store {
         self.cell = cell;
     }
 
-    /// A mesh that comes again is kept once.
+    /// Adds an update; a mesh that comes again is kept once.
     fn scene(&mut self, time: f64, mut update: SceneUpdate) {
         for model in update.entities.iter_mut().flat_map(|entity| &mut entity.models) {
             let data = std::mem::take(&mut model.data);
@@ -184,7 +186,7 @@ impl Store {
         ];
         for (kind, before, now) in kinds {
             for (at, value) in now.into_iter().enumerate() {
-                // All begin at 0: a signal that never leaves it has no changes.
+                // All signals begin at 0: a signal that never leaves it has no changes.
                 if before.get(at).copied().unwrap_or_default() != value {
                     let signal = Signal { kind, number: at + 1 };
                     self.signals.entry(signal).or_default().push((io.time, value));
@@ -195,7 +197,7 @@ impl Store {
         self.io = io;
     }
 
-    /// A motion that is told again has gone on since.
+    /// A motion that is reported again has continued since.
     fn motion(&mut self, motion: Motion) {
         let mut late = self.motions.iter_mut().rev().take(TOLD_AGAIN);
         let again = late.find(|late| (late.channel, late.motion) == (motion.channel, motion.motion));
@@ -230,7 +232,7 @@ impl Track {
         let tcp = placed(&said.tcp);
         let (speed, before) = (self.speed_to(said.time, &tcp), self.speed.last().copied().unwrap_or_default());
         let jumps = self.last.as_ref().is_some_and(|last| {
-            // The kinematics are asked last: a motion seldom begins.
+            // The kinematics are computed last: a motion seldom begins.
             let may_jump = last.motion != said.motion && way(&last.tcp, &said.tcp) > OTHER_TOOL_MM;
             may_jump
                 && flange_tool(last, links).zip(flange_tool(&said, links)).map_or_else(
@@ -260,7 +262,7 @@ impl Track {
     }
 
     /// Adds the time since the last message to the lines: to that of the motion while one was executed, and to that of
-    /// the program while the robot stood.
+    /// the program while the robot was at rest.
     fn count(&mut self, time: f64, now: Pointers) {
         let (Some(since), Some(before)) = (self.times.last(), self.pointers.last()) else { return };
         let apart = time - since;
@@ -277,12 +279,12 @@ impl Track {
         }
     }
 
-    /// How fast the TCP came from where it was last, in mm/s.
+    /// The speed at which the TCP came from its last place, in mm/s.
     fn speed_to(&self, time: f64, tcp: &[f32; 7]) -> f32 {
         let (Some(before), Some(last)) = (self.times.last(), self.tcp.last()) else { return 0.0 };
         let way = (0..3).map(|at| f64::from(tcp[at] - last[at]).powi(2)).sum::<f64>().sqrt();
         let apart = time - before;
-        // What stood is silent until its first step.
+        // A robot at rest does not report until its first step.
         (way / if apart > GAP_S { STEP_S } else { apart.max(1e-6) }) as f32
     }
 
@@ -299,18 +301,12 @@ impl Track {
     }
 }
 
-/// A message that says nothing that a run cannot.
-fn decoded<M: prost::Message + Bounded + Default>(message: &[u8]) -> Result<M, String> {
-    let decoded = M::decode(message).map_err(|error| error.to_string())?;
-    decoded.check().map(|()| decoded)
-}
-
-/// How far one place is from another, in mm.
+/// The distance between two places, in mm.
 fn way(from: &[f64], to: &[f64]) -> f64 {
     from.iter().zip(to).take(3).map(|(from, to)| (to - from).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Where the TCP is on the flange, in mm, where a recording has the robot's links.
+/// Where the TCP is on the flange, in mm, if the recording has the robot's links.
 fn flange_tool(said: &Channel, links: &[Link]) -> Option<Vector3<f64>> {
     let (base, tcp) = (<[f64; 6]>::try_from(&said.base[..]).ok()?, <[f64; 6]>::try_from(&said.tcp[..]).ok()?);
     let mut flange = frame(base);
@@ -331,8 +327,8 @@ fn placed(values: &[f64]) -> [f32; 7] {
 }
 
 impl Sink for Store {
-    fn message(&mut self, topic: &str, _schema: &'static Schema, time: u64, message: &[u8]) -> McapResult<()> {
-        self.take(topic, time, message).map_err(|error| std::io::Error::other(error).into())
+    fn message(&mut self, time: u64, message: RunMessage) -> McapResult<()> {
+        self.add(time, message).map_err(|error| std::io::Error::other(error).into())
     }
 
     fn source(&mut self, name: &str, text: &str) -> McapResult<()> {

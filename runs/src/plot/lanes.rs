@@ -3,10 +3,10 @@
 use super::scale::Scale;
 use super::svg::{Anchor, Area, Picture};
 
-/// px from lane to lane, and of a lane.
+/// px from lane to lane, and the height of a lane.
 const APART: f64 = 19.0;
 const HEIGHT: f64 = 13.0;
-/// px between two changes that are seen apart.
+/// px between two changes that are drawn apart.
 const CLOSEST: f64 = 0.3;
 /// More lanes than these are not drawn.
 const DRAWN: usize = 24;
@@ -14,13 +14,13 @@ const DRAWN: usize = 24;
 /// A signal that changes.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Lane {
-    /// What it is called.
+    /// Its name.
     pub(crate) label: String,
-    /// Times in s, and what it was from then on. Before the first one it is 0.
+    /// Times in s, and the value from then on. Before the first change it is 0.
     pub(crate) changes: Vec<(f64, f64)>,
 }
 
-/// What the lanes take of the picture's height, in px.
+/// The height of the lanes in the picture, in px.
 pub(super) fn height(lanes: &[Lane]) -> f64 {
     let more = usize::from(lanes.len() > DRAWN);
     if lanes.is_empty() { 0.0 } else { 34.0 + APART * (lanes.len().min(DRAWN) + more) as f64 }
@@ -45,8 +45,8 @@ pub(super) fn draw(lanes: &[Lane], time: [f64; 2], area: &Area, picture: &mut Pi
     }
 }
 
-/// The line of a lane: up and down between its lowest and its highest value. What is closer together than a part of a
-/// pixel is one stroke.
+/// The line of a lane: up and down between its lowest and its highest value. Changes that are closer together than a
+/// fraction of a pixel are one stroke.
 fn outline(lane: &Lane, [from, to]: [f64; 2], across: &Scale, top: f64) -> Vec<Option<[f64; 2]>> {
     let values = || lane.changes.iter().map(|(_, value)| *value);
     let (least, most) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));

@@ -1,6 +1,6 @@
-//! Draws what a run did: the way of the TCP in three views, its speed, and the axes' speeds against their limits.
+//! Draws what a run did: the path of the TCP in three views, its speed, and the axes' speeds against their limits.
 //!
-//! It is made from the trace, so that the compiled program need not know of it.
+//! The plot is made from the trace, so the compiled program need not know of it.
 
 mod lanes;
 mod outline;
@@ -29,14 +29,14 @@ const LEFT_MARGIN: f64 = 62.0;
 const VIEWS_HEIGHT: f64 = 330.0;
 /// px for the legends to the right of the charts.
 const LEGENDS: f64 = 158.0;
-/// More lines than these are not listed.
+/// No more lines than this are listed.
 const LISTED: usize = 30;
 const COLUMNS: usize = 3;
 
 /// The program that ran, for the title and the list of lines.
 #[derive(Clone, Default, Debug)]
 pub struct Ran {
-    /// What stands above the picture.
+    /// The text above the picture.
     pub title: String,
     /// The file that has `main`, where that is known.
     pub main: Option<String>,
@@ -47,8 +47,8 @@ pub struct Ran {
 }
 
 impl Ran {
-    /// The text of a line of a file. Where the trace does not name the file, there is none but where the whole program
-    /// is one file; data files do not count.
+    /// The text of a line of a file. Where the trace does not name the file, `None` unless the whole program is one
+    /// file; data files do not count.
     fn text(&self, file: Option<&str>, line: u32) -> Option<&str> {
         let mut programs = self.sources.iter().filter(|one| !is_data(Path::new(&one.name)));
         let source = match file {
@@ -60,10 +60,10 @@ impl Ran {
     }
 }
 
-/// Draws the trace at `trace` to the file `plot`; says whether there was a motion to draw.
+/// Draws the trace at `trace` to the file `plot`; returns whether there was a motion to draw.
 ///
 /// # Errors
-/// The trace cannot be read, has a line that is none, or the plot cannot be written.
+/// The trace cannot be read or has a malformed line, or the plot cannot be written.
 pub fn plot(trace: &Path, plot: &Path, robot: arl_robot::Robot, ran: &Ran) -> Result<bool, Failure> {
     let robot = Robot::of(robot);
     let mut rows = Rows::open(trace)?;

@@ -1,4 +1,4 @@
-//! The first look at a trace: how long, how far, which motions. The second one draws.
+//! The first pass over a trace: how long, how far, which motions. The second pass draws.
 
 use super::robot::AXES;
 use super::trace::{Movement, ProgramLine, Row};
@@ -6,7 +6,7 @@ use arl_terminal::failure::Failure;
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 
-/// A motion, or a part of one between two standstills: from when to when its line was executed.
+/// A motion, or a part of one between two standstills: the time in which its line was executed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Stretch {
     pub(super) place: ProgramLine,
@@ -26,7 +26,7 @@ pub(super) struct Outline {
     pub(super) stretches: Vec<Stretch>,
     /// The lines with motions, in the order of their first execution.
     pub(super) lines: Vec<ProgramLine>,
-    /// Where each line is among them.
+    /// The index of each line among them.
     places: HashMap<ProgramLine, usize>,
     /// The files that the trace names, and the one that has `main` where that is known.
     files: Vec<String>,
@@ -38,7 +38,7 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// Looks at all rows; `None` where no motion is among them.
+    /// Reads all rows; `None` if there is no motion among them.
     ///
     /// # Errors
     /// A row cannot be read.
@@ -98,7 +98,7 @@ impl Outline {
         Self { files: files.to_vec(), main: main.map(str::to_owned), ..self }
     }
 
-    /// The file of a line, where the trace names it.
+    /// The file of a line, if the trace names it.
     pub(super) fn file(&self, line: ProgramLine) -> Option<&str> {
         self.files.get(line.file).map(String::as_str).filter(|name| !name.is_empty())
     }
@@ -106,7 +106,7 @@ impl Outline {
     /// `12`, or `grips.arl:12` where it is not in the file that has `main`.
     pub(super) fn label(&self, line: ProgramLine) -> String {
         let number = line.line;
-        // Where nobody says which file has it, the number is enough as long as there is one file.
+        // Where it is not known which file has `main`, the number is enough as long as there is one file.
         let is_in_main = |file: &str| self.main.as_deref().map_or(self.files.len() == 1, |main| main == file);
         match self.file(line) {
             Some(file) if !is_in_main(file) => format!("{file}:{number}"),
@@ -129,7 +129,7 @@ impl Outline {
         self.stretches.iter().map(|stretch| (stretch.place, stretch.motion)).collect::<HashSet<_>>().len()
     }
 
-    /// Where a line is among the lines with motions.
+    /// The index of a line among the lines with motions.
     pub(super) fn place(&self, line: ProgramLine) -> Option<usize> {
         self.places.get(&line).copied()
     }
@@ -140,11 +140,11 @@ impl Outline {
     }
 }
 
-/// Colours that are told apart on white, also by people who see few of them.
+/// Colours that can be told apart on white, also by people who distinguish few colours.
 const COLOURS: [&str; 10] =
     ["#0969da", "#d1570a", "#1a7f37", "#a0447a", "#8a6d00", "#0a8a9a", "#cf222e", "#6639ba", "#57606a", "#3fa34d"];
 
-/// The colour with this number; they come again after ten.
+/// The colour with this number; they repeat after ten.
 pub(super) fn colour(at: usize) -> &'static str {
     COLOURS.get(at % COLOURS.len()).copied().unwrap_or("#57606a")
 }

@@ -1,8 +1,8 @@
-//! What a plot tells of a robot.
+//! What a plot shows of a robot.
 
 use arl_robot::robot;
 
-/// How many axes a trace holds: six of the robot, six external ones.
+/// The number of axes in a trace: six of the robot, six external ones.
 pub(super) const AXES: usize = 12;
 
 /// An axis in a trace.
@@ -16,7 +16,7 @@ pub(super) struct TraceAxis {
     pub(super) column: usize,
 }
 
-/// What a plot tells of a robot.
+/// What a plot shows of a robot.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Robot {
     pub(super) name: String,
@@ -26,7 +26,7 @@ pub(super) struct Robot {
 }
 
 impl Robot {
-    /// Of a whole one.
+    /// Takes these from a robot.
     pub(super) fn of(robot: robot::Robot) -> Self {
         let own = robot.own_axes().len();
         let columns = (0..own).chain(robot::ROBOT_AXES..AXES);

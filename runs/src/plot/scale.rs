@@ -1,4 +1,4 @@
-//! From quantities to pixels, and where the ticks are.
+//! Converts quantities to pixels, and places the ticks.
 
 /// A range that is drawn between two places.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -36,7 +36,7 @@ pub(super) fn ticks([low, high]: [f64; 2], step: f64) -> impl Iterator<Item = f6
     (first..=last).map(move |at| at as f64 * step)
 }
 
-/// A tick's number, with as many places as its step needs.
+/// A tick's number, with as many decimals as its step needs.
 pub(super) fn label(value: f64, step: f64) -> String {
     let places = if step >= 1.0 { 0 } else { (-step.log10() - 1e-9).ceil() as usize };
     let text = format!("{value:.places$}");

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-/// Where a text is held.
+/// Which point of a text is at its place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Anchor {
     Start,
@@ -59,7 +59,7 @@ impl Picture {
                 down = false;
                 continue;
             };
-            // A point alone is shown as a dot: a line of no length with round ends.
+            // A single point is shown as a dot: a line of no length with round ends.
             let alone = !down && points.get(at + 1).is_none_or(Option::is_none);
             let step = if down { 'L' } else { 'M' };
             let _ = write!(steps, "{step}{} {}", short(*x), short(*y));
@@ -88,7 +88,7 @@ impl Picture {
         self.body.push('\n');
     }
 
-    /// The whole file, with a white ground.
+    /// The whole file, with a white background.
     pub(super) fn finish(self, width: f64, height: f64, title: &str) -> String {
         let (width, height, title) = (short(width), short(height), escaped(title));
         format!(
@@ -117,7 +117,7 @@ const STYLE: &str = "\
     .way{fill:none;stroke-width:1.8;stroke-linejoin:round;stroke-linecap:round}\
     .curve{fill:none;stroke-width:1.4;stroke-linejoin:round}";
 
-/// A number with at most two places, without needless zeros.
+/// A number with at most two decimals, without needless zeros.
 pub(super) fn short(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
@@ -131,7 +131,7 @@ fn escaped(text: &str) -> String {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
-            // Other control characters may not stand in XML at all.
+            // Other control characters are not allowed in XML at all.
             c if c.is_control() => out.push(' '),
             c => out.push(c),
         }

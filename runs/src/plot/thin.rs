@@ -1,6 +1,6 @@
-//! Leaves out points that nobody would see.
+//! Leaves out points that make no visible difference.
 
-/// How far a line may be beside the points that it stands for, in px.
+/// How far a line may be from the points that it replaces, in px.
 const TOLERANCE: f64 = 0.15;
 
 /// Takes points one by one and keeps those that a line through them needs. `None` among the kept ones lifts the pen.
@@ -9,7 +9,7 @@ pub(super) struct Line {
     kept: Vec<Option<[f64; 2]>>,
     /// The last point that was kept.
     anchor: Option<[f64; 2]>,
-    /// The last point that came, where it was not kept.
+    /// The last point that came, if it was not kept.
     last: Option<[f64; 2]>,
     /// The first direction from the anchor, and how far to both sides of it the line may go, in rad.
     cone: Option<(f64, f64, f64)>,
@@ -18,7 +18,7 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// The next point, in px.
+    /// Adds the next point, in px.
     pub(super) fn push(&mut self, point: [f64; 2]) {
         let Some(anchor) = self.anchor else {
             self.keep(point);
@@ -34,7 +34,7 @@ impl Line {
         let half = (TOLERANCE / distance.max(TOLERANCE)).asin();
         let (first, low, high) = self.cone.unwrap_or((direction, -half, half));
         let off = wrapped(direction - first);
-        // Back towards the anchor is another line: where it turned must stay.
+        // Turning back towards the anchor is another line: the turning point must stay.
         if off < low || off > high || distance < self.reach - TOLERANCE {
             let corner = self.last.unwrap_or(anchor);
             self.keep(corner);
@@ -94,7 +94,7 @@ struct Column {
 }
 
 impl OverTime {
-    /// The next point, in px; x never goes back.
+    /// Adds the next point, in px; x never decreases.
     pub(super) fn push(&mut self, point: [f64; 2]) {
         let number = point[0].floor() as i64;
         match &mut self.column {
@@ -145,7 +145,7 @@ mod tests {
     fn straight_lines_need_their_ends_only() {
         let there = (0..=1000).map(|at| [f64::from(at) * 0.1, f64::from(at) * 0.05]);
         assert_eq!(thinned(there.clone()), [[0.0, 0.0], [100.0, 50.0]]);
-        // The way back is a line of its own.
+        // The path back is a line of its own.
         let back = (0..1000).rev().map(|at| [f64::from(at) * 0.1, f64::from(at) * 0.05]);
         let both = thinned(there.chain(back));
         assert_eq!(both.first().zip(both.last()), Some((&[0.0, 0.0], &[0.0, 0.0])));

@@ -9,7 +9,7 @@ use super::trace::RobotMotion;
 
 /// px that a line's number needs in its band.
 const DIGIT: f64 = 6.2;
-/// px between two marks of where a motion begins.
+/// px between two marks of where motions begin.
 const APART: f64 = 7.0;
 
 /// The chart of the TCP's speed and the one of the axes' speeds, with the band of lines above them.
@@ -30,7 +30,7 @@ pub(super) struct Times<'a> {
 }
 
 impl<'a> Times<'a> {
-    /// `band`, `speed` and `axes` are as wide as each other.
+    /// `band`, `speed` and `axes` have the same width.
     pub(super) fn new(outline: &'a Outline, robot: &'a Robot, band: Area, speed: Area, axes: Area) -> Self {
         let [from, to] = outline.time;
         let end = to.max(from + 1e-3);
@@ -53,7 +53,7 @@ impl<'a> Times<'a> {
         }
     }
 
-    /// The next cycle.
+    /// Adds the next cycle.
     pub(super) fn push(&mut self, moved: &RobotMotion) {
         let x = self.across.at(moved.row.t);
         match moved.speed {
@@ -140,7 +140,7 @@ impl<'a> Times<'a> {
         picture.text([area.x - 5.0, y + 3.5], Anchor::End, "tick", text);
     }
 
-    /// Where motions begin.
+    /// Marks where motions begin.
     fn changes(&self, picture: &mut Picture) {
         let mut last = f64::NEG_INFINITY;
         for stretch in &self.outline.stretches {

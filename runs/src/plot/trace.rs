@@ -9,15 +9,15 @@ use std::path::{Path, PathBuf};
 
 const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
 
-/// What follows where the trace says which file a line is of.
+/// The column that follows where the trace tells which file a line is in.
 const FILE_COLUMN: &str = ",file";
-/// How many columns are before that.
+/// The number of columns before that.
 const COLUMNS: usize = 21;
 
 /// A line of a program.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(super) struct ProgramLine {
-    /// Its file, by its place among those that the trace names ([`Rows::files`]).
+    /// Its file, by its index among those that the trace names ([`Rows::files`]).
     pub(super) file: usize,
     pub(super) line: u32,
 }
@@ -49,7 +49,7 @@ impl Rows {
     /// Opens a trace file and checks its header.
     ///
     /// # Errors
-    /// It cannot be read, or is not a trace.
+    /// The file cannot be read, or is not a trace.
     pub(super) fn open(path: &Path) -> Result<Self, Failure> {
         let opened = regular_file::expect(path).and_then(|()| File::open(path));
         let file = opened.map_err(|error| Failure::io("read the trace", path, &error))?;
@@ -66,7 +66,7 @@ impl Rows {
         }
     }
 
-    /// The names of the files that rows have named so far; an empty one where the trace names none.
+    /// The names of the files that rows have named so far; an empty name where the trace names none.
     pub(super) fn files(&self) -> &[String] {
         &self.files
     }
@@ -87,7 +87,7 @@ impl Iterator for Rows {
     }
 }
 
-/// Reads a row; a file that is new comes behind the others.
+/// Reads a row; a new file is added after the others.
 fn row(text: &str, files: &mut Vec<String>) -> Option<Row> {
     let mut fields = text.splitn(COLUMNS + 1, ',');
     let t = fields.next()?.parse().ok()?;
@@ -111,7 +111,7 @@ fn row(text: &str, files: &mut Vec<String>) -> Option<Row> {
     Some(Row { t, place: ProgramLine { file, line }, motion, axes, tcp })
 }
 
-/// Where a file is among those that are known.
+/// The index of a file among the known ones, to which a new one is added.
 fn place(files: &mut Vec<String>, name: &str) -> usize {
     let known = files.iter().position(|known| known == name);
     known.unwrap_or_else(|| {
@@ -144,7 +144,7 @@ impl RobotMotion {
     }
 }
 
-/// A TCP that gets faster than this, mm/s2, when a motion begins is that of another tool.
+/// A TCP that accelerates by more than this, mm/s2, when a motion begins is that of another tool.
 const TOOL_CHANGE: f64 = 5e5;
 
 /// Turns rows into movements.
@@ -154,7 +154,7 @@ pub(super) struct Movement {
 }
 
 impl Movement {
-    /// How the robot moved from the row before to this one; the first row is where it stands.
+    /// How the robot moved from the row before to this one; in the first row it is at rest.
     pub(super) fn next(&mut self, row: Row) -> RobotMotion {
         let Some((before, speed_before)) = self.last else {
             self.last = Some((row, 0.0));

@@ -7,7 +7,7 @@ use super::thin::Line;
 use super::trace::{ProgramLine, RobotMotion};
 use std::collections::{BTreeMap, HashSet};
 
-/// What the axes of the world are called.
+/// The names of the world's axes.
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
 /// The views: title, and which component of a place goes to the right and which upwards. The front is seen against x.
@@ -16,7 +16,7 @@ const VIEWS: [(&str, usize, usize); 3] = [("Top", 0, 1), ("Front (against x)", 1
 /// The least extent of a view, mm.
 const LEAST: f64 = 10.0;
 
-/// Of more lines than these, neighbours are drawn as one: nobody could tell them apart, and each is a piece of the
+/// Of more lines than this, neighbours are drawn as one: they could not be told apart, and each is an element of the
 /// picture.
 const MOST_WAYS: usize = 1000;
 
@@ -31,13 +31,13 @@ struct View {
     upward: Scale,
     /// How many lines are drawn as one.
     together: usize,
-    /// The way so far, by line of the program: the first of those that are drawn as one.
+    /// The path so far, by line of the program: the first of those that are drawn as one.
     ways: BTreeMap<ProgramLine, Line>,
     current: Option<ProgramLine>,
     last: Option<[f64; 2]>,
-    /// Pieces of way that are there already: a program's loop draws its way once.
+    /// Pieces of path that are already drawn: a loop of the program draws its path once.
     drawn: HashSet<(ProgramLine, [i32; 4])>,
-    /// Where the lines' numbers may stand: line and place.
+    /// Where the lines' numbers may be placed: line and place.
     marks: Vec<(ProgramLine, [f64; 2])>,
 }
 
@@ -52,7 +52,7 @@ impl Views {
     pub(super) fn new(outline: &Outline, whole: &Area, gap: f64) -> Self {
         let width = (whole.width - 2.0 * gap) / 3.0;
         let extent = |at: usize| outline.space.get(at).map_or(LEAST, |[low, high]| (high - low).max(LEAST));
-        // mm for one px; the way leaves a margin.
+        // mm for one px; the path leaves a margin.
         let scale = VIEWS.iter().map(|(_, right, up)| (extent(*right) / width).max(extent(*up) / whole.height));
         let scale = scale.fold(0.0, f64::max) * 1.16;
         let views = VIEWS.iter().enumerate().map(|(at, (title, right, up))| {
@@ -81,7 +81,7 @@ impl Views {
         Self { views: views.collect(), step: step(scale * width, 5.0) }
     }
 
-    /// The next cycle.
+    /// Adds the next cycle.
     pub(super) fn push(&mut self, outline: &Outline, moved: &RobotMotion) {
         self.views.iter_mut().for_each(|view| view.push(outline, moved));
     }
@@ -109,12 +109,12 @@ impl View {
             self.current = Some(line);
         }
         let from = if moved.speed.is_some() { before.unwrap_or(point) } else { point };
-        // Quarters of a pixel: what is drawn there already is not drawn again.
+        // Quarters of a pixel: what is already drawn there is not drawn again.
         let rounded = |value: f64| (value * 4.0).round() as i32;
         let way = self.ways.entry(line).or_default();
         let [begin, end] = [from, point].map(|[x, y]| [rounded(x), rounded(y)]);
         if begin == end && way.is_down() {
-            // Too short to be seen by itself.
+            // Too short to be visible by itself.
             way.push(point);
             return;
         }
@@ -130,7 +130,7 @@ impl View {
         way.push(point);
     }
 
-    /// The first of the lines that a line is drawn with.
+    /// The first of the lines that are drawn as one with this line.
     fn drawn_as(&self, outline: &Outline, line: ProgramLine) -> ProgramLine {
         let first = outline.place(line).and_then(|at| outline.lines.get(at / self.together * self.together));
         first.copied().unwrap_or(line)
@@ -146,8 +146,7 @@ impl View {
 
     fn draw(mut self, outline: &Outline, step: f64, picture: &mut Picture) {
         self.ground(step, picture);
-        // Colours come again after some lines: next to each other they are distinct however many lines are drawn as
-        // one.
+        // Colours repeat after some lines: neighbouring lines differ however many lines are drawn as one.
         for (at, line) in outline.lines.iter().step_by(self.together).enumerate() {
             let Some(way) = self.ways.remove(line) else { continue };
             let points = way.finish();
@@ -179,7 +178,7 @@ impl View {
         picture.text([right, y - 8.0], Anchor::End, "tick", &axes);
     }
 
-    /// The lines' numbers beside their ways, as far as they do not cover each other.
+    /// The lines' numbers beside their paths, as far as they do not cover each other.
     fn numbers(&self, outline: &Outline, picture: &mut Picture) {
         let mut taken: Vec<[f64; 4]> = Vec::new();
         for (line, [x, y]) in &self.marks {
@@ -201,14 +200,14 @@ impl View {
                 continue;
             };
             taken.push([left, top, left + width, top + 12.0]);
-            // White around it, so that it is read on top of ways.
+            // White around it, so that it can be read on top of paths.
             picture.text([left + 2.0, top + 10.0], Anchor::Start, "halo", &text);
             picture.text([left + 2.0, top + 10.0], Anchor::Start, "mark", &text);
         }
     }
 }
 
-/// The middle of the longest straight piece of a way; where it is a dot, the dot.
+/// The middle of the longest straight piece of a path; of a dot, the dot.
 fn longest(points: &[Option<[f64; 2]>]) -> Option<[f64; 2]> {
     let pairs = points.windows(2).filter_map(|pair| Some((*pair.first()?.as_ref()?, *pair.last()?.as_ref()?)));
     let length = |(from, to): &([f64; 2], [f64; 2])| (to[0] - from[0]).hypot(to[1] - from[1]);
@@ -225,7 +224,7 @@ mod tests {
     use super::super::trace::{Movement, Row};
     use super::*;
 
-    /// The views of a way around a circle of 100 mm, so many lines for so many turns.
+    /// The views of a path around a circle of 100 mm, with this many lines and turns.
     fn drawn(lines: u32, turns: f64) -> String {
         let row = |line: u32| {
             let angle = f64::from(line) / f64::from(lines) * turns * std::f64::consts::TAU;

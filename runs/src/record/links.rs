@@ -1,5 +1,5 @@
-//! A robot's arm as viewers see it: frames from the world to the flange and the TCP, and of what its external axes
-//! move, in m and rad.
+//! A robot's arm as viewers see it: the frames from the world to the flange and the TCP, and those of what its external
+//! axes move, in m and rad.
 
 use arl_robot::cell::Carrier;
 use arl_robot::kinematics::{self, Frame, frame};
@@ -8,19 +8,19 @@ use nalgebra::{Translation3, UnitQuaternion, Vector3 as Vector};
 use super::messages::{FrameTransform, Link, Quaternion, Timestamp, Vector3};
 use arl_wire::{Channel, Limb, LinkJoint, Placed, Runs, placed};
 
-/// The frame that everything stands in.
+/// The frame that everything is in.
 pub(super) const WORLD: &str = "world";
 
 /// The arm of a channel.
 pub(super) struct RecordedArm {
-    /// Before the name of each of its frames and joints.
+    /// The prefix of the names of its frames and joints.
     prefix: String,
     pub(super) robot: String,
     pub(super) links: Vec<LinkJoint>,
     pub(super) flange: Placed,
     /// Its shape.
     pub(super) limbs: Vec<Limb>,
-    /// Where its base stands in the world, as far as that is known.
+    /// Where its base is in the world, as far as that is known.
     pub(super) stands: Frame,
     pub(super) axes: Vec<Own>,
     /// What its external axes move.
@@ -33,7 +33,7 @@ pub(super) struct Carried {
     /// The frame that it is on.
     pub(super) parent: String,
     pub(super) joint: kinematics::LinkJoint,
-    /// Which of the axes it is.
+    /// The index of this axis among the robot's axes.
     pub(super) axis: usize,
 }
 
@@ -70,12 +70,12 @@ impl RecordedArm {
         }
     }
 
-    /// Takes in where its base stands: x, y, z in mm, a, b, c in deg.
+    /// Sets the place of its base: x, y, z in mm, a, b, c in deg.
     pub(super) fn stands_on(&mut self, base: &[f64]) {
         self.stands = components(base);
     }
 
-    /// What people call a link; 0 is the base.
+    /// The common name of a link; 0 is the base.
     pub(super) fn name_of(&self, link: usize) -> &str {
         arl_wire::name_of_link(link, self.links.len(), &self.limbs)
     }
@@ -103,7 +103,7 @@ impl RecordedArm {
         format!("{}tcp", self.prefix)
     }
 
-    /// The frame of the workpiece of its motion.
+    /// The workpiece frame of its motion.
     fn workpiece_frame(&self) -> String {
         format!("{}workpiece", self.prefix)
     }
@@ -153,7 +153,7 @@ impl RecordedArm {
     /// All frames at a moment.
     pub(super) fn transforms(&self, said: &Channel, now: Timestamp) -> Vec<FrameTransform> {
         let mut all = Vec::with_capacity(self.links.len() + 3);
-        let mut add = |parent: String, child: String, frame: &Frame| all.push(transform(now, (parent, child), frame));
+        let mut add = |parent: String, child: String, frame: &Frame| all.push(transform(now, parent, child, frame));
         add(WORLD.into(), self.base(), &components(&said.base));
         let mut before = self.base();
         for (number, (link, value)) in (1..).zip(self.links.iter().zip(&said.axes)) {
@@ -171,7 +171,7 @@ impl RecordedArm {
     }
 }
 
-/// What an external axis moves has its name.
+/// What an external axis moves is named after the axis.
 fn carrier_frame(prefix: &str, axis: &str) -> String {
     format!("{prefix}{axis}")
 }
@@ -181,14 +181,15 @@ fn si(value: f64, linear: bool) -> f64 {
     if linear { value / 1000.0 } else { value.to_radians() }
 }
 
-/// A frame from x, y, z, a, b, c; where there are none, that of the world.
+/// A frame from x, y, z, a, b, c; the frame of the world if these are missing.
 fn components(values: &[f64]) -> Frame {
     <[f64; 6]>::try_from(values).map_or_else(|_| Frame::identity(), frame)
 }
 
 pub(super) fn transform(
     now: Timestamp,
-    (parent_frame_id, child_frame_id): (String, String),
+    parent_frame_id: String,
+    child_frame_id: String,
     frame: &Frame,
 ) -> FrameTransform {
     let (translation, rotation) = parts(frame);
@@ -201,7 +202,7 @@ pub(super) fn transform(
     }
 }
 
-/// A frame as messages have it, in m.
+/// A frame in the form of messages, in m.
 pub(super) fn parts(frame: &Frame) -> (Vector3, Quaternion) {
     let at = frame.translation.vector / 1000.0;
     let [x, y, z, w] = frame.rotation.coords.into();
@@ -215,7 +216,7 @@ pub(super) fn straight(limb: &Limb) -> Option<(Frame, f64)> {
     if along.norm() == 0.0 {
         return None;
     }
-    // Where it points straight down, any half turn will do.
+    // Where the limb points straight down, any half turn will do.
     let turned = UnitQuaternion::rotation_between(&Vector::z(), &along)
         .unwrap_or_else(|| UnitQuaternion::from_scaled_axis(Vector::x() * std::f64::consts::PI));
     Some((Frame::from_parts(Translation3::from(0.5 * (from + to)), turned), along.norm()))

@@ -123,7 +123,7 @@ pub(crate) struct Runs {
     pub(crate) robot: String,
     #[prost(message, repeated, tag = "3")]
     pub(crate) axes: Vec<Axis>,
-    /// From the base on, and the flange at last.
+    /// From the base on, with the flange last.
     #[prost(message, repeated, tag = "4")]
     pub(crate) links: Vec<Link>,
     /// The frame of its TCP.
@@ -134,7 +134,7 @@ pub(crate) struct Runs {
     pub(crate) carriers: Vec<Link>,
 }
 
-/// `arl2rs.v1.Link`: a frame of a robot, by the frame that it is fixed to or moves against.
+/// `arl2rs.v1.Link`: a frame of a robot, relative to the frame that it is fixed to or moves against.
 #[derive(Clone, PartialEq, Message)]
 pub(crate) struct Link {
     #[prost(string, tag = "1")]
@@ -144,12 +144,12 @@ pub(crate) struct Link {
     /// Where it is in its parent while its axis is at 0: x, y, z in mm, and a quaternion x, y, z, w.
     #[prost(double, repeated, tag = "3")]
     pub(crate) origin: Vec<f64>,
-    /// What it turns about, or moves along, in its own frame; none: it does not move.
+    /// The axis that it turns about, or moves along, in its own frame; empty: it does not move.
     #[prost(double, repeated, tag = "4")]
     pub(crate) axis: Vec<f64>,
     #[prost(bool, tag = "5")]
     pub(crate) linear: bool,
-    /// The name of the axis that moves it; empty: none does.
+    /// The name of the axis that moves it; empty: none.
     #[prost(string, tag = "6")]
     pub(crate) moved_by: String,
 }
@@ -167,7 +167,7 @@ pub(crate) struct Axis {
     pub(crate) max: f64,
 }
 
-/// `arl2rs.v1.Name`: what the cell file calls a signal, `di.1`.
+/// `arl2rs.v1.Name`: the cell file's name of a signal, `di.1`.
 #[derive(Clone, PartialEq, Message)]
 pub(crate) struct Name {
     #[prost(string, tag = "1")]
@@ -176,7 +176,7 @@ pub(crate) struct Name {
     pub(crate) name: String,
 }
 
-/// `arl2rs.v1.Channel`: how a channel stands.
+/// `arl2rs.v1.Channel`: the state of a channel.
 #[derive(Clone, PartialEq, Message)]
 pub(crate) struct Channel {
     /// Controller time in s.
@@ -195,7 +195,7 @@ pub(crate) struct Channel {
     pub(crate) motion_file: String,
     #[prost(uint32, tag = "6")]
     pub(crate) motion_line: u32,
-    /// Its running number in the cycle before; 0: the robot stood.
+    /// Its running number in the cycle before; 0: the robot was at rest.
     #[prost(uint64, tag = "7")]
     pub(crate) motion: u64,
     /// Commanded, in deg (mm), in the order of [`Runs::axes`].
@@ -204,7 +204,7 @@ pub(crate) struct Channel {
     /// The TCP in the world: x, y, z in mm, a, b, c in deg.
     #[prost(double, repeated, tag = "9")]
     pub(crate) tcp: Vec<f64>,
-    /// The base of the robot in the world, in the same way; none: not known before the first motion.
+    /// The base of the robot in the world, in the same form; empty: not known before the first motion.
     #[prost(double, repeated, tag = "10")]
     pub(crate) base: Vec<f64>,
 }
@@ -255,7 +255,7 @@ pub(crate) struct Motion {
     pub(crate) start: f64,
     #[prost(double, tag = "6")]
     pub(crate) duration: f64,
-    /// The path of the TCP in mm.
+    /// The length of the TCP's path in mm.
     #[prost(double, tag = "7")]
     pub(crate) way: f64,
     /// The programmed and the highest speed, and their unit.
@@ -265,7 +265,7 @@ pub(crate) struct Motion {
     pub(crate) reached: f64,
     #[prost(string, tag = "10")]
     pub(crate) unit: String,
-    /// The zone at its end, where one was asked for.
+    /// The zone at its end, if one was requested.
     #[prost(message, optional, tag = "11")]
     pub(crate) blend: Option<Blend>,
     /// The limits of speed, acceleration and jerk that it came nearest to.
@@ -275,12 +275,13 @@ pub(crate) struct Motion {
     pub(crate) closest_acc: Option<Closest>,
     #[prost(message, optional, tag = "14")]
     pub(crate) closest_jerk: Option<Closest>,
-    /// The file that `line` is of; empty in recordings that were made before it was said.
+    /// The file that `line` is in; empty in recordings made before this field existed.
     #[prost(string, tag = "15")]
     pub(crate) file: String,
 }
 
-/// `arl2rs.v1.Blend`: how much of a zone was asked for and used, in its unit, and why the robot stopped, where it did.
+/// `arl2rs.v1.Blend`: how much of a zone was requested and used, in its unit, and the reason for stopping, if the robot
+/// stopped.
 #[derive(Clone, PartialEq, Message)]
 pub(crate) struct Blend {
     #[prost(double, tag = "1")]
@@ -302,13 +303,13 @@ pub(crate) struct Closest {
     pub(crate) percent: f64,
 }
 
-/// `arl2rs.v1.Contact`: two bodies begin to touch, or the nearest that they come to each other where that is nearer
-/// than asked for.
+/// `arl2rs.v1.Contact`: two bodies begin to touch, or their closest approach where that is below the requested
+/// clearance.
 #[derive(Clone, PartialEq, Message)]
 pub(crate) struct Contact {
     #[prost(double, tag = "1")]
     pub(crate) time: f64,
-    /// Where the motion stands that brought them together.
+    /// The place of the motion that brought them together.
     #[prost(string, tag = "2")]
     pub(crate) file: String,
     #[prost(uint32, tag = "3")]
@@ -377,7 +378,7 @@ pub(crate) struct Cylinder {
 pub(crate) struct Model {
     #[prost(message, optional, tag = "1")]
     pub(crate) pose: Option<Pose>,
-    /// Of the lengths in the file, to get m.
+    /// The factor that turns the lengths in the file into m.
     #[prost(message, optional, tag = "2")]
     pub(crate) scale: Option<Vector3>,
     #[prost(message, optional, tag = "3")]
@@ -400,7 +401,7 @@ pub(crate) struct SceneEntity {
     pub(crate) frame_id: String,
     #[prost(string, tag = "3")]
     pub(crate) id: String,
-    /// It moves with its frame.
+    /// Whether it moves with its frame.
     #[prost(bool, tag = "5")]
     pub(crate) frame_locked: bool,
     #[prost(message, repeated, tag = "8")]

@@ -1,7 +1,8 @@
-//! `arl2rs run --record FILE.mcap`: writes what the program says into a file that viewers of robot data open, and a
-//! description of the robots beside it. What the recording holds stands in `docs/recordings.md`.
+//! `arl2rs run --record FILE.mcap`: writes what the program reports into a file that viewers of robot data open, and a
+//! description of the robots beside it. `docs/recordings.md` describes what the recording holds.
 
 mod links;
+pub(crate) mod message;
 pub(crate) mod messages;
 mod parts;
 mod recorder;
@@ -16,14 +17,14 @@ use std::error::Error;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-use crate::listen::Hears;
+use crate::listen::Subscriber;
 use crate::scenery::Scenery;
 use crate::texts::{self, Text};
 use arl_terminal::failure::Failure;
 use arl_terminal::show;
 use arl_wire::Line;
+pub(crate) use message::RunMessage;
 pub(crate) use recorder::Recorder;
-pub(crate) use schemas::Schema;
 pub(crate) use sink::Sink;
 
 /// The description of the robots, beside a recording.
@@ -38,10 +39,10 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Makes the file: better to fail now than after a long run.
+    /// Creates the file: better to fail now than after a long run.
     ///
     /// # Errors
-    /// The file cannot be made.
+    /// The file cannot be created.
     pub fn create(path: &Path, scenery: &Scenery, sources: &[PathBuf]) -> Result<Self, Failure> {
         let file = std::fs::File::create(path).map_err(|error| Failure::io("write", path, &error))?;
         let cannot = |error| Failure::Usage(format!("cannot write {}: {error}", path.display()));
@@ -52,7 +53,7 @@ impl Recording {
 }
 
 impl Recording {
-    /// Writes the description of the cell. A recording is whole without it.
+    /// Writes the description of the cell. A recording is complete without it.
     fn describe(&self) {
         let description = self.path.with_file_name(DESCRIPTION);
         if let Err(error) = std::fs::write(&description, urdf::urdf(self.recorder.arms(), self.recorder.scenery())) {
@@ -61,16 +62,16 @@ impl Recording {
     }
 }
 
-impl Hears for Recording {
+impl Subscriber for Recording {
     fn wants_each_motion(&self) -> bool {
         true
     }
 
-    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+    fn receive(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
         for Text { name, text } in std::mem::take(&mut self.sources) {
             self.recorder.source(&name, &text)?;
         }
-        self.recorder.hear(line)?;
+        self.recorder.receive(line)?;
         if matches!(line, Line::Hello(_)) {
             self.describe();
         }
@@ -79,14 +80,14 @@ impl Hears for Recording {
 
     fn end(mut self: Box<Self>) -> Result<(), Box<dyn Error>> {
         self.recorder.finish()?;
-        // Where robots stand is known once they have moved.
+        // The places of robots are known once they have moved.
         self.describe();
         Ok(())
     }
 
     fn nothing_began(self: Box<Self>) {
         if self.path.is_file() {
-            // There may be none any more.
+            // The file may no longer exist.
             let _ = std::fs::remove_file(&self.path);
         }
     }

@@ -1,4 +1,4 @@
-//! The frames of parts that robots take along, in the world: readers of frames need not care who holds a part.
+//! The frames of parts that robots take along, in the world: readers of frames need not know which robot holds a part.
 
 use std::collections::BTreeMap;
 
@@ -12,9 +12,9 @@ use arl_wire::{Channel, Place, Placing, Runs};
 /// Where parts are.
 #[derive(Default)]
 pub(super) struct RecordedParts {
-    /// By their numbers, with the names of their frames: those that robots hold.
+    /// The parts that robots hold, by their numbers, with the names of their frames.
     held: BTreeMap<usize, (String, Place)>,
-    /// Whether there are any.
+    /// Whether there are any parts.
     are_there: bool,
     /// What each channel runs.
     runs: Vec<Runs>,
@@ -23,26 +23,26 @@ pub(super) struct RecordedParts {
 }
 
 impl RecordedParts {
-    /// Those of a scenery.
+    /// The parts of a scenery.
     pub(super) fn of(scenery: &Scenery) -> Self {
         let are_there = scenery.bodies.iter().any(|(body, _)| body.grip.is_some());
         Self { are_there, ..Self::default() }
     }
 
-    /// Takes in what runs on which robots ...
+    /// Notes what runs on which robots ...
     pub(super) fn begin(&mut self, runs: &[Runs]) {
         if self.are_there {
             runs.clone_into(&mut self.runs);
         }
     }
 
-    /// ... and where those are.
+    /// ... and where the robots are.
     pub(super) fn robots_are(&mut self, channels: &[Channel]) {
         self.flanges.clear();
         self.flanges.extend(self.runs.iter().zip(channels).map(|(runs, channel)| runs.flange_in_world(channel)));
     }
 
-    /// A part is elsewhere: where, if it is anywhere.
+    /// Notes that a part is elsewhere; returns its place, if it is anywhere.
     pub(super) fn place(&mut self, placing: &Placing, frame: String, now: Timestamp) -> Option<FrameTransform> {
         self.held.remove(&placing.body);
         let place = placing.place?;
@@ -53,7 +53,7 @@ impl RecordedParts {
         Some(told)
     }
 
-    /// The parts that go along with a robot.
+    /// The parts that move along with a robot.
     pub(super) fn held(&self, now: Timestamp) -> impl Iterator<Item = FrameTransform> {
         self.held.values().map(move |(frame, place)| self.told(frame, *place, now))
     }
@@ -61,6 +61,6 @@ impl RecordedParts {
     fn told(&self, frame: &str, Place { held_by, at }: Place, now: Timestamp) -> FrameTransform {
         let flange = held_by.and_then(|channel| self.flanges.get(channel));
         let world = flange.map_or(at, |flange| flange * at);
-        transform(now, (WORLD.to_owned(), frame.to_owned()), &world)
+        transform(now, WORLD.to_owned(), frame.to_owned(), &world)
     }
 }

@@ -1,15 +1,15 @@
-//! Writes what a program says into a recording.
+//! Writes what a program reports into a recording.
 
 use mcap::McapResult;
 
 use super::links::RecordedArm;
+use super::message::RunMessage;
 use super::messages::{
     Axis, Blend, Cell, Channel, Closest, Contact, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log,
     Motion, Name, Runs, Timestamp,
 };
 use super::parts::RecordedParts;
 use super::scene::Scene;
-use super::schemas::{self, Schema};
 use super::sink::Sink;
 use crate::scenery::Scenery;
 use arl_wire::{BlendReport, Hello, Line, MotionReport, Placing, Report, State};
@@ -17,16 +17,16 @@ use arl_wire::{BlendReport, Hello, Line, MotionReport, Placing, Report, State};
 /// How often frames and joints are written for viewers, in s; our own messages have every state.
 const FRAMES_INTERVAL_S: f64 = 0.02;
 
-/// Makes messages of lines.
+/// Turns lines into messages.
 pub(crate) struct Recorder<S> {
     sink: S,
     /// The arm of each channel, where it has one.
     arms: Vec<Option<RecordedArm>>,
-    /// What stands in the cell, or is carried.
+    /// What is in the cell, or is carried.
     scene: Scene,
-    /// The frames of what robots take along.
+    /// The frames of the parts that robots take along.
     parts: RecordedParts,
-    /// What was written last of each topic: what stays the same is not written again.
+    /// What was last written to each topic: what stays the same is not written again.
     last: Last,
     /// The time of the last state, in s.
     time: f64,
@@ -36,18 +36,18 @@ pub(crate) struct Recorder<S> {
     left_out: Option<State>,
 }
 
-/// What was written last.
+/// What was last written.
 #[derive(Default)]
 struct Last {
     channels: Vec<Channel>,
     controller: Controller,
     io: Option<Io>,
-    /// Of each channel axes, TCP, base and workpiece.
+    /// For each channel axes, TCP, base and workpiece.
     places: Vec<Vec<f64>>,
 }
 
 impl<S: Sink> Recorder<S> {
-    /// In a scenery.
+    /// A recorder for a scenery.
     pub(crate) fn new(sink: S, scenery: &Scenery) -> Self {
         Self {
             sink,
@@ -61,13 +61,13 @@ impl<S: Sink> Recorder<S> {
         }
     }
 
-    /// Takes in a text of the program.
+    /// Adds a text of the program.
     pub(crate) fn source(&mut self, name: &str, text: &str) -> McapResult<()> {
         self.sink.source(name, text)
     }
 
-    /// Takes in what the program says.
-    pub(crate) fn hear(&mut self, line: &Line) -> McapResult<()> {
+    /// Takes a line of the program.
+    pub(crate) fn receive(&mut self, line: &Line) -> McapResult<()> {
         let log = |level: Level, text: &str| Log { level: level.into(), message: text.into(), ..Log::default() };
         match line {
             Line::Hello(hello) => self.begin(hello),
@@ -87,7 +87,7 @@ impl<S: Sink> Recorder<S> {
         }
     }
 
-    /// Writes the summary, by which readers find their way.
+    /// Writes the summary that readers use to find their way.
     pub(crate) fn finish(&mut self) -> McapResult<()> {
         if let Some(state) = self.left_out.take() {
             self.frames(&state)?;
@@ -95,18 +95,18 @@ impl<S: Sink> Recorder<S> {
         self.sink.finish()
     }
 
-    /// Ends, and gives back where the messages went.
+    /// Finishes, and returns the sink.
     pub(crate) fn ended(mut self) -> McapResult<S> {
         self.finish()?;
         Ok(self.sink)
     }
 
-    /// The robots' arms by channels, once the program has said them.
+    /// The robots' arms by channels, once the program has reported them.
     pub(super) fn arms(&self) -> &[Option<RecordedArm>] {
         &self.arms
     }
 
-    /// What is around them.
+    /// The scenery around them.
     pub(super) fn scenery(&self) -> &Scenery {
         self.scene.scenery()
     }
@@ -137,9 +137,9 @@ impl<S: Sink> Recorder<S> {
         let cell = Cell { channels, names: hello.names.iter().map(name).collect() };
         self.last.channels = vec![Channel::default(); hello.channels.len()];
         self.parts.begin(&hello.channels);
-        self.write("/arl/cell", &schemas::CELL, 0.0, &cell)?;
+        self.write(0.0, RunMessage::Cell(cell))?;
         let robots = self.scene.robots(&self.arms);
-        self.write("/scene", &schemas::SCENE_UPDATE, 0.0, &robots)
+        self.write(0.0, RunMessage::Scene(robots))
     }
 
     fn state(&mut self, state: &State) -> McapResult<()> {
@@ -147,16 +147,16 @@ impl<S: Sink> Recorder<S> {
         self.time = time;
         let controller = Controller { time, mode: state.mode.clone(), speed_override: state.speed_override };
         if (Controller { time: self.last.controller.time, ..controller.clone() }) != self.last.controller {
-            self.write("/arl/controller", &schemas::CONTROLLER, time, &controller)?;
+            self.write(time, RunMessage::Controller(controller.clone()))?;
             self.last.controller = controller;
         }
         let levels = |levels: &str| levels.bytes().map(|level| level == b'1').collect();
         let (di, r#do) = (levels(&state.di), levels(&state.dout));
         let io = Io { time, di, r#do, ai: state.ai.clone(), ao: state.ao.clone() };
         if self.last.io.as_ref().is_none_or(|last| (Io { time: last.time, ..io.clone() }) != *last) {
-            self.write("/arl/io", &schemas::IO, time, &io)?;
+            self.write(time, RunMessage::Io(io.clone()))?;
             if let Some(update) = self.scene.bodies(state, &self.arms, timestamp(time)) {
-                self.write("/scene", &schemas::SCENE_UPDATE, time, &update)?;
+                self.write(time, RunMessage::Scene(update))?;
             }
             self.last.io = Some(io);
         }
@@ -192,10 +192,10 @@ impl<S: Sink> Recorder<S> {
             return Ok(());
         }
         last.clone_from(&channel);
-        self.write(&format!("/arl/channel_{}", at + 1), &schemas::CHANNEL, time, &channel)
+        self.write(time, RunMessage::Channel(at + 1, channel))
     }
 
-    /// Frames and joints of all robots, where one has moved.
+    /// Writes frames and joints of all robots, if one has moved.
     fn frames(&mut self, state: &State) -> McapResult<()> {
         let time = state.time;
         let places = state.channels.iter();
@@ -215,16 +215,16 @@ impl<S: Sink> Recorder<S> {
         if transforms.is_empty() {
             return Ok(());
         }
-        self.write("/tf", &schemas::FRAME_TRANSFORMS, time, &FrameTransforms { transforms })?;
+        self.write(time, RunMessage::Frames(FrameTransforms { transforms }))?;
         let joints = JointStates { timestamp: Some(timestamp(time)), joints };
-        self.write("/joint_states", &schemas::JOINT_STATES, time, &joints)
+        self.write(time, RunMessage::Joints(joints))
     }
 
     fn log(&mut self, time: f64, log: Log) -> McapResult<()> {
-        self.write("/log", &schemas::LOG, time, &Log { timestamp: Some(timestamp(time)), ..log })
+        self.write(time, RunMessage::Log(Log { timestamp: Some(timestamp(time)), ..log }))
     }
 
-    /// A motion of the report; what the report says of whole channels follows from these.
+    /// Writes a motion of the report; what the report has about whole channels follows from the motions.
     fn motion(&mut self, report: &Report) -> McapResult<()> {
         let Report::Motion(motion) = report else { return Ok(()) };
         let MotionReport { channel, line, start, duration, way, programmed, reached, .. } = **motion;
@@ -254,40 +254,34 @@ impl<S: Sink> Recorder<S> {
             closest_jerk: closest(&motion.closest.jerk),
             file: motion.file.clone(),
         };
-        self.write("/arl/motions", &schemas::MOTION, motion.start, &motion)
+        self.write(motion.start, RunMessage::Motion(motion))
     }
 
-    /// What came nearer to each other than it should.
+    /// Writes that two things came nearer to each other than they should.
     fn contact(&mut self, contact: &arl_wire::Contact) -> McapResult<()> {
         let arl_wire::Contact { time, file, line, one, other, distance } = contact.clone();
         let level = Level::Warning.into();
         let log = Log { level, message: contact.to_string(), file: file.clone(), line, ..Log::default() };
         self.log(time, log)?;
-        self.write("/arl/contacts", &schemas::CONTACT, time, &Contact { time, file, line, one, other, distance })
+        self.write(time, RunMessage::Contact(Contact { time, file, line, one, other, distance }))
     }
 
-    /// A body that robots take along is elsewhere.
+    /// Writes that a body that robots take along is elsewhere.
     fn placing(&mut self, placing: &Placing) -> McapResult<()> {
         let body = self.scene.scenery().bodies.get(placing.body);
         let frame = body.map(|(body, _)| format!("part/{}", body.name)).unwrap_or_default();
         if let Some(transform) = self.parts.place(placing, frame, timestamp(self.time)) {
             let transforms = FrameTransforms { transforms: vec![transform] };
-            self.write("/tf", &schemas::FRAME_TRANSFORMS, self.time, &transforms)?;
+            self.write(self.time, RunMessage::Frames(transforms))?;
         }
         match self.scene.place(placing, &self.arms, timestamp(self.time)) {
-            Some(update) => self.write("/scene", &schemas::SCENE_UPDATE, self.time, &update),
+            Some(update) => self.write(self.time, RunMessage::Scene(update)),
             None => Ok(()),
         }
     }
 
-    fn write(
-        &mut self,
-        topic: &str,
-        schema: &'static Schema,
-        time: f64,
-        message: &impl prost::Message,
-    ) -> McapResult<()> {
-        self.sink.message(topic, schema, nanoseconds(time), &message.encode_to_vec())
+    fn write(&mut self, time: f64, message: RunMessage) -> McapResult<()> {
+        self.sink.message(nanoseconds(time), message)
     }
 }
 

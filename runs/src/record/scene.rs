@@ -13,22 +13,22 @@ use crate::scenery::{Looks, Piece, Scenery, Shape, stl};
 use arl_terminal::show;
 use arl_wire::{Limb, Placing, State};
 
-/// Robots, what stands, and what they carry.
+/// The colours of robots, of what stands, and of what they carry.
 const LIMB: Color = Color { r: 0.95, g: 0.55, b: 0.15, a: 1.0 };
 const STANDS: Color = Color { r: 0.55, g: 0.6, b: 0.65, a: 1.0 };
 const CARRIED: Color = Color { r: 0.25, g: 0.55, b: 0.85, a: 1.0 };
 /// Meshes have mm, viewers m.
 const METRES: f64 = 0.001;
 
-/// What is drawn around robots, and of them.
+/// What is drawn around robots, and of the robots.
 pub(super) struct Scene {
     scenery: Scenery,
-    /// Of each body, whether it is drawn.
+    /// For each body, whether it is drawn.
     shown: Vec<bool>,
     meshes: Meshes,
 }
 
-/// The bytes of files that were read; `None`: one that cannot be, which is told of once.
+/// The bytes of files that were read; `None`: the file cannot be read, which is reported once.
 #[derive(Default)]
 struct Meshes(BTreeMap<PathBuf, Option<Vec<u8>>>);
 
@@ -48,12 +48,12 @@ impl Scene {
         Self { scenery: scenery.clone(), shown: vec![false; scenery.bodies.len()], meshes: Meshes::default() }
     }
 
-    /// What is around robots.
+    /// The scenery around the robots.
     pub(super) fn scenery(&self) -> &Scenery {
         &self.scenery
     }
 
-    /// Bodies that are there from now on, and those that are not any more, by the levels of inputs and outputs.
+    /// The bodies that appear, and those that disappear, by the levels of inputs and outputs.
     pub(super) fn bodies(
         &mut self,
         state: &State,
@@ -63,7 +63,7 @@ impl Scene {
         let mut update = SceneUpdate::default();
         for ((body, looks), shown) in self.scenery.bodies.iter().zip(&mut self.shown) {
             if body.grip.is_some() {
-                // Where it is will be said.
+                // A later line reports where it is.
                 continue;
             }
             let there = body.when.is_none_or(|level| state.has(level));
@@ -73,7 +73,7 @@ impl Scene {
             if there {
                 let frame = frame_of(body.holder, arms, &self.scenery);
                 let color = if matches!(body.holder, Holder::Flange(_)) { CARRIED } else { STANDS };
-                update.entities.push(drawn((body, looks), (frame, &body.at), color, &mut self.meshes, now));
+                update.entities.push(drawn(body, looks, frame, &body.at, color, &mut self.meshes, now));
             } else {
                 update.deletions.push(SceneEntityDeletion { timestamp: Some(now), id: id(body) });
             }
@@ -81,7 +81,7 @@ impl Scene {
         (!update.entities.is_empty() || !update.deletions.is_empty()).then_some(update)
     }
 
-    /// A body that robots take along is elsewhere.
+    /// Moves a body that robots take along to another place.
     pub(super) fn place(
         &mut self,
         placing: &Placing,
@@ -96,7 +96,7 @@ impl Scene {
             Some(place) => {
                 let holder = place.held_by.map_or(Holder::World, |channel| Holder::Flange(channel as u32 + 1));
                 let frame = frame_of(holder, arms, &self.scenery);
-                update.entities.push(drawn((body, looks), (frame, &place.at), CARRIED, &mut self.meshes, now));
+                update.entities.push(drawn(body, looks, frame, &place.at, CARRIED, &mut self.meshes, now));
             }
             None if was_shown => update.deletions.push(SceneEntityDeletion { timestamp: Some(now), id: id(body) }),
             None => return None,
@@ -132,22 +132,24 @@ pub(super) fn frame_of(holder: Holder, arms: &[Option<RecordedArm>], scenery: &S
     frame.unwrap_or_else(|| WORLD.to_owned())
 }
 
-/// What a body is called in a scene.
+/// The id of a body in a scene.
 fn id(body: &Body) -> String {
     format!("body/{}", body.name)
 }
 
 /// A body at a place in a frame.
 fn drawn(
-    (body, looks): (&Body, &Looks),
-    (frame_id, at): (String, &Frame),
+    body: &Body,
+    looks: &Looks,
+    frame_id: String,
+    at: &Frame,
     color: Color,
     meshes: &mut Meshes,
     now: Timestamp,
 ) -> SceneEntity {
     let mut entity = SceneEntity { id: id(body), frame_id, frame_locked: true, ..timed(now) };
     for piece in &looks.seen {
-        draw(&mut entity, piece, (&(at * piece.at), color), meshes);
+        draw(&mut entity, piece, &(at * piece.at), color, meshes);
     }
     entity
 }
@@ -160,8 +162,8 @@ fn capsules(arm: &RecordedArm, limb: &Limb) -> SceneEntity {
     SceneEntity { frame_id, id, frame_locked: true, spheres, cylinders, ..timed(Timestamp::default()) }
 }
 
-/// The links of a robot that has a shape of its own. Links that people call the same are one thing to them: `the
-/// forearm`, and what axis 4 turns of it; such a one has its link behind its name.
+/// The links of a robot that has a shape of its own. Links with the same common name are one thing to users:
+/// `the forearm`, and what axis 4 turns of it; a later one has the number of its link after its name.
 fn links(arm: &RecordedArm, shape: &Shape, meshes: &mut Meshes) -> Vec<SceneEntity> {
     let mut entities: Vec<SceneEntity> = Vec::new();
     for (link, looks) in shape.links().filter(|(_, looks)| !looks.seen.is_empty()) {
@@ -171,7 +173,7 @@ fn links(arm: &RecordedArm, shape: &Shape, meshes: &mut Meshes) -> Vec<SceneEnti
         let id = if is_taken { format!("{name}/{link}") } else { name };
         let mut entity = SceneEntity { id, frame_id, frame_locked: true, ..timed(Timestamp::default()) };
         for piece in &looks.seen {
-            draw(&mut entity, piece, (&piece.at, LIMB), meshes);
+            draw(&mut entity, piece, &piece.at, LIMB, meshes);
         }
         entities.push(entity);
     }
@@ -182,13 +184,13 @@ fn timed(now: Timestamp) -> SceneEntity {
     SceneEntity { timestamp: Some(now), ..SceneEntity::default() }
 }
 
-/// Adds a piece. A mesh that cannot be read is told of, and left out.
-fn draw(entity: &mut SceneEntity, piece: &Piece, (at, color): (&Frame, Color), meshes: &mut Meshes) {
+/// Adds a piece. A mesh that cannot be read is reported, and left out.
+fn draw(entity: &mut SceneEntity, piece: &Piece, at: &Frame, color: Color, meshes: &mut Meshes) {
     let color = Some(piece.color.map_or(color, |[r, g, b, a]| Color { r, g, b, a }));
     let pose = Some(pose(at));
     match &piece.solid {
         Solid::Box(edges) => entity.cubes.push(messages::Solid { pose, size: Some(metres(*edges)), color }),
-        Solid::Cylinder { radius, length } => entity.cylinders.push(cylinder(pose, (*radius, *length), color)),
+        Solid::Cylinder { radius, length } => entity.cylinders.push(cylinder(pose, *radius, *length, color)),
         Solid::Sphere(radius) => {
             entity.spheres.push(messages::Solid { pose, size: Some(metres([2.0 * radius; 3])), color });
         }
@@ -212,12 +214,12 @@ fn capsule(limb: &Limb) -> (Vec<messages::Solid>, Vec<Cylinder>) {
     match straight(limb) {
         None => (vec![ball(from)], Vec::new()),
         Some((middle, length)) => {
-            (vec![ball(from), ball(to)], vec![cylinder(Some(pose(&middle)), (limb.radius, length), color)])
+            (vec![ball(from), ball(to)], vec![cylinder(Some(pose(&middle)), limb.radius, length, color)])
         }
     }
 }
 
-fn cylinder(pose: Option<Pose>, (radius, length): (f64, f64), color: Option<Color>) -> Cylinder {
+fn cylinder(pose: Option<Pose>, radius: f64, length: f64, color: Option<Color>) -> Cylinder {
     let size = Some(metres([2.0 * radius, 2.0 * radius, length]));
     Cylinder { pose, size, bottom_scale: 1.0, top_scale: 1.0, color }
 }

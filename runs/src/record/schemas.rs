@@ -1,4 +1,4 @@
-//! What a recording says of its messages: descriptors that any reader of protocol buffers understands.
+//! How a recording describes its messages: descriptors that any reader of protocol buffers understands.
 
 use prost::Message;
 use prost_types::field_descriptor_proto::{Label, Type};
@@ -33,7 +33,7 @@ enum Kind {
     Level,
     One(&'static Schema),
     Many(&'static Schema),
-    /// A field of this number is there, but never written.
+    /// A field with this number exists, but is never written.
     Unused,
 }
 
@@ -272,7 +272,7 @@ impl Schema {
         format!("{}.{}", self.package, self.name)
     }
 
-    /// A set of descriptors: that of the message, behind those that it is made of.
+    /// A set of descriptors: that of the message, after those that it is made of.
     pub(super) fn descriptors(&self) -> Vec<u8> {
         let mut file = Vec::new();
         self.add_to(&mut file);
@@ -312,7 +312,7 @@ impl Schema {
         for (number, (name, kind)) in written {
             let mut field = kind.field(name, number);
             if let Kind::Maybe = kind {
-                // What may be absent is the only one of its kind.
+                // An optional field is the only one of its group.
                 field.oneof_index = i32::try_from(message.oneof_decl.len()).ok();
                 field.proto3_optional = Some(true);
                 let one = OneofDescriptorProto { name: Some(format!("_{name}")), ..OneofDescriptorProto::default() };

@@ -1,4 +1,4 @@
-//! Where the messages of a run go: into a file, or to who shows them.
+//! The destination of a run's messages: a file, or code that shows them.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -7,21 +7,21 @@ use std::io::{Seek, Write};
 use mcap::records::MessageHeader;
 use mcap::{Attachment, McapResult, WriteOptions, Writer};
 
-use super::schemas::Schema;
+use super::message::RunMessage;
 
-/// What a file gathers before it is written as one piece that readers can look up, in bytes: so much is lost where a
+/// The bytes that a file gathers before they are written as one chunk that readers can look up: this much is lost if a
 /// run is cut off.
 const CHUNK_BYTES: u64 = 1 << 20;
 
 /// Takes messages.
 pub(crate) trait Sink {
-    /// A message of a topic at a time in ns.
-    fn message(&mut self, topic: &str, schema: &'static Schema, time: u64, message: &[u8]) -> McapResult<()>;
+    /// Takes a message at a time in ns.
+    fn message(&mut self, time: u64, message: RunMessage) -> McapResult<()>;
 
-    /// A text of the program.
+    /// Takes a text of the program.
     fn source(&mut self, name: &str, text: &str) -> McapResult<()>;
 
-    /// Nothing more comes.
+    /// Called once no more messages come.
     fn finish(&mut self) -> McapResult<()>;
 }
 
@@ -37,7 +37,7 @@ struct Topic {
 }
 
 impl<W: Write + Seek> File<W> {
-    /// An empty one.
+    /// An empty file.
     pub(super) fn new(stream: W) -> McapResult<Self> {
         let options = WriteOptions::new().compression(None).chunk_size(Some(CHUNK_BYTES)).library("arl2rs");
         Ok(Self { writer: options.create(stream)?, topics: BTreeMap::new() })
@@ -45,8 +45,10 @@ impl<W: Write + Seek> File<W> {
 }
 
 impl<W: Write + Seek> Sink for File<W> {
-    fn message(&mut self, topic: &str, schema: &'static Schema, time: u64, message: &[u8]) -> McapResult<()> {
+    fn message(&mut self, time: u64, message: RunMessage) -> McapResult<()> {
+        let topic = &*message.topic();
         if !self.topics.contains_key(topic) {
+            let schema = message.schema();
             let of = self.writer.add_schema(&schema.full_name(), "protobuf", &schema.descriptors())?;
             let id = self.writer.add_channel(of, topic, "protobuf", &BTreeMap::new())?;
             self.topics.insert(topic.to_owned(), Topic { id, sequence: 0 });
@@ -55,7 +57,7 @@ impl<W: Write + Seek> Sink for File<W> {
         known.sequence = known.sequence.wrapping_add(1);
         let header =
             MessageHeader { channel_id: known.id, sequence: known.sequence, log_time: time, publish_time: time };
-        self.writer.write_to_known_channel(&header, message)
+        self.writer.write_to_known_channel(&header, &message.encoded())
     }
 
     fn source(&mut self, name: &str, text: &str) -> McapResult<()> {
@@ -69,7 +71,7 @@ impl<W: Write + Seek> Sink for File<W> {
         })
     }
 
-    /// Writes the summary, by which readers find their way.
+    /// Writes the summary that readers use to find their way.
     fn finish(&mut self) -> McapResult<()> {
         self.writer.finish().map(drop)
     }

@@ -7,9 +7,9 @@ use prost::Message as _;
 use prost_types::FileDescriptorSet;
 use prost_types::field_descriptor_proto::{Label, Type};
 
+use super::message::RunMessage;
 use super::messages::*;
 use super::recorder::Recorder;
-use super::schemas::{self, Schema};
 use super::sink::File;
 use super::urdf::urdf;
 use crate::scenery::Scenery;
@@ -44,7 +44,7 @@ fn recorded_in(lines: &[String], scenery: &Scenery) -> BTreeMap<String, Vec<(u64
     let mut bytes = Vec::new();
     let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), scenery);
     for line in lines {
-        recorder.hear(&serde_json::from_str(line).unwrap()).unwrap();
+        recorder.receive(&serde_json::from_str(line).unwrap()).unwrap();
     }
     recorder.finish().unwrap();
     drop(recorder);
@@ -69,7 +69,7 @@ fn what_stays_the_same_is_written_once() {
     let count = |topic: &str| topics[topic].len();
     assert_eq!((count("/arl/cell"), count("/arl/controller"), count("/arl/io")), (1, 1, 2));
     assert_eq!(count("/arl/channel_1"), 51);
-    // Every 20 ms while it moves, and once when it stands.
+    // Every 20 ms while it moves, and once when it is at rest.
     assert_eq!((count("/tf"), count("/joint_states")), (11, 11));
     assert_eq!(topics["/arl/io"][1].0, 400_000_000);
 }
@@ -156,7 +156,7 @@ fn what_external_axes_move_is_a_frame_with_its_bodies() {
     assert_eq!(runs.links.iter().map(|link| &*link.moved_by).collect::<Vec<_>>(), ["j1", "j2", ""]);
     let mut bytes = Vec::new();
     let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &scenery);
-    recorder.hear(&serde_json::from_str(&hello).unwrap()).unwrap();
+    recorder.receive(&serde_json::from_str(&hello).unwrap()).unwrap();
     let description = urdf_rs::read_from_string(&urdf(recorder.arms(), &scenery)).unwrap();
     let joint = |child: &str| description.joints.iter().find(|joint| joint.child.link == child).unwrap();
     assert_eq!((joint("ej1").name.as_str(), joint("ej1").parent.link.as_str()), ("ej1", "world"));
@@ -175,13 +175,13 @@ fn workpieces_and_parts_have_frames_in_the_world() {
     let held = Place { held_by: Some(0), at: arl_robot::kinematics::frame([0.0, 0.0, 50.0, 0.0, 0.0, 0.0]) };
     let with_workpiece =
         |j1: f64, time: f64| state(time, j1, "10", 7).replace("\"base\"", "\"workpiece\":[800,100,0,0,0,0],\"base\"");
-    let mut hear = |line: Line| recorder.hear(&line).unwrap();
-    hear(serde_json::from_str(HELLO).unwrap());
-    hear(serde_json::from_str(&with_workpiece(0.0, 0.0)).unwrap());
-    hear(Line::Placing(Placing { body: 0, place: Some(standing) }));
-    hear(serde_json::from_str(&with_workpiece(0.0, 0.004)).unwrap());
-    hear(Line::Placing(Placing { body: 0, place: Some(held) }));
-    hear(serde_json::from_str(&with_workpiece(90.0, 0.1)).unwrap());
+    let mut receive = |line: Line| recorder.receive(&line).unwrap();
+    receive(serde_json::from_str(HELLO).unwrap());
+    receive(serde_json::from_str(&with_workpiece(0.0, 0.0)).unwrap());
+    receive(Line::Placing(Placing { body: 0, place: Some(standing) }));
+    receive(serde_json::from_str(&with_workpiece(0.0, 0.004)).unwrap());
+    receive(Line::Placing(Placing { body: 0, place: Some(held) }));
+    receive(serde_json::from_str(&with_workpiece(90.0, 0.1)).unwrap());
     recorder.finish().unwrap();
     drop(recorder);
     let topics = topics(&bytes);
@@ -203,7 +203,7 @@ fn an_empty_run_is_a_whole_file() {
 fn the_description_has_the_frames_and_joints_of_the_recording() {
     let mut bytes = Vec::new();
     let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &Scenery::default());
-    recorder.hear(&serde_json::from_str(HELLO).unwrap()).unwrap();
+    recorder.receive(&serde_json::from_str(HELLO).unwrap()).unwrap();
     let bodies = "[[body]]\nname = \"table <1>\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
                   [[body]]\nname = \"tool\"\ncylinder = [20, 100]\non = \"flange\"\n[[body]]\nname = \"jig\"\nmesh = \"jig.stl\"\n";
     let text = urdf(recorder.arms(), &scenery(bodies));
@@ -244,7 +244,7 @@ fn bodies_come_and_go_with_their_signal() {
 
 /// A message with a value in each of its fields.
 #[expect(clippy::too_many_lines, reason = "a message of each kind")]
-fn filled() -> Vec<(&'static Schema, Vec<u8>)> {
+fn filled() -> Vec<RunMessage> {
     let timestamp = Some(Timestamp { seconds: 1, nanos: 2 });
     let (vector, quaternion) = (Vector3 { x: 1.0, y: 2.0, z: 3.0 }, Quaternion { x: 1.0, y: 2.0, z: 3.0, w: 4.0 });
     let text = || "text".to_owned();
@@ -313,20 +313,18 @@ fn filled() -> Vec<(&'static Schema, Vec<u8>)> {
     };
     let log = Log { timestamp, level: Level::Info.into(), message: text(), name: text(), file: text(), line: 1 };
     let io = Io { time: 1.0, di: vec![true], r#do: vec![true], ai: vec![1.0], ao: vec![1.0] };
+    let contact = Contact { time: 1.0, file: text(), line: 1, one: text(), other: text(), distance: 1.0 };
     vec![
-        (&schemas::FRAME_TRANSFORMS, FrameTransforms { transforms: vec![transform] }.encode_to_vec()),
-        (&schemas::JOINT_STATES, JointStates { timestamp, joints }.encode_to_vec()),
-        (&schemas::LOG, log.encode_to_vec()),
-        (&schemas::CELL, Cell { channels: vec![runs], names }.encode_to_vec()),
-        (&schemas::SCENE_UPDATE, scene.encode_to_vec()),
-        (&schemas::CHANNEL, channel.encode_to_vec()),
-        (&schemas::CONTROLLER, Controller { time: 1.0, mode: text(), speed_override: 1.0 }.encode_to_vec()),
-        (&schemas::IO, io.encode_to_vec()),
-        (&schemas::MOTION, motion.encode_to_vec()),
-        (
-            &schemas::CONTACT,
-            Contact { time: 1.0, file: text(), line: 1, one: text(), other: text(), distance: 1.0 }.encode_to_vec(),
-        ),
+        RunMessage::Frames(FrameTransforms { transforms: vec![transform] }),
+        RunMessage::Joints(JointStates { timestamp, joints }),
+        RunMessage::Log(log),
+        RunMessage::Cell(Cell { channels: vec![runs], names }),
+        RunMessage::Scene(scene),
+        RunMessage::Channel(7, channel),
+        RunMessage::Controller(Controller { time: 1.0, mode: text(), speed_override: 1.0 }),
+        RunMessage::Io(io),
+        RunMessage::Motion(motion),
+        RunMessage::Contact(contact),
     ]
 }
 
@@ -372,8 +370,18 @@ fn read(files: &FileDescriptorSet, name: &str, mut bytes: &[u8]) {
 
 #[test]
 fn messages_are_as_their_schemas_say() {
-    for (schema, bytes) in filled() {
+    for message in filled() {
+        let schema = message.schema();
         let files = FileDescriptorSet::decode(&schema.descriptors()[..]).unwrap();
-        read(&files, &format!(".{}", schema.full_name()), &bytes);
+        read(&files, &format!(".{}", schema.full_name()), &message.encoded());
+    }
+}
+
+#[test]
+fn what_is_written_to_a_topic_is_read_from_it() {
+    for message in filled() {
+        let read = RunMessage::decoded(&message.topic(), &message.encoded()).unwrap();
+        let follows = matches!(message, RunMessage::Frames(_) | RunMessage::Joints(_));
+        assert_eq!(read, (!follows).then_some(message));
     }
 }

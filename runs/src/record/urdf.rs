@@ -1,6 +1,6 @@
 //! The description of the cell that viewers draw: `cell.urdf`, with the names of the recording's frames and joints.
 //!
-//! Robots and bodies look as they do in the recording; of parts that follow others only the first one is there.
+//! Robots and bodies look as in the recording; of parts that follow others only the first one is there.
 
 use std::fmt::Write;
 
@@ -14,9 +14,9 @@ use super::scene::frame_of;
 use crate::scenery::{Looks, Piece, Scenery, Shape};
 use arl_wire::{Limb, placed};
 
-/// What a path in an address has otherwise than as it is.
+/// The characters of a path that an address has to escape.
 const IN_ADDRESS: &AsciiSet = &CONTROLS.add(b' ').add(b'#').add(b'%').add(b'?');
-/// What a joint may do at most where only its range is known; a reader wants numbers.
+/// The limits of a joint of which only the range is known; readers require numbers.
 const EFFORT: f64 = 1000.0;
 const VELOCITY: f64 = 10.0;
 
@@ -30,7 +30,7 @@ pub(super) fn urdf(arms: &[Option<RecordedArm>], scenery: &Scenery) -> String {
         }
     }
     for (body, looks) in scenery.bodies.iter().filter(|(body, _)| body.grip.is_none_or(|grip| !grip.follows)) {
-        add_body(&mut out, (body, looks), &frame_of(body.holder, arms, scenery));
+        add_body(&mut out, body, looks, &frame_of(body.holder, arms, scenery));
     }
     out.push_str("</robot>\n");
     out
@@ -47,26 +47,27 @@ fn add_arm(out: &mut String, arm: &RecordedArm, shape: Option<&Shape>) {
     }
     let _ = writeln!(out, "  <link name=\"{}\"/>", arm.flange_frame());
     let base = arm.base();
-    joint(out, ("fixed", &format!("{base}_to_{WORLD}")), [WORLD, &base], &arm.stands, "");
+    joint(out, "fixed", &format!("{base}_to_{WORLD}"), [WORLD, &base], &arm.stands, "");
     for (at, (joined, own)) in arm.links.iter().zip(&arm.axes).enumerate() {
         let before = if at == 0 { arm.base() } else { arm.link(at) };
         let place = placed(&joined.origin);
         let moves = moves(own, joined.axis);
-        joint(out, (kind(own), &arm.joint(&own.name)), [&before, &arm.link(at + 1)], &place, &moves);
+        joint(out, kind(own), &arm.joint(&own.name), [&before, &arm.link(at + 1)], &place, &moves);
     }
     for Carried { frame, parent, joint: moved, axis } in &arm.carriers {
         let Some(own) = arm.axes.get(*axis) else { continue };
         let _ = writeln!(out, "  <link name=\"{frame}\"/>");
         joint(
             out,
-            (kind(own), &arm.joint(&own.name)),
+            kind(own),
+            &arm.joint(&own.name),
             [parent, frame],
             &moved.origin,
             &moves(own, moved.axis.into_inner().into()),
         );
     }
     let (last, flange) = (arm.link(arm.links.len()), arm.flange_frame());
-    joint(out, ("fixed", &format!("{flange}_to_{last}")), [&last, &flange], &placed(&arm.flange), "");
+    joint(out, "fixed", &format!("{flange}_to_{last}"), [&last, &flange], &placed(&arm.flange), "");
 }
 
 /// What a joint moves along or about, and its range.
@@ -81,12 +82,12 @@ fn kind(own: &Own) -> &'static str {
     if own.linear { "prismatic" } else { "revolute" }
 }
 
-fn add_body(out: &mut String, (body, looks): (&Body, &Looks), holder: &str) {
+fn add_body(out: &mut String, body: &Body, looks: &Looks, holder: &str) {
     // No frame of a robot has such a name.
     let name = format!("body/{}", escaped(&body.name));
     let forms: String = looks.seen.iter().map(visual).collect();
     let _ = writeln!(out, "  <link name=\"{name}\">{forms}</link>");
-    joint(out, ("fixed", &format!("{name}_to_{holder}")), [holder, &name], &body.at, "");
+    joint(out, "fixed", &format!("{name}_to_{holder}"), [holder, &name], &body.at, "");
 }
 
 fn visual(piece: &Piece) -> String {
@@ -131,7 +132,7 @@ fn cylinder(radius: f64, length: f64) -> String {
     format!("<cylinder radius=\"{radius:.5}\" length=\"{length:.5}\"/>")
 }
 
-fn joint(out: &mut String, (kind, name): (&str, &str), [parent, child]: [&str; 2], at: &Isometry3<f64>, moves: &str) {
+fn joint(out: &mut String, kind: &str, name: &str, [parent, child]: [&str; 2], at: &Isometry3<f64>, moves: &str) {
     let origin = origin(&(at.translation.vector / 1000.0), &at.rotation);
     let _ = writeln!(
         out,
@@ -145,7 +146,7 @@ fn origin(at: &Vector3<f64>, turned: &UnitQuaternion<f64>) -> String {
     format!("<origin xyz=\"{:.6} {:.6} {:.6}\" rpy=\"{:.9} {:.9} {:.9}\"/>", at.x, at.y, at.z, roll, pitch, yaw)
 }
 
-/// What XML does not take as it is.
+/// Escapes the characters that XML does not take as they are.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

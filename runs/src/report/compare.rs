@@ -7,10 +7,11 @@ use serde::Serialize;
 
 use super::summary::{OfChannel, OfLine, Said, Summary};
 
-/// Times and ways that differ by less are the same, in s and mm: they were written with so many digits.
+/// Times and path lengths that differ by less are the same, in s and mm: they were written with a limited number of
+/// digits.
 const SAME: f64 = 2e-6;
 
-/// What differs: lines that took another time or way, and the rest in words.
+/// The differences: lines that took another time or path length, and the rest in words.
 #[derive(Clone, PartialEq, Default, Serialize, Debug)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct Differences {
@@ -20,7 +21,7 @@ pub(crate) struct Differences {
     lines: Vec<LineDifference>,
 }
 
-/// A line in both runs; absent: it did not run.
+/// A line in both runs; a time is absent where the line did not run.
 #[derive(Clone, PartialEq, Serialize, Debug)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct LineDifference {
@@ -30,12 +31,12 @@ pub(crate) struct LineDifference {
     /// s
     one: Option<f64>,
     other: Option<f64>,
-    /// mm
+    /// The lengths of the path of the TCP, in mm.
     way: [f64; 2],
 }
 
 impl Differences {
-    /// Of two runs.
+    /// The differences between two runs.
     pub(crate) fn between(one: &Summary, other: &Summary) -> Self {
         let mut differences = Self { time: [one.time, other.time], ..Self::default() };
         let mut say = |text: String| differences.said.push(text);
@@ -63,14 +64,14 @@ impl Differences {
         differences
     }
 
-    /// Whether nothing does.
+    /// Whether there are none.
     pub(super) fn is_empty(&self) -> bool {
         let [one, other] = self.time;
         self.said.is_empty() && self.lines.is_empty() && (one - other).abs() < SAME
     }
 }
 
-/// The lines that took another time or way.
+/// The lines that took another time or path length.
 fn rows(before: &OfChannel, after: &OfChannel) -> Vec<LineDifference> {
     let key = |line: &OfLine| (line.file.clone(), line.line);
     let keys: BTreeSet<(String, u32)> = before.lines.iter().chain(&after.lines).map(key).collect();
@@ -86,7 +87,7 @@ fn rows(before: &OfChannel, after: &OfChannel) -> Vec<LineDifference> {
     keys.into_iter().filter_map(row).collect()
 }
 
-/// The first text that is another one.
+/// The first text that differs.
 fn texts(what: &str, one: &[Said], other: &[Said]) -> Option<String> {
     let differs = |(one, other): (&Said, &Said)| one.text != other.text;
     let at = one.iter().zip(other).position(differs).unwrap_or(one.len().min(other.len()));

@@ -1,4 +1,4 @@
-//! A report as a page that needs nothing else.
+//! A report as a page that is complete in itself.
 
 use std::fmt::Write;
 
@@ -82,7 +82,7 @@ fn add_channel(out: &mut String, channel: &OfChannel) {
     out.push_str("</table>\n");
 }
 
-/// Above 100 %, tenths tell how much: up to 101 % is within the limits.
+/// Above 100 %, tenths matter: up to 101 % is within the limits.
 fn percent(percent: f64) -> String {
     if percent < 100.05 { format!("{percent:.0}") } else { format!("{percent:.1}") }
 }
@@ -131,7 +131,7 @@ fn add_said(out: &mut String, title: &str, said: &[Said]) {
     out.push_str("</table>\n");
 }
 
-/// What HTML does not take as it is.
+/// Escapes the characters that HTML does not take as they are.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

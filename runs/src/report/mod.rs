@@ -1,4 +1,4 @@
-//! What a run took and what happened in it: as JSON, as a page, and beside another run.
+//! What a run took and what happened in it: as JSON, as a page, and compared with another run.
 
 pub(crate) mod compare;
 mod html;
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 use arl_robot::regular_file;
 
-use crate::listen::Hears;
+use crate::listen::Subscriber;
 use crate::playback::{self, Store};
 use crate::record::Recorder;
 use crate::scenery::Scenery;
@@ -25,7 +25,7 @@ use arl_wire::Line;
 pub(crate) use compare::Differences;
 pub(crate) use summary::Summary;
 
-/// A file that stands for the standard error.
+/// The file name that stands for the standard error.
 const STANDARD_ERROR: &str = "-";
 
 /// A report that is being made while a program runs.
@@ -36,10 +36,10 @@ pub struct Reporting {
 }
 
 impl Reporting {
-    /// Makes the file: better to fail now than after a long run.
+    /// Creates the file: better to fail now than after a long run.
     ///
     /// # Errors
-    /// The file cannot be made.
+    /// The file cannot be created.
     pub fn create(file: &Path, format: ReportFormat, scenery: &Scenery) -> Result<Self, Failure> {
         let file = (file != Path::new(STANDARD_ERROR)).then(|| file.to_owned());
         if let Some(file) = &file {
@@ -49,13 +49,13 @@ impl Reporting {
     }
 }
 
-impl Hears for Reporting {
+impl Subscriber for Reporting {
     fn wants_each_motion(&self) -> bool {
         true
     }
 
-    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
-        self.recorder.hear(line)?;
+    fn receive(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+        self.recorder.receive(line)?;
         Ok(Vec::new())
     }
 
@@ -74,7 +74,7 @@ impl Hears for Reporting {
 
     fn nothing_began(self: Box<Self>) {
         if let Some(file) = self.file {
-            // It is empty.
+            // The file is empty.
             let _ = std::fs::remove_file(file);
         }
     }
@@ -84,7 +84,7 @@ impl Hears for Reporting {
     }
 }
 
-/// Tells what differs between two runs; the exit code is 1 where anything does.
+/// Prints what differs between two runs; the exit code is 1 if anything does.
 ///
 /// # Errors
 /// One of them cannot be read, or is neither a recording nor a summary.

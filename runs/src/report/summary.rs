@@ -6,10 +6,10 @@ use crate::playback::{Signal, Store, Track};
 use crate::record::messages::{Closest, Level, Motion};
 use crate::texts::file_name;
 
-/// A run: times in s, ways in mm.
+/// A run: times in s, path lengths in mm.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub(crate) struct Summary {
-    /// The form of this object; another form is another number.
+    /// The number of this object's form; another form has another number.
     pub(super) version: u32,
     /// How long it took.
     pub(super) time: f64,
@@ -23,14 +23,14 @@ pub(crate) struct Summary {
     pub(super) alarms: Vec<Said>,
 }
 
-/// What the program of a channel took, and its robot did.
+/// What the program of a channel took, and what its robot did.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub(super) struct OfChannel {
     pub(super) channel: usize,
     pub(super) program: String,
     /// Empty in the background.
     pub(super) robot: String,
-    /// How it stood at the end: `ended`, `alarm`, ...
+    /// Its state at the end: `ended`, `alarm`, ...
     pub(super) state: String,
     pub(super) moving: f64,
     pub(super) standing: f64,
@@ -39,26 +39,26 @@ pub(super) struct OfChannel {
     pub(super) lines: Vec<OfLine>,
 }
 
-/// What a line took: while its motions were executed, and while the robot stood and the program was in it.
+/// What a line took: while its motions were executed, and while the robot was at rest and the program was in the line.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub(super) struct OfLine {
     pub(super) file: String,
     pub(super) line: u32,
     pub(super) moving: f64,
     pub(super) standing: f64,
-    /// How often a motion of it was executed, which kinds there were, and how long their way was.
+    /// How often one of its motions was executed, which kinds there were, and how long their paths were.
     pub(super) motions: usize,
     pub(super) kinds: Vec<String>,
     pub(super) way: f64,
     /// The blend of which the least part was used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) blend: Option<OfBlend>,
-    /// The limit that came nearest.
+    /// The limit that was approached most closely.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) closest: Option<Limit>,
 }
 
-/// How much of a zone was asked for and used, and why the robot stopped where it did.
+/// How much of a zone was requested and used, and why the robot stopped, if it did.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub(super) struct OfBlend {
     pub(super) asked: f64,
@@ -84,7 +84,7 @@ pub(super) struct OfSignal {
     pub(super) on: f64,
 }
 
-/// What came too near to what; distance 0: they touched.
+/// Two things that came too near to each other; distance 0: they touched.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub(super) struct OfContact {
     pub(super) time: f64,
@@ -95,18 +95,18 @@ pub(super) struct OfContact {
     pub(super) distance: f64,
 }
 
-/// A text, and when it was said.
+/// A text, and the time at which it came.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
 pub(super) struct Said {
     pub(super) time: f64,
     pub(super) text: String,
 }
 
-/// The form of today.
+/// The present form.
 const VERSION: u32 = 1;
 
 impl Summary {
-    /// What a run's messages say.
+    /// Sums up the messages of a run.
     pub(crate) fn of(store: &Store) -> Self {
         let said = |level: fn(Level) -> bool| {
             let of_level = store.log.iter().filter(move |(_, log)| level(log.level()));
@@ -143,7 +143,8 @@ fn of_channel(store: &Store, track: &Track, channel: usize) -> OfChannel {
     let own = |motion: &&Motion| motion.channel as usize == channel;
     let file = |number: u16| track.files.get(usize::from(number)).map_or("", |name| file_name(name)).to_owned();
     let mut lines: Vec<OfLine> = Vec::new();
-    // What each motion took is known once it has ended; without any that has, it is where the robot was seen.
+    // What each motion took is known once it has ended; if none has, the time in which the robot was seen moving
+    // counts.
     let are_known = store.motions.iter().any(|motion| own(&motion));
     for (&(number, line), took) in track.lines.iter().filter(|((_, line), _)| *line > 0) {
         let (moving, standing) = (if are_known { 0.0 } else { rounded(took.moving) }, rounded(took.standing));
@@ -152,8 +153,8 @@ fn of_channel(store: &Store, track: &Track, channel: usize) -> OfChannel {
     let main = file(track.pointers.iter().find(|at| at.motion_line > 0).map_or(0, |at| at.motion_file));
     for motion in store.motions.iter().filter(own) {
         let file = match &*motion.file {
-            // An old recording says it beside the motion; what is shorter than a step between two messages was not
-            // seen.
+            // An old recording has the file beside the motion; a motion shorter than the step between two messages was
+            // not seen.
             "" => {
                 let number = u32::try_from(motion.motion).ok().and_then(|number| track.motion_files.get(&number));
                 number.map_or_else(|| main.clone(), |number| file(*number))
@@ -183,7 +184,7 @@ fn of_channel(store: &Store, track: &Track, channel: usize) -> OfChannel {
     }
 }
 
-/// Sums have digits that say nothing.
+/// Sums have digits without meaning.
 fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }
@@ -212,7 +213,7 @@ impl OfLine {
         }
     }
 
-    /// What it took in all.
+    /// The time that it took in all.
     pub(super) fn time(&self) -> f64 {
         self.moving + self.standing
     }

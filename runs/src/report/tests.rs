@@ -1,4 +1,4 @@
-//! Two runs beside each other, and one as a page.
+//! Two runs compared with each other, and one as a page.
 
 use super::compare::Differences;
 use super::html;

@@ -1,4 +1,4 @@
-//! Solids of the links of a URDF.
+//! The solids of the links of a URDF.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -24,15 +24,15 @@ pub(super) struct Description {
     colors: HashMap<String, [f64; 4]>,
 }
 
-/// How a thing looks that a URDF describes, with its joints at 0, in the frame of its root.
+/// The looks of a thing that a URDF describes, with its joints at 0, in the frame of its root.
 pub(super) fn of_body(file: &Path) -> Result<Looks, String> {
     of_description(&Description::read(file)?)
 }
 
-/// The same of a text; meshes count from the folder of `file`.
+/// The same from a text; paths of meshes start from the folder of `file`.
 ///
 /// # Errors
-/// It is not URDF, or names a mesh that cannot be read.
+/// The text is not URDF, or names a mesh that cannot be read.
 #[cfg(any(test, feature = "fuzzing"))]
 pub fn of_text(text: &str, file: &Path) -> Result<Looks, String> {
     of_description(&Description::of(text, file)?)
@@ -43,7 +43,7 @@ fn of_description(description: &Description) -> Result<Looks, String> {
     description.looks(&tree, &tree.fixed_to(tree.root(), &[]))
 }
 
-/// The meshes that a URDF file names, as far as they are there; none of what is no such file.
+/// The meshes that a URDF file names, as far as they exist; none if the file is not a URDF.
 pub(super) fn meshes(file: &Path) -> Vec<PathBuf> {
     let Ok(description) = Description::read(file) else { return Vec::new() };
     let links = description.robot.links.iter();
@@ -64,16 +64,16 @@ impl Description {
         Self::of(&text, file)
     }
 
-    /// That of a text; meshes count from the folder of `file`.
+    /// The description in a text; paths of meshes start from the folder of `file`.
     fn of(text: &str, file: &Path) -> Result<Self, String> {
         let robot = urdf::parse(text)?;
         let color = |material: &Material| Some((material.name.clone(), material.color.as_ref()?.rgba.0));
-        // Of two with one name the first one counts.
+        // Of two materials with one name the first one counts.
         let colors = robot.materials.iter().rev().filter_map(color).collect();
         Ok(Self { robot, file: file.to_owned(), colors })
     }
 
-    /// How these links look together, each at its place in a common frame.
+    /// The looks of these links together, each at its place in a common frame.
     pub(super) fn looks(&self, tree: &Tree<'_>, links: &[(&str, Transform)]) -> Result<Looks, String> {
         let mut looks = Looks::default();
         for (name, place) in links {
@@ -87,7 +87,8 @@ impl Description {
         Ok(looks)
     }
 
-    /// What only can be seen can be touched there, too; what cannot be drawn looks as it is touched.
+    /// The looks of a link. What can only be seen can be touched there, too; what cannot be drawn looks as it is
+    /// touched.
     fn link(&self, link: &Link) -> Result<Looks, String> {
         let wrong = |problem: String| format!("link `{}`: {problem}", link.name);
         let mut touched = Vec::new();
@@ -176,7 +177,7 @@ impl Description {
     }
 }
 
-/// Where a ROS package may lie: a folder above, one beside those, or where ROS looks.
+/// Where a ROS package may be: a folder above, one beside those, or where ROS looks.
 fn packages(folder: &Path, package: &str) -> Vec<PathBuf> {
     let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
     let of = |variable: &str| {

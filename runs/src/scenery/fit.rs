@@ -6,18 +6,19 @@ use arl_robot::robot::Robot;
 use super::description::frame;
 use crate::urdf::Chain;
 
-/// At so many positions it is looked whether links move with each other, and so little may they, in mm and rad.
+/// At this many positions it is checked whether links move with each other; they may differ by this much, in mm and
+/// rad.
 const POSITIONS: u32 = 24;
 const SLACK_MM: f64 = 1.0;
 const SLACK_RAD: f64 = 0.003;
 /// Fractions of multiples of this are spread evenly.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// For the base of the URDF and each link that its joints move: the link of the robot, 0 is the base, that moves with
-/// it, and where it is in that; `None`: there is no such link.
+/// For the base of the URDF and each link that its joints move: the link of the robot (0 is the base) that moves with
+/// it, and its place in that link; `None` if there is no such link.
 ///
 /// # Errors
-/// Their flanges are elsewhere.
+/// The flanges of the two are at different places.
 pub(super) fn fit(chain: &Chain, robot: &Robot, order: &[usize]) -> Result<Vec<Option<(usize, Frame)>>, String> {
     let mut samples: Vec<[Vec<Frame>; 2]> = Vec::new();
     for number in 1..=POSITIONS {
@@ -38,7 +39,7 @@ pub(super) fn fit(chain: &Chain, robot: &Robot, order: &[usize]) -> Result<Vec<O
     }
     let count = robot.own_axes().len();
     let found = |of: usize| {
-        // First the one that is as far from the base.
+        // First the link that is as many links from the base.
         let all = std::iter::once(of).chain((0..=count).filter(|link| *link != of));
         all.into_iter().find_map(|link| Some((link, moved_with(&samples, link, of)?)))
     };
@@ -76,7 +77,7 @@ fn of_robot(robot: &Robot, values: &[f64]) -> (Vec<Frame>, Frame) {
     (links, place * flange)
 }
 
-/// The same of the URDF, whose joints are those of the axes `order`.
+/// The same for the URDF; `order` gives the joint of each axis.
 fn of_chain(chain: &Chain, robot: &Robot, order: &[usize], values: &[f64]) -> (Vec<Frame>, Frame) {
     let mut at = vec![0.0; chain.joints.len()];
     for ((joint, axis), value) in order.iter().zip(robot.own_axes()).zip(values) {

@@ -1,4 +1,4 @@
-//! What stands in a cell or is carried, and the shapes of its robots: what viewers draw, and what robots can touch.
+//! What is in a cell or is carried, and the shapes of its robots: what viewers draw, and what robots can touch.
 
 mod description;
 mod fit;
@@ -22,13 +22,13 @@ pub use shape::Shape;
 pub struct Scenery {
     /// The bodies of the cell, and how they look.
     pub bodies: Vec<(Body, Looks)>,
-    /// What takes bodies along.
+    /// The carriers, which take bodies along.
     pub carriers: Vec<Carrier>,
-    /// By channels; `None`: capsules along its links.
+    /// The shapes of the robots by channels; `None`: capsules along the robot's links.
     shapes: Vec<Option<Shape>>,
 }
 
-/// How something looks, and what of it can be touched.
+/// The looks of something, and what of it can be touched.
 #[derive(Clone, Default, PartialEq, Debug)]
 pub struct Looks {
     /// What viewers draw.
@@ -37,23 +37,23 @@ pub struct Looks {
     pub touched: Vec<Piece>,
 }
 
-/// A solid in the frame of what it belongs to.
+/// A solid in the frame of its owner.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Piece {
     /// Its frame, in mm.
     pub at: Frame,
     /// Its form.
     pub solid: Solid,
-    /// Red, green, blue and how solid it is, from 0 to 1, where somebody says it.
+    /// Red, green, blue and opacity, from 0 to 1, if given.
     pub color: Option<[f64; 4]>,
 }
 
 impl Scenery {
-    /// That of a cell whose channels have these robots, in the order of the channels. A robot whose shape cannot be
-    /// read has capsules; `tell` is told of it.
+    /// The scenery of a cell whose channels have these robots, in the order of the channels. A robot whose shape cannot
+    /// be read has capsules, which is reported to `tell`.
     ///
     /// # Errors
-    /// A URDF file of a body cannot be read, or a robot has not the axis of a carrier.
+    /// A URDF file of a body cannot be read, or a robot does not have the axis of a carrier.
     pub fn of(cell: &Cell, robots: &[Robot], tell: &dyn Fn(&str)) -> Result<Self, Failure> {
         let looks = |body: &Body| match &body.form {
             Form::Solid(solid) => Ok((body.clone(), Looks::of(solid))),
@@ -79,7 +79,7 @@ impl Scenery {
     }
 }
 
-/// The files that a cell names for how its robots and bodies look.
+/// The files that a cell names for the looks of its robots and bodies.
 pub fn named(cell: &Cell) -> impl Iterator<Item = &Path> {
     let bodies = cell.bodies.iter().filter_map(|body| match &body.form {
         Form::Urdf(file) | Form::Solid(Solid::Mesh { file, .. }) => Some(file.as_path()),
@@ -90,12 +90,13 @@ pub fn named(cell: &Cell) -> impl Iterator<Item = &Path> {
     bodies.chain(robots)
 }
 
-/// The same with the meshes that are named there, as far as they can be found. Who uses what is none says so.
+/// The same with the meshes that these files name, as far as they can be found. An invalid file is reported where it is
+/// used.
 pub fn files(cell: &Cell) -> impl Iterator<Item = PathBuf> {
     named(cell).flat_map(|file| std::iter::once(file.to_owned()).chain(description::meshes(file)))
 }
 
-/// That a robot has the axis of a carrier.
+/// Checks that a robot has the axis of a carrier.
 fn has_axis(robot: &Robot, Carrier { axis, channel, .. }: &Carrier) -> Result<(), Failure> {
     if robot.external_axes().iter().any(|external| external.name == *axis) {
         return Ok(());

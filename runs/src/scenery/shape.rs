@@ -16,10 +16,10 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// That of a robot, from a URDF file of it.
+    /// Reads the shape of a robot from its URDF file.
     ///
     /// # Errors
-    /// The file cannot be read, has forms that cannot, or is of another robot.
+    /// The file cannot be read, has forms that cannot be read, or is of another robot.
     pub(super) fn read(file: &Path, robot: &Robot) -> Result<Self, String> {
         let description = Description::read(file)?;
         let tree = Tree::of(&description.robot)?;
@@ -58,7 +58,7 @@ impl Shape {
         Ok(Self { links })
     }
 
-    /// How each link looks in its frame, the base first.
+    /// The looks of each link in its frame, the base first.
     pub fn links(&self) -> impl Iterator<Item = (usize, &Looks)> {
         self.links.iter().enumerate()
     }

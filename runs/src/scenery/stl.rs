@@ -1,15 +1,15 @@
 //! Triangles of STL files, as text or as bytes.
 //!
-//! Text comes in many hands' spelling: solids without a name or without an end, capitals, blanks and a byte order mark
-//! before, names in any encoding, line ends of CR, normals that are not numbers. All of it is read, every solid of the
-//! file. Normals say nothing that corners do not say, and are passed over.
+//! Text files vary: solids without a name or without an end, capitals, blanks and a byte order mark at the start, names
+//! in any encoding, line ends of CR, normals that are not numbers. All of it is read, every solid of the file. Normals
+//! add nothing to the corners, and are skipped.
 
 mod text;
 
 use std::collections::HashMap;
 
-/// What stands before the count of triangles, the count, and a triangle: a normal, three corners, two bytes that are
-/// anybody's.
+/// The sizes of what is before the count of triangles, of the count, and of a triangle: a normal, three corners, two
+/// bytes for free use.
 const HEADER: usize = 80;
 const COUNT: usize = 4;
 const TRIANGLE: usize = 50;
@@ -20,10 +20,10 @@ const CORNER: usize = 12;
 /// The corners of a triangle, finite.
 type Corners = [[f32; 3]; 3];
 
-/// Triangles by the numbers of their corners, in the file's own unit. Equal corners are one.
+/// Triangles by the indices of their corners, in the file's own unit. Equal corners are stored once.
 #[derive(Default, Debug)]
 pub struct Triangles {
-    /// Its corners, each once.
+    /// The corners, each once.
     pub corners: Vec<[f32; 3]>,
     /// Three corners each.
     pub triangles: Vec<[u32; 3]>,
@@ -33,15 +33,15 @@ pub struct Triangles {
 /// The triangles of an STL file; there is at least one.
 ///
 /// # Errors
-/// It is none: why, with the line where it is text.
+/// It is not an STL file: the reason, with the line if it is text.
 pub fn read(bytes: &[u8]) -> Result<Triangles, String> {
     let mut all = Triangles::default();
     each(bytes, |corners| all.add(corners))?;
     Ok(all)
 }
 
-/// The same triangles in the form that every viewer reads: as bytes, with nothing behind them and a header that nobody
-/// takes for text. Otherwise, what is of this form already stays as it is: colours may stand in it.
+/// The same triangles in the form that every viewer reads: as bytes, with nothing after them and a header that is not
+/// taken for text. A file that has this form already otherwise stays as it is: it may contain colours.
 ///
 /// # Errors
 /// As for [`read`].
@@ -57,7 +57,7 @@ pub fn for_viewers(mut bytes: Vec<u8>) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-/// Triangles as bytes, without normals: who reads them computes these.
+/// The triangles as bytes, without normals: readers compute these.
 fn written_anew(bytes: &[u8]) -> Result<Vec<u8>, String> {
     let mut out = vec![0; HEADER + COUNT];
     let count = each(bytes, |corners| {
@@ -71,7 +71,7 @@ fn written_anew(bytes: &[u8]) -> Result<Vec<u8>, String> {
     Ok(out)
 }
 
-/// Shows the triangles of an STL file one by one; how many there are, at least one.
+/// Passes on the triangles of an STL file one by one; returns how many there are, at least one.
 fn each(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), String>) -> Result<usize, String> {
     let mut count = 0;
     let counted = |corners: Corners| {
@@ -83,7 +83,7 @@ fn each(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), String>) -> Re
     if count == 0 { Err("it has no triangles".to_owned()) } else { Ok(count) }
 }
 
-/// Shows triangles that are bytes, little endian.
+/// Passes on triangles that are bytes, little endian.
 fn each_of_bytes(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), String>) -> Result<(), String> {
     let body = bytes.get(HEADER..).and_then(<[u8]>::split_first_chunk::<COUNT>);
     let Some((count, body)) = body else {
@@ -113,7 +113,7 @@ fn each_of_bytes(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), Strin
     Ok(())
 }
 
-/// Corners as a message has them.
+/// Corners as shown in a message.
 fn written(corners: &Corners) -> String {
     let one = |corner: &[f32; 3]| corner.map(|value| value.to_string()).join(" ");
     corners.iter().map(one).collect::<Vec<_>>().join(", ")

@@ -88,7 +88,7 @@ fn links_of_a_urdf_are_where_the_robot_has_them() {
     let shape = Shape::read(&file, &kr10()).unwrap();
     let links = links(&shape);
     assert_eq!(links.iter().map(|link| link.touched.len()).collect::<Vec<_>>(), [0, 1, 1, 2, 0, 0, 1]);
-    // What is only seen is touched, too, and the other way round.
+    // Forms that are only seen are touched, too, and the other way round.
     assert_eq!(links[2].seen, links[2].touched);
     assert_eq!(links[1].seen.len(), 1);
     assert_eq!(links[2].seen[0].color, Some([1.0, 0.5, 0.0, 1.0]));
@@ -153,7 +153,7 @@ fn a_scara_has_its_shape_too() {
     let files = Files::new("scara");
     let robot = Robot::load("hsr065").unwrap();
     let geometry = robot.kinematics.forward(&[0.0; 6]).translation.vector;
-    // The arms are as long as the robot's; the spindle turns before it slides, or behind.
+    // The arms are as long as the robot's; the spindle turns before it slides, or after.
     let (joints, _) = robot.kinematics.links();
     let l1 = joints[1].origin.translation.vector.x / 1000.0;
     let l2 = geometry.x / 1000.0 - l1;
@@ -194,7 +194,7 @@ fn meshes_are_found_beside_the_file_and_in_packages() {
         format!("<collision><geometry><mesh filename=\"{name}\" scale=\"0.001 0.001 0.001\"/></geometry></collision>")
     };
     files.write("arm_support/meshes/a.stl", "");
-    // What cannot be drawn is drawn as it is touched.
+    // A form that cannot be drawn is drawn as it is touched.
     let seen = "<visual><geometry><mesh filename=\"package://arm_support/meshes/a.dae\"/></geometry></visual>";
     let both = format!("{seen}{}", mesh("package://arm_support/meshes/a.stl"));
     let file = files.write("arm_support/urdf/arm.urdf", &arm(["", &both, &mesh("../meshes/a.stl"), "", "", "", ""]));

@@ -13,7 +13,7 @@ pub struct Moving {
     pub child: String,
     /// Whether it slides instead of turning.
     pub(super) slides: bool,
-    /// From the frame that the joint before moves to its own.
+    /// From the frame that the previous joint moves to its own.
     pub(super) origin: Transform,
     /// In its own frame.
     pub(super) axis: Vector,
@@ -23,7 +23,7 @@ pub struct Moving {
     pub(super) velocity: f64,
 }
 
-/// A robot's joints, and the flange seen from the frame that the last one moves.
+/// A robot's joints, and the flange seen from the frame that the last joint moves.
 #[derive(Clone, Debug)]
 pub struct Chain {
     pub(super) name: String,
@@ -32,7 +32,7 @@ pub struct Chain {
     pub(super) flange: Transform,
 }
 
-/// Links of these names behind the last joint are the flange, the first found goes first.
+/// Links with these names after the last joint are the flange; the first name that is found counts.
 const FLANGES: [&str; 2] = ["tool0", "flange"];
 
 impl Chain {
@@ -69,8 +69,7 @@ impl Chain {
         Ok(chain)
     }
 
-    /// The frames that the joints move, then the flange, in the base, when the joints stand at these positions (rad,
-    /// m).
+    /// The frames that the joints move, then the flange, in the base, when the joints are at these positions (rad, m).
     pub fn forward(&self, at: &[f64]) -> Vec<Transform> {
         let mut place = Transform::ORIGIN;
         let mut all = Vec::new();
@@ -91,7 +90,7 @@ impl Chain {
 /// Reads a URDF.
 ///
 /// # Errors
-/// It is none, or a number in it is none that a robot can have.
+/// The text is not a URDF, or has a number that no robot can have.
 pub fn parse(text: &str) -> Result<Robot, String> {
     if text.contains("xacro:") {
         return Err("this is a xacro file; make a URDF from it first: `xacro FILE.xacro > FILE.urdf`".to_owned());
@@ -115,7 +114,7 @@ fn moving(joint: &Joint, origin: Transform) -> Result<Option<Moving>, String> {
         return Err(format!("the axis of the joint `{name}` has no direction"));
     }
     let (lower, upper) = around.map_or((joint.limit.lower, joint.limit.upper), |turn| (-turn, turn));
-    // A later version of the format means infinity by a limit that is not there.
+    // In a later version of the format, a missing limit means infinity.
     if !(lower < upper && lower.is_finite() && upper.is_finite()) {
         return Err(format!("the joint `{name}` has no range: its limit needs a finite `lower` below its `upper`"));
     }
@@ -136,7 +135,7 @@ fn moving(joint: &Joint, origin: Transform) -> Result<Option<Moving>, String> {
     }))
 }
 
-/// The flange behind the last moving link: a link of a usual name that is fixed to it, or that link itself.
+/// The flange after the last moving link: a link with a usual name that is fixed to it, or that link itself.
 fn flange(tree: &Tree<'_>, link: &str) -> Transform {
     let Some(link) = tree.link(link) else { return Transform::ORIGIN };
     let found = tree.fixed_to(&link.name, &[]);

@@ -4,7 +4,7 @@ use super::chain::{Chain, Moving};
 use super::place::{Transform, Vector, cross, dot, length, plus};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Differences that count as none: m, and the sine of an angle.
+/// Differences that count as zero: m, and the sine of an angle.
 const NEAR: f64 = 1e-6;
 const PARALLEL: f64 = 1e-5;
 
@@ -52,7 +52,7 @@ fn nearest(sine: f64, cosine: f64) -> (f64, f64) {
     if angle.abs() <= FRAC_PI_2 + PARALLEL { (angle, 1.0) } else { ((-sine).atan2(-cosine), -1.0) }
 }
 
-/// How far a point is from a line.
+/// The distance of a point from a line.
 fn distance(point: Vector, line: &Line) -> f64 {
     length(cross(plus(point, line.at, -1.0), line.along))
 }
@@ -111,7 +111,7 @@ pub(super) fn six_axes(chain: &Chain) -> Result<SixAxes, String> {
     let hand = |v: Vector| Transform::about(UP, -t4).turned(forearm(v));
     let [hx, _, hz] = hand(l6.along.map(|component| component * sign6));
     let t5 = hx.atan2(hz);
-    // Where the flange's z does not point outwards along axis 6, its x tells nothing.
+    // Where the flange's z does not point outwards along axis 6, its x has no meaning.
     let [px, py, _] = Transform::about([0.0, 1.0, 0.0], -t5).turned(hand(flange.column(0)));
     let t6 = if faces * sign6 > 1.0 - PARALLEL { py.atan2(px) } else { 0.0 };
     let side = |v: Vector| {
@@ -129,7 +129,7 @@ pub(super) fn six_axes(chain: &Chain) -> Result<SixAxes, String> {
     Ok(fit)
 }
 
-/// Where axis 1 stands when it brings the arm's plane to that of x and z, and the sign of axis 2. Axes 1 to 3 have
+/// The position of axis 1 that brings the arm's plane to that of x and z, and the sign of axis 2. Axes 1 to 3 have
 /// these names.
 fn shoulder([n1, n2, n3]: [&str; 3], [l1, l2, l3]: [&Line; 3]) -> Result<(f64, f64), String> {
     if !parallel(l1.along, UP) {
@@ -190,7 +190,7 @@ fn forward(fit: &SixAxes, at: &[f64]) -> Transform {
     place
 }
 
-/// The geometry must lead to the same flange as the file, wherever the axes stand.
+/// The geometry must lead to the same flange as the file, wherever the axes are.
 fn proven(chain: &Chain, fit: &SixAxes, turned: bool) -> Result<(), String> {
     for round in 0..20 {
         let at: Vec<f64> = (0..6).map(|axis| f64::from((round * 37 + axis * 101) % 60) / 10.0 - 3.0).collect();
@@ -208,7 +208,7 @@ fn proven(chain: &Chain, fit: &SixAxes, turned: bool) -> Result<(), String> {
     Ok(())
 }
 
-/// The geometry of two arms, a lift and a flange that turns.
+/// The geometry of two arms, a lift and a turning flange.
 pub(super) fn scara(chain: &Chain) -> Result<Scara, String> {
     let (all, flange) = lines(chain);
     let order = match chain.joints.iter().map(|joint| joint.slides).collect::<Vec<_>>().as_slice() {

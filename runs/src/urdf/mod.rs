@@ -1,5 +1,5 @@
-//! URDF files: the chain of their joints, and `arl2rs robots --import FILE.urdf`, which makes a robot file of one whose
-//! geometry fits.
+//! URDF files: the chain of their joints, and `arl2rs robots --import FILE.urdf`, which makes a robot file from a URDF
+//! whose geometry fits.
 
 mod chain;
 mod fit;
@@ -17,9 +17,9 @@ use std::fmt::Write;
 use std::path::Path;
 pub use tree::Tree;
 
-/// So many joints are named where there are too many.
+/// The most joints that are named where there are too many.
 const TOLD: usize = 8;
-/// What no URDF gives, as in the built-in robots: mm and deg, per s, s2, s3.
+/// The values that no URDF has, as in the built-in robots: mm and deg, per s, s2, s3.
 const TCP: &str = "\
 [tcp]  # mm/s, mm/s2, mm/s3, deg/s, deg/s2, deg/s3
 vel = 2000.0
@@ -33,7 +33,7 @@ ori_jerk = 20000.0
 /// The robot file of the robot in a URDF file.
 ///
 /// # Errors
-/// It cannot be read, is not URDF, or of a robot that has no robot file: why.
+/// The file cannot be read, is not URDF, or is of a robot that cannot have a robot file: the reason.
 pub fn import(file: &Path) -> Result<String, Failure> {
     let text = regular_file::read_text(file)
         .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", file.display())))?;
@@ -44,7 +44,7 @@ pub fn import(file: &Path) -> Result<String, Failure> {
 /// The robot file of the robot of a URDF; `from` is its file's name.
 ///
 /// # Errors
-/// It is none, or of a robot that has no robot file: why.
+/// The text is not URDF, or is of a robot that cannot have a robot file: the reason.
 pub fn robot_file(text: &str, from: &str) -> Result<String, String> {
     let robot = parse(text)?;
     let chain = Chain::of(&Tree::of(&robot)?)?;
@@ -80,14 +80,14 @@ pub fn robot_file(text: &str, from: &str) -> Result<String, String> {
     for (at, joint) in joints.iter().enumerate() {
         axis(&mut out, at, joint);
     }
-    // What a URDF may say, a robot file may not: a speed of nearly nothing.
+    // A URDF may have values that a robot file may not have: a speed of nearly 0.
     match Robot::parse(from, &out) {
         Ok(_) => Ok(out),
         Err(error) => Err(format!("no robot file can describe it: {}", error.message)),
     }
 }
 
-/// For each axis, its joint: that of a SCARA's axes may come in another order.
+/// For each axis, the index of its joint: the joints of a SCARA may be in another order.
 ///
 /// # Errors
 /// The four joints are not those of a SCARA.
@@ -98,7 +98,7 @@ pub fn order(chain: &Chain) -> Result<Vec<usize>, String> {
 fn six_axes(fit: &SixAxes) -> String {
     let mut out = String::from("[geometry]  # OPW, mm and deg\n");
     for (name, length) in ["a1", "a2", "b", "c1", "c2", "c3", "c4"].iter().zip(fit.lengths) {
-        // A String takes everything that is written to it.
+        // A String accepts everything that is written to it.
         let _ = writeln!(out, "{name} = {}", number(length * 1e3));
     }
     let list = |values: [String; 6]| values.join(", ");
@@ -120,7 +120,7 @@ fn axis(out: &mut String, at: usize, joint: &Moving) {
     let (unit, factor) = if joint.slides { ("mm", 1e3) } else { ("deg", 1f64.to_degrees()) };
     let [min, max, vel] = [joint.lower, joint.upper, joint.velocity].map(|value| value * factor);
     let (acc, jerk) = (number(5.0 * vel), number(60.0 * vel));
-    // A line of a comment holds it, whatever it holds.
+    // A line of a comment can hold the escaped name, whatever the name is.
     let (min, max, vel, name) = (number(min), number(max), number(vel), joint.name.escape_debug());
     let at = at + 1;
     let _ = write!(
@@ -129,7 +129,7 @@ fn axis(out: &mut String, at: usize, joint: &Moving) {
     );
 }
 
-/// A number without the noise of converting: six digits behind the point at most.
+/// A number without the noise of converting: with six decimals at most.
 fn number(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6;
     let rounded = if rounded == 0.0 { 0.0 } else { rounded };

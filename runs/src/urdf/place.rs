@@ -1,4 +1,4 @@
-//! Places and turns: what little geometry the import needs.
+//! Places and rotations: the little geometry that the import needs.
 
 /// A vector, m.
 pub(super) type Vector = [f64; 3];
@@ -33,7 +33,7 @@ impl Transform {
     pub(super) const ORIGIN: Transform =
         Transform { turn: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], at: [0.0; 3] };
 
-    /// A turn by `angle` (rad) about `axis`, a unit vector.
+    /// A rotation by `angle` (rad) about `axis`, a unit vector.
     pub(super) fn about(axis: Vector, angle: f64) -> Self {
         let ([x, y, z], (s, c)) = (axis, angle.sin_cos());
         let t = 1.0 - c;

@@ -1,5 +1,5 @@
-//! The links of a URDF as a tree, each with the joints behind it. Whatever is asked of it takes time by its size,
-//! however deep it is.
+//! The links of a URDF as a tree, each with the joints after it. Each query takes time by the tree's size, however deep
+//! it is.
 
 use std::collections::HashMap;
 
@@ -11,20 +11,20 @@ use super::place::Transform;
 #[derive(Debug)]
 pub struct Tree<'a> {
     robot: &'a Robot,
-    /// By the names of links, their places in the robot.
+    /// The indices of links in the robot, by their names.
     links: HashMap<&'a str, usize>,
     root: usize,
-    /// For each link the joints behind it, in the order of the file, by their places in the robot.
+    /// For each link the joints after it, in the order of the file, by their indices in the robot.
     behind: Vec<Vec<usize>>,
-    /// For each joint, whether it moves, or one behind it does.
+    /// For each joint, whether it or one after it moves.
     moves: Vec<bool>,
 }
 
 impl<'a> Tree<'a> {
-    /// That of a robot.
+    /// The tree of a robot.
     ///
     /// # Errors
-    /// Its links are not a tree: what is wrong.
+    /// What keeps its links from being a tree.
     pub fn of(robot: &'a Robot) -> Result<Self, String> {
         let mut links = HashMap::with_capacity(robot.links.len());
         for (at, link) in robot.links.iter().enumerate() {
@@ -69,13 +69,13 @@ impl<'a> Tree<'a> {
         self.robot.links.get(*self.links.get(name)?)
     }
 
-    /// The joints behind a link that move, or behind which one moves.
+    /// The joints after a link that move, or that a moving joint comes after.
     pub(super) fn moving_behind(&self, link: &str) -> Vec<&'a Joint> {
         let is_one = |at: &&usize| self.moves.get(**at).copied().unwrap_or(false);
         self.numbers_behind(link).iter().filter(is_one).filter_map(|at| self.robot.joints.get(*at)).collect()
     }
 
-    /// A link, and those behind it with joints at 0, each with its place. The joints `moving` are not gone over.
+    /// A link, and the links after it with joints at 0, each with its place. The joints `moving` are not crossed.
     pub fn fixed_to(&self, link: &'a str, moving: &[&str]) -> Vec<(&'a str, Transform)> {
         let mut found: Vec<(&str, Transform)> = vec![(link, Transform::ORIGIN)];
         let mut at = 0;

@@ -1,19 +1,19 @@
-//! Looks over the text of a URDF before the library reads it: the library takes texts for numbers that are none, and
-//! goes into nested elements by recursion.
+//! Checks the text of a URDF before the library reads it: the library accepts numbers that are not valid, and reads
+//! nested elements by recursion.
 
 use arl_robot::cell::LARGEST_MM;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-/// Elements of a URDF are nested four deep, with what other programs put into it some more.
+/// Elements of a URDF are nested four deep, those that other programs add to it somewhat deeper.
 const DEEPEST: usize = 64;
-/// No place and no length is farther, in m.
+/// No place is farther and no length is greater, in m.
 const LARGEST_M: f64 = LARGEST_MM / 1000.0;
 /// No other number is larger: angles, speeds, scales, masses.
 const LARGEST: f64 = 1e6;
-/// So much of a wrong value is told.
+/// How much of a wrong value is shown.
 const TOLD: usize = 40;
-/// What a robot is made of; all else in it is other programs'.
+/// What a robot is made of; everything else in it belongs to other programs.
 const PARTS: [&str; 3] = ["link", "joint", "material"];
 
 /// Attributes that are numbers: of which element, how many there are, and how large each may be.
@@ -42,15 +42,15 @@ const NUMBERS: &[(&str, &str, usize, f64)] = &[
     ("inertia", "izz", 1, LARGEST),
 ];
 
-/// That a text is XML of no unusual depth, and every number that is used one that a robot can have.
+/// Checks that a text is XML of no unusual depth, and that every number in use is one that a robot can have.
 ///
 /// # Errors
-/// With the line.
+/// What is wrong, with the line.
 pub(super) fn vet(text: &str) -> Result<(), String> {
     let mut reader = Reader::from_str(text);
     let mut at = Transform { text, offset: 0, line: 1 };
     let mut depth = 0;
-    // The part of the robot that is gone through, by its element and its name.
+    // The part of the robot that is being read, by its element and its name.
     let mut part: Option<String> = None;
     loop {
         let begins = reader.buffer_position();
@@ -72,7 +72,7 @@ pub(super) fn vet(text: &str) -> Result<(), String> {
     }
 }
 
-/// Looks at an element that so many others are around.
+/// Checks an element that has `depth` others around it.
 fn look_at(tag: &BytesStart<'_>, depth: usize, part: &mut Option<String>, line: usize) -> Result<(), String> {
     let name = tag.name();
     let element: &str = name.as_ref();
@@ -158,7 +158,7 @@ mod tests {
         }
         for right in [
             link("<origin xyz=\" 0 -1.5e-3\n2 \" rpy=\"0 0 3.14\"/>"),
-            // What other programs put into it is theirs.
+            // What other programs add to it is not checked.
             robot("<gazebo><origin xyz=\"as you like\"/></gazebo><link name=\"c\"/>"),
             robot("<transmission name=\"t\"><joint name=\"j\"><limit lower=\"none\"/></joint></transmission>"),
         ] {

@@ -1,4 +1,4 @@
-//! What the page is told of a run: JSON for what there is little of, columns of numbers for where the robots were.
+//! What the page gets of a run: JSON for small data, columns of numbers for the positions of the robots.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use super::api::{
 use crate::playback::{Signal, Store, TOLD_AGAIN, Track};
 use crate::record::messages;
 
-/// How much of a run the page knows already, by the numbers of what it has.
+/// How much of a run the page knows already, by the counts of what it has.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Known {
     pub(super) scene: usize,
@@ -23,7 +23,7 @@ pub(super) struct Known {
     pub(super) signals: usize,
 }
 
-/// What the page is told besides.
+/// What else the page gets.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct About<'a> {
     /// The file that is shown.
@@ -32,7 +32,7 @@ pub(super) struct About<'a> {
     pub(super) teaches: bool,
 }
 
-/// All of a run but where the robots were.
+/// All of a run except the positions of the robots.
 pub(super) fn run(store: &Store, about: About<'_>) -> RunAnswer {
     let source = |text: &crate::texts::Text| SourceText { name: text.name.clone(), text: text.text.clone() };
     RunAnswer {
@@ -47,7 +47,7 @@ pub(super) fn run(store: &Store, about: About<'_>) -> RunAnswer {
     }
 }
 
-/// What happened since.
+/// What happened since then.
 pub(super) fn news(store: &Store, known: &Known) -> News {
     let mut models = store.scene.iter().take(known.scene).map(|(_, update)| models_of(update)).sum::<usize>();
     let scene = store.scene.iter().skip(known.scene).map(|(time, update)| scene(store, *time, update, &mut models));
@@ -116,15 +116,15 @@ fn signals(store: &Store, known: usize) -> Vec<SignalChanges> {
     of.into_iter().map(|(signal, changes)| SignalChanges { signal: signal.to_string(), changes }).collect()
 }
 
-/// Where the robot of a channel was from one time to another, in at most so many rows, and the row before the first.
-/// Numbers are little-endian: how many rows and axes there are (u32), times (f64), then row by row axes, TCP and speed
+/// The positions of a channel's robot from one time to another, in at most `most` rows, and the row before the first.
+/// Numbers are little-endian: the counts of rows and axes (u32), times (f64), then row by row axes, TCP and speed
 /// (f32), then for each row the lines of program and motion, the number of the motion, and the numbers of the files,
 /// that of the motion above 16 bits (u32), and for each row whether another tool took over since the row before (u8).
 pub(super) fn samples(track: &Track, [from, to]: [f64; 2], most: usize) -> Vec<u8> {
     let first = track.times.partition_point(|time| *time < from).saturating_sub(1);
     let end = track.times.partition_point(|time| *time <= to).max(first);
     let step = (end - first).div_ceil(most.max(2)).max(1);
-    // Columns are as long as each other, and rows within them. The last row is there whatever the step.
+    // Columns have the same length, and rows are within it. The last row is there whatever the step.
     let last = (end > first).then(|| end - 1);
     let rows = || (first..end).step_by(step).chain(last.filter(|last| (last - first) % step != 0));
     let mut out = Vec::new();
@@ -137,7 +137,7 @@ pub(super) fn samples(track: &Track, [from, to]: [f64; 2], most: usize) -> Vec<u
         track.axes[row * track.width..(row + 1) * track.width].iter().for_each(|value| float(*value));
     }
     rows().for_each(|row| track.tcp[row].iter().for_each(|value| float(*value)));
-    // Nothing fast is lost between rows.
+    // The highest speed between rows is kept.
     for row in rows() {
         let until = (row + step).min(end);
         float(track.speed[row..until].iter().copied().fold(0.0, f32::max));

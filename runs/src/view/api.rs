@@ -1,4 +1,4 @@
-//! What the page is told, as types: answers are made of them, and `page/api.d.ts` is written from them.
+//! The data that the page gets, as types: answers are made of them, and `page/api.d.ts` is written from them.
 
 use std::collections::BTreeMap;
 
@@ -9,35 +9,35 @@ use crate::record::messages::{self, Closest, Color, Level, Pose, Quaternion, Vec
 /// x, y, z in m (of a base: mm), and a quaternion x, y, z, w.
 type Placed = [f64; 7];
 
-/// All of a run but where the robots were.
+/// All of a run except the positions of the robots.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(super) struct RunAnswer {
     /// The file that is shown.
     pub(super) name: String,
     pub(super) channels: Vec<PageChannel>,
-    /// What the cell calls signals, by their names in files: `di.1`.
+    /// The cell's names of signals, by their names in files: `di.1`.
     pub(super) names: BTreeMap<String, String>,
     pub(super) sources: Vec<SourceText>,
     /// The words of the language.
     pub(super) keywords: Vec<&'static str>,
     /// Whether points of the program may be written.
     pub(super) teaches: bool,
-    /// What of the recording could not be read, and why.
+    /// What of the recording could not be read, and the reason.
     pub(super) trouble: Option<String>,
     #[serde(flatten)]
     pub(super) news: News,
 }
 
-/// What happened since the page asked last.
+/// What happened since the page's last request.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(super) struct News {
     /// The time of the last message in s.
     pub(super) end: f64,
-    /// Counts the messages that were taken in.
+    /// Counts the messages that were added.
     pub(super) version: u64,
-    /// Whether a program runs that adds to it.
+    /// Whether a running program adds to it.
     pub(super) live: bool,
     pub(super) scene: Vec<PageSceneUpdate>,
     pub(super) controller: Vec<Mode>,
@@ -58,7 +58,7 @@ pub(super) struct PageChannel {
     /// The frame of its TCP.
     tcp: String,
     axes: Vec<PageAxis>,
-    /// From the base on, and the flange at last.
+    /// From the base on, with the flange last.
     links: Vec<PageLink>,
     /// What its external axes move.
     carriers: Vec<PageLink>,
@@ -74,7 +74,7 @@ struct PageAxis {
     max: f64,
 }
 
-/// A frame of a robot, by the frame that it is fixed to or moves against.
+/// A frame of a robot, relative to the frame that it is fixed to or moves against.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 struct PageLink {
@@ -82,10 +82,10 @@ struct PageLink {
     parent: String,
     /// x, y, z in mm, and a quaternion x, y, z, w, while its axis is at 0.
     origin: Vec<f64>,
-    /// What it turns about, or moves along; empty: it does not move.
+    /// The axis that it turns about, or moves along; empty: it does not move.
     axis: Vec<f64>,
     linear: bool,
-    /// The name of the axis that moves it; empty: none does.
+    /// The name of the axis that moves it; empty: none.
     moved_by: String,
 }
 
@@ -97,7 +97,7 @@ pub(super) struct SourceText {
     pub(super) text: String,
 }
 
-/// A change of bodies: those that come or change, and the names of those that go.
+/// A change of bodies: those that appear or change, and the names of those that disappear.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(super) struct PageSceneUpdate {
@@ -169,7 +169,7 @@ enum LogLevel {
     Message,
 }
 
-/// Two bodies begin to touch, or come nearer than asked for: `distance` in mm, 0 where they touch.
+/// Two bodies begin to touch, or come nearer than the clearance: `distance` in mm, 0 where they touch.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(super) struct PageContact {
@@ -202,7 +202,7 @@ pub(super) struct PageMotion {
     jerk: Option<(String, f64)>,
 }
 
-/// How much of a zone was asked for and used, in its unit, and why the robot stopped, where it did.
+/// How much of a zone was requested and used, in its unit, and why the robot stopped, if it did.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 struct PageBlend {
@@ -216,7 +216,7 @@ struct PageBlend {
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(super) struct PageTrack {
-    /// The names of files that rows and lines have numbers of.
+    /// The file names to which rows and lines refer by number.
     pub(super) files: Vec<String>,
     pub(super) rows: usize,
     pub(super) states: Vec<(f64, String)>,
@@ -224,7 +224,7 @@ pub(super) struct PageTrack {
     pub(super) lines: Vec<PageLine>,
 }
 
-/// How long the robot moved for a line, and stood in it, in s.
+/// How long the robot moved for a line, and was at rest in it, in s.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(super) struct PageLine {
@@ -242,7 +242,7 @@ pub(super) struct SignalChanges {
     pub(super) changes: Vec<f64>,
 }
 
-/// All inputs and outputs as they are now: a digit for each digital one.
+/// The present inputs and outputs: a digit for each digital one.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(super) struct Levels {

@@ -1,4 +1,4 @@
-//! A program that runs while it is shown: what it says becomes a run that grows, and it takes orders.
+//! A running program that is shown: what it reports becomes a growing run, and it takes orders.
 
 use std::error::Error;
 use std::process::Command;
@@ -8,34 +8,34 @@ use std::time::Duration;
 use mcap::McapResult;
 
 use crate::link::ProgramLink;
-use crate::listen::{self, Hears};
+use crate::listen::{self, Subscriber};
 use crate::playback::Store;
-use crate::record::{Recorder, Schema, Sink};
+use crate::record::{Recorder, RunMessage, Sink};
 use crate::scenery::Scenery;
 use arl_terminal::interrupt;
 use arl_terminal::show;
 use arl_wire::Line;
 
-/// How often it is looked whether the program has said something.
+/// The interval at which new lines of the program are looked for.
 const LOOK_INTERVAL: Duration = Duration::from_millis(4);
 
-/// A program that runs.
+/// A running program.
 pub(super) struct Live {
     link: Arc<Mutex<ProgramLink>>,
 }
 
 impl Live {
-    /// Starts a program, which waits for its start button. Others than the page want to hear it, too.
-    pub(super) fn start(mut command: Command, hearers: &[Box<dyn Hears>]) -> std::io::Result<Self> {
+    /// Starts a program, which waits for its start button. `subscribers` get its lines besides the page.
+    pub(super) fn start(mut command: Command, subscribers: &[Box<dyn Subscriber>]) -> std::io::Result<Self> {
         command.args(["--live", "--paused", "--each-motion", "--state-interval", listen::STATE_INTERVAL]);
-        command.args(listen::wishes(hearers));
+        command.args(listen::wishes(subscribers));
         Ok(Self { link: Arc::new(Mutex::new(ProgramLink::start(command)?)) })
     }
 
-    /// Gives the program an order, a line.
+    /// Sends the program an order, a line.
     ///
     /// # Errors
-    /// It is not a line.
+    /// The order is not a single line.
     pub(super) fn order(&self, order: &str) -> Result<(), String> {
         if order.contains(char::is_control) {
             return Err("an order must be a single line".to_owned());
@@ -44,17 +44,23 @@ impl Live {
         Ok(())
     }
 
-    /// Hears the program until it ends; its exit code. Who hears it first, `hearers`, may add to what the page is told.
-    pub(super) fn hear(&self, mut hearers: Vec<Box<dyn Hears>>, scenery: &Scenery, store: &Arc<Mutex<Store>>) -> u8 {
+    /// Listens to the program until it ends; returns its exit code. `subscribers` get its lines first, and may add to
+    /// what the page gets.
+    pub(super) fn receive(
+        &self,
+        mut subscribers: Vec<Box<dyn Subscriber>>,
+        scenery: &Scenery,
+        store: &Arc<Mutex<Store>>,
+    ) -> u8 {
         let recorder = Recorder::new(Shared(Arc::clone(store)), scenery);
-        hearers.push(Box::new(Growing { recorder, store: Arc::clone(store) }));
+        subscribers.push(Box::new(Growing { recorder, store: Arc::clone(store) }));
         loop {
             let (ended, lines) = {
                 let mut link = self.link.lock().unwrap_or_else(PoisonError::into_inner);
-                // What it said before it ended comes before the end.
+                // Lines that the program sent before it ended come before the end.
                 let ended = link.ended();
                 if interrupt::was_pressed() {
-                    // It may be for this command alone: the robot stops on its path all the same.
+                    // The interrupt may be for this command alone: the robot stops on its path all the same.
                     link.leave();
                 }
                 let lines: Vec<Line> = match ended {
@@ -63,9 +69,9 @@ impl Live {
                 };
                 (ended, lines)
             };
-            lines.into_iter().for_each(|line| listen::pass_on(told(line), &mut hearers));
+            lines.into_iter().for_each(|line| listen::pass_on(told(line), &mut subscribers));
             if let Some(code) = ended {
-                listen::end(hearers, true);
+                listen::end(subscribers, true);
                 store.lock().unwrap_or_else(PoisonError::into_inner).goes_on = false;
                 return code;
             }
@@ -74,7 +80,8 @@ impl Live {
     }
 }
 
-/// What concerns people who look at the page is a warning there, and also said where the command was started.
+/// Turns lines that concern the users of the page into warnings there; other output is also printed where the command
+/// was started.
 fn told(line: Line) -> Line {
     match line {
         Line::Refused(refused) => Line::Warning(format!("{}: {}", refused.order, refused.why)),
@@ -86,15 +93,15 @@ fn told(line: Line) -> Line {
     }
 }
 
-/// A run that grows.
+/// A growing run.
 struct Growing {
     recorder: Recorder<Shared>,
     store: Arc<Mutex<Store>>,
 }
 
-impl Hears for Growing {
-    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
-        self.recorder.hear(line)?;
+impl Subscriber for Growing {
+    fn receive(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+        self.recorder.receive(line)?;
         if let Line::State(state) = line {
             // Time goes on while nothing changes.
             let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
@@ -112,12 +119,12 @@ impl Hears for Growing {
     }
 }
 
-/// A store that the page looks at meanwhile.
+/// A store that the page reads meanwhile.
 struct Shared(Arc<Mutex<Store>>);
 
 impl Sink for Shared {
-    fn message(&mut self, topic: &str, schema: &'static Schema, time: u64, message: &[u8]) -> McapResult<()> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).message(topic, schema, time, message)
+    fn message(&mut self, time: u64, message: RunMessage) -> McapResult<()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).message(time, message)
     }
 
     fn source(&mut self, name: &str, text: &str) -> McapResult<()> {

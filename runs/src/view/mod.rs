@@ -1,7 +1,7 @@
-//! A page in the browser that shows a run, of a recording or of a program that goes on.
+//! A page in the browser that shows a run, of a recording or of a running program.
 //!
-//! The page is in `runs/page/`. It asks this server for what it shows, and gives it orders where there is somebody to
-//! take them.
+//! The page is in `runs/page/`. It requests what it shows from this server, and sends orders where a program takes
+//! them.
 
 mod answer;
 mod api;
@@ -22,7 +22,7 @@ use std::thread::JoinHandle;
 
 use arl_robot::Robot;
 
-use crate::listen::Hears;
+use crate::listen::Subscriber;
 use crate::playback::{self, Store};
 use crate::report::{Differences, Summary};
 use crate::scenery::Scenery;
@@ -34,78 +34,78 @@ use live::Live;
 use serve::{Answer, PageRequest, ToPage};
 use teach::Teacher;
 
-/// At most so many rows are told at once.
+/// The most rows that are sent at once.
 const MOST_ROWS: usize = 400_000;
 
-/// What is shown: one run, or two beside each other.
+/// What is shown: one run, or two side by side.
 struct Shown {
     runs: Vec<(String, Arc<Mutex<Store>>)>,
-    /// The program of the first one, where it runs.
+    /// The program of the first run, if it is running.
     live: Option<Live>,
-    /// Who writes its points, where that is wanted.
+    /// Writes its points, if that is wanted.
     teacher: Option<Teacher>,
 }
 
 /// Where the page is served.
 #[derive(Clone, Copy, Debug)]
 pub struct Page {
-    /// The port on this computer; a free one where it is 0.
+    /// The port on this computer; 0: a free one.
     pub port: u16,
-    /// Whether a browser opens it.
+    /// Whether to open it in a browser.
     pub opens: bool,
 }
 
-/// A program that is to run, and who hears it besides.
+/// A program to run, and its subscribers.
 pub struct Program<'a> {
-    /// What the page calls it.
+    /// Its name on the page.
     pub name: String,
-    /// What starts it.
+    /// The command that starts it.
     pub command: Command,
     /// Its files.
     pub sources: &'a [PathBuf],
-    /// What stands in its cell.
+    /// What is in its cell.
     pub scenery: &'a Scenery,
-    /// Who hears it before the page does.
-    pub hearers: Vec<Box<dyn Hears>>,
-    /// The robots of its channels, where the page may write its points.
+    /// The subscribers that get its lines before the page does.
+    pub subscribers: Vec<Box<dyn Subscriber>>,
+    /// The robots of its channels, if the page may write its points.
     pub teaches: Option<Vec<Robot>>,
 }
 
 /// Shows one or two recordings, until the command is interrupted.
 ///
 /// # Errors
-/// One cannot be read, or the port is taken.
+/// A recording cannot be read, or the port is taken.
 pub fn recordings(files: &[PathBuf], page: Page) -> Result<Exit, Failure> {
     let name = |file: &Path| file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let runs = files.iter().map(|file| Ok((name(file), Arc::new(Mutex::new(recording(file)?)))));
     let shown = Shown { runs: runs.collect::<Result<_, Failure>>()?, live: None, teacher: None };
     let server = serve(&Arc::new(shown), page)?;
-    // It serves for ever.
+    // The server runs forever.
     server.join().map_err(|_| Failure::Other("the server ended".to_owned()))?;
     Ok(Exit::SUCCESS)
 }
 
-/// Shows a program that runs, until it ends; its exit code. Once it runs, `lock`, which kept it as it is, is let go.
+/// Shows a program until it ends; returns its exit code. Once it runs, `lock`, which kept it unchanged, is released.
 ///
 /// # Errors
-/// It does not start, or the port is taken.
+/// The program does not start, or the port is taken.
 pub fn program<L>(program: Program<'_>, lock: L, page: Page) -> Result<Exit, Failure> {
-    let Program { name, command, sources, scenery, hearers, teaches } = program;
+    let Program { name, command, sources, scenery, subscribers, teaches } = program;
     let teacher = teaches.map(|robots| Teacher::new(robots, sources));
     let store = Store { goes_on: true, sources: texts::read(sources), ..Store::default() };
     let file = PathBuf::from(command.get_program());
-    let live = Live::start(command, &hearers).map_err(|error| Failure::io("start", &file, &error))?;
+    let live = Live::start(command, &subscribers).map_err(|error| Failure::io("start", &file, &error))?;
     drop(lock);
     // The program stops its robot, and this command ends with it.
     interrupt::leave_to_the_program();
     let store = Arc::new(Mutex::new(store));
     let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live), teacher });
     let _server = serve(&shown, page)?;
-    let code = shown.live.as_ref().map_or(0, |live| live.hear(hearers, scenery, &store));
+    let code = shown.live.as_ref().map_or(0, |live| live.receive(subscribers, scenery, &store));
     Ok(Exit::from(code))
 }
 
-/// Serves the page, tells its address and opens it.
+/// Serves the page, prints its address and opens it.
 fn serve(shown: &Arc<Shown>, page: Page) -> Result<JoinHandle<()>, Failure> {
     let shown = Arc::clone(shown);
     let to_page = |address| ToPage::new(address, move |asked: &PageRequest<'_>| shown.answer(asked));
@@ -113,7 +113,7 @@ fn serve(shown: &Arc<Shown>, page: Page) -> Result<JoinHandle<()>, Failure> {
         http::serve(page.port, http::Limits::USUAL, to_page).map_err(|error| http::refusal(page.port, &error))?;
     let url = format!("http://{address}/");
     let mut out = std::io::stdout();
-    // Nobody may read it.
+    // The standard output may be closed.
     let _ = writeln!(out, "{url}").and_then(|()| out.flush());
     if page.opens && open::that_detached(&url).is_err() {
         show::warning("cannot open a browser: open the address above");
@@ -197,7 +197,7 @@ fn known(asked: &PageRequest<'_>) -> Known {
     }
 }
 
-/// What a store is worth does not depend on who looked at it last.
+/// A store is valid even if a thread that had locked it panicked.
 fn lock(store: &Mutex<Store>) -> MutexGuard<'_, Store> {
     store.lock().unwrap_or_else(PoisonError::into_inner)
 }

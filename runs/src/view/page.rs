@@ -11,7 +11,7 @@ macro_rules! page {
     };
 }
 
-/// All files. A test holds that no script asks for another one.
+/// All files. A test ensures that no script requests another one.
 const FILES: &[File] = page! {
     "index.html": "text/html; charset=utf-8",
     "page.css": "text/css; charset=utf-8",
@@ -26,6 +26,14 @@ const FILES: &[File] = page! {
     "rows.js": SCRIPT,
     "source.js": SCRIPT,
     "teach.js": SCRIPT,
+    "teach/dragged_robot.js": SCRIPT,
+    "teach/edits.js": SCRIPT,
+    "teach/jog.js": SCRIPT,
+    "teach/point_list.js": SCRIPT,
+    "teach/point_marks.js": SCRIPT,
+    "teach/pose_form.js": SCRIPT,
+    "teach/reach_map.js": SCRIPT,
+    "teach/server.js": SCRIPT,
     "panels.js": SCRIPT,
     "colors.js": SCRIPT,
     "live.js": SCRIPT,

@@ -1,4 +1,4 @@
-//! Who is served: the page of this computer's server, and nobody else.
+//! Requests and answers: only the page of this computer's server is served.
 
 use std::net::SocketAddr;
 
@@ -6,22 +6,22 @@ use serde::Serialize;
 
 use super::http::{Answers, Rank, Request, Response, Status};
 
-/// What is asked for.
+/// A request of the page.
 pub(super) struct PageRequest<'a> {
     pub(super) path: &'a str,
     pub(super) query: &'a str,
-    /// What is sent, where something is to be done.
+    /// What is sent, if something is to be done.
     pub(super) order: Option<&'a str>,
 }
 
-/// What is answered.
+/// An answer.
 pub(super) enum Answer {
-    /// A file of the page, or what it asked for: the type and the bytes.
+    /// A file of the page, or requested data: the type and the bytes.
     Bytes(&'static str, Vec<u8>),
     /// JSON.
     Json(String),
     NotFound,
-    /// It cannot be, and why.
+    /// The request is refused, for this reason.
     Refused(String),
 }
 
@@ -38,7 +38,7 @@ impl PageRequest<'_> {
         self.text(name)?.parse().ok().filter(|number: &f64| number.is_finite())
     }
 
-    /// A count of the query; 0 where there is none.
+    /// A count of the query; 0 if it is missing.
     pub(super) fn count(&self, name: &str) -> usize {
         self.number(name).map_or(0, |number| number.max(0.0) as usize)
     }
@@ -56,7 +56,7 @@ pub(super) struct ToPage<F> {
 }
 
 impl<F: Fn(&PageRequest<'_>) -> Answer> ToPage<F> {
-    /// For the server at this address.
+    /// Answers for the server at this address.
     pub(super) fn new(address: SocketAddr, answer: F) -> Self {
         let port = address.port();
         Self { hosts: [format!("127.0.0.1:{port}"), format!("localhost:{port}")], answer }
@@ -80,8 +80,8 @@ impl<F: Fn(&PageRequest<'_>) -> Answer> ToPage<F> {
         }
     }
 
-    /// That the page of this server asks: other pages in the same browser must not, under whatever name they know this
-    /// computer.
+    /// Checks that the page of this server makes the request: other pages in the same browser must not, under whatever
+    /// name they know this computer.
     fn expect_own(&self, request: &Request) -> Result<(), String> {
         if !self.hosts.contains(&request.host) {
             return Err(format!("this server answers requests for http://{} only", self.hosts[0]));

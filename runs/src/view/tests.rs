@@ -1,4 +1,4 @@
-//! What a view knows of a run, and what it tells of it.
+//! What a view knows of a run, and what it sends of it.
 
 use prost::Message as _;
 
@@ -21,7 +21,7 @@ fn channel(time: f64, line: u32, motion: u64, x: f64) -> Channel {
     }
 }
 
-/// A store that has heard these messages of channel 1.
+/// A store that has received these messages of channel 1.
 fn store(messages: &[Channel]) -> Store {
     let mut store = Store::default();
     for message in messages {
@@ -31,7 +31,7 @@ fn store(messages: &[Channel]) -> Store {
     store
 }
 
-/// A robot that goes 4 mm in each 4 ms, but stands in line 4 from 0.4 s to 1.4 s.
+/// A robot that goes 4 mm in each 4 ms, but is at rest in line 4 from 0.4 s to 1.4 s.
 fn run() -> Store {
     let moves = |at: u32, later: f64| channel(f64::from(at) * 0.004 + later, 5, 1, f64::from(at) * 4.0);
     let mut messages: Vec<Channel> = (0..=100).map(|at| moves(at, 0.0)).collect();
@@ -40,7 +40,7 @@ fn run() -> Store {
     store(&messages)
 }
 
-/// What `samples` says: how many rows, and their times, first axes and speeds.
+/// What `samples` returns: how many rows, and their times, first axes and speeds.
 fn told(bytes: &[u8]) -> (u32, Vec<f64>, Vec<f32>, Vec<f32>) {
     let u32_at = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
     let (rows, width) = (u32_at(0) as usize, u32_at(4) as usize);
@@ -78,7 +78,7 @@ fn turning() -> Cell {
 
 #[test]
 fn another_tool_is_no_motion() {
-    // It stands in motion 1; motion 2 has a tool that is 45 mm longer, or a hundredth of that.
+    // It is at rest in motion 1; motion 2 has a tool that is 45 mm longer, or a hundredth of that.
     for (longer, cell) in [(45.0, turning()), (0.45, turning()), (45.0, Cell::default())] {
         let said = |at: u32, motion, z| Channel {
             axes: vec![f64::from(at) * 0.01],
@@ -190,7 +190,10 @@ fn the_page_has_all_that_its_files_ask_for() {
         let (_, bytes) = super::page::file(&format!("/{file}")).unwrap_or_else(|| panic!("there is no {file}"));
         // What was made smaller asks for nothing.
         let text = if file == "three.js" { "".into() } else { String::from_utf8_lossy(bytes) };
-        for more in asked(&text, "from \"./").into_iter().chain(asked(&text, "from './")) {
+        let folder = file.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let beside = asked(&text, "from \"./").into_iter().map(|name| [folder, &name].join("/"));
+        let above = asked(&text, "from \"../");
+        for more in beside.chain(above).map(|name| name.trim_start_matches('/').to_owned()) {
             if !files.contains(&more) {
                 files.push(more);
             }

@@ -1,8 +1,8 @@
-//! The one binder: gives the arguments of instructions, built-in functions and the user's functions to parameters.
+//! The binder: assigns the arguments of instructions, built-in functions and the user's functions to parameters.
 //!
-//! Labelled arguments take their parameter. Bare ones go, in a call, to the parameters in order; in an instruction
-//! to the first parameter of the format line that is free and takes their type. A Rust value whose type nobody said
-//! goes to the first free one and takes its type.
+//! Labelled arguments go to the parameter of that name. In a call, bare arguments go to the parameters in order; in an
+//! instruction, to the first free parameter of the format line that accepts their type. A Rust value whose type is not
+//! given goes to the first free parameter and takes its type.
 
 use super::call::family_name;
 use super::context::{CheckedBody, Checker};
@@ -25,7 +25,7 @@ use arl_lang::span::Span;
 use std::collections::HashMap;
 use std::fmt;
 
-/// Who gets the arguments.
+/// The callee that receives the arguments.
 pub(crate) enum CheckedCallee {
     /// A function of the program.
     User(FuncId),
@@ -33,12 +33,12 @@ pub(crate) enum CheckedCallee {
     Builtin(&'static Entry),
 }
 
-/// A parameter, of whichever kind of callee.
+/// A parameter of either kind of callee.
 #[derive(Clone)]
 struct Parameter<'a> {
     name: &'a str,
     aliases: &'static [&'static str],
-    /// `None` where the declaration is wrong and reported.
+    /// `None` if the declaration is wrong; that has been reported.
     ty: Option<Wanted>,
     mode: Mode,
     presence: Presence,
@@ -48,7 +48,7 @@ struct Parameter<'a> {
     doubted: bool,
     set: bool,
     keeps: bool,
-    /// The only family whose robots have it, where the program is for another one: then it takes nothing.
+    /// The only family whose robots have the parameter, if the program is for another one. It then accepts nothing.
     foreign: Option<Family>,
 }
 
@@ -62,11 +62,11 @@ enum Wanted {
 struct Pair<'e> {
     param: usize,
     arg: &'e Arg,
-    /// Checked already, to find its parameter by type.
+    /// The argument if it has been checked already, to find its parameter by type.
     typed: Option<Typed>,
 }
 
-/// What to write for a target of the other kind: axes where a pose is wanted, or the other way round.
+/// What to write for a target of the other kind: axes where a pose is wanted or vice versa.
 fn other_motion(params: &[Parameter<'_>], given: Base) -> Option<String> {
     let wants = |id| {
         let wanted = ParamType::One(Base::Struct(id));
@@ -90,10 +90,10 @@ fn other_motion(params: &[Parameter<'_>], given: Base) -> Option<String> {
     }
 }
 
-/// From so many parameters on, labels are looked up in a table.
+/// From this number of parameters on, labels are looked up in a table.
 const MANY_PARAMETERS: usize = 32;
 
-/// Where parameters stand, by their folded names; none where there are few to look through.
+/// The positions of parameters by their folded names; `None` if there are too few to need a table.
 struct Labels(Option<HashMap<String, usize>>);
 
 impl Labels {
@@ -119,7 +119,7 @@ impl Labels {
 }
 
 impl<'a> Checker<'a> {
-    /// Binds arguments. `None` where anything is wrong; everything wrong is reported.
+    /// Binds arguments. Returns `None` if anything is wrong; all errors are reported.
     pub(crate) fn bind(
         &mut self,
         body: &mut CheckedBody,
@@ -131,7 +131,7 @@ impl<'a> Checker<'a> {
         let params = self.parameters(callee);
         let by_type = matches!(callee, CheckedCallee::Builtin(entry) if entry.kind == Kind::Instruction);
         let pairs = self.pair(body, callee, span, &params, args, by_type);
-        // An argument without a parameter was reported, here or where its variable is declared.
+        // An argument without a parameter has been reported, here or at the declaration of its variable.
         let mut good = pairs.len() == args.len();
         let counts = counts(&params, &pairs);
         for (param, count) in params.iter().zip(&counts) {
@@ -170,7 +170,7 @@ impl<'a> Checker<'a> {
         good.then_some(bound)
     }
 
-    /// A mandatory argument that is missing, most often because what stands there is of another type than it seems.
+    /// Reports a missing mandatory argument. Most often the argument is there but has another type than it seems.
     fn report_missing(
         &mut self,
         body: &CheckedBody,
@@ -476,7 +476,7 @@ impl<'a> Checker<'a> {
         self.report(body, arg.value.span, problem)
     }
 
-    /// For a name: the structure that is wanted first, in case that the name is not known.
+    /// For a name: the structure that is wanted first, in case the name is unknown.
     fn hint_of_name(&self, params: &[Parameter<'_>], taken: &[usize], value: &ast::Expr) -> Option<Type> {
         if !matches!(value.kind, ast::ExprKind::Name(_)) {
             return None;
@@ -528,7 +528,7 @@ impl<'a> Checker<'a> {
             Some(Wanted::Builtin(ParamType::One(base))) => Some(Type::scalar(base)),
             _ => None,
         };
-        // What takes one type without conversion still tells what a name can mean.
+        // A parameter that accepts one type without conversion still determines what a name can mean.
         let hint = match param.ty {
             Some(Wanted::Builtin(ParamType::AnyOf([only]))) => Some(Type::scalar(*only)),
             _ => want,
@@ -582,7 +582,7 @@ impl<'a> Checker<'a> {
         self.report(body, typed.expr.span, problem)
     }
 
-    /// What is wrong with a value that assigns to a label, as if that were a variable, where there is none of this
+    /// What is wrong with a value that assigns to a label as if it were a variable, if there is no variable of this
     /// name.
     fn assigned_label(
         &self,
@@ -599,7 +599,7 @@ impl<'a> Checker<'a> {
         (!is_variable).then_some(ArgumentProblem::EqualsBehindLabel { label, value })
     }
 
-    /// A handle where any value may stand.
+    /// Reports a handle where any value may stand.
     fn report_no_text<T>(&mut self, body: &CheckedBody, expr: &Expr) -> Option<T> {
         let what = format!("a {}", self.type_name(expr.ty));
         self.report(body, expr.span, TypeProblem::NoValue { what })
@@ -659,7 +659,7 @@ impl<'a> Checker<'a> {
         self.report(body, span, problem)
     }
 
-    /// Whether the array that is given has what a constant length says.
+    /// Whether the given array is long enough for a constant length.
     fn check_length(&mut self, body: &CheckedBody, entry: &Entry, bound: &[Bound]) -> Option<()> {
         let mut pairs = bound.iter().filter_map(|bound| Some((bound, entry.params.get(bound.param)?)));
         let counting = pairs.find_map(|(bound, param)| Some((&bound.value, param.name, param.counts?)));
@@ -680,7 +680,7 @@ impl<'a> Checker<'a> {
         self.report(body, length.span, problem)
     }
 
-    /// Whether a constant name is that of a system variable that can be saved.
+    /// Whether a constant name is the name of a system variable that can be saved.
     fn check_kept(&mut self, body: &CheckedBody, param: &Parameter<'_>, value: &Expr) -> Option<()> {
         let ExprKind::Const(Value::String(text)) = &value.kind else { return Some(()) };
         let is_kept = |variable: &SystemVariable| match variable.restore {
@@ -713,7 +713,7 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// How many arguments a parameter takes; the catalog's greatest number means any.
+/// The maximum number of arguments of a parameter; the greatest number in the catalog means no limit.
 fn most(param: &Parameter) -> usize {
     match param.presence {
         Presence::Repeat { max: u8::MAX, .. } => usize::MAX,
@@ -732,7 +732,7 @@ fn counts(params: &[Parameter<'_>], pairs: &[Pair<'_>]) -> Vec<usize> {
     counts
 }
 
-/// A default of the catalog as a constant.
+/// A default from the catalog as a constant.
 fn default_value(text: &str, base: Base, span: Span) -> Option<Expr> {
     let value = match base {
         Base::Int => Value::Int(text.parse().ok()?),
@@ -750,7 +750,7 @@ fn default_value(text: &str, base: Base, span: Span) -> Option<Expr> {
     Some(constant(value, span).expr)
 }
 
-/// Whether an expression may stand for what it does.
+/// Whether an expression may be used as a statement for its effect.
 pub(super) fn does_something(expr: &ast::Expr) -> bool {
     use ast::ExprKind::{Assign, Call, Error, Step};
     matches!(expr.kind, Assign(..) | Step(..) | Call(_) | Error)

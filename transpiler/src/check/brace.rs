@@ -10,7 +10,7 @@ use arl_lang::ast::{self, BinaryOp, BraceItem, UnaryOp};
 use arl_lang::catalog::{self, Base, Start, Struct, UNSET};
 use arl_lang::span::Span;
 
-/// How much of an array braces give a value, or of a part of it.
+/// How many values braces give for an array or for a part of it.
 struct Few<'a> {
     given: usize,
     size: usize,
@@ -110,7 +110,7 @@ impl Checker<'_> {
         good.then(|| Expr { ty: Type::scalar(Base::Struct(id)), kind: ExprKind::Struct(id, values), span })
     }
 
-    /// What is wrong with the values of a structure that holds structures, where those have no braces of their own:
+    /// The problem with the values of a structure that contains structures, if these have no braces of their own:
     /// `wobj w = {500,-650,100,0,0,0}`.
     fn flat_structure(&self, body: &CheckedBody, items: &[BraceItem], id: Struct) -> Option<TypeProblem> {
         let def = id.def(self.family());
@@ -145,7 +145,7 @@ impl Checker<'_> {
         Some(TypeProblem::FlatStructure { ty, component: component.into(), inner: inner.into(), right })
     }
 
-    /// Whether an item is a number as it is written, by itself or for a component of the structure.
+    /// Whether an item is a literal number, either without a name or with the name of a component of the structure.
     fn is_number_of(&self, item: &BraceItem, id: Struct) -> bool {
         let value = match &item.value.kind {
             ast::ExprKind::Unary(UnaryOp::Negate, inner) => &inner.kind,
@@ -160,7 +160,7 @@ impl Checker<'_> {
         self.text(body.module, span).to_string()
     }
 
-    /// Warns of a constant that makes no sense in a component.
+    /// Warns about a constant that makes no sense in a component.
     pub(crate) fn check_component(&mut self, body: &CheckedBody, id: Struct, index: usize, value: &Expr) {
         let def = id.def(self.family());
         let Some(component) = def.components.get(index) else { return };
@@ -173,14 +173,14 @@ impl Checker<'_> {
         let _: Option<()> = self.report(body, value.span, problem);
     }
 
-    /// A name before a value is a component where the structure has it; otherwise `{n -1}` is a difference.
+    /// A name before a value names a component if the structure has it; otherwise `{n -1}` is a difference.
     fn difference_item(&self, item: &BraceItem, id: Struct) -> Option<ast::Expr> {
         let is_component = item.name.is_some_and(|name| self.find_component(id, name.symbol).is_some());
         if is_component { None } else { brace_difference(item) }
     }
 
-    /// `{x (a)}` reads like a call; where the structure has the component, and other components are named or the
-    /// program has no such function, it is the component and its value.
+    /// `{x (a)}` reads like a call. It is a component and its value if the structure has the component, and either
+    /// other components are named or the program has no such function.
     fn parenthesised_item(
         &self,
         body: &CheckedBody,
@@ -255,13 +255,13 @@ impl Checker<'_> {
         good.then_some(())
     }
 
-    /// Warns of braces that give some elements of an array, or some of its rows, a value and the others none.
+    /// Warns about braces that give values for only some of the elements or rows of an array.
     fn doubt_few(&mut self, body: &CheckedBody, want: Type, few: &Few<'_>, span: Span) {
         let Few { given, size, of, dims } = *few;
         if (2..size).contains(&given) {
             let is_whole = dims.len() == want.dims().len();
             let help = match dims {
-                // Which sizes are meant is not known.
+                // The intended sizes are unknown.
                 [_, _, ..] if of == "elements" => "give all values, or each row braces of its own".into(),
                 _ if is_whole => format!("give all values, or declare the array with {given} {of}"),
                 _ => format!("give values for all {size}"),
@@ -271,20 +271,21 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether the braces of an array of several dimensions are rows of braces, not elements one after the other.
+    /// Whether the braces of a multidimensional array contain rows in braces rather than a flat list of elements.
     fn is_nested(&mut self, body: &CheckedBody, items: &[BraceItem], base: Base) -> bool {
         let first_brace = |items: &[BraceItem]| match items.first().map(|item| &item.value.kind) {
             Some(ast::ExprKind::Brace(inner)) => Some(inner.len()),
             _ => None,
         };
         let Some(ast::ExprKind::Brace(inner)) = items.first().map(|item| &item.value.kind) else { return false };
-        // Elements that are structures have braces themselves: rows are braces of braces then, or of such values.
+        // If the elements are structures, they have braces themselves: rows are then braces of braces, or of values of
+        // that type.
         !matches!(base, Base::Struct(_))
             || first_brace(inner).is_some() && !self.opens_structure(inner, base)
             || inner.first().is_some_and(|item| item.name.is_none() && self.plainly_is(body, &item.value, base))
     }
 
-    /// Whether a variable, an element of one, or a call has a value of this type, as far as its name tells.
+    /// Whether a variable, an element of one, or a call has a value of this type, as far as its name shows.
     fn plainly_is(&mut self, body: &CheckedBody, expr: &ast::Expr, base: Base) -> bool {
         let ty = match &expr.kind {
             ast::ExprKind::Name(symbol) => match body.find(*symbol) {
@@ -308,7 +309,8 @@ impl Checker<'_> {
         ty.is_some_and(|ty| ty.base == base)
     }
 
-    /// The type of a global variable; none while that is being checked, which looks at its own value then.
+    /// The type of a global variable; `None` while the variable is being checked, because its own value is being looked
+    /// at then.
     pub(crate) fn global_type(&mut self, id: GlobalId) -> Option<Type> {
         if self.globals.get(id.0 as usize)?.state != CheckState::Busy {
             self.check_global(id);
@@ -316,7 +318,7 @@ impl Checker<'_> {
         self.globals.get(id.0 as usize).filter(|slot| slot.state == CheckState::Done)?.ty
     }
 
-    /// What a call gives, where that does not depend on its arguments.
+    /// The result type of a call, if it does not depend on the arguments.
     fn call_type(&self, body: &CheckedBody, call: &ast::Call) -> Option<Type> {
         let module = match call.module {
             Some(module) => self.find_module(body, module)?,
@@ -329,7 +331,7 @@ impl Checker<'_> {
         Some(Type::scalar(result))
     }
 
-    /// Whether the items are those of one structure whose first component is a structure itself (`tool`, `wobj`).
+    /// Whether the items belong to one structure whose first component is itself a structure (`tool`, `wobj`).
     fn opens_structure(&self, items: &[BraceItem], base: Base) -> bool {
         let Base::Struct(id) = base else { return false };
         let nested = id.def(self.family()).components.first().is_some_and(|first| matches!(first.ty, Base::Struct(_)));
@@ -339,14 +341,14 @@ impl Checker<'_> {
     }
 }
 
-/// In an array's braces `n -1` is a difference, not a component: the whole expression, where the item is one.
+/// In the braces of an array `n -1` is a difference, not a component: returns the whole expression if the item is one.
 fn brace_difference(item: &BraceItem) -> Option<ast::Expr> {
     let name = item.name?;
     let left = ast::Expr { kind: ast::ExprKind::Name(name.symbol), span: name.span };
     subtract(left, &item.value)
 }
 
-/// The name of the call that an expression begins with, and the expression with its one argument in the call's place.
+/// The name of the call that an expression begins with, and the expression with the call replaced by its only argument.
 fn without_call(expr: &ast::Expr) -> Option<(ast::Ident, ast::Expr)> {
     let (name, kind) = match &expr.kind {
         ast::ExprKind::Call(call) => match call.args.as_slice() {
@@ -368,7 +370,7 @@ fn without_call(expr: &ast::Expr) -> Option<(ast::Ident, ast::Expr)> {
     Some((name, ast::Expr { kind, span: expr.span }))
 }
 
-/// `left` minus what the leftmost unary minus of `expr` negates; `None` where it does not begin with one.
+/// `left` minus the operand of the leftmost unary minus of `expr`; `None` if `expr` does not begin with one.
 fn subtract(left: ast::Expr, expr: &ast::Expr) -> Option<ast::Expr> {
     let span = left.span.to(expr.span);
     let kind = match &expr.kind {
@@ -392,7 +394,7 @@ fn subtract(left: ast::Expr, expr: &ast::Expr) -> Option<ast::Expr> {
     Some(ast::Expr { kind, span })
 }
 
-/// The start value of a type in words.
+/// The default value of a type, in words.
 fn start_words(base: Base) -> &'static str {
     match base {
         Base::Int | Base::Uint | Base::Byte | Base::Double => "0",
@@ -402,7 +404,7 @@ fn start_words(base: Base) -> &'static str {
     }
 }
 
-/// The start value of a type as an expression.
+/// The default value of a type, as an expression.
 fn start_value(base: Base, span: Span) -> Expr {
     let kind = match base {
         Base::Int => ExprKind::Const(Value::Int(0)),

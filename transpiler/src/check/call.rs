@@ -1,4 +1,4 @@
-//! Calls: which function a name means, and what comes out.
+//! Calls: which function a name means, and the resulting expression.
 
 use super::arguments::CheckedCallee;
 use super::context::{CheckedBody, Checker};
@@ -58,7 +58,7 @@ impl Checker<'_> {
         self.expect(body, call.name.symbol, call.name.span, Wanted::Function);
         let is_of_others = elsewhere::word(self.names.name(call.name.symbol)).is_some();
         for arg in &call.args {
-            // What another language's function takes is told with the function.
+            // The arguments of a function of another language are covered by the message about the function.
             if !is_of_others && !matches!(arg.value.kind, ast::ExprKind::Brace(_)) {
                 self.expr(body, &arg.value, None);
             }
@@ -139,7 +139,7 @@ impl Checker<'_> {
         self.builtin(body, entry, args, call.name.span, span)
     }
 
-    /// The finished use of a built-in; refuses what a background channel cannot do.
+    /// The checked use of a built-in; reports one that a background channel cannot execute.
     pub(crate) fn builtin(
         &mut self,
         body: &CheckedBody,
@@ -155,7 +155,7 @@ impl Checker<'_> {
         Some(Expr { ty, kind: ExprKind::Builtin(Box::new(Builtin { entry, args })), span })
     }
 
-    /// `typeof(e)`: known here, so `e` (which may be a handle) is not evaluated.
+    /// `typeof(e)`: known at compile time, so `e` (which may be a handle) is not evaluated.
     fn type_of(&mut self, body: &mut CheckedBody, entry: &'static Entry, call: &ast::Call, span: Span) -> Option<Expr> {
         let [arg] = call.args.as_slice() else {
             self.bind(body, &CheckedCallee::Builtin(entry), &call.args, call.name.span);
@@ -176,7 +176,7 @@ impl Checker<'_> {
         self.report(body, span, SupportProblem::OtherFamily { name: entry.name.into(), family })
     }
 
-    /// The overload that the arguments fit best; of equals the first.
+    /// The overload that the arguments fit best; the first one if several fit equally well.
     fn choose_overload(
         &mut self,
         body: &mut CheckedBody,
@@ -229,7 +229,7 @@ impl Checker<'_> {
         Some(sum)
     }
 
-    /// How well a value fits a catalog parameter; `None`: not at all.
+    /// How well a value fits a catalog parameter; `None` if it does not fit.
     pub(crate) fn param_cost(&self, ty: &ParamType, mode: catalog::Mode, typed: &Typed) -> Option<u32> {
         let found = typed.expr.ty;
         match (ty, mode) {
@@ -241,7 +241,7 @@ impl Checker<'_> {
         }
     }
 
-    /// `sin(double x)`, for messages; what may be left out stands in brackets.
+    /// `sin(double x)`, for messages; optional parameters are in brackets.
     pub(crate) fn signature(&self, entry: &Entry) -> String {
         let params: Vec<String> = entry
             .params
@@ -275,7 +275,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a call with so many arguments can be meant for the entry.
+/// Whether a call with this number of arguments can mean the entry.
 fn takes_count(entry: &Entry, count: usize) -> bool {
     let least = entry.params.iter().filter(|param| param.presence == Presence::Required).count();
     let most = match entry.params.iter().any(|param| matches!(param.presence, Presence::Repeat { .. })) {
@@ -285,7 +285,7 @@ fn takes_count(entry: &Entry, count: usize) -> bool {
     (least..=most).contains(&count)
 }
 
-/// The type that all overloads agree on at a position, so that braces and enumeration constants can be read.
+/// The type that all overloads have at a position, so that braces and enumeration constants can be read.
 fn common_type(overloads: &[&Entry], at: usize) -> Option<Type> {
     let mut bases = overloads.iter().map(|entry| match entry.params.get(at).map(|param| param.ty) {
         Some(ParamType::One(base)) => Some(base),

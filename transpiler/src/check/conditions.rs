@@ -1,4 +1,4 @@
-//! Conditions may read inputs and compute, but neither wait nor move: found through all functions that they call.
+//! Conditions may read inputs and compute, but neither wait nor move. All functions that they call are searched.
 
 use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::{Diagnostic, Location, Problem};
@@ -27,14 +27,14 @@ pub(crate) fn check(program: &Program, locate: &dyn Fn(crate::hir::ModuleId, Spa
     out
 }
 
-/// What matters of a function.
+/// The relevant facts about a function.
 #[derive(Default)]
 struct Facts<'a> {
-    /// What it uses of what is built in.
+    /// The built-ins that it uses.
     uses: Vec<&'static Entry>,
     /// The functions that it calls.
     calls: Vec<FuncId>,
-    /// The conditions in it, each with the form of the instruction that has it.
+    /// The conditions in it, each with the form of the instruction that it belongs to.
     conditions: Vec<(Form, &'a Expr)>,
 }
 
@@ -64,7 +64,7 @@ fn conditions(builtin: &Builtin) -> impl Iterator<Item = &Expr> {
     })
 }
 
-/// For each function what of it is not for conditions, if anything is not: in itself, or in what it calls.
+/// For each function, a built-in that is not allowed in conditions, if the function or one that it calls uses any.
 fn culprits(facts: &[Facts<'_>], is_culprit: fn(&Entry) -> bool) -> Vec<Option<&'static str>> {
     let first = |facts: &Facts<'_>| facts.uses.iter().find(|entry| is_culprit(entry)).map(|entry| entry.name);
     let mut found: Vec<Option<&str>> = facts.iter().map(first).collect();
@@ -89,18 +89,18 @@ fn culprits(facts: &[Facts<'_>], is_culprit: fn(&Entry) -> bool) -> Vec<Option<&
     found
 }
 
-/// Whether it is an instruction that waits, moves or ends the program. Functions that read the outside are fine.
+/// Whether it is an instruction that waits, moves or ends the program. Functions that read inputs are allowed.
 fn waits(entry: &Entry) -> bool {
     entry.kind == Kind::Instruction && (entry.effect.takes_time() || entry.effect == Effect::Ends)
 }
 
-/// Whether it waits, or is a function that takes cycles even where nothing is to be waited for: the condition of an
-/// event has one to itself.
+/// Whether it waits, or is a function that takes cycles even if there is nothing to wait for: the condition of an event
+/// has only one cycle.
 fn takes_cycles(entry: &Entry) -> bool {
     waits(entry) || entry.effect == Effect::Lasts || entry.uses_disk
 }
 
-/// Where in a condition something waits, and what it is.
+/// The position in a condition where something waits, and its name.
 fn waiting(
     program: &Program,
     condition: &Expr,

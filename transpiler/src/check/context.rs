@@ -1,4 +1,4 @@
-//! What the checker knows while it goes through a program.
+//! The state of the checker while it goes through a program.
 
 use super::load::LoadedModule;
 use super::mention::Recorder;
@@ -13,7 +13,7 @@ use arl_lang::span::Span;
 use arl_lang::symbol::{Interner, Symbol};
 use std::collections::{HashMap, HashSet};
 
-/// The whole check: modules in, a checked program and diagnostics out.
+/// The whole check: takes modules, produces a checked program and diagnostics.
 pub(crate) struct Checker<'a> {
     pub(crate) names: &'a Interner,
     pub(crate) modules: &'a [LoadedModule],
@@ -23,23 +23,23 @@ pub(crate) struct Checker<'a> {
     pub(crate) globals: Vec<GlobalSlot<'a>>,
     pub(crate) funcs: Vec<FuncSlot<'a>>,
     pub(crate) diagnostics: Vec<Diagnostic>,
-    /// How many of the diagnostics are errors.
+    /// The number of errors among the diagnostics.
     pub(crate) errors: usize,
     /// (module, module that it uses)
     pub(crate) used_modules: HashSet<(ModuleId, ModuleId)>,
-    /// The ARL types of spliced Rust values, where they are known.
+    /// The ARL types of spliced Rust values, where known.
     pub(crate) splices: Vec<Option<Type>>,
     /// Catalog functions by name, looked up once per name.
     pub(crate) functions: HashMap<Symbol, &'static [Entry]>,
-    /// Looks for the names that were meant.
+    /// Finds the names that were probably meant.
     pub(crate) hints: crate::near::Hints,
-    /// Whether any argument is a condition, so that conditions have to be looked at.
+    /// Whether any argument is a condition, so that conditions have to be checked.
     pub(crate) has_conditions: bool,
-    /// What names mean, where that is asked for.
+    /// What names mean, if that is to be recorded.
     pub(crate) recorder: Option<Box<Recorder>>,
 }
 
-/// The names of one module.
+/// The names that one module declares.
 #[derive(Default)]
 pub(crate) struct ModuleScope {
     pub(crate) globals: HashMap<Symbol, GlobalId>,
@@ -59,16 +59,16 @@ pub(crate) struct GlobalSlot<'a> {
     pub(crate) module: ModuleId,
     pub(crate) decl: &'a ast::Decl,
     pub(crate) var: &'a ast::Var,
-    /// Number of the item in its file.
+    /// The number of the item in its file.
     pub(crate) item: u32,
-    /// The variable of this module that has the name already.
+    /// The variable of this module that already has the name.
     pub(crate) earlier: Option<GlobalId>,
     pub(crate) state: CheckState,
-    /// `None` until checked, and where the declaration is wrong.
+    /// `None` until checked, or if the declaration is wrong.
     pub(crate) ty: Option<Type>,
     pub(crate) value: Option<Value>,
     pub(crate) init: Option<hir::Expr>,
-    /// Whether some statement writes it.
+    /// Whether any statement writes it.
     pub(crate) mutated: bool,
 }
 
@@ -83,16 +83,16 @@ pub(crate) struct FuncSlot<'a> {
     pub(crate) checked: Option<hir::Func>,
 }
 
-/// What is known inside one function (or one initialiser).
+/// The state inside one function (or one initialiser).
 pub(crate) struct CheckedBody {
     pub(crate) module: ModuleId,
-    /// Number of the item in its file: what is declared above is known.
+    /// The number of the item in its file: declarations above it are visible.
     pub(crate) item: u32,
     pub(crate) func: Option<FuncId>,
-    /// `None` where the declaration is wrong.
+    /// `None` if the declaration is wrong.
     pub(crate) result: Option<Base>,
     pub(crate) locals: Vec<hir::Local>,
-    /// Types of the locals; `None` where a declaration was wrong.
+    /// The types of the locals; `None` if a declaration is wrong.
     pub(crate) types: Vec<Option<Type>>,
     pub(crate) labels: Vec<hir::GotoLabel>,
     pub(crate) label_names: HashMap<Symbol, LabelId>,
@@ -101,9 +101,9 @@ pub(crate) struct CheckedBody {
     pub(crate) has_goto: bool,
     scope: HashMap<Symbol, LocalId>,
     undo: Vec<(Symbol, Option<LocalId>)>,
-    /// Where the innermost scope begins in `undo`; it also tells scopes apart.
+    /// Where the innermost scope begins in `undo`; also identifies the scope.
     begin: usize,
-    /// For each local, `begin` of the scope that it was revealed in.
+    /// For each local, `begin` of the scope in which it was revealed.
     homes: Vec<usize>,
 }
 
@@ -128,7 +128,7 @@ impl CheckedBody {
         }
     }
 
-    /// Opens a scope; give the result back to [`CheckedBody::leave`].
+    /// Opens a scope; pass the result to [`CheckedBody::leave`].
     pub(crate) fn enter(&mut self) -> usize {
         std::mem::replace(&mut self.begin, self.undo.len())
     }
@@ -149,17 +149,17 @@ impl CheckedBody {
         self.begin = outer;
     }
 
-    /// The variable that the name means here.
+    /// The variable that the name means at this point.
     pub(crate) fn find(&self, symbol: Symbol) -> Option<LocalId> {
         self.scope.get(&symbol).copied()
     }
 
-    /// All names of locals that are known here.
+    /// The names of all locals visible at this point.
     pub(crate) fn visible(&self) -> impl ExactSizeIterator<Item = Symbol> {
         self.scope.keys().copied()
     }
 
-    /// All locals that are known here, under their names.
+    /// All locals visible at this point, with their names.
     pub(crate) fn visible_locals(&self) -> impl Iterator<Item = (Symbol, LocalId)> {
         self.scope.iter().map(|(symbol, local)| (*symbol, *local))
     }
@@ -169,7 +169,7 @@ impl CheckedBody {
         self.find(symbol).filter(|local| self.homes.get(local.0 as usize) == Some(&self.begin))
     }
 
-    /// Adds a variable; it is known from [`CheckedBody::reveal`] on.
+    /// Adds a variable; it becomes visible with [`CheckedBody::reveal`].
     pub(crate) fn add_local(&mut self, local: hir::Local, ty: Option<Type>) -> LocalId {
         self.locals.push(local);
         self.types.push(ty);
@@ -177,7 +177,7 @@ impl CheckedBody {
         LocalId(self.locals.len() as u32 - 1)
     }
 
-    /// Makes a variable known under its name.
+    /// Makes a variable visible under its name.
     pub(crate) fn reveal(&mut self, symbol: Symbol, local: LocalId) {
         let hidden = self.scope.insert(symbol, local);
         self.undo.push((symbol, hidden));
@@ -212,13 +212,13 @@ impl<'a> Checker<'a> {
         Location { file: self.file(module), span }
     }
 
-    /// The source under a span, as the programmer wrote it.
+    /// The source text at a span, as the programmer wrote it.
     pub(crate) fn text(&self, module: ModuleId, span: Span) -> &'a str {
         let files: &'a Files = self.files;
         files.get(self.file(module)).map_or("", |file| span.text(&file.text))
     }
 
-    /// The source under a span as a message can show it: on one line, and not too much of it.
+    /// The source text at a span, as a message can show it: on one line and shortened if it is long.
     pub(crate) fn excerpt(&self, module: ModuleId, span: Span) -> String {
         const MOST: usize = 40;
         let words = self.text(module, span).split_whitespace().filter(|word| *word != "\\");
@@ -234,7 +234,7 @@ impl<'a> Checker<'a> {
         self.report_in(body.module, span, problem, &[])
     }
 
-    /// Reports a problem with other places that explain it.
+    /// Reports a problem together with other positions that explain it.
     pub(crate) fn report_in<T>(
         &mut self,
         module: ModuleId,
@@ -252,16 +252,16 @@ impl<'a> Checker<'a> {
         None
     }
 
-    /// For what is left out of the program: somebody must have said why. A program must never lose a statement in
-    /// silence, so where nobody did, the program is refused.
+    /// Must be called for everything that is left out of the program: the reason must have been reported. A program
+    /// must never silently lose a statement, so if no error was reported, the program is refused.
     pub(crate) fn must_be_reported(&mut self, module: ModuleId, span: Span) {
         if self.errors == 0 {
             self.report_in::<()>(module, span, SupportProblem::Lost, &[]);
         }
     }
 
-    /// With `--strict`, warns where a name is written in another case than it was declared in, or as another edition of
-    /// the language spells it.
+    /// With `--strict`, warns if the spelling of a name differs in case from its declaration, or comes from another
+    /// edition of the language.
     pub(crate) fn strict_case(&mut self, body: &CheckedBody, span: Span, declared: &str) {
         if !self.options.strict {
             return;
@@ -276,14 +276,14 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// With `--strict`, warns of a form that the manual does not have.
+    /// With `--strict`, warns about a form that the manual does not describe.
     pub(crate) fn strict_form(&mut self, body: &CheckedBody, span: Span, what: &str) {
         if self.options.strict {
             self.report::<()>(body, span, ConstantProblem::Extended { what: what.into() });
         }
     }
 
-    /// The name of a type, as the manual spells it: `int`, `int[3]`, `Centroid_Pos`.
+    /// The name of a type in the manual's spelling: `int`, `int[3]`, `Centroid_Pos`.
     pub(crate) fn type_name(&self, ty: Type) -> String {
         type_name(ty, self.family())
     }

@@ -1,4 +1,4 @@
-//! Which value fits where: constants by their value, everything else by Table 2-1 and its extensions.
+//! Which values fit where: constants by their value, everything else by Table 2-1 and its extensions.
 
 use super::context::{CheckedBody, Checker};
 use crate::diagnostics::constants::ConstantProblem;
@@ -8,7 +8,7 @@ use crate::operators::{Conversion, Literal, Operand, conversion, fit, integer, r
 use arl_lang::catalog::{Base, Struct};
 use std::fmt::Display;
 
-/// An expression with what matters of the way it was written.
+/// An expression, together with how it was written if it is an integer constant.
 pub(crate) struct Typed {
     pub(crate) expr: Expr,
     pub(crate) literal: Literal,
@@ -19,7 +19,7 @@ impl Typed {
         Typed { expr, literal: Literal::None }
     }
 
-    /// The constant value, where it is one.
+    /// The value, if the expression is constant.
     pub(crate) fn value(&self) -> Option<&Value> {
         match &self.expr.kind {
             ExprKind::Const(value) => Some(value),
@@ -27,13 +27,13 @@ impl Typed {
         }
     }
 
-    /// The same as operators see it.
+    /// The expression as an operand of an operator.
     pub(crate) fn operand(&self) -> Operand<'_> {
         Operand { base: self.expr.ty.base, constant: self.value(), literal: self.literal }
     }
 }
 
-/// The value of a constant number, of whichever type.
+/// The value of a constant number of any type.
 pub(crate) fn number(value: &Expr) -> Option<f64> {
     match &value.kind {
         ExprKind::Const(Value::Double(value)) => Some(*value),
@@ -45,7 +45,7 @@ pub(crate) fn number(value: &Expr) -> Option<f64> {
     }
 }
 
-/// What to write in place of a text that stands where a number is wanted.
+/// What to write instead of a string where a number is wanted.
 fn unquoted(expr: &Expr, to: Base) -> Option<String> {
     let ExprKind::Const(Value::String(text)) = &expr.kind else { return None };
     let is_number = matches!(to, Base::Int | Base::Uint | Base::Byte | Base::Double);
@@ -54,7 +54,7 @@ fn unquoted(expr: &Expr, to: Base) -> Option<String> {
     is_number.then(|| format!("a number is written without quotes: `{}`{reads}", number.unwrap_or("250")))
 }
 
-/// The function or way that does what no implicit conversion does.
+/// What to use where no implicit conversion exists: a function or another construct.
 pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
     let words = match (from, to) {
         (Base::Double, Base::Int | Base::Uint | Base::Byte) => {
@@ -82,7 +82,7 @@ pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
 }
 
 impl Checker<'_> {
-    /// The expression as a value of type `to`. `what` names the place that wants it: "the condition", "`vp`".
+    /// The expression as a value of type `to`. `what` names the place that needs it: "the condition", "`vp`".
     pub(crate) fn coerce(&mut self, body: &CheckedBody, typed: Typed, to: Type, what: impl Display) -> Option<Expr> {
         self.coerced(body, typed, to, &what)
     }
@@ -140,7 +140,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What to write in place of a text that is the name of a variable of the wanted type, or of a signal.
+    /// What to write instead of a string that is the name of a signal or of a variable of the wanted type.
     fn without_quotes(&mut self, body: &CheckedBody, expr: &Expr, to: Type) -> Option<String> {
         let ExprKind::Const(Value::String(text)) = &expr.kind else { return None };
         let symbol = self.names.find(&text.to_ascii_lowercase());
@@ -166,14 +166,14 @@ impl Checker<'_> {
         }
     }
 
-    /// Reports that something without a value stands where one is wanted.
+    /// Reports an expression without a value where a value is wanted.
     pub(crate) fn report_no_value<T>(&mut self, body: &CheckedBody, expr: &Expr) -> Option<T> {
         let what = format!("`{}`", self.excerpt(body.module, expr.span));
         self.report(body, expr.span, TypeProblem::NoValue { what })
     }
 
-    /// Whether a value converts to a type, without reporting anything. The less, the better it fits; `None`: not at
-    /// all.
+    /// How well a value converts to a type, without reporting anything. A lower number is a better fit; `None` if the
+    /// value does not convert.
     pub(crate) fn cost(&self, typed: &Typed, to: Type) -> Option<u32> {
         let from = typed.expr.ty;
         if from == to {

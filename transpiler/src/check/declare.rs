@@ -15,11 +15,11 @@ use arl_lang::elsewhere;
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 
-/// The most elements an array may have.
+/// The maximum number of elements of an array.
 const MAX_ELEMENTS: u64 = 10_000;
 
 impl<'a> Checker<'a> {
-    /// Makes slots for every global and function, in the given order of modules.
+    /// Creates slots for all globals and functions, in the given order of modules.
     pub(crate) fn collect(&mut self, order: &[ModuleId]) {
         self.scopes = self.modules.iter().map(|_| ModuleScope::default()).collect();
         for module in order {
@@ -82,7 +82,7 @@ impl<'a> Checker<'a> {
         });
     }
 
-    /// Checks a global's declaration, once; on demand, since sizes and constants may use each other.
+    /// Checks the declaration of a global once. This happens on demand, because sizes and constants may use each other.
     pub(crate) fn check_global(&mut self, id: GlobalId) {
         let Some(slot) = self.globals.get_mut(id.0 as usize) else { return };
         let (module, decl, var, item) = (slot.module, slot.decl, slot.var, slot.item);
@@ -113,8 +113,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Reports a global variable whose name an earlier one has. What has no type was reported, and is perhaps no
-    /// declaration at all.
+    /// Reports a global variable whose name is already taken by an earlier one. A slot without a type has been reported
+    /// and may not be a declaration at all.
     fn report_second(&mut self, id: GlobalId) {
         let Some(slot) = self.globals.get(id.0 as usize).filter(|slot| slot.ty.is_some()) else { return };
         let (module, at) = (slot.module, slot.var.name.span);
@@ -124,7 +124,7 @@ impl<'a> Checker<'a> {
         self.report_in::<()>(module, at, problem, &[(module, first, "first declared here")]);
     }
 
-    /// Checks a function's parameters and result, once.
+    /// Checks the parameters and result of a function once.
     pub(crate) fn check_signature(&mut self, id: FuncId) {
         let Some(slot) = self.funcs.get_mut(id.0 as usize) else { return };
         if slot.state != CheckState::Pending {
@@ -169,7 +169,7 @@ impl<'a> Checker<'a> {
                 let name_text = self.text(body.module, name.span).to_string();
                 return self.report(body, name.span, NameProblem::Renamed { name: name_text, now: now.into() });
             }
-            // One that lacks its `$`, or has one too many, is meant before those of similar names.
+            // A name with a missing or superfluous `$` takes precedence over similar names.
             let near = catalog::base_type(folded).map(Base::name).or_else(|| near_type(folded)).map(Into::into);
             let text = self.text(body.module, name.span).to_string();
             return self.report(body, name.span, NameProblem::UnknownType { name: text, near });
@@ -188,7 +188,7 @@ impl<'a> Checker<'a> {
         Some(base)
     }
 
-    /// A type with its array sizes, as a variable may have it.
+    /// A type with its array sizes, as far as a variable may have it.
     fn declared_type(
         &mut self,
         body: &mut CheckedBody,
@@ -251,7 +251,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Declares local variables; one statement each.
+    /// Declares local variables, with one statement for each.
     pub(crate) fn local_decl(&mut self, body: &mut CheckedBody, decl: &ast::Decl, out: &mut Vec<Stmt>) {
         if self.is_instruction(body, decl) {
             self.report_unknown_instruction::<()>(body, decl.ty.name, decl.ty.span);
@@ -261,7 +261,7 @@ impl<'a> Checker<'a> {
             let ty = self.declared_type(body, &decl.ty, var.name, &var.dims);
             let init = self.initialiser(body, decl, var, ty);
             let value = constant_value(decl, ty, init.as_ref());
-            // A const without its value would be reported wherever a constant is wanted.
+            // A const without a value would otherwise be reported wherever a constant is wanted.
             let ty = ty.filter(|_| decl.constant.is_none() || init.is_some());
             let local = self.declare_local(body, var.name, ty, decl.constant.is_some(), value);
             if ty.is_none() || init.is_none() != var.init.is_none() {
@@ -273,7 +273,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether what reads like a declaration is meant as an instruction: `movel p`, `waitutil ready`.
+    /// Whether something that reads like a declaration is meant as an instruction: `movel p`, `waitutil ready`.
     fn is_instruction(&self, body: &CheckedBody, decl: &ast::Decl) -> bool {
         let name = self.names.name(decl.ty.name);
         let plain = decl.constant.is_none() && !decl.ty.system && decl.vars.iter().all(|var| var.init.is_none());
@@ -288,7 +288,7 @@ impl<'a> Checker<'a> {
             || decl.vars.first().is_some_and(known)
     }
 
-    /// Makes a local variable known; one of the same name in the same scope is an error.
+    /// Makes a local variable visible; reports another one of the same name in the same scope.
     pub(crate) fn declare_local(
         &mut self,
         body: &mut CheckedBody,
@@ -297,7 +297,7 @@ impl<'a> Checker<'a> {
         constant: bool,
         value: Option<Value>,
     ) -> LocalId {
-        // What has no type was reported, and is perhaps no declaration at all.
+        // A name without a type has been reported and may not be a declaration at all.
         if let Some(earlier) = body.find_innermost(name.symbol).filter(|_| ty.is_some()) {
             let first = body.locals.get(earlier.0 as usize).map_or(name.span, |local| local.span);
             let text = self.text(body.module, name.span).to_string();
@@ -324,10 +324,10 @@ impl<'a> Checker<'a> {
         id
     }
 
-    /// Whether the initialiser of a data file's variable can be read again at load.
+    /// Whether the initialiser of a variable in a data file can be read again on load.
     pub(crate) fn is_teachable(&self, slot: &GlobalSlot<'_>) -> bool {
         let is_data = self.module(slot.module).is_some_and(|module| module.data);
-        // The runtime knows constants of enumerations, PI and numbers like `ffh`, but no other variables.
+        // The runtime knows enumeration constants, PI and numbers like `ffh`, but no other variables.
         let is_variable = |name: Symbol| {
             let here = self.scopes.get(slot.module.0 as usize);
             let imported = self.module(slot.module).is_some_and(|module| module.imports.contains_key(&name));
@@ -336,18 +336,18 @@ impl<'a> Checker<'a> {
         is_data && slot.var.init.as_ref().is_none_or(|init| is_literal(init, &is_variable))
     }
 
-    /// Where a module's name for the whole file stands, for problems of the file as such.
+    /// The position used for problems of a file as a whole.
     pub(crate) fn file_start(&self) -> Span {
         Span::default()
     }
 }
 
-/// Whether a name that is not a type is near to one.
+/// Whether a name that is not a type resembles one.
 fn looks_like_type(name: &str) -> bool {
     elsewhere::type_of(name).is_some() || catalog::renamed(name).is_some() || near_type(name).is_some()
 }
 
-/// The type whose name is nearest.
+/// The type with the most similar name.
 fn near_type(name: &str) -> Option<&'static str> {
     crate::near::nearest(name, catalog::type_names().map(|(name, _)| name))
 }
@@ -361,7 +361,7 @@ fn constant_value(decl: &ast::Decl, ty: Option<Type>, init: Option<&Expr>) -> Op
     }
 }
 
-/// Whether an expression is made of literals and constants of the language only, without operators but a sign.
+/// Whether an expression consists only of literals and constants of the language, without operators other than a sign.
 fn is_literal(expr: &ast::Expr, is_variable: &dyn Fn(Symbol) -> bool) -> bool {
     match &expr.kind {
         ast::ExprKind::Int(..) | ast::ExprKind::Double(_) | ast::ExprKind::String(_) | ast::ExprKind::Bool(_) => true,

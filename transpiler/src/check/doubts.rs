@@ -1,4 +1,4 @@
-//! Warnings of what a program may say, and most often does not mean.
+//! Warnings about code that is allowed but most often not meant.
 
 use super::context::{CheckedBody, Checker};
 use super::convert::number;
@@ -15,7 +15,7 @@ use arl_lang::symbol::Symbol;
 use std::collections::HashSet;
 
 impl Checker<'_> {
-    /// Warns of an assignment where a condition stands.
+    /// Warns about an assignment used as a condition.
     pub(crate) fn doubt_condition(&mut self, body: &CheckedBody, condition: &ast::Expr) {
         match &condition.kind {
             ast::ExprKind::Assign(None, _) => {
@@ -32,8 +32,8 @@ impl Checker<'_> {
 }
 
 impl Checker<'_> {
-    /// Warns of a local variable with the name of another one outside, where that is spelled in another case: whoever
-    /// wrote both took them for two.
+    /// Warns about a local variable that hides another one whose name differs only in case: the author probably took
+    /// them for two different names.
     pub(crate) fn doubt_hidden(&mut self, body: &CheckedBody, name: ast::Ident) {
         let (module, outside, what) = match body.find(name.symbol).and_then(|local| body.locals.get(local.0 as usize)) {
             Some(local) => (body.module, local.span, if local.constant { "constant" } else { "variable" }),
@@ -52,13 +52,14 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a name is written as a global variable is declared that a local one hides: then that one was meant.
+    /// Whether a name is spelled like the declaration of a global variable that a local one hides. The global was then
+    /// meant.
     pub(crate) fn means_hidden(&self, body: &CheckedBody, symbol: Symbol, span: Span) -> bool {
         let global = self.find_global(body, symbol).and_then(|(id, _)| self.globals.get(id.0 as usize));
         global.is_some_and(|slot| self.text(slot.module, slot.var.name.span) == self.text(body.module, span))
     }
 
-    /// Warns of a bare number that is much too small in the unit of a parameter where others are often meant.
+    /// Warns about a bare number that is much too small in the unit of a parameter and probably meant in another unit.
     pub(crate) fn doubt_scale(&mut self, body: &CheckedBody, parameter: &str, units: &[ast::Unit], value: &Expr) {
         let Some(scale) = SCALES.iter().find(|scale| units.contains(&scale.unit)) else { return };
         let Some(number) = number(value) else { return };
@@ -68,14 +69,14 @@ impl Checker<'_> {
     }
 }
 
-/// A unit in which small fractions are most often numbers of another one.
+/// A unit in which small fractions are most often numbers in another unit.
 struct Scale {
     unit: ast::Unit,
-    /// Fractions up to this one are doubted.
+    /// The largest fraction that causes a warning.
     most: f64,
     found: &'static str,
     wanted: &'static str,
-    /// What makes a number of ARL's unit of it.
+    /// The factor that converts such a number to ARL's unit.
     factor: f64,
     written: &'static str,
 }
@@ -104,14 +105,14 @@ impl Scale {
     }
 }
 
-/// Whether an expression compares.
+/// Whether an expression is a comparison.
 pub(crate) fn is_comparison(expr: &ast::Expr) -> bool {
     use BinaryOp::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
     let ast::ExprKind::Binary(op, _) = &expr.kind else { return false };
     matches!(op, Equal | NotEqual | Less | LessEqual | Greater | GreaterEqual)
 }
 
-/// The unit that a target of constants is probably in, where it is not ARL's.
+/// The unit that a constant target is probably given in, if it is not ARL's.
 fn other_unit(family: Family, id: Struct, values: &[Option<Expr>]) -> Option<Doubt> {
     let components = id.def(family).components.iter();
     let given = |names: &[&str]| -> Option<Vec<f64>> {
@@ -139,7 +140,7 @@ fn other_unit(family: Family, id: Struct, values: &[Option<Expr>]) -> Option<Dou
     }
 }
 
-/// Tells each target of a motion whose numbers are those of another unit, where it is first used.
+/// Reports each motion target whose numbers are probably in another unit, at its first use.
 fn other_units(program: &Program, tell: &mut dyn FnMut(&Func, Span, Doubt)) {
     let mut seen = HashSet::new();
     for func in &program.funcs {
@@ -162,8 +163,8 @@ fn other_units(program: &Program, tell: &mut dyn FnMut(&Func, Span, Doubt)) {
     }
 }
 
-/// The largest of the numbers, where all are fractions up to `most` (or 0), at least `count` of them, and one of them
-/// is above `least`.
+/// The largest of the numbers, provided that all are fractions up to `most` (or 0), at least `count` are fractions, and
+/// one of them is at least `least`.
 fn fractions_below(numbers: &[f64], most: f64, least: f64, count: usize) -> Option<f64> {
     let fractions = numbers.iter().filter(|number| number.fract() != 0.0).count();
     let others = numbers.iter().any(|number| number.abs() > most || (number.fract() == 0.0 && *number != 0.0));
@@ -171,8 +172,8 @@ fn fractions_below(numbers: &[f64], most: f64, least: f64, count: usize) -> Opti
     (fractions >= count && !others && largest.abs() >= least).then_some(largest)
 }
 
-/// Reports what the finished functions show: zones that never act, loops that only ask, handlers that may wait for
-/// ever.
+/// Reports problems visible only in finished functions: zones that never take effect, loops that only poll, handlers
+/// that may wait for ever.
 pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Location) -> Vec<Diagnostic> {
     let mut out = Vec::new();
     for (at, func) in program.funcs.iter().enumerate() {
@@ -199,26 +200,26 @@ pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Locati
     out
 }
 
-/// What a statement is to a zone before it.
+/// What a statement means for a zone before it.
 enum Step {
     /// A motion, and its own zone if it has one.
     Motion(Option<Zone>),
     /// The robot stops for it.
     Waits(&'static str),
-    /// The robot moves on.
+    /// The robot keeps moving.
     Passes,
-    /// That depends.
+    /// Depends on the circumstances.
     Unknown,
 }
 
-/// The zone that a motion has itself.
+/// The zone given in a motion itself.
 struct Zone {
     span: Span,
     /// Whether it is a constant above 0.
     acts: bool,
 }
 
-/// Goes along the statements of a block, and of the blocks in them.
+/// Goes through the statements of a block and of the blocks in them.
 fn idle_zones(block: &[Stmt], is_main: bool, tell: &mut dyn FnMut(Span, &'static str, Span)) {
     for (at, stmt) in block.iter().enumerate() {
         if let Step::Motion(Some(zone @ Zone { acts: true, .. })) = step(stmt)
@@ -230,7 +231,7 @@ fn idle_zones(block: &[Stmt], is_main: bool, tell: &mut dyn FnMut(Span, &'static
     }
 }
 
-/// What stops the robot behind a motion with a zone, where that zone counts for no later motion either.
+/// What stops the robot after a motion with a zone, if the zone does not apply to a later motion either.
 fn stop_behind(rest: &[Stmt], is_main: bool) -> Option<(&'static str, Span)> {
     let mut stop = None;
     for stmt in rest {
@@ -269,7 +270,7 @@ fn step(stmt: &Stmt) -> Step {
     step
 }
 
-/// The zone that a motion has itself.
+/// The zone given in a motion itself.
 fn zone(motion: &Builtin) -> Option<Zone> {
     motion.args.iter().find_map(|bound| {
         let name = motion.entry.params.get(bound.param)?.name;
@@ -279,7 +280,7 @@ fn zone(motion: &Builtin) -> Option<Zone> {
     })
 }
 
-/// Tells each `break` of a `switch` whose cases end with one, as they do in C: all of them, but perhaps the last.
+/// Reports each `break` of a `switch` whose cases end with one, as in C: all cases, except perhaps the last.
 fn breaks_of_cases(block: &[Stmt], tell: &mut dyn FnMut(Span)) {
     for stmt in block {
         if let StmtKind::Switch(_, arms) = &stmt.kind {
@@ -295,7 +296,7 @@ fn breaks_of_cases(block: &[Stmt], tell: &mut dyn FnMut(Span)) {
     }
 }
 
-/// Tells each loop that only looks at inputs until they are as it wants them, and what it waits for.
+/// Reports each loop that only polls inputs until they have the wanted state, and the condition that it waits for.
 fn polls(source: &str, block: &[Stmt], tell: &mut dyn FnMut(Span, String)) {
     for stmt in block {
         let found = match &stmt.kind {
@@ -319,7 +320,7 @@ fn polls(source: &str, block: &[Stmt], tell: &mut dyn FnMut(Span, String)) {
     }
 }
 
-/// Whether an expression looks at an input or another signal, for which the robot stands.
+/// Whether an expression looks at an input or another signal, for which the robot comes to rest.
 fn reads_input(expr: &Expr) -> bool {
     let mut found = false;
     visit::exprs(expr, &mut |expr| {
@@ -328,12 +329,12 @@ fn reads_input(expr: &Expr) -> bool {
     found
 }
 
-/// Whether a built-in looks at a signal, for which the robot stands.
+/// Whether a built-in looks at a signal, for which the robot comes to rest.
 fn is_signal(entry: &Entry) -> bool {
     entry.looks && entry.effect == Effect::Waits
 }
 
-/// Whether nothing in a statement does more than compute and look. What gives no value is there for what it does.
+/// Whether a statement only computes and looks. A built-in without a result is called for its effect.
 fn is_quiet(stmt: &Stmt) -> bool {
     let mut quiet = true;
     visit::exprs_in_stmt(stmt, &mut |expr| {
@@ -351,7 +352,7 @@ fn is_quiet(stmt: &Stmt) -> bool {
     quiet
 }
 
-/// Whether the statements of a round lead nowhere but to the next round.
+/// Whether the statements of a round always lead to the next round.
 fn only_looks(block: &[Stmt]) -> bool {
     block.iter().all(|stmt| match &stmt.kind {
         StmtKind::Eval(_) | StmtKind::Continue => true,
@@ -360,7 +361,7 @@ fn only_looks(block: &[Stmt]) -> bool {
     })
 }
 
-/// Tells each `waituntil` without a limit in a function that handles an event, or is called by one that does.
+/// Reports each `waituntil` without a time limit in a function that handles an event or is called by such a handler.
 fn endless_handlers(program: &Program, tell: &mut dyn FnMut(&Func, Span, String)) {
     let mut handles: Vec<Option<FuncId>> = vec![None; program.funcs.len()];
     let mut open = Vec::new();
@@ -381,7 +382,7 @@ fn endless_handlers(program: &Program, tell: &mut dyn FnMut(&Func, Span, String)
     }
     for (func, handler) in program.funcs.iter().zip(handles) {
         let Some(handler) = handler.and_then(|handler| program.funcs.get(handler.0 as usize)) else { continue };
-        // A handler that stops the robot itself waits until it may go on: for ever, if need be.
+        // A handler that stops the robot itself waits until the robot may continue, for ever if necessary.
         if stops_the_robot(func) {
             continue;
         }
@@ -408,7 +409,7 @@ fn stops_the_robot(func: &Func) -> bool {
     found
 }
 
-/// The functions that a built-in calls when an event comes.
+/// The functions that a built-in calls when an event occurs.
 fn actions(builtin: &Builtin) -> impl Iterator<Item = FuncId> {
     let is_action = |at: usize| builtin.entry.params.get(at).is_some_and(|param| param.mode == Mode::Action);
     builtin.args.iter().filter(move |bound| is_action(bound.param)).filter_map(|bound| match &bound.value {

@@ -16,8 +16,8 @@ use arl_lang::span::Span;
 use std::fmt::Display;
 
 impl Checker<'_> {
-    /// Checks an expression. `want` is the type that its place asks for: braces, enumeration constants and spliced
-    /// values need it; the caller still has to [`coerce`](Checker::coerce).
+    /// Checks an expression. `want` is the type expected at its place: braces, enumeration constants and spliced values
+    /// need it. The caller still has to [`coerce`](Checker::coerce) the result.
     pub(crate) fn expr(&mut self, body: &mut CheckedBody, expr: &ast::Expr, want: Option<Type>) -> Option<Typed> {
         let span = expr.span;
         match &expr.kind {
@@ -81,7 +81,7 @@ impl Checker<'_> {
         }
     }
 
-    /// `++` and `--`, in front of a variable or behind it.
+    /// `++` and `--`, before or after a variable.
     fn step(&mut self, body: &mut CheckedBody, step: ast::Step, operand: &ast::Expr, span: Span) -> Option<Typed> {
         let place = self.written_place(body, operand, true)?;
         let steps = matches!(place.ty.base, Base::Int | Base::Uint | Base::Byte) && !place.ty.is_array();
@@ -96,13 +96,13 @@ impl Checker<'_> {
         Some(Typed::plain(Expr { ty, kind: ExprKind::Step(step, Box::new(place)), span }))
     }
 
-    /// Whether it is a Rust value whose type was not said.
+    /// Whether it is a Rust value whose type is not given.
     pub(crate) fn is_untyped_splice(&self, expr: &ast::Expr) -> bool {
         let ast::ExprKind::Splice(number) = expr.kind else { return false };
         self.splices.get(number as usize).is_none_or(Option::is_none)
     }
 
-    /// Checks an expression and converts it to what its place asks for.
+    /// Checks an expression and converts it to the type expected at its place.
     pub(crate) fn expr_as(
         &mut self,
         body: &mut CheckedBody,
@@ -131,7 +131,7 @@ impl Checker<'_> {
         let place = self.written_place(body, target, false);
         let want = place.as_ref().map(|place| place.ty);
         let value = match (&place, &value.kind) {
-            // Without a type braces cannot be checked; the target is reported already.
+            // Without a type braces cannot be checked; the target has been reported already.
             (None, ast::ExprKind::Brace(_)) => None,
             _ => self.expr(body, value, want),
         };
@@ -145,7 +145,7 @@ impl Checker<'_> {
         Some(Expr { ty, kind: ExprKind::Assign(Box::new((place, value))), span })
     }
 
-    /// Warns of a constant that a system variable does not take.
+    /// Warns about a constant that a system variable does not accept.
     fn check_taken(&mut self, body: &CheckedBody, place: &Place, value: &Expr) {
         let (Root::System(variable), ExprKind::Const(_)) = (&place.root, &value.kind) else { return };
         if let Some(takes) = limit(place, Some(value)) {
@@ -168,7 +168,7 @@ impl Checker<'_> {
         let value = self.expr(body, value, ty);
         let (place, value) = (place?, value?);
         let ty = place.ty;
-        // The types are those of `place op value`; a stand-in for the place is enough to find them.
+        // The types are those of `place op value`; a stand-in for the place suffices to find them.
         let stand_in = Place { root: place.root, path: Vec::new(), ty, span: place.span };
         let left = Typed::plain(Expr { ty, kind: ExprKind::Place(Box::new(stand_in)), span: place.span });
         let combined = self.binary(body, op, left, value, span)?.expr;
@@ -185,7 +185,7 @@ impl Checker<'_> {
         Some(Expr { ty, kind: ExprKind::AssignOp(op, Box::new((place, operands.1))), span })
     }
 
-    /// Reports an index or literal problem of a value that nobody converts: a decimal beyond int.
+    /// Reports a decimal beyond int, for an index or another value that is not converted.
     pub(crate) fn refuse_wide(&mut self, body: &CheckedBody, typed: &Typed) -> Option<()> {
         if typed.literal == Literal::Wide {
             let text = self.text(body.module, typed.expr.span).to_string();
@@ -194,7 +194,7 @@ impl Checker<'_> {
         Some(())
     }
 
-    /// Warns of a constant condition that depends on itself; used for declarations.
+    /// Reports a constant or a variable whose value depends on itself.
     pub(crate) fn report_circular(&mut self, module: crate::hir::ModuleId, span: Span, name: &str) {
         let problem = ConstantProblem::Circular { name: name.into() };
         self.report_in::<()>(module, span, problem, &[]);
@@ -215,7 +215,7 @@ fn integer_literal(number: u32, radix: Radix, span: Span) -> Typed {
     }
 }
 
-/// A Rust value takes the type of the other operand.
+/// Whether it is a Rust value, which takes the type of the other operand.
 fn is_splice(expr: &ast::Expr) -> bool {
     matches!(expr.kind, ast::ExprKind::Splice(_))
 }

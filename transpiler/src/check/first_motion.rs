@@ -7,7 +7,7 @@ use crate::visit;
 use arl_lang::catalog::{Effect, Struct};
 use arl_lang::span::Span;
 
-/// Reports a first motion whose target is known to be incomplete. What is not known is left to run time.
+/// Reports a first motion whose target is known to be incomplete. Targets that are not known are left to run time.
 pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Location) -> Option<Diagnostic> {
     let main = program.funcs.get(program.main?.0 as usize)?;
     for stmt in &main.body {
@@ -25,7 +25,7 @@ pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Locati
     None
 }
 
-/// Whether a statement may hold the first motion, or jump to it.
+/// Whether a statement may contain the first motion or jump to it.
 fn may_move(stmt: &Stmt) -> bool {
     let mut found = false;
     super::flow::each_stmt(stmt, &mut |stmt| {
@@ -41,7 +41,7 @@ fn may_move(stmt: &Stmt) -> bool {
     found
 }
 
-/// The components of the target that are not set, where the target is known.
+/// The components of the target that are not set, if the target is known.
 fn missing(program: &Program, main: &Func, motion: &Builtin) -> Option<String> {
     let target = motion.args.iter().find(|bound| bound.param == 0)?;
     let Passed::Value(target) = &target.value else { return None };
@@ -66,15 +66,15 @@ fn missing(program: &Program, main: &Func, motion: &Builtin) -> Option<String> {
     expect(dead_code, reason = "only the command and editors know robots and their targets")
 )]
 pub(super) enum GlobalPoints {
-    /// Constants whose value no data file gives.
+    /// Constants whose value does not come from a data file.
     Constant,
-    /// All that no statement writes, but not those of data files: the program teaches them while it runs.
+    /// All variables that no statement writes, except those of data files: the program teaches them while it runs.
     Unwritten,
-    /// All that no statement writes, with the values that data files have now.
+    /// All variables that no statement writes, with the values that data files have now.
     AsTaught,
 }
 
-/// The braces that the target is made of: written here, or given to a variable that nothing changes.
+/// The braces that give the target: written here, or assigned to a variable that is never changed.
 pub(super) fn known_structure<'a>(
     program: &'a Program,
     func: &'a Func,
@@ -87,7 +87,7 @@ pub(super) fn known_structure<'a>(
     }
 }
 
-/// What is written here, or was given to a variable that nothing changes.
+/// The expression written here, or assigned to a variable that is never changed.
 pub(super) fn known_value<'a>(
     program: &'a Program,
     func: &'a Func,
@@ -107,7 +107,7 @@ pub(super) fn known_value<'a>(
         }
         Root::Global(id) => {
             let global = program.globals.get(id.0 as usize)?;
-            // A data file may set it at load.
+            // A data file may set it on load.
             let data = program.modules.get(global.module.0 as usize)?.data;
             let known = match globals {
                 GlobalPoints::Constant => global.constant && !data,

@@ -1,4 +1,4 @@
-//! Warnings about what a function's statements lead to: unreachable code, missing results, unused names.
+//! Warnings about control flow in a function: unreachable code, missing results, unused names.
 
 use super::context::Checker;
 use crate::diagnostics::flow::FlowProblem;
@@ -7,7 +7,7 @@ use arl_lang::catalog::{Base, Effect};
 use std::collections::HashSet;
 
 impl Checker<'_> {
-    /// Warns of what is odd in a checked function.
+    /// Warns about suspicious code in a checked function.
     pub(crate) fn check_flow(&mut self, func: &Func) {
         let mut flow = Flow { labels: targets(func), unreachable: Vec::new() };
         let falls_out = flow.block(&func.body);
@@ -45,7 +45,7 @@ struct Flow {
 }
 
 impl Flow {
-    /// Whether control can come out at the end of the block.
+    /// Whether control can reach the end of the block.
     fn block(&mut self, block: &Block) -> bool {
         let mut reached = true;
         let mut told = false;
@@ -130,7 +130,7 @@ fn ends(expr: &Expr) -> bool {
     matches!(&expr.kind, ExprKind::Builtin(builtin) if builtin.entry.effect == Effect::Ends)
 }
 
-/// Whether a `break` of this loop is in its body.
+/// Whether the body contains a `break` of this loop.
 fn breaks(block: &Block) -> bool {
     leaves(block, &|stmt| matches!(stmt.kind, StmtKind::Break))
 }
@@ -139,7 +139,7 @@ fn continues(block: &Block) -> bool {
     leaves(block, &|stmt| matches!(stmt.kind, StmtKind::Continue))
 }
 
-/// Whether a statement of this loop (not of an inner one) is what is looked for; a goto may leave anywhere.
+/// Whether this loop (not an inner one) contains a wanted statement; a goto may leave from anywhere.
 fn leaves(block: &Block, wanted: &dyn Fn(&Stmt) -> bool) -> bool {
     block.iter().any(|stmt| {
         wanted(stmt)
@@ -154,7 +154,7 @@ fn leaves(block: &Block, wanted: &dyn Fn(&Stmt) -> bool) -> bool {
     })
 }
 
-/// Calls `visit` for the statement and all statements in it.
+/// Calls `visit` for the statement and for all statements in it.
 pub(crate) fn each_stmt(stmt: &Stmt, visit: &mut dyn FnMut(&Stmt)) {
     visit(stmt);
     let mut each = |block: &Block| block.iter().for_each(|stmt| each_stmt(stmt, visit));

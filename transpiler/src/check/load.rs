@@ -1,4 +1,4 @@
-//! Reads the files of a program: the main file, what it imports, what it names with `::`, and data files.
+//! Reads the files of a program: the main file, the modules that it imports or names with `::`, and data files.
 
 use crate::diagnostics::modules::ModuleProblem;
 use crate::diagnostics::{Code, Diagnostic, FileId, Files, Fix, Label, Location, Problem, Severity};
@@ -13,7 +13,7 @@ use arl_lang::{ParseOptions, Splice, parse, parse_statements};
 use std::collections::{HashMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 
-/// The folder on the controller that programs live in.
+/// The folder on the controller that contains the programs.
 const SCRIPT_DIR: &str = "/home/ae/script/";
 
 /// One parsed file.
@@ -25,13 +25,13 @@ pub(crate) struct LoadedModule {
     pub(crate) ast: ast::File,
     /// Whether it is a `_data.arl` file.
     pub(crate) data: bool,
-    /// Modules that `import` lines or `::` name.
+    /// Modules named by `import` lines or by `::`.
     pub(crate) imports: HashMap<Symbol, ModuleId>,
-    /// Modules whose files could not be had, which is reported already.
+    /// Modules whose files could not be loaded; this has been reported.
     pub(crate) missing: HashSet<Symbol>,
-    /// The `import` lines: where, and what they load.
+    /// The `import` lines: their positions and the modules that they load.
     pub(crate) import_lines: Vec<(Span, ModuleId)>,
-    /// The data file beside it.
+    /// The data file that belongs to the module.
     pub(crate) data_module: Option<ModuleId>,
 }
 
@@ -40,7 +40,7 @@ pub(crate) struct LoadedModule {
 pub(crate) enum Start<'a> {
     /// In the file at the path.
     File,
-    /// In this text, which stands for the file at the path.
+    /// In this text, which replaces the file at the path.
     Text(&'a str),
     /// In these statements, which become the body of a function `fragment`.
     Statements(&'a str),
@@ -57,13 +57,13 @@ pub(crate) struct Loaded {
     /// The Rust values spliced into statements.
     pub(crate) splices: Vec<Splice>,
     by_path: HashMap<PathBuf, ModuleId>,
-    /// What is in `read`.
+    /// The contents of `read`.
     looked_for: HashSet<PathBuf>,
     /// The files that could not be decoded.
     broken: HashSet<PathBuf>,
 }
 
-/// Reads the program that begins at `main`.
+/// Reads the program whose main file is `main`.
 pub(crate) fn load(main: &Path, start: Start<'_>, sources: &dyn Sources, options: &CheckOptions) -> Loaded {
     let mut loaded = Loaded::default();
     let main = clean(main);
@@ -96,7 +96,7 @@ pub(crate) fn load(main: &Path, start: Start<'_>, sources: &dyn Sources, options
 }
 
 impl Loaded {
-    /// Notes a file that is looked for; whether that is so for the first time.
+    /// Records a file that is looked for; returns whether it is the first time.
     fn looks_for(&mut self, path: &Path) -> bool {
         let first = self.looked_for.insert(path.to_path_buf());
         if first {
@@ -105,7 +105,7 @@ impl Loaded {
         first
     }
 
-    /// Decodes and parses a file; `None` where it cannot be decoded.
+    /// Decodes and parses a file; `None` if it cannot be decoded.
     fn add(&mut self, path: &Path, shown: String, bytes: &[u8], from: Option<Location>) -> Option<ModuleId> {
         let mixed = arl_lang::text::mixed(bytes);
         let text = match arl_lang::text::decode(bytes) {
@@ -190,8 +190,8 @@ pub(crate) fn syntax_diagnostic(error: &arl_lang::syntax_error::SyntaxError, fil
     }
 }
 
-/// Where a path of an `import` leads: from the folder of the file that has it, or from the script folder, which is that
-/// of the main file where no other is named.
+/// The path that an `import` leads to: relative to the folder of the importing file, or to the script folder, which is
+/// the main file's folder if no other is given.
 pub fn imported(written: &str, folder: &Path, root: &Path, script_dir: Option<&Path>) -> PathBuf {
     match written.strip_prefix(SCRIPT_DIR) {
         Some(rest) => script_dir.unwrap_or(root).join(rest),
@@ -206,7 +206,7 @@ fn source_problem(path: String, error: SourceError) -> ModuleProblem {
     }
 }
 
-/// Follows what one module refers to.
+/// Loads the modules that one module refers to.
 struct Follow<'a> {
     loaded: &'a mut Loaded,
     sources: &'a dyn Sources,
@@ -274,7 +274,7 @@ impl Follow<'_> {
         }
     }
 
-    /// A module named with `::` that no import brought in: a file in the same folder.
+    /// Loads a module named with `::` that no import has loaded: a file in the same folder.
     fn neighbour(&mut self, at: usize, folder: &Path, file: FileId, scope: ast::Ident) {
         let known =
             self.loaded.modules.get(at).is_some_and(|module| {
@@ -305,7 +305,7 @@ impl Follow<'_> {
         }
     }
 
-    /// What is named in this module's file is not reported once more.
+    /// Marks a module as missing, so that its other uses in this module's file are not reported again.
     fn set_missing(&mut self, at: usize, name: Symbol) {
         if let Some(module) = self.loaded.modules.get_mut(at) {
             module.missing.insert(name);
@@ -320,8 +320,7 @@ impl Follow<'_> {
         clean(&path)
     }
 
-    /// The module at `path`, read if it is new. A missing file is an error only where somebody asked for it by
-    /// `import`.
+    /// The module at `path`, read if it is new. A missing file is an error only if an `import` asks for it.
     fn open(&mut self, path: &Path, asked: Option<(&str, Location)>) -> Option<ModuleId> {
         let path = clean(path);
         if let Some(id) = self.loaded.by_path.get(&path) {
@@ -353,14 +352,14 @@ impl Follow<'_> {
     }
 }
 
-/// Whether a file name can stand in front of `::`.
+/// Whether a file name can be used before `::`.
 fn is_name(stem: &str) -> bool {
     let mut chars = stem.chars();
     let first = chars.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
     first && chars.all(|other| other.is_ascii_alphanumeric() || other == '_')
 }
 
-/// The path without `.` and inner `..`, so that one file has one path.
+/// The path without `.` and inner `..`, so that each file has only one path.
 pub fn clean(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for component in path.components() {
@@ -375,7 +374,7 @@ pub fn clean(path: &Path) -> PathBuf {
     out
 }
 
-/// Where a line of a text is; lines count from 1.
+/// The span of a line of a text; lines count from 1.
 fn line_span(text: &str, number: usize) -> Span {
     let line = text.split('\n').nth(number.saturating_sub(1)).unwrap_or_default();
     let start = line.as_ptr() as usize - text.as_ptr() as usize;

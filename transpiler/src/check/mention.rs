@@ -1,5 +1,5 @@
-//! Records what names mean, for editors: called wherever the checker has resolved one. Without
-//! [`CheckOptions::index`](crate::CheckOptions) all of this does nothing.
+//! Records what names mean, for editors: called wherever the checker has resolved a name. Does nothing without
+//! [`CheckOptions::index`](crate::CheckOptions).
 
 use super::arguments::CheckedCallee;
 use super::context::{CheckedBody, Checker};
@@ -17,19 +17,19 @@ use arl_lang::symbol::Symbol;
 
 /// What is recorded while a program is checked.
 ///
-/// What may stand at the word `HERE` comes in two steps. Who reads arguments or braces that hold the word notes them
-/// first ([`Checker::expect_argument`], [`Checker::expect_in_braces`]); an inner call or inner braces note theirs
-/// later, and so in their place. Then whoever looks the word up and does not find it notes what was looked for
-/// ([`Checker::expect`]), and takes what was noted before with it. What is checked twice is noted twice; the second
-/// time a type is wanted, so the last note stays, with the arguments of the first.
+/// What may stand at the word `HERE` is recorded in two steps. First, the code that reads the arguments or braces
+/// containing the word records them ([`Checker::expect_argument`], [`Checker::expect_in_braces`]); an inner call or
+/// inner braces record theirs later and replace the earlier ones. Then the code that looks the word up without finding
+/// it records what was looked for ([`Checker::expect`]), together with the earlier record. Code that is checked twice
+/// is recorded twice; the second time a type is wanted, so the last record stays, with the arguments of the first.
 #[derive(Default)]
 pub(crate) struct Recorder {
     index: Index,
-    /// Whether the word that stands for what is not typed yet is in any file.
+    /// Whether any file contains the marker word, which stands for text that is not typed yet.
     is_marked: bool,
-    /// The arguments that are bound now, where one of them is the word that stands for what is not typed yet.
+    /// The arguments being bound, if the marker word is one of them.
     arguments: Option<ArgumentList>,
-    /// The braces that are read now, likewise.
+    /// The braces being read, if they contain the marker word.
     braces: Option<(Struct, Vec<bool>)>,
 }
 
@@ -47,7 +47,7 @@ impl Checker<'_> {
         self.mention_in(body.module, span, meaning, Role::Uses);
     }
 
-    /// Records what the name at `span` of a module's file means.
+    /// Records what the name at `span` in a module's file means.
     pub(crate) fn mention_in(&mut self, module: ModuleId, span: Span, meaning: Meaning, role: Role) {
         if self.recorder.is_none() || span.start == span.end {
             return;
@@ -58,7 +58,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Records what the name `symbol` means, which may stand in parentheses, or behind `module::`, under `span`.
+    /// Records what the name `symbol` means. Under `span` it may be in parentheses or after `module::`.
     pub(crate) fn mention_within(&mut self, body: &CheckedBody, span: Span, symbol: Symbol, meaning: Meaning) {
         if self.recorder.is_some() {
             let span = self.name_within(body, span, symbol);
@@ -66,7 +66,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Where the name itself stands under a span that may hold parentheses, comments and `module::`, too.
+    /// The position of the name itself in a span that may also contain parentheses, comments and `module::`.
     fn name_within(&self, body: &CheckedBody, span: Span, symbol: Symbol) -> Span {
         let name = self.names.name(symbol);
         let text = self.text(body.module, span);
@@ -81,7 +81,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Records that the place that begins at `start` is written.
+    /// Records that the place beginning at `start` is written.
     pub(crate) fn mention_written(&mut self, body: &CheckedBody, start: u32) {
         let file = self.file(body.module);
         let Some(recorder) = &mut self.recorder else { return };
@@ -89,14 +89,14 @@ impl Checker<'_> {
             let variable = matches!(mention.meaning, Meaning::Local(_) | Meaning::Global(_) | Meaning::System(_));
             variable && mention.at.file == file && mention.at.span.start >= start
         };
-        // The root was recorded just now; indices behind it, which may mention variables too, begin further right.
+        // The root has just been recorded; indices after it, which may also mention variables, begin further right.
         let recent = recorder.index.mentions.iter_mut().rev().take_while(|mention| mention.at.span.start >= start);
         if let Some(mention) = recent.filter(is_root).last() {
             mention.role = Role::Writes;
         }
     }
 
-    /// Records a local variable where it is declared.
+    /// Records a local variable at its declaration.
     pub(crate) fn mention_local(&mut self, body: &CheckedBody, name: ast::Ident, info: LocalInfo) {
         let at = self.location(body.module, name.span);
         if let Some(recorder) = &mut self.recorder {
@@ -130,17 +130,17 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether the name is the word that stands for what is not typed yet, or holds it.
+    /// Whether the name is or contains the marker word, which stands for text that is not typed yet.
     fn is_marker(&self, symbol: Symbol) -> bool {
         self.is_marked() && self.names.name(symbol).contains(MARKER)
     }
 
-    /// Whether that word stands anywhere in the program.
+    /// Whether the marker word occurs anywhere in the program.
     fn is_marked(&self) -> bool {
         self.recorder.as_ref().is_some_and(|recorder| recorder.is_marked)
     }
 
-    /// Whether an expression holds that word, but not in the arguments of a call.
+    /// Whether an expression contains the marker word outside the arguments of calls.
     fn holds_marker(&self, expr: &ast::Expr) -> bool {
         match &expr.kind {
             ast::ExprKind::Name(symbol) | ast::ExprKind::System(symbol) => self.is_marker(*symbol),
@@ -157,7 +157,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Notes what was looked for where the word stands.
+    /// Records what was looked for at the marker word.
     pub(crate) fn expect(&mut self, body: &CheckedBody, symbol: Symbol, span: Span, wanted: Wanted) {
         if !self.is_marker(symbol) {
             return;
@@ -174,7 +174,7 @@ impl Checker<'_> {
         let (module, item) = (body.module, body.item);
         let Some(recorder) = &mut self.recorder else { return };
         let (arguments, braces) = (recorder.arguments.take(), recorder.braces.take());
-        // What is checked again with a type that is wanted says more than what was checked without.
+        // A second check, with a wanted type, is more precise than the first one without.
         let known = recorder.index.expectation.take();
         if let Some(known) = known.as_ref().filter(|known| known.wanted == Wanted::Action && known.at == at) {
             recorder.index.expectation = Some(known.clone());
@@ -184,7 +184,7 @@ impl Checker<'_> {
         recorder.index.expectation = Some(Expectation { at, wanted, module, item, locals, arguments, braces });
     }
 
-    /// Notes the arguments around the word, where one of them is it.
+    /// Records the arguments around the marker word, if it is one of them.
     pub(crate) fn expect_argument(
         &mut self,
         body: &CheckedBody,
@@ -200,7 +200,7 @@ impl Checker<'_> {
         }
         let is_name = matches!(arg.value.kind, ast::ExprKind::Name(_));
         let mut taken = taken.to_vec();
-        // A labelled one is counted already.
+        // A labelled argument has been counted already.
         if let (true, Some(count)) = (arg.label.is_some(), parameter.and_then(|at| taken.get_mut(at))) {
             *count = count.saturating_sub(1);
         }
@@ -212,7 +212,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Notes the arguments around the word, where no parameter is left for it.
+    /// Records the arguments around the marker word, if no parameter is left for it.
     pub(crate) fn expect_nothing(
         &mut self,
         body: &CheckedBody,
@@ -227,7 +227,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The same for an argument of a function whose overload is not chosen yet: the first one stands for all.
+    /// Like `expect_argument`, for a function whose overload is not chosen yet: the first overload stands for all.
     pub(crate) fn expect_of_overloads(
         &mut self,
         body: &CheckedBody,
@@ -240,7 +240,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Notes that the name of a component is looked for, where an unnamed value among named ones is the word.
+    /// Records that a component name is looked for, if the marker word is an unnamed value among named ones.
     pub(crate) fn expect_component(
         &mut self,
         body: &CheckedBody,
@@ -254,14 +254,14 @@ impl Checker<'_> {
         }
     }
 
-    /// Notes that what is done at an event is looked for, where that is the word.
+    /// Records that the action of an event is looked for, if the action is the marker word.
     pub(crate) fn expect_action(&mut self, body: &CheckedBody, expr: &ast::Expr) {
         if let ast::ExprKind::Name(symbol) = expr.kind {
             self.expect(body, symbol, expr.span, Wanted::Action);
         }
     }
 
-    /// Notes the braces around the word, where it is one of their values.
+    /// Records the braces around the marker word, if it is one of their values.
     pub(crate) fn expect_in_braces(&mut self, id: Struct, value: &ast::Expr, taken: impl Iterator<Item = bool>) {
         if self.is_marked()
             && self.holds_marker(value)
@@ -271,7 +271,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The index of all that was recorded.
+    /// The index of everything that was recorded.
     pub(crate) fn take_index(&mut self) -> Option<Index> {
         let mut index = self.recorder.take()?.index;
         index.globals = self
@@ -327,7 +327,7 @@ impl Checker<'_> {
         })
     }
 
-    /// Records the declarations of globals and functions, and what imports name.
+    /// Records the declarations of globals and functions, and the modules that imports name.
     pub(crate) fn mention_declarations(&mut self) {
         if self.recorder.is_none() {
             return;

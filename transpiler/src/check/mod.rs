@@ -1,7 +1,7 @@
 //! The checker: files in, a checked program and diagnostics out.
 //!
-//! One file per concern: `load` reads the files, `declare` globals and signatures, `statements` and `expr` (with
-//! `name`, `place`, `operators`, `brace`, `call`, `arguments`, `convert`) what functions do, `flow` and
+//! One file per concern: `load` reads the files, `declare` handles globals and signatures, `statements` and `expr`
+//! (with `name`, `place`, `operators`, `brace`, `call`, `arguments`, `convert`) check function bodies; `flow`,
 //! `conditions`, `first_motion` and `targets` look at the finished functions.
 
 mod arguments;
@@ -40,18 +40,18 @@ pub use load::{clean, imported};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-/// Checks the program that begins at the file `main`.
+/// Checks the program whose main file is `main`.
 pub fn check(main: &Path, sources: &dyn Sources, options: &CheckOptions) -> Checked {
     check_loaded(load::load(main, Start::File, sources, options), options).0
 }
 
-/// Checks a program whose main file is this text; `main` is where it would lie.
+/// Checks a program whose main file has this text; `main` is the path that it would have.
 pub fn check_text(main: &Path, text: &str, sources: &dyn Sources, options: &CheckOptions) -> Checked {
     check_loaded(load::load(main, Start::Text(text), sources, options), options).0
 }
 
-/// Checks statements, as they may stand in a function of ARL, with Rust values spliced in. In the program they are
-/// the body of its one function, `fragment`.
+/// Checks statements, as they may stand in an ARL function, with Rust values spliced in. The resulting program contains
+/// them as the body of its only function, `fragment`.
 pub fn check_statements(
     place: &Path,
     text: &str,
@@ -67,11 +67,11 @@ pub fn check_statements(
 pub struct SplicedValue {
     /// The Rust expression in the text, without `#`, parentheses and the ARL type.
     pub rust: Span,
-    /// The ARL type that was written behind `as`.
+    /// The ARL type after `as`.
     pub ty: Option<Base>,
 }
 
-/// The Rust expression of a splice, and its ARL type where ` as type` ends it. `as f64` is Rust's own and stays.
+/// The Rust expression of a splice, and its ARL type if it ends in ` as type`. A Rust cast such as `as f64` stays.
 fn spliced_value(text: &str, splice: &arl_lang::Splice) -> SplicedValue {
     let inside = splice.span.text(text);
     let typed = inside.rfind(" as ").and_then(|at| {
@@ -150,7 +150,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         }
         diagnostics.extend(late);
     }
-    // Who asks what names mean does not translate the program.
+    // Without effects: an index is for looking up names, not for translating the program.
     if let Some(program) = program.as_mut().filter(|_| !options.index) {
         crate::effects::infer(program);
     }
@@ -171,11 +171,11 @@ impl std::fmt::Debug for Syntax {
     }
 }
 
-/// The warnings of what is unused, or is never reached.
+/// The warnings about things that are unused or never reached.
 pub const NOT_NEEDED: std::ops::RangeInclusive<u16> = 901..=906;
 
-/// Takes warnings about unused and unreachable things out of files with errors: what could not be read or understood
-/// may well be what uses them.
+/// Removes warnings about unused and unreachable things from files with errors: the parts that could not be read or
+/// understood may be the ones that use them.
 fn drop_guesses(diagnostics: &mut Vec<Diagnostic>) {
     let errors = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
     let wrong: HashSet<FileId> = errors.map(|diagnostic| diagnostic.primary.at.file).collect();
@@ -185,7 +185,7 @@ fn drop_guesses(diagnostics: &mut Vec<Diagnostic>) {
     });
 }
 
-/// The order in which modules get their first values: what is imported goes before what imports it.
+/// The order in which modules are initialised: imported modules come before the modules that import them.
 fn first_values_order(modules: &[LoadedModule]) -> Vec<ModuleId> {
     let mut order = Vec::new();
     let mut seen = vec![false; modules.len()];
@@ -208,7 +208,7 @@ fn first_values_order(modules: &[LoadedModule]) -> Vec<ModuleId> {
     order
 }
 
-/// Whether the word `main` stands in a text, outside of its comments and strings.
+/// Whether the word `main` occurs in a text, outside of its comments and strings.
 pub fn names_main(text: &str) -> bool {
     arl_lang::lexer::lexemes(text).any(|(_, span)| span.text(text).eq_ignore_ascii_case("main"))
 }
@@ -236,7 +236,7 @@ impl Checker<'_> {
         Some(id)
     }
 
-    /// Whether the main file has a `main` that could not be read: its mistakes are reported already.
+    /// Whether the main file has a `main` that could not be read; its errors are reported already.
     fn has_unread_main(&self) -> bool {
         let Some(main) = self.modules.first().map(|module| module.file) else { return false };
         let unread = |one: &Diagnostic| one.code.is_of_syntax() && one.primary.at.file == main;

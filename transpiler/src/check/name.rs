@@ -1,4 +1,4 @@
-//! What a name means where it stands.
+//! What a name means where it is used.
 
 use super::context::{CheckedBody, Checker};
 use super::convert::Typed;
@@ -14,8 +14,8 @@ use arl_lang::span::Span;
 use arl_lang::symbol::{Interner, Symbol};
 
 impl Checker<'_> {
-    /// A name without `::`: a local, a global of this module or its data file, a constant, an enumeration's constant,
-    /// a hexadecimal number that begins with a letter.
+    /// Resolves a name without `::`: a local, a global of this module or its data file, a constant, an enumeration
+    /// constant or a hexadecimal number that begins with a letter.
     pub(crate) fn name(
         &mut self,
         body: &mut CheckedBody,
@@ -121,7 +121,7 @@ impl Checker<'_> {
         self.report(body, span, NameProblem::UnknownVariable { name, near, is_function, quoted, ty })
     }
 
-    /// The signal that the cell calls so, as files write it, and its channel.
+    /// The signal to which the cell gives this name, as files write it, and its channel.
     #[cfg(feature = "tools")]
     pub(crate) fn signal_named(&self, name: &str) -> Option<(String, u32)> {
         self.options.cell.as_ref()?.names.signal(name).map(|signal| (signal.to_string(), signal.channel))
@@ -132,7 +132,7 @@ impl Checker<'_> {
         None
     }
 
-    /// `module::name` where an imported module has a variable or function of this name.
+    /// `module::name`, if an imported module has a variable or function of this name.
     pub(crate) fn member_named(&self, body: &CheckedBody, symbol: Symbol, function: bool) -> Option<String> {
         let imports = &self.module(body.module)?.imports;
         let has = |module: &ModuleId| {
@@ -144,7 +144,7 @@ impl Checker<'_> {
         Some(format!("{module}::{}", self.names.name(symbol)))
     }
 
-    /// The text that is probably meant by a name that is not known: a file's, or any where a string is wanted.
+    /// The string that an unknown name probably means: a file name, or any string if a string is wanted.
     fn unquoted(&self, body: &CheckedBody, span: Span, want: Option<Type>) -> Option<String> {
         const FILES: [&str; 3] = [".arl", ".txt", ".log"];
         let name = self.text(body.module, span);
@@ -159,7 +159,7 @@ impl Checker<'_> {
     pub(crate) fn find_global(&self, body: &CheckedBody, symbol: Symbol) -> Option<(GlobalId, bool)> {
         if let Some(id) = self.scopes.get(body.module.0 as usize)?.globals.get(&symbol) {
             let slot = self.globals.get(id.0 as usize)?;
-            // Inside its own declaration a variable is not known yet, but those before it on the line are.
+            // Inside its own declaration a variable is not visible yet, but those before it on the line are.
             let visible =
                 slot.item < body.item || (slot.item == body.item && slot.state == super::context::CheckState::Done);
             return Some((*id, visible));
@@ -169,7 +169,7 @@ impl Checker<'_> {
         Some((*id, true))
     }
 
-    /// A global of this module, which has to be declared above.
+    /// A global of this module, which must be declared above.
     fn own_global(&mut self, body: &CheckedBody, id: GlobalId, visible: bool, span: Span) -> Option<PlaceOrValue> {
         if !visible {
             self.mention_global(body, id, span);
@@ -188,7 +188,7 @@ impl Checker<'_> {
         let declared = (slot.module, slot.var.name.span);
         let (ty, value) = (slot.ty, slot.value.clone());
         if slot.decl.constant.is_some() && slot.init.is_none() {
-            // Its declaration is wrong, and reported.
+            // The declaration is wrong; that has been reported.
             return None;
         }
         if self.options.strict {
@@ -208,7 +208,7 @@ impl Checker<'_> {
         }
     }
 
-    /// `scope::name`: a module's variable or an enumeration's constant.
+    /// `scope::name`: a variable of a module or a constant of an enumeration.
     pub(crate) fn path(
         &mut self,
         body: &mut CheckedBody,
@@ -223,7 +223,7 @@ impl Checker<'_> {
             if module == body.module
                 && let Some((id, visible)) = self.find_global(body, name.symbol)
             {
-                // Not by its bare name: a local may hide that.
+                // Not looked up by its bare name: a local may hide it.
                 return self.own_global(body, id, visible, span);
             }
             if let Some(id) = self.scopes.get(module.0 as usize)?.globals.get(&name.symbol).copied() {
@@ -295,7 +295,7 @@ impl Checker<'_> {
         self.report(body, name.span, problem)
     }
 
-    /// The module that a name in front of `::` means.
+    /// The module that a name before `::` means.
     pub(crate) fn find_module(&self, body: &CheckedBody, scope: ast::Ident) -> Option<ModuleId> {
         let here = self.module(body.module)?;
         if here.name == scope.symbol {
@@ -309,7 +309,7 @@ impl Checker<'_> {
 }
 
 impl CheckedBody {
-    /// The visible local whose name is nearest.
+    /// The visible local with the most similar name.
     fn nearest_local(&self, hints: &mut Hints, names: &Interner, name: &str) -> Option<String> {
         hints.nearest(name, self.visible().len(), || self.visible().map(|symbol| names.name(symbol))).map(Into::into)
     }
@@ -320,7 +320,7 @@ pub(crate) fn constant(value: Value, span: Span) -> Typed {
     Typed::plain(Expr { ty: Type::scalar(value.base()), kind: ExprKind::Const(value), span })
 }
 
-/// The constant of this name; the enumeration that is wanted goes first.
+/// The constant of this name; the wanted enumeration takes precedence.
 fn enum_constant(name: &str, want: Option<Type>) -> Option<(Enum, u16)> {
     if let Some(Base::Enum(id)) = want.map(|want| want.base)
         && let Some(index) = constant_of(id, name)

@@ -140,7 +140,7 @@ impl Checker<'_> {
         self.finish(body, op, left, right, operation.result, span)
     }
 
-    /// Enumerations count as int where an operator meets them.
+    /// Converts an enumeration to int, as operators do.
     fn number(&self, typed: Typed) -> Typed {
         if !matches!(typed.expr.ty.base, Base::Enum(_)) || typed.expr.ty.is_array() {
             return typed;
@@ -153,7 +153,7 @@ impl Checker<'_> {
         Typed::plain(Expr { ty: INT, kind: ExprKind::Convert(Box::new(typed.expr)), span })
     }
 
-    /// The finished operator; constant operands are computed.
+    /// The finished operator expression; constant operands are computed.
     fn finish(
         &mut self,
         body: &CheckedBody,
@@ -165,7 +165,7 @@ impl Checker<'_> {
     ) -> Option<Typed> {
         let ty = Type::scalar(result);
         if let (ExprKind::Const(a), ExprKind::Const(b)) = (&left.kind, &right.kind)
-            // What is an alarm has been reported.
+            // An alarm has been reported already.
             && let Ok(Some(computed)) = operators::compute(op, a, b)
         {
             let value = self.held(body, computed, span);
@@ -222,7 +222,7 @@ impl Checker<'_> {
         Some(Typed::plain(Expr { ty, kind: ExprKind::Unary(op, Box::new(operand.expr)), span }))
     }
 
-    /// The value, with a warning where it has wrapped.
+    /// The value, with a warning if it has wrapped.
     fn held(&mut self, body: &CheckedBody, computed: Computed, span: Span) -> Value {
         let Computed { value, wrapped } = computed;
         if wrapped {

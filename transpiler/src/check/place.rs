@@ -1,4 +1,4 @@
-//! Variables, components and elements: what can be read and written.
+//! Variables, components and elements, which can be read and written.
 
 use super::context::{CheckedBody, Checker};
 use super::convert::Typed;
@@ -13,7 +13,7 @@ use arl_lang::span::Span;
 
 const INT: Type = Type::scalar(Base::Int);
 
-/// What an expression that may be a place turned out to be.
+/// The result of checking an expression that may be a place.
 pub(crate) enum PlaceOrValue {
     Place(Place),
     Value(Typed),
@@ -144,7 +144,7 @@ impl Checker<'_> {
         self.report(body, name.span, problem)
     }
 
-    /// The index of a component, without a word where there is none.
+    /// The index of a component; reports nothing if there is none.
     pub(crate) fn find_component(&self, id: Struct, name: arl_lang::symbol::Symbol) -> Option<usize> {
         let name = self.names.name(name);
         id.def(self.family()).components.iter().position(|component| {
@@ -190,7 +190,7 @@ impl Checker<'_> {
         Some(PlaceOrValue::Place(Place { ty: array.element(), span: expr.span, ..place }))
     }
 
-    /// An index; a constant one must be below `size`.
+    /// Checks an index; a constant one must be below `size`.
     fn index(&mut self, body: &mut CheckedBody, index: &ast::Expr, size: Option<u32>) -> Option<Expr> {
         let typed = self.expr(body, index, Some(INT))?;
         if self.cost(&typed, INT).is_none() && typed.expr.ty.base != Base::Void {
@@ -207,9 +207,9 @@ impl Checker<'_> {
         Some(index)
     }
 
-    /// A place that is written: not const, not read-only. `reads` where the old value matters, too.
+    /// A place that is written: not const, not read-only. `reads`: the old value matters, too.
     pub(crate) fn written_place(&mut self, body: &mut CheckedBody, expr: &ast::Expr, reads: bool) -> Option<Place> {
-        // A const with a known value reads as that value; for writing we want its name.
+        // A const with a known value is read as that value; for writing, its name is needed.
         if let Some((module, declared)) = self.const_declaration(body, expr) {
             let name = self.text(module, declared).to_string();
             let labels = [(module, declared, "declared const here")];
@@ -243,7 +243,7 @@ impl Checker<'_> {
         Some(place)
     }
 
-    /// Where the const variable is declared that an expression would write to.
+    /// The declaration of the const variable that an expression would write to.
     fn const_declaration(&self, body: &CheckedBody, expr: &ast::Expr) -> Option<(ModuleId, Span)> {
         let global = match &expr.kind {
             ast::ExprKind::Field(inner, _) => return self.const_declaration(body, inner),
@@ -266,7 +266,7 @@ impl Checker<'_> {
     }
 }
 
-/// The elements that begin like `name`, where a variable has such: those that there are.
+/// The range of the elements named like `name`, if a variable has such elements.
 fn elements_called(name: &str) -> Option<String> {
     let stem = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
     let variable = catalog::system_variables().find(|variable| variable.elements == Some(stem))?;

@@ -38,7 +38,7 @@ impl Checker<'_> {
             params.push(self.declare_local(&mut body, param.name, ty, false, None));
         }
         self.collect_labels(&mut body, &func.body);
-        // The body is a scope of its own, but a local may not hide a parameter: they share one.
+        // The body is a scope of its own, but a local may not hide a parameter: they share one scope.
         let block = self.block_in_scope(&mut body, &func.body);
         body.leave(scope);
         let checked = hir::Func {
@@ -105,7 +105,7 @@ impl Checker<'_> {
         checked
     }
 
-    /// Checks statements in the scope that is open.
+    /// Checks statements in the current scope.
     pub(crate) fn block_in_scope(&mut self, body: &mut CheckedBody, block: &ast::Block) -> Block {
         let mut out = Vec::with_capacity(block.len());
         block.iter().for_each(|stmt| self.statement(body, stmt, &mut out));
@@ -165,7 +165,7 @@ impl Checker<'_> {
         Some(StmtKind::Eval(typed.expr))
     }
 
-    /// Warns of an expression whose value goes nowhere, where it does nothing else.
+    /// Warns about an expression whose value is not used and which has no other effect.
     fn doubt_effect(&mut self, body: &CheckedBody, expr: &ast::Expr) {
         if is_comparison(expr) {
             self.report::<()>(body, expr.span, Doubt::ComparedStatement);
@@ -174,8 +174,8 @@ impl Checker<'_> {
         }
     }
 
-    /// What is wrong with a name that stands alone on its line and means nothing: a word of another language, or one of
-    /// ARL with a slip in it.
+    /// The problem with an unknown name that stands alone on its line: a word of another language or a misspelled word
+    /// of ARL.
     fn lone_word(&mut self, body: &CheckedBody, symbol: Symbol, span: Span) -> Option<NameProblem> {
         let name = self.names.name(symbol);
         let known = body.find(symbol).is_some() || self.find_global(body, symbol).is_some();
@@ -191,7 +191,7 @@ impl Checker<'_> {
         Some(NameProblem::UnknownInstruction { name, near, is_function: false })
     }
 
-    /// An instruction; the events of a motion go before it, as triggers.
+    /// Checks an instruction; the events of a motion are emitted before it, as triggers.
     fn instruction(
         &mut self,
         body: &mut CheckedBody,
@@ -225,7 +225,7 @@ impl Checker<'_> {
         Some(motion)
     }
 
-    /// The trigger that an event behind a motion is short for.
+    /// The trigger for which an event after a motion is shorthand.
     fn trigger(&mut self, body: &mut CheckedBody, event: &ast::Expr, action: &ast::Expr) -> Option<Expr> {
         let condition = self.condition(body, event);
         let action = self.action(body, action, None);
@@ -252,7 +252,7 @@ impl Checker<'_> {
         self.builtin(body, entry, args, event.span, event.span)
     }
 
-    /// Checks what is to be done at an event; `typed` where its type is known already.
+    /// Checks the action of an event; `typed` is the checked action if its type is known already.
     pub(crate) fn action(&mut self, body: &mut CheckedBody, expr: &ast::Expr, typed: Option<Typed>) -> Option<Expr> {
         self.expect_action(body, expr);
         let typed = match typed {
@@ -287,7 +287,7 @@ impl Checker<'_> {
         self.report(body, span, NameProblem::UnknownInstruction { name, near, is_function })
     }
 
-    /// Whether a function of this module or a built-in one has this name.
+    /// Whether a function of this module or a built-in function has this name.
     pub(crate) fn names_function(&self, body: &CheckedBody, symbol: Symbol) -> bool {
         let own = self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol));
         own || !catalog::functions(self.names.name(symbol)).is_empty()
@@ -366,7 +366,7 @@ impl Checker<'_> {
         for arm in &switch.arms {
             let value = match &arm.value {
                 Some(value) => self.case_value(body, value, ty, &mut seen).map(Some),
-                // The syntax has reported it.
+                // The parser has reported it.
                 None if std::mem::replace(&mut default, true) => None,
                 None => Some(None),
             };
@@ -469,12 +469,12 @@ fn instructions() -> impl Iterator<Item = &'static str> {
     catalog::all_entries().iter().filter(|entry| entry.kind == Kind::Instruction).map(|entry| entry.name)
 }
 
-/// The instruction whose name is nearest.
+/// The instruction with the most similar name.
 pub(crate) fn near_instruction(name: &str) -> Option<&'static str> {
     crate::near::nearest(name, instructions())
 }
 
-/// A text that is equal for equal constants of one type.
+/// A string that is equal for equal constants of one type.
 fn case_key(value: &Value) -> String {
     match (value, integer(value)) {
         (_, Some(number)) => number.to_string(),

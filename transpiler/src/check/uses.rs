@@ -1,4 +1,4 @@
-//! Finds the names in front of `::`, so that the files they mean can be read before anything is checked.
+//! Finds the names before `::`, so that the files they refer to can be read before anything is checked.
 
 use arl_lang::ast::{Arg, Block, Decl, Expr, ExprKind, File, Ident, Item, Stmt, StmtKind};
 

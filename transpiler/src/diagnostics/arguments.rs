@@ -13,16 +13,16 @@ problems! {
         }
         error 402 "A mandatory argument is missing" => {
             /// A parameter that must be there.
-            /// `instead`: what was written in its place, where it is known.
+            /// `instead`: what was written in its place, if known.
             Missing { callee: String, parameter: String, signature: String, instead: Option<String> },
         }
         error 403 "A label that is not known" => {
             /// A label that the callee does not have.
-            /// `meant`: those that are for the same as this label of another language.
+            /// `meant`: the labels that correspond to this label of another language.
             UnknownLabel { callee: String, label: String, labels: String, near: Option<String>, meant: String },
         }
         error 404 "An argument given twice" => {
-            /// A parameter that got two values.
+            /// A parameter with two values.
             Twice { parameter: String },
         }
         error 405 "Arguments that exclude each other" => {
@@ -30,8 +30,8 @@ problems! {
             Exclusive { first: String, second: String },
         }
         error 406 "An argument that no parameter takes" => {
-            /// A bare value that no free parameter takes.
-            /// `other`: what takes a value of this type, where something is much like the callee.
+            /// A bare value that no free parameter accepts. `other`: something similar to the callee that accepts a
+            /// value of this type, if there is one.
             NoParameter { callee: String, ty: String, labels: String, other: Option<String> },
         }
         error 407 "Braces without a label" => {
@@ -53,27 +53,27 @@ problems! {
         error 411 "A constant argument out of range" => {
             /// A constant outside the parameter's range.
             Range { parameter: String, value: String, range: Range },
-            /// 9e+09 for a parameter that takes numbers that are set.
+            /// 9e+09 for a parameter that accepts only numbers that are set.
             NotSet { parameter: String },
         }
         error 412 "Argument types that the function does not take" => {
-            /// No overload takes these types.
+            /// No overload accepts these types.
             NoOverload { callee: String, types: String, signatures: String },
         }
         error 413 "Events after something that is not a motion" => {
-            /// Events behind an instruction that is not a motion.
+            /// Events after an instruction that is not a motion.
             Events { callee: String },
         }
         error 414 "A length that does not fit the array" => {
-            /// A constant length that the array beside it does not have, which has so many bytes.
+            /// A constant length that does not fit the given array, whose size is `bytes`.
             Length { parameter: String, value: i64, bytes: usize, most: i64 },
         }
         error 415 "A system variable that cannot be saved" => {
-            /// A name that is none of a system variable that can be saved.
+            /// A name that does not belong to a system variable that can be saved.
             NotKept { name: String, near: Option<String> },
         }
         error 416 "A label with an equals sign" => {
-            /// `=` behind a label, in the place of the colon.
+            /// `=` instead of a colon after a label.
             EqualsBehindLabel { label: String, value: String },
         }
     }

@@ -1,30 +1,30 @@
-//! Channels that a cell does not have, of io and those of programs, and values that its channels do not carry.
+//! I/O channels and program channels that a cell does not have, and values that its channels cannot carry.
 
 use super::Problem;
 use super::declare::problems;
 use arl_robot::channels::AnalogType;
 
 problems! {
-    /// What is wrong with a channel, or with what it is set to.
+    /// What is wrong with a channel or with the value that it is set to.
     pub(crate) enum ChannelProblem {
         error 805 "A channel that the cell does not have" => {
             /// There are `count` channels of this kind, from 1 on.
             Missing { kind: &'static str, channel: i32, count: u32 },
             /// There are `count` foreground channels, from 1 on.
             NoForeground { channel: i32, count: u32 },
-            /// The last channel of a range comes first.
+            /// The last channel of a range is given first.
             Reversed { kind: &'static str, from: i32, to: i32 },
             /// More channels than an int has bits.
             TooMany { kind: &'static str, from: i32, to: i32 },
         }
         error 806 "An analog value outside its channel's range" => {
-            /// A value that the type of an analog output does not carry.
+            /// A value that the type of an analog output cannot carry.
             Value { channel: i32, value: f64, ty: AnalogType },
         }
     }
 }
 
-/// What becomes of a call with such a channel.
+/// The consequence of a call with such a channel.
 const ALARM: &str = "the call would end in an alarm";
 
 impl Problem for ChannelProblem {

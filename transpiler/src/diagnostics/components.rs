@@ -12,7 +12,7 @@ problems! {
         pub(crate) structure: &'static str,
         /// The component, which has a range.
         pub(crate) component: &'static Component,
-        /// The constant as it is written.
+        /// The constant as written.
         pub(crate) value: String,
     }
 }

@@ -5,18 +5,19 @@ use super::declare::problems;
 use arl_lang::catalog::Accepted;
 
 problems! {
-    /// What is wrong with an argument.
+    /// What is wrong with an argument of a connection or bus.
     pub(crate) enum ConnectionProblem {
         error 807 "An argument that a connection cannot have" => {
-            /// A value that the parameter does not take.
+            /// A value that the parameter does not accept.
             Value { param: &'static str, value: i32, accepted: Accepted },
         }
         error 808 "Registers or bytes that a bus does not have" => {
-            /// So many of these from `start` on: there are `size`, from 0 on. `result` is what becomes of the call.
+            /// `count` units from `start` on, some of which do not exist: there are `size` of them, from 0 on. `result`
+            /// is the consequence for the call.
             Missing { unit: NamedUnits, start: i64, count: i64, size: i64, result: &'static str },
         }
         error 809 "A serial line without a device" => {
-            /// A serial line to which the cell gives no device; it knows others.
+            /// A serial line for which the cell has no device; `known` are the lines that it has.
             Line { name: String, known: Vec<String> },
         }
         warning 853 "Registers that no PLC can reach" => {
@@ -26,7 +27,7 @@ problems! {
     }
 }
 
-/// What a call names, one of them and several.
+/// The name of a unit, in the singular and the plural.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct NamedUnits {
     pub(crate) one: &'static str,

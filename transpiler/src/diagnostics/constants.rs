@@ -1,4 +1,4 @@
-//! Constant expressions that cannot be computed, and places where more is accepted than the manual allows.
+//! Constant expressions that cannot be computed, and code that goes beyond the manual.
 
 use super::Problem;
 use super::declare::problems;
@@ -35,11 +35,11 @@ problems! {
             OtherCase { declared: String },
         }
         warning 952 "A conversion that is not in the manual" => {
-            /// A conversion that the controller does not know.
+            /// A conversion that the controller does not support.
             ExtendedConversion { from: String, to: String },
         }
         warning 953 "A form that is not in the manual" => {
-            /// A spelling or form that the manual does not have.
+            /// A spelling or form that the manual does not describe.
             Extended { what: String },
         }
     }

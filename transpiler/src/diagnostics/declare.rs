@@ -1,16 +1,16 @@
-//! How the diagnostics of an area are declared: `problems!` takes variant, code, severity and title together, and
-//! embeds the page.
+//! Declares the diagnostics of an area: `problems!` takes variant, code, severity and title together, and embeds the
+//! page.
 
 use super::{Code, Severity};
 
-/// What is known of a code without a program.
+/// The information about a code that is independent of a program.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct CodeInfo {
     /// The number.
     pub code: Code,
     /// Error or warning.
     pub severity: Severity,
-    /// A few words, the page's title.
+    /// A short text, the title of the page.
     pub title: &'static str,
     /// The text of the page.
     #[cfg(feature = "tools")]
@@ -36,7 +36,7 @@ macro_rules! code_info {
     };
 }
 
-/// Declares the problems of an area: an enum whose variants stand under their codes, or a struct with one code.
+/// Declares the problems of an area: an enum whose variants are listed under their codes, or a struct with one code.
 ///
 /// ```text
 /// problems! {
@@ -50,7 +50,7 @@ macro_rules! code_info {
 /// }
 /// ```
 ///
-/// A number that was given once is never given again. The words (message, label, help) follow in `impl Problem`.
+/// A number is never reused. The texts (message, label, help) follow in `impl Problem`.
 macro_rules! problems {
     (
         $(#[doc = $doc:literal])+

@@ -1,10 +1,10 @@
-//! What a program may say, and most often does not mean.
+//! Code that is allowed but most often not meant.
 
 use super::Problem;
 use super::declare::problems;
 
 problems! {
-    /// What is probably not meant.
+    /// Code that is probably not meant.
     pub(crate) enum Doubt {
         warning 913 "An assignment as a condition" => {
             /// `if(n = 2)`.
@@ -19,7 +19,7 @@ problems! {
             OtherUnit { structure: &'static str, found: &'static str, wanted: &'static str, example: String },
         }
         warning 916 "A blending zone without effect" => {
-            /// The robot stops at the target anyway, for the statement `culprit`.
+            /// The robot stops at the target anyway, because of the statement `culprit`.
             IdleZone { culprit: &'static str },
         }
         warning 918 "A break at the end of each case" => {
@@ -27,19 +27,20 @@ problems! {
             BreakOfCase,
         }
         warning 919 "A local variable whose name hides another one by case alone" => {
-            /// `n` inside, `N` outside. `hidden`: as it is declared outside; `what`: what that is.
+            /// `n` inside, `N` outside. `hidden`: the name as declared outside; `what`: the kind of thing that it
+            /// names.
             HiddenByCase { name: String, hidden: String, what: &'static str },
         }
         warning 920 "Fewer values than elements" => {
-            /// `int a[5] = {1,2,3}`, or rows of an array. `of`: what there are too few of, elements or rows.
+            /// `int a[5] = {1,2,3}`, or rows of an array. `of`: what is missing, elements or rows.
             TooFewValues { given: usize, size: usize, of: &'static str, rest: &'static str, help: String },
         }
         warning 921 "A number that looks as if it were in another unit" => {
-            /// `vl:0.15`: `found` is what it looks like, `right` the same in ARL's unit.
+            /// `vl:0.15`: `found` is the unit that it looks like, `right` the same value in ARL's unit.
             OtherScale { name: String, value: String, found: &'static str, wanted: &'static str, right: String },
         }
         warning 922 "A loop that only reads an input" => {
-            /// `while(!getdi(1))` and its like. `condition`: what it waits for.
+            /// `while(!getdi(1))` and similar loops. `condition`: what the loop waits for.
             Polls { condition: String },
         }
         warning 917 "A handler that may wait forever" => {

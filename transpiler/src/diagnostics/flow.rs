@@ -15,7 +15,7 @@ problems! {
             MainSignature { what: &'static str },
         }
         error 503 "A function defined twice" => {
-            /// Two functions of one name.
+            /// Two functions with the same name.
             FunctionTwice { name: String },
         }
         error 504 "A return without a value" => {
@@ -35,7 +35,7 @@ problems! {
             ContinueOutside,
         }
         error 508 "A case value that appears twice" => {
-            /// Two cases with one value.
+            /// Two cases with the same value.
             CaseTwice { value: String },
         }
         error 509 "A case value that is not constant" => {
@@ -51,7 +51,7 @@ problems! {
             ConditionWaits { culprit: String },
         }
         error 513 "A first motion whose target is not fully set" => {
-            /// A first motion that leaves open where it begins.
+            /// A first motion that does not fully determine its target.
             FirstMotion { instruction: String, missing: String },
         }
         warning 901 "Statements that are never reached" => {
@@ -75,7 +75,7 @@ problems! {
             MissingReturn { name: String, result: String },
         }
         warning 906 "A value that is not used" => {
-            /// An expression whose value is thrown away and which does nothing.
+            /// An expression that has no effect and whose value is discarded.
             NoEffect,
         }
     }

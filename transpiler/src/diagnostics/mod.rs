@@ -1,4 +1,4 @@
-//! What the compiler has to say about a program: codes, places, words.
+//! The diagnostics of the compiler: codes, positions, texts.
 
 pub(crate) mod arguments;
 #[cfg(feature = "tools")]
@@ -33,22 +33,22 @@ pub struct FileId(pub u32);
 pub struct Location {
     /// The file.
     pub file: FileId,
-    /// The bytes in it.
+    /// The byte range in the file.
     pub span: Span,
 }
 
 /// A source file of a compilation.
 #[derive(Debug)]
 pub struct SourceFile {
-    /// The path as it is shown: as the user gave it, or relative to the main file's folder.
+    /// The path as shown: as the user gave it, or relative to the main file's folder.
     pub name: String,
     /// The decoded text.
     pub text: String,
-    /// Where its lines begin.
+    /// The positions of its lines.
     pub lines: LineIndex,
 }
 
-/// All files of a compilation, in the order in which they were read; the main file is the first.
+/// All files of a compilation in the order in which they were read; the main file is the first.
 #[derive(Default, Debug)]
 pub struct Files {
     files: Vec<SourceFile>,
@@ -78,10 +78,10 @@ impl Files {
     }
 }
 
-/// How many names a message lists.
+/// The maximum number of names that a message lists.
 const MOST_LISTED: usize = 20;
 
-/// Names for a message, the last ones as their number where there are many.
+/// Names for a message; if there are many, only the number of the last ones is given.
 pub(crate) fn listed(names: impl ExactSizeIterator<Item = impl Into<String>>) -> String {
     let more = names.len().saturating_sub(MOST_LISTED);
     let shown: Vec<String> = names.take(MOST_LISTED).map(Into::into).collect();
@@ -89,7 +89,7 @@ pub(crate) fn listed(names: impl ExactSizeIterator<Item = impl Into<String>>) ->
     shown.join(", ") + &rest
 }
 
-/// How bad it is.
+/// How severe a diagnostic is.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Severity {
     /// The program runs, but not as its author may think.
@@ -103,7 +103,7 @@ pub enum Severity {
 pub struct Code(pub u16);
 
 impl Code {
-    /// Whether it is a mistake in the form of a program: something could not be read.
+    /// Whether it is a syntax error: something could not be read.
     pub(crate) fn is_of_syntax(self) -> bool {
         (100..200).contains(&self.0)
     }
@@ -115,64 +115,64 @@ impl std::fmt::Display for Code {
     }
 }
 
-/// A place with a few words at it.
+/// A position with a short text.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Label {
-    /// The place.
+    /// The position.
     pub at: Location,
-    /// The words; may be empty.
+    /// The text; may be empty.
     pub text: String,
 }
 
-/// A change of the text that would mend the mistake.
+/// A change of the text that would correct the error.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Fix {
     /// What to replace.
     pub at: Location,
-    /// What to put there.
+    /// The replacement.
     pub text: String,
 }
 
-/// One thing to say.
+/// An error or a warning.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Diagnostic {
     /// Its kind.
     pub code: Code,
     /// Error or warning.
     pub severity: Severity,
-    /// What is wrong, in the program's terms.
+    /// What is wrong, in the terms of the program.
     pub message: String,
-    /// Where.
+    /// The position of the problem.
     pub primary: Label,
-    /// Other places that explain it.
+    /// Other positions that explain it.
     pub labels: Vec<Label>,
-    /// What would be right.
+    /// What would be correct.
     pub help: Option<String>,
-    /// A change that would mend it.
+    /// A change that would correct it.
     pub fix: Option<Fix>,
 }
 
-/// What has a code. `problems!` of the registry writes this for what it declares.
+/// A problem with a code. The `problems!` macro implements this for the problems that it declares.
 pub(crate) trait Coded {
-    /// The code; the registry knows the severity.
+    /// The code; the severity is in the registry.
     fn code(&self) -> Code;
 }
 
-/// A typed problem: the data arises where the mistake is found, the words are here.
+/// A typed problem: its data come from where the error is found, its texts are defined here.
 pub(crate) trait Problem: Coded {
-    /// What is wrong, in the program's terms.
+    /// What is wrong, in the terms of the program.
     fn message(&self) -> String;
-    /// A few words at the place; may be empty.
+    /// A short text at the position; may be empty.
     fn label(&self) -> String;
-    /// What would be right.
+    /// What would be correct.
     fn help(&self) -> Option<String>;
 
-    /// What to write in place of the marked text, where that surely mends it.
+    /// The replacement for the marked text, if it certainly corrects the error.
     fn fix(&self) -> Option<String> {
         None
     }
 
-    /// The diagnostic at a place.
+    /// The diagnostic at a position.
     fn at(&self, at: Location) -> Diagnostic {
         let code = self.code();
         Diagnostic {

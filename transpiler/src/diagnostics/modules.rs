@@ -18,7 +18,8 @@ problems! {
         error 603 "A file of unknown encoding" => {
             /// A file that is neither UTF-8 nor GB18030.
             Encoding { path: String, offset: usize, utf16: bool },
-            /// The same, since some lines are in one and others in the other encoding.
+            /// A file in which some lines are in one encoding and others in the other, and which cannot be read for
+            /// that reason.
             UnreadableMixture { path: String, mixed: Mixed },
         }
         warning 923 "A file in two encodings" => {
@@ -26,11 +27,11 @@ problems! {
             Mixture { mixed: Mixed },
         }
         error 604 "A file name that cannot name a module" => {
-            /// A file name that cannot be used in front of `::`.
+            /// A file name that cannot be used before `::`.
             ModuleName { path: String },
         }
         error 605 "Two modules of the same name" => {
-            /// Two imported files of one name.
+            /// Two imported files with the same name.
             SameName { name: String, first: String },
         }
         error 606 "A function in a data file" => {

@@ -1,4 +1,4 @@
-//! Names that mean nothing, or too much.
+//! Names that are unknown or ambiguous.
 
 use super::Problem;
 use super::declare::problems;
@@ -10,9 +10,9 @@ problems! {
     pub(crate) enum NameProblem {
         error 201 "A variable that is not known" => {
             /// No variable or constant of this name.
-            /// `quoted`: the text that is probably meant; `ty`: a type that would do.
+            /// `quoted`: the string that is probably meant; `ty`: a type that would fit.
             UnknownVariable { name: String, near: Option<String>, is_function: bool, quoted: Option<String>, ty: String },
-            /// The name of a module in the place of a variable.
+            /// The name of a module used as a variable.
             IsModule { name: String },
         }
         error 202 "A function that is not known" => {
@@ -21,7 +21,7 @@ problems! {
                 name: String,
                 near: Option<String>,
                 is_instruction: bool,
-                /// The motion that the call is in another language.
+                /// The motion that the call means in another language.
                 motion: Option<OtherMotion>,
             },
         }
@@ -51,7 +51,7 @@ problems! {
         }
         error 209 "A system variable that is not known" => {
             /// No system variable of this name.
-            /// `elements`: those of an array that have such names.
+            /// `elements`: the elements of an array that have such names.
             UnknownSystem { name: String, near: Option<String>, elements: Option<String> },
         }
         error 210 "A constant that the enumeration does not have" => {
@@ -71,11 +71,11 @@ problems! {
             NotInModule { name: String, module: String, what: &'static str, near: Option<String> },
         }
         error 214 "An old or misprinted name" => {
-            /// A spelling of other manuals that is not accepted.
+            /// A spelling from other manuals that is not accepted.
             Renamed { name: String, now: String },
         }
         error 215 "The name of a signal in a program" => {
-            /// What the cell calls a signal; programs say its number.
+            /// The cell's name for a signal; programs use its number.
             SignalName { name: String, signal: String, channel: u32 },
         }
     }
@@ -143,7 +143,7 @@ impl Problem for NameProblem {
                 Some(format!("this is {language}; write `{ours}`: {}", arl_lang::OTHER_MOTIONS.trim_end_matches('.')))
             }
             NameProblem::UnknownFunction { near, name, .. } => {
-                // What an imported module has was surely meant.
+                // A match in an imported module was surely meant.
                 let member = meant(near).filter(|_| near.as_ref().is_some_and(|near| near.contains("::")));
                 let operator = elsewhere::operator(name).map(|ours| format!("ARL writes `{ours}` for this"));
                 member.or(operator).or_else(|| elsewhere::word(name).map(has)).or_else(|| meant(near))

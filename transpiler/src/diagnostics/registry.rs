@@ -1,9 +1,9 @@
 //! The table of all diagnostics: code, severity, title and page of each kind.
 //!
-//! Each area declares its own with `problems!`. The mistakes of the syntax are declared in `arl-lang`. This file only
-//! joins them. The page of a code is `transpiler/docs/diagnostics/ARLnnnn.md`. The compiler embeds it for `arl2rs
-//! explain`, so a code without a page does not compile: "couldn't read ... ARLnnnn.md" asks for that file. Its parts
-//! are
+//! Each area declares its own diagnostics with `problems!`. Syntax errors are declared in `arl-lang`. This file only
+//! joins them. The page of a code is `transpiler/docs/diagnostics/ARLnnnn.md`. The compiler embeds it for
+//! `arl2rs explain`, so a code without a page does not compile: "couldn't read ... ARLnnnn.md" asks for that file. Its
+//! parts are
 //!
 //! ```text
 //! # ARLnnnn: the title as it is declared
@@ -25,14 +25,15 @@ use super::Code;
 use super::declare::{CodeInfo, code_info};
 use std::sync::LazyLock;
 
-/// The mistakes of the syntax, all of them errors.
+/// The syntax errors; none of them is a warning.
 macro_rules! syntax {
     ($($number:literal $title:literal)+) => {
         &[$(code_info!(error $number $title)),+]
     };
 }
 
-/// The areas. Those behind the feature `tools` need a robot or a cell, which only the command and editors know.
+/// The areas. Those behind the feature `tools` need a robot or a cell, which are available only to the command and to
+/// editors.
 const AREAS: &[&[CodeInfo]] = &[
     arl_lang::each_syntax_code!(syntax),
     super::names::CODES,
@@ -64,7 +65,7 @@ pub fn registry() -> &'static [CodeInfo] {
     &ALL
 }
 
-/// What is known of this code.
+/// The information about a code.
 pub fn info(code: Code) -> Option<&'static CodeInfo> {
     let at = ALL.binary_search_by_key(&code, |info| info.code).ok()?;
     ALL.get(at)

@@ -1,10 +1,10 @@
-//! What is known but does not run on this robot, or in the background.
+//! Features that are known but do not run on this robot or in the background.
 
 use super::Problem;
 use super::declare::problems;
 
 problems! {
-    /// What is not supported.
+    /// A feature that is not supported.
     pub(crate) enum SupportProblem {
         error 702 "Something for the other kind of robot" => {
             /// Exists for the other robot family only.
@@ -13,11 +13,11 @@ problems! {
             ParameterOfOtherFamily { callee: String, parameter: String, family: &'static str },
         }
         error 703 "Something that arl2rs cannot make sense of" => {
-            /// Something that the checker gave up on without a reason: a mistake of the compiler.
+            /// Something that the checker gave up on without a reason: a bug in the compiler.
             Lost,
         }
         error 704 "Something that needs a robot, in the background" => {
-            /// Needs a robot, in a program for a background channel.
+            /// Something that needs a robot, in a program for a background channel.
             Background { name: String },
         }
     }

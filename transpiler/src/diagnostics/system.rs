@@ -6,13 +6,13 @@ use arl_lang::catalog::Takes;
 
 problems! {
     warning 912 "A value that a system variable does not take" =>
-    /// A constant that a system variable does not take.
+    /// A constant that a system variable does not accept.
     pub(crate) struct NotTaken {
         /// The variable's name, without `$`.
         pub(crate) variable: &'static str,
-        /// The constant as it is written.
+        /// The constant as written.
         pub(crate) value: String,
-        /// What it takes.
+        /// The values that it accepts.
         pub(crate) takes: Takes,
     }
 }

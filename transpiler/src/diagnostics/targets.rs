@@ -10,29 +10,29 @@ use arl_robot::robot::{Axis, Robot};
 pub(crate) struct TargetProblem {
     robot: String,
     kind: Kind,
-    /// Whether the motion gives no workpiece frame, and one that is not `$WORLD` holds.
+    /// Whether the motion gives no workpiece frame, and the one in effect is not `$WORLD`.
     frame_above: bool,
-    /// Whether it gives no tool, and one that is not `$FLANGE` holds.
+    /// Whether the motion gives no tool, and the one in effect is not `$FLANGE`.
     tool_above: bool,
 }
 
 problems! {
-    /// What is wrong with it.
+    /// The kind of problem.
     enum Kind {
         warning 907 "A target beyond the range of an axis" => {
-            /// A joint target beyond the range of an axis, deg (mm).
+            /// A joint target out of the range of an axis, deg (mm).
             Joint { axis: Axis, value: f64, by: f64 },
-            /// A pose that needs an axis beyond its range; `others` are the configurations that do not.
+            /// A pose that needs an axis position out of range; `others` are the configurations that do not.
             Pose { axis: Axis, value: f64, by: f64, cfg: u8, others: Vec<u8> },
         }
         warning 908 "A pose that the robot cannot reach" => {
-            /// A pose farther away than the arm is long, mm.
+            /// A pose that is farther away than the arm can reach, mm.
             OutOfReach { by: f64 },
             /// A pose for which a SCARA would have to tilt its flange, deg.
             Tilted { by: f64 },
         }
         warning 909 "A configuration that does not reach its pose" => {
-            /// A configuration that the robot has not.
+            /// A configuration that the robot does not have.
             NoSuchCfg { cfg: i32 },
             /// A pose that other configurations reach.
             Configuration { cfg: u8, others: Vec<u8> },
@@ -49,7 +49,7 @@ impl TargetProblem {
         Self::new(robot, Kind::Joint { axis: axis.clone(), value, by })
     }
 
-    pub(crate) fn pose(robot: &Robot, axis: &Axis, (value, by): (f64, f64), cfg: u8, others: Vec<u8>) -> Self {
+    pub(crate) fn pose(robot: &Robot, axis: &Axis, value: f64, by: f64, cfg: u8, others: Vec<u8>) -> Self {
         Self::new(robot, Kind::Pose { axis: axis.clone(), value, by, cfg, others })
     }
 
@@ -77,13 +77,13 @@ impl TargetProblem {
         Self { robot: robot.name.clone(), kind, frame_above: false, tool_above: false }
     }
 
-    /// The same where the workpiece frame or the tool in force is from above.
+    /// The same problem, if the workpiece frame or the tool in effect was set earlier.
     pub(crate) fn with_inherited(self, frame_above: bool, tool_above: bool) -> Self {
         Self { frame_above, tool_above, ..self }
     }
 }
 
-/// What becomes of a motion with such a target.
+/// The consequence of a motion with such a target.
 const ALARM: &str = "the motion would end in an alarm";
 
 impl Coded for TargetProblem {
@@ -177,7 +177,7 @@ fn reaching(others: &[u8]) -> String {
     }
 }
 
-/// Three digits behind the point at most.
+/// A number with at most three decimals.
 fn short(value: f64) -> String {
     let rounded = (value * 1e3).round() / 1e3;
     if rounded == 0.0 { format!("{value:.1e}") } else { format!("{rounded}") }

@@ -33,11 +33,11 @@ problems! {
             IndexType { found: String },
         }
         error 307 "A component of something that is not a structure" => {
-            /// A component of something that has none.
+            /// A component of something that has no components.
             NotAStructure { ty: String },
         }
         error 308 "Braces without a type" => {
-            /// Braces where nothing says which type they make.
+            /// Braces at a place that does not determine their type.
             BraceWithoutType,
         }
         error 309 "Too many values in braces" => {
@@ -61,7 +61,7 @@ problems! {
             NotAssignable { text: String },
         }
         error 314 "A read-only system variable that is written" => {
-            /// Writing a system variable that the controller keeps.
+            /// Writing a system variable that only the controller sets.
             ReadOnly { name: String },
         }
         error 315 "Structures or arrays compared" => {
@@ -109,7 +109,7 @@ problems! {
             SpliceType,
         }
         error 326 "An array and a value of another size" => {
-            /// An array where a single value is wanted, or the other way round.
+            /// An array where a single value is wanted, or vice versa.
             Dimensions { found: String, wanted: String },
         }
         error 327 "Braces that do not fit the array" => {
@@ -123,7 +123,8 @@ problems! {
             ResultType { ty: String },
         }
         error 329 "A structure in a structure without its braces" => {
-            /// Numbers where a component that is a structure has braces of its own. `right`: the whole with them.
+            /// Numbers where a component that is a structure needs braces of its own. `right`: the whole value with
+            /// these braces.
             FlatStructure { ty: String, component: String, inner: String, right: String },
         }
     }

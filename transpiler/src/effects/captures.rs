@@ -1,5 +1,6 @@
-//! What events see of the function that declares them. Their conditions and actions run when the function may be over,
-//! so they keep what they need of its variables: a copy of what does not change any more, a share of what does.
+//! The variables that events use of the function that declares them. Conditions and actions of events may run after the
+//! function has ended, so they keep the variables that they need: a copy if the variable no longer changes, otherwise
+//! shared.
 
 use super::{flow, loops};
 use crate::hir::{Bound, Builtin, Expr, ExprKind, Func, LocalId, Passed, Place, Root, Stmt, StmtKind};
@@ -11,7 +12,7 @@ pub(crate) fn declares_event(entry: &Entry) -> bool {
     entry.params.iter().any(|param| param.mode == Mode::Action)
 }
 
-/// Whether an argument is evaluated when events are looked for or handled, and not where it stands.
+/// Whether an argument is evaluated when events are checked or handled, not where it stands.
 pub(crate) fn is_later(entry: &Entry, arg: &Bound) -> bool {
     let mode = entry.params.get(arg.param).map(|param| param.mode);
     declares_event(entry) && matches!(mode, Some(Mode::Condition | Mode::Action))
@@ -48,7 +49,7 @@ pub(crate) fn mentioned(expr: &Expr) -> Vec<LocalId> {
     found
 }
 
-/// Marks the locals that a function shares with its events, and the loops that count such a one.
+/// Marks the locals that a function shares with its events, and the loops that count such a local.
 pub(crate) fn mark(func: &mut Func) {
     let mut seen = Vec::new();
     for stmt in &func.body {

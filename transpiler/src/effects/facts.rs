@@ -1,4 +1,4 @@
-//! What evaluating expressions and running statements involves.
+//! Facts about evaluating expressions and running statements.
 
 use super::ranges::Ranges;
 use super::{captures, flow, growth};
@@ -9,26 +9,26 @@ use crate::hir::{
 use arl_lang::ast::{BinaryOp, UnaryOp};
 use arl_lang::catalog::{Base, Effect, Mode, Takes};
 
-/// What an expression (or several) does.
+/// What one or more expressions do.
 #[derive(Default, Debug)]
 pub(crate) struct Facts {
     /// The locals that are read.
     pub(crate) reads: Vec<LocalId>,
     /// The locals that are written.
     pub(crate) writes: Vec<LocalId>,
-    /// Whether variables are read that others may write: global and system variables.
+    /// Whether variables are read that other code may write: global and system variables.
     pub(crate) world: bool,
-    /// Whether something is looked at or changed that others may see, or may end the program on purpose.
+    /// Whether anything visible outside is read or changed, or the program may be ended on purpose.
     pub(crate) acts: bool,
-    /// Whether something is changed that others may see.
+    /// Whether anything visible outside is changed.
     pub(crate) changes: bool,
-    /// Whether there may be an alarm.
+    /// Whether an alarm is possible.
     pub(crate) fails: bool,
-    /// Whether the cycle may be given back.
+    /// Whether the cycle may be yielded.
     pub(crate) waits: bool,
     /// Whether the context is needed.
     pub(crate) context: bool,
-    /// Whether something built in is used that looks at the program pointer.
+    /// Whether a built-in that looks at the program pointer is used.
     pub(crate) points: bool,
     /// Whether global variables are needed.
     pub(crate) globals: bool,
@@ -39,12 +39,12 @@ pub(crate) struct Facts {
 }
 
 impl Facts {
-    /// Whether evaluating it changes nothing and cannot fail.
+    /// Whether evaluating the expression changes nothing and cannot fail.
     pub(crate) fn quiet(&self) -> bool {
         self.writes.is_empty() && !self.acts && !self.fails && !self.waits
     }
 
-    /// Whether evaluating it later than what `later` describes makes a difference.
+    /// Whether evaluating the expression after the one described by `later` makes a difference.
     pub(crate) fn disturbed_by(&self, later: &Facts) -> bool {
         self.reads.iter().any(|read| later.writes.contains(read))
             || self.writes.iter().any(|write| later.reads.contains(write) || later.writes.contains(write))
@@ -54,17 +54,17 @@ impl Facts {
     }
 }
 
-/// What an expression is looked at with.
+/// The context for determining facts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FactScope<'a> {
     pub(crate) program: &'a Program,
-    /// The function that it stands in.
+    /// The function that contains the expression.
     pub(crate) func: Option<&'a Func>,
     /// The values of that function's counting variables.
     pub(crate) ranges: &'a Ranges,
 }
 
-/// The facts about what a function does itself; what it calls is only listed.
+/// The facts about what a function does itself; the functions that it calls are only listed.
 pub(crate) fn of_function(program: &Program, func: &Func) -> Facts {
     let ranges = Ranges::of_function(func);
     let scope = FactScope { program, func: Some(func), ranges: &ranges };
@@ -94,8 +94,8 @@ pub(crate) fn of_indices(scope: FactScope<'_>, indices: &[Expr], array: Type) ->
     collector.facts
 }
 
-/// For an assignment to a local variable that changes nothing more than computing its value does: that value. So
-/// `a = a` and the outer one of `a = (a = b)`.
+/// For an assignment to a local variable that does no more than compute its value: that value. Examples are `a = a` and
+/// the outer assignment of `a = (a = b)`.
 pub(crate) fn same_anyway(expr: &Expr) -> Option<&Expr> {
     let ExprKind::Assign(sides) = &expr.kind else { return None };
     let place = &sides.0;
@@ -115,7 +115,7 @@ pub(crate) fn same_anyway(expr: &Expr) -> Option<&Expr> {
     (a == b && same_path).then_some(value)
 }
 
-/// The other side of a comparison with a bool constant, and whether it is true when they are.
+/// The other side of a comparison with a bool constant, and whether the comparison is true if that side is.
 pub(crate) fn compared_with_bool<'p>(op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Option<(&'p Expr, bool)> {
     let (other, value) = match (&left.kind, &right.kind) {
         (_, ExprKind::Const(Value::Bool(value))) => (left, *value),
@@ -129,8 +129,8 @@ pub(crate) fn compared_with_bool<'p>(op: BinaryOp, left: &'p Expr, right: &'p Ex
     }
 }
 
-/// What a bool expression is but for signs that cancel out: `!!b`, `b == true`; with `wanted` false, what it is the
-/// opposite of.
+/// A bool expression without negations and comparisons that cancel out: `!!b`, `b == true`; with `wanted` false, the
+/// expression of which it is the opposite.
 fn plain_truth(expr: &Expr, wanted: bool) -> Option<&Expr> {
     match &expr.kind {
         _ if expr.ty.base != Base::Bool => None,
@@ -247,7 +247,7 @@ impl Collector<'_> {
         }
     }
 
-    /// What an event does later: here it takes what it needs of the locals.
+    /// What an event does later: here it only captures the locals that it needs.
     fn later(&mut self, expr: &Expr) {
         let mut own = Collector { scope: self.scope, callees: false, facts: Facts::default() };
         own.expr(expr);
@@ -342,7 +342,7 @@ impl Collector<'_> {
     }
 }
 
-/// A constant divisor that has to alarm all the same (the checker refuses it, so it does not come up).
+/// A constant divisor that must still cause an alarm (the checker refuses it, so this case does not occur).
 fn is_zero_divisor(op: BinaryOp) -> impl Fn(&Value) -> bool {
     move |value| {
         let divides = matches!(op, BinaryOp::Divide | BinaryOp::Remainder);
@@ -363,7 +363,7 @@ pub(crate) fn constant<'a>(program: &'a Program, func: Option<&'a Func>, expr: &
     }
 }
 
-/// What a system variable takes, where writing this place (this value) has to be checked.
+/// The values that a system variable accepts, if writing this value to this place must be checked.
 pub(crate) fn limit(place: &Place, value: Option<&Expr>) -> Option<Takes> {
     let Root::System(variable) = place.root else { return None };
     let known = match value.map(|value| &value.kind) {

@@ -1,9 +1,9 @@
-//! Where the flow of control ends: what is reachable, what never goes on.
+//! Where control flow ends: which statements are reachable, and which never continue.
 
 use crate::hir::{Arm, Block, Expr, ExprKind, Stmt, StmtKind, Value};
 use arl_lang::catalog::{Base, Effect};
 
-/// The statements of a block that can be reached, given that its start can be (or a label in it).
+/// The statements of a block that can be reached, given that its start (or a label in it) can be.
 pub fn reachable(block: &[Stmt]) -> Vec<&Stmt> {
     let mut kept = Vec::with_capacity(block.len());
     run_through(block, &mut |stmt| kept.push(stmt));
@@ -15,8 +15,8 @@ pub(crate) fn block_diverges(block: &[Stmt]) -> bool {
     !run_through(block, &mut |_| ())
 }
 
-/// Calls `see` for every statement of a block that can be reached. Whether the end of the block can be. Each statement
-/// is looked into once: more would add up over the nesting.
+/// Calls `see` for every statement of a block that can be reached. Returns whether the end of the block can be reached.
+/// Each statement is examined only once, because the cost would otherwise multiply with the nesting.
 fn run_through<'a>(block: &'a [Stmt], see: &mut dyn FnMut(&'a Stmt)) -> bool {
     let mut live = true;
     for stmt in block {
@@ -29,7 +29,7 @@ fn run_through<'a>(block: &'a [Stmt], see: &mut dyn FnMut(&'a Stmt)) -> bool {
     live
 }
 
-/// Whether what follows the statement is never reached from it.
+/// Whether the statement never continues with the statement after it.
 pub(crate) fn diverges(stmt: &Stmt) -> bool {
     match &stmt.kind {
         StmtKind::Return(_) | StmtKind::Break | StmtKind::Continue | StmtKind::Goto(_) => true,
@@ -74,17 +74,17 @@ pub fn exhaustive<'a>(subject: &Expr, values: impl Iterator<Item = Option<&'a Va
         }
 }
 
-/// Whether what stands behind a loop's body (a step, an `until`, the next round) is ever reached.
+/// Whether control ever reaches what comes after a loop's body (a step, an `until`, the next round).
 pub fn goes_round(body: &[Stmt]) -> bool {
     !block_diverges(body) || continues(body)
 }
 
-/// Whether a `break` in the statements leaves the loop whose body they are.
+/// Whether a `break` in the body leaves this loop.
 pub(crate) fn breaks(block: &[Stmt]) -> bool {
     leaves(block, &|kind| matches!(kind, StmtKind::Break))
 }
 
-/// Whether a `continue` in the statements belongs to the loop whose body they are.
+/// Whether a `continue` in the body belongs to this loop.
 pub(crate) fn continues(block: &[Stmt]) -> bool {
     leaves(block, &|kind| matches!(kind, StmtKind::Continue))
 }
@@ -99,7 +99,7 @@ fn leaves(block: &[Stmt], wanted: &dyn Fn(&StmtKind) -> bool) -> bool {
     })
 }
 
-/// Whether a label stands in the statement.
+/// Whether a statement contains a label.
 pub(crate) fn has_label(stmt: &Stmt) -> bool {
     matches!(stmt.kind, StmtKind::Label(_)) || blocks(stmt).any(|block| block.iter().any(has_label))
 }

@@ -1,7 +1,7 @@
-//! Which functions call each other in circles.
+//! Finds functions that call each other in cycles.
 
 /// The strongly connected components of a call graph (Tarjan), callees before their callers; `calls[f]` lists what `f`
-/// calls. Without recursion, so that long chains of calls do no harm.
+/// calls. Not recursive, so that long call chains do no harm.
 pub(crate) fn components(calls: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut search = Search {
         calls,

@@ -1,13 +1,13 @@
-//! Strings that could grow without end. Where a sum of strings is kept, and a part of it has no limit of its own, it is
-//! checked whether a string may be that long. What is only looked at (printed, compared) needs no check: it is made of
-//! few strings, each of which may be that long.
+//! Strings that could grow without limit. If a concatenation of strings is kept and one of its parts has no limit of
+//! its own, its length is checked. A concatenation that is only read (printed, compared) needs no check: it consists of
+//! a few strings, each within the maximum length.
 
 use super::loops;
 use crate::hir::{Expr, ExprKind, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Value};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::Base;
 
-/// Marks all such sums: [`ExprKind::Grown`].
+/// Marks all such concatenations with [`ExprKind::Grown`].
 pub(crate) fn mark(program: &mut Program) {
     let globals: Vec<bool> = program.globals.iter().map(|global| global.value.is_some()).collect();
     for func in &mut program.funcs {
@@ -21,7 +21,7 @@ pub(crate) fn appends(op: BinaryOp, place: &Place) -> bool {
     op == BinaryOp::Add && place.ty.base == Base::String && !place.ty.is_array()
 }
 
-/// Which variables have values that are known, and therefore a limit.
+/// Which variables have known values, and therefore a limited length.
 struct Marker<'a> {
     globals: &'a [bool],
     locals: &'a [bool],
@@ -48,7 +48,7 @@ impl Marker<'_> {
         loops::inner_blocks(stmt).into_iter().for_each(|block| self.block(block));
     }
 
-    /// An expression whose value is put into a variable, handed to a function of the program, or returned by one.
+    /// An expression whose value is stored in a variable, passed to a function of the program, or returned by one.
     fn kept(&self, expr: &mut Expr) {
         self.expr(expr);
         let is_sum = matches!(&expr.kind, ExprKind::Binary(BinaryOp::Add, _));
@@ -96,11 +96,11 @@ impl Marker<'_> {
         }
     }
 
-    /// Whether one of the strings that an expression is made of may have any length.
+    /// Whether any of the strings in an expression may have any length.
     fn is_unlimited(&self, expr: &Expr) -> bool {
         match &expr.kind {
             ExprKind::Binary(_, sides) => self.is_unlimited(&sides.0) || self.is_unlimited(&sides.1),
-            // Texts of numbers and other values are short, and no function that is built in makes a string longer.
+            // Texts of numbers and other values are short, and no built-in function makes a string longer.
             ExprKind::Const(_) | ExprKind::Builtin(_) => false,
             ExprKind::Place(place) => {
                 let known = match place.root {

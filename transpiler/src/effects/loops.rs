@@ -1,4 +1,4 @@
-//! Which loops run a known number of rounds, and which have to give the cycle back by themselves.
+//! Determines which loops run a known number of rounds, and which must yield the cycle by themselves.
 
 use super::ranges::Ranges;
 use super::walks::Walks;
@@ -9,11 +9,11 @@ use crate::hir::{
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::{Base, Effect};
 
-/// The most rounds (of nested loops together) that may pass before they are counted and the cycle can be given back.
+/// The maximum number of rounds (of nested loops together) before they are counted and the cycle can be yielded.
 pub(crate) const MOST_ROUNDS: u64 = 250_000;
 
-/// Drops labels that no `goto` names and `default`s that nothing reaches, then fills in [`LoopInfo`] of every loop of a
-/// function.
+/// Drops labels that no `goto` names and `default`s that are never reached, then fills in [`LoopInfo`] for every loop
+/// of a function.
 pub(super) fn judge(func: &mut Func) {
     let unused: Vec<bool> = func.labels.iter().map(|label| !label.used).collect();
     let any = unused.contains(&true);
@@ -52,13 +52,13 @@ pub(super) fn inner_blocks(stmt: &mut Stmt) -> Vec<&mut Block> {
 /// What happens in a block.
 #[derive(Clone, Copy, Debug)]
 struct Inside {
-    /// The rounds that its loops run without counting them.
+    /// The number of rounds that its loops run without counting them.
     rounds: u64,
-    /// The most rounds that they run without giving the cycle back.
+    /// The maximum number of rounds that they run without yielding the cycle.
     most: u64,
-    /// The part of these in loops whose rounds are counted behind them: there the cycle can be given back, too.
+    /// The part of `most` in loops whose rounds are counted after them, where the cycle can also be yielded.
     behind: u64,
-    /// Whether all of it calculates: nothing in it uses the context, gives the cycle back or jumps.
+    /// Whether the block only computes: nothing in it uses the context, yields the cycle or jumps.
     alone: bool,
 }
 
@@ -76,7 +76,7 @@ impl Inside {
 struct Judge {
     ranges: Ranges,
     walks: Walks,
-    /// That of the last loop.
+    /// The number of the last loop.
     number: u32,
 }
 
@@ -123,15 +123,15 @@ impl Judge {
         }
         let spends = repeats(stmt);
         let Some(info) = info(stmt) else { return inside };
-        // Where a round is long anyway, nothing is gained.
+        // If a round is long anyway, nothing is gained.
         let alone = inside.alone && inside.rounds == 0;
         let counting = if alone { Counting::Alone } else { Counting::InContext };
         *info = LoopInfo { spends, counting, ..self.info(inside) };
-        // Each round pays for what is inside.
+        // Each round accounts for what is inside it.
         if spends { Inside { rounds: 0, most: 0, behind: 0, alone: false } } else { Inside { behind: 0, ..inside } }
     }
 
-    /// For the next loop, with what is inside it.
+    /// The information about the next loop, given what is inside it.
     fn info(&mut self, inside: Inside) -> LoopInfo {
         self.number += 1;
         let rounds = i32::try_from(inside.rounds).map_or(i32::MAX, |all| all.saturating_add(1));
@@ -139,7 +139,7 @@ impl Judge {
     }
 }
 
-/// Lets the loops of a block that are counted behind them, those in other loops left aside, give the cycle back there.
+/// Makes the loops of a block that are counted after them yield the cycle there, except loops inside other loops.
 fn wait_behind(block: &mut Block) {
     for stmt in block {
         match info(stmt) {
@@ -149,7 +149,7 @@ fn wait_behind(block: &mut Block) {
     }
 }
 
-/// Whether a statement, the blocks in it left aside, calculates.
+/// Whether a statement, apart from the blocks in it, only computes.
 fn calculates(stmt: &Stmt) -> bool {
     !matches!(stmt.kind, StmtKind::Goto(_) | StmtKind::Label(_)) && flow::expressions(stmt).all(is_calculation)
 }
@@ -163,7 +163,7 @@ fn is_calculation(expr: &Expr) -> bool {
     itself && parts::children(expr).into_iter().all(is_calculation)
 }
 
-/// Whether a block may be left for something else than what comes behind the loop.
+/// Whether control may leave a block for anything other than the code after the loop.
 fn leaves(block: &[Stmt]) -> bool {
     block.iter().any(|stmt| matches!(stmt.kind, StmtKind::Return(_)) || flow::blocks(stmt).any(leaves))
 }
@@ -176,7 +176,7 @@ fn info(stmt: &mut Stmt) -> Option<&mut LoopInfo> {
     }
 }
 
-/// Whether a loop may go round without giving the cycle back.
+/// Whether a loop may run further rounds without yielding the cycle.
 fn repeats(stmt: &Stmt) -> bool {
     let body = match &stmt.kind {
         StmtKind::While(_, body, _) | StmtKind::Repeat(body, _, _) | StmtKind::Loop(body, _) => body,
@@ -186,12 +186,12 @@ fn repeats(stmt: &Stmt) -> bool {
     flow::goes_round(body) && !body.iter().take_while(|stmt| !may_skip(stmt)).any(gives_back)
 }
 
-/// Whether what follows in the block may be left out.
+/// Whether the rest of the block may be skipped.
 fn may_skip(stmt: &Stmt) -> bool {
     flow::has_label(stmt) || matches!(stmt.kind, StmtKind::Continue) || flow::continues(std::slice::from_ref(stmt))
 }
 
-/// Whether the statement gives the cycle back each time: a motion does, as the look-ahead is finite, and a wait.
+/// Whether the statement yields the cycle each time: a wait does, and so does a motion, as the look-ahead is finite.
 fn gives_back(stmt: &Stmt) -> bool {
     let StmtKind::Eval(Expr { kind: ExprKind::Builtin(builtin), .. }) = &stmt.kind else { return false };
     let known_wait = || {
@@ -205,19 +205,19 @@ fn gives_back(stmt: &Stmt) -> bool {
     builtin.entry.effect == Effect::Plans || known_wait()
 }
 
-/// A `for` that a Rust range can stand for.
+/// A `for` that can be written as a Rust range.
 pub(crate) struct Range<'a> {
     /// The loop's variable.
     pub(crate) local: LocalId,
-    /// Its first value.
+    /// The first value of the variable.
     pub(crate) from: &'a Expr,
-    /// The first value that it does not reach any more.
+    /// The first value that the variable does not reach.
     pub(crate) to: &'a Expr,
-    /// Added to `to`: 1 where the condition is `<=` with a constant.
+    /// Whether 1 is added to `to`: if the condition is `<=` with a constant.
     pub(crate) beyond: bool,
 }
 
-/// The range that a loop runs through: `for(int i = a; i < b; i++)` whose body writes neither `i` nor `b`.
+/// The range of a loop: `for(int i = a; i < b; i++)` whose body writes neither `i` nor `b`.
 pub(crate) fn range(each: &For) -> Option<Range<'_>> {
     let Head { local, from, op, to, step } = Head::of(each)?;
     if step.is_some_and(|step| whole_number(step) != Some(1)) {
@@ -245,28 +245,28 @@ pub(crate) fn range(each: &For) -> Option<Range<'_>> {
     Some(Range { local, from, to, beyond })
 }
 
-/// The range that a loop is emitted as: none where its variable is needed behind it, or kept while it waits.
+/// The range that a loop is emitted as; `None` if its variable is needed after the loop or kept while it waits.
 pub(crate) fn emitted_range(each: &For) -> Option<Range<'_>> {
     range(each).filter(|_| each.info.counting == Counting::InContext)
 }
 
-/// A `for` whose variable only its step writes, by adding to it: `for(int i = from; i op to; i = i + step)`.
+/// A `for` whose variable is written only by its step, which adds to it: `for(int i = from; i op to; i = i + step)`.
 pub(crate) struct Head<'a> {
     pub(crate) local: LocalId,
     pub(crate) from: &'a Expr,
     pub(crate) op: BinaryOp,
     pub(crate) to: &'a Expr,
-    /// What is added; none for `i++`.
+    /// The increment; `None` for `i++`.
     pub(crate) step: Option<&'a Expr>,
 }
 
 impl<'a> Head<'a> {
-    /// Where no event sees the variable.
+    /// The header, if no event sees the variable.
     pub(crate) fn of(each: &'a For) -> Option<Self> {
         if each.shared { None } else { Self::of_any(each) }
     }
 
-    /// Also where somebody else sees the variable, who changes nothing.
+    /// The header, even if other code sees the variable, which never changes it.
     pub(crate) fn of_any(each: &'a For) -> Option<Self> {
         let [Stmt { kind: StmtKind::Let(local, Some(from)), .. }] = each.init.as_slice() else { return None };
         let ExprKind::Binary(op, sides) = &each.condition.as_ref()?.kind else { return None };
@@ -305,7 +305,7 @@ fn known_rounds(each: &For) -> Option<u64> {
         _ => return None,
     };
     let way = (to + beyond - from).max(0);
-    // The variable must not wrap on its way beyond the end.
+    // The variable must not wrap when it goes beyond the end.
     let last = from + (way + step - 1) / step * step;
     let rounds = ((way + step - 1) / step).unsigned_abs();
     (last <= greatest(head.from)?).then_some(rounds)
@@ -342,7 +342,7 @@ fn stmt_writes(stmt: &Stmt, id: LocalId) -> bool {
         || flow::blocks(stmt).any(|block| block.iter().any(|stmt| stmt_writes(stmt, id)))
 }
 
-/// How many times a statement and those inside it write a local variable.
+/// How often a statement and those inside it write a local variable.
 pub(super) fn writes_in(stmt: &Stmt, id: LocalId) -> usize {
     let mut writes = Vec::new();
     flow::expressions(stmt).for_each(|expr| parts::local_writes(expr, &mut writes));

@@ -1,8 +1,8 @@
-//! The parts of expressions, and the locals that these write.
+//! The parts of expressions, and the locals that they write.
 
 use crate::hir::{Expr, ExprKind, LocalId, Passed, Place, Projection, Root};
 
-/// The expressions directly inside an expression, those of its indices included.
+/// The expressions directly inside an expression, including those of its indices.
 pub(crate) fn children(expr: &Expr) -> Vec<&Expr> {
     fn indices(place: &Place) -> impl Iterator<Item = &Expr> {
         place.path.iter().flat_map(|step| match step {
@@ -38,7 +38,7 @@ pub(crate) fn children(expr: &Expr) -> Vec<&Expr> {
     }
 }
 
-/// Adds the locals that an expression writes, also as an argument that a built-in writes.
+/// Adds the locals that an expression writes, including arguments that a built-in writes.
 pub(crate) fn local_writes(expr: &Expr, out: &mut Vec<LocalId>) {
     let mut target = |place: &Place| {
         if let Root::Local(id) = place.root {

@@ -1,5 +1,5 @@
-//! What values whole numbers may have, as far as that follows from the loops that count them: an index that cannot
-//! leave its array needs no check.
+//! The values that integers may have, as far as the loops that count them show: an index that cannot leave its array
+//! needs no check.
 
 use super::{flow, loops};
 use crate::hir::{Expr, ExprKind, For, Func, LocalId, Root, Stmt, StmtKind, Type, Value};
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 /// A least and a greatest value.
 type Interval = (i64, i64);
 
-/// The values of the variables that loops count and nothing else writes.
+/// The values of the variables that are written only by loops that count them.
 #[derive(Default, Debug)]
 pub(crate) struct Ranges(HashMap<LocalId, Interval>);
 
@@ -29,7 +29,7 @@ impl Ranges {
                 && let Some((least, greatest)) = limits(range.from.ty)
             {
                 let from = self.interval(range.from).map_or(least, |(from, _)| from);
-                // The variable does not reach `to`; where it may equal it, `to` is not a limit of its type.
+                // The variable does not reach `to`; if it may equal `to`, then `to` is not a limit of its type.
                 let to = self.interval(range.to).map_or(greatest, |(_, to)| to) - i64::from(!range.beyond);
                 self.0.insert(range.local, (from, to.max(from)));
             } else if let StmtKind::For(each) = &stmt.kind
@@ -43,8 +43,8 @@ impl Ranges {
         }
     }
 
-    /// The values in the rounds of a loop that climbs to a constant by steps that are not negative, and never so far
-    /// that the variable wraps.
+    /// The values in the rounds of a loop whose variable rises to a constant in non-negative steps, and never so far
+    /// that it wraps.
     fn climbing(&self, each: &For) -> Option<(LocalId, Interval)> {
         let head = loops::Head::of(each)?;
         let (least, greatest) = limits(head.from.ty)?;
@@ -58,7 +58,8 @@ impl Ranges {
         (shortest >= 0 && last + longest <= greatest).then_some((head.local, (from, last.max(from))))
     }
 
-    /// The most rounds of a loop that climbs from 0 or more to a constant in equal steps; none where nobody knows.
+    /// The maximum number of rounds of a loop whose variable rises from 0 or more to a constant in equal steps; `None`
+    /// if unknown.
     pub(crate) fn most_rounds(&self, each: &For) -> Option<u64> {
         let head = loops::Head::of(each)?;
         let (_, (from, last)) = self.climbing(each)?;
@@ -85,7 +86,7 @@ impl Ranges {
         }
     }
 
-    /// The values that an expression may have; none where too little is known.
+    /// The values that an expression may have; `None` if too little is known.
     pub(crate) fn interval(&self, expr: &Expr) -> Option<Interval> {
         let limits = limits(expr.ty)?;
         let found = match &expr.kind {
@@ -114,7 +115,7 @@ impl Ranges {
                 let corners = [left.0 * right.0, left.0 * right.1, left.1 * right.0, left.1 * right.1];
                 (corners.into_iter().min().unwrap_or(i64::MIN), corners.into_iter().max().unwrap_or(i64::MAX))
             }),
-            // The bits of a number that is not negative are at most its own.
+            // A bitwise and with a non-negative number is at most that number.
             BinaryOp::BitAnd => match (left, right) {
                 (Some((0.., most)), Some((0.., other))) => Some((0, most.min(other))),
                 (Some((0.., most)), _) | (_, Some((0.., most))) => Some((0, most)),
@@ -169,7 +170,7 @@ fn limits(ty: Type) -> Option<Interval> {
     }
 }
 
-/// The values of a type that tell more than nothing: those of a byte.
+/// The values of a type if the type alone gives a useful limit: those of a byte.
 fn own_limits(ty: Type) -> Option<Interval> {
     limits(ty).filter(|_| ty.base == Base::Byte)
 }

@@ -1,5 +1,5 @@
-//! `while` loops that end soon because a variable goes on in equal steps: up or down to a constant, or along an array
-//! as the index of an element that the condition looks at. Beyond the array's ends the condition is an alarm.
+//! `while` loops that end soon because a variable changes in equal steps: up or down to a constant, or along an array
+//! as the index of an element that the condition reads. Beyond the ends of the array the condition causes an alarm.
 
 use super::{flow, loops, parts};
 use crate::hir::{Expr, ExprKind, Func, LocalId, Place, Projection, Root, Stmt, StmtKind, Type, Walk};
@@ -10,13 +10,13 @@ use std::collections::HashMap;
 /// What a function writes to a local variable.
 #[derive(Clone, Copy, Debug)]
 struct Writes {
-    /// The least and the greatest of the constants that are written.
+    /// The least and the greatest constant that is written.
     constants: Option<(i64, i64)>,
-    /// How many writes are of something else.
+    /// The number of other writes.
     others: usize,
 }
 
-/// The writes to the plain whole numbers of a function.
+/// The writes to the plain integer variables of a function.
 #[derive(Debug)]
 pub(super) struct Walks(HashMap<LocalId, Writes>);
 
@@ -25,7 +25,7 @@ impl Walks {
         let mut walks = Self(HashMap::new());
         for (id, local) in (0..).map(LocalId).zip(&func.locals) {
             if local.ty == Type::scalar(Base::Int) && !local.shared {
-                // Nobody knows what a parameter begins with.
+                // The initial value of a parameter is unknown.
                 let others = usize::from(func.params.contains(&id));
                 walks.0.insert(id, Writes { constants: None, others });
             }
@@ -70,7 +70,7 @@ impl Walks {
         }
     }
 
-    /// The variable that takes a `while` to its end, and the most rounds.
+    /// The variable that ends a `while`, and the maximum number of rounds.
     pub(super) fn of_while(&self, condition: &Expr, body: &[Stmt]) -> Option<(Walk, u64)> {
         if flow::continues(body) || body.iter().any(flow::has_label) {
             return None;
@@ -104,7 +104,7 @@ fn is_variable(expr: &Expr, id: LocalId) -> bool {
     matches!(&expr.kind, ExprKind::Place(place) if plain_local(place) == Some(id))
 }
 
-/// `v++`, `v--`, `v = v + 3`, `v += 3` and their like.
+/// `v++`, `v--`, `v = v + 3`, `v += 3` and similar statements.
 fn step(stmt: &Stmt) -> Option<Walk> {
     let StmtKind::Eval(expr) = &stmt.kind else { return None };
     let (place, op, by) = match &expr.kind {
@@ -129,7 +129,7 @@ fn step(stmt: &Stmt) -> Option<Walk> {
     (step != 0 && place.ty == Type::scalar(Base::Int)).then_some(Walk { local, step })
 }
 
-/// What must hold for another round.
+/// Calls `see` for each condition that must hold for another round.
 fn conjuncts<'p>(condition: &'p Expr, see: &mut dyn FnMut(&'p Expr)) {
     match &condition.kind {
         ExprKind::Binary(BinaryOp::And, sides) => {
@@ -140,7 +140,7 @@ fn conjuncts<'p>(condition: &'p Expr, see: &mut dyn FnMut(&'p Expr)) {
     }
 }
 
-/// How far it is at most to a constant that the variable is compared with; none where it may start anywhere.
+/// The maximum distance to a constant that the variable is compared with; `None` if the variable may start anywhere.
 fn to_constant(part: &Expr, walk: Walk, writes: Writes) -> Option<u64> {
     let ExprKind::Binary(op, sides) = &part.kind else { return None };
     let (least, greatest) = writes.constants.filter(|_| writes.others == 1)?;
@@ -148,7 +148,7 @@ fn to_constant(part: &Expr, walk: Walk, writes: Writes) -> Option<u64> {
         return None;
     }
     let to = loops::whole_number(&sides.1)?;
-    // Beyond the constant the variable must not wrap.
+    // The variable must not wrap beyond the constant.
     let room = i64::from(i32::MAX) - i64::from(walk.step).abs();
     let way = match op {
         BinaryOp::Less | BinaryOp::LessEqual if walk.step > 0 && to < room => to.saturating_sub(least),
@@ -158,10 +158,10 @@ fn to_constant(part: &Expr, walk: Walk, writes: Writes) -> Option<u64> {
     Some(way.max(0).unsigned_abs() + 1)
 }
 
-/// The length of an array of which the condition looks at an element that the variable, with a constant added or not,
-/// is the index of.
+/// The length of an array if the condition reads an element of it whose index is the variable, with or without a
+/// constant added.
 fn along_array(part: &Expr, local: LocalId) -> Option<u64> {
-    // The right side of an `or`, and what a call of the program does, may be left out.
+    // The right side of an `or` and the effects of a call of the program may be skipped.
     let always = match &part.kind {
         ExprKind::Binary(BinaryOp::And | BinaryOp::Or, sides) => return along_array(&sides.0, local),
         ExprKind::Place(place) => {

@@ -1,16 +1,16 @@
-//! Programs for a debugger: each function may be halted at each of its statements, and its variables can be looked at
-//! and set from outside there.
+//! Programs for a debugger: each function may be halted at each of its statements, where its variables can be read and
+//! set from outside.
 //!
 //! Invariants:
-//! - what the program does, and in which cycles, is the same as without: rounds of loops are counted as they were
-//!   judged;
-//! - a variable may be set at any statement, so nothing is concluded from who writes it.
+//! - the program does the same, and in the same cycles, as without a debugger: rounds of loops are counted as
+//!   determined before;
+//! - a variable may be set at any statement, so nothing is concluded from which code writes it.
 
 use super::loops;
 use crate::hir::{Block, Program, StmtKind};
 use arl_lang::catalog::Base;
 
-/// Makes all functions of a program whose effects are known ones for a debugger.
+/// Prepares all functions of a program whose effects are known for a debugger.
 pub(crate) fn mark(program: &mut Program) {
     for func in &mut program.funcs {
         let effects = &mut func.effects;

@@ -16,7 +16,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 impl<'p> Body<'p, '_> {
-    /// An assignment, `++` or `--` whose value nobody wants.
+    /// An assignment, `++` or `--` whose value is not used.
     pub(super) fn assignment(&mut self, expr: &'p Expr) -> TokenStream {
         if let Some(value) = facts::same_anyway(expr) {
             return self.assignment(value);
@@ -29,7 +29,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// An assignment, `++` or `--` as a value: the assignment goes before. `typed` wants a constant to show its type.
+    /// An assignment, `++` or `--` as a value: the assignment goes before it. `typed`: a constant must show its type.
     pub(super) fn assignment_value(&mut self, expr: &'p Expr, typed: bool) -> Fragment {
         if let Some(value) = facts::same_anyway(expr) {
             return self.value(value);
@@ -56,7 +56,7 @@ impl<'p> Body<'p, '_> {
         self.read_reached(&place).after(before)
     }
 
-    /// `place = value`; `keep` tells that the place is read afterwards.
+    /// `place = value`; `keep`: the place is read afterwards.
     fn assign(&mut self, place: &'p Place, value: &'p Expr, keep: bool) -> (TokenStream, Reached) {
         if let Some(more) = self.appended(place, value) {
             return self.append_parts(place, &more);
@@ -119,13 +119,13 @@ impl<'p> Body<'p, '_> {
         } else {
             Written::Step { op, value: right, known, native }
         };
-        // A copy is made of the old value, which must not happen while the variable is being changed.
+        // The old value is copied, which must not happen while the variable is being changed.
         let calm = if fails || !is_copy(place.ty) { Calm::No } else { Calm::of(&facts) };
         let write = self.write(&reached, written, calm);
         (quote!(#before #write), reached)
     }
 
-    /// `++`, `--`. With `keep`, the value: the place to read, or the old value.
+    /// `++`, `--`. With `keep`, also the value: the place to read, or the old value.
     fn step(&mut self, step: Step, place: &'p Place, keep: bool) -> (TokenStream, Reached, Option<Fragment>) {
         let simple = place.path.is_empty();
         let (before, reached, _) = self.sides(place, None, !simple || keep);
@@ -147,7 +147,7 @@ impl<'p> Body<'p, '_> {
         (quote!(#before #old_before #write), reached, old_value)
     }
 
-    /// The indices of a place and a value, in order. The value's own statements are among those that go before.
+    /// The indices of a place and a value, in order. The returned statements include those that the value needs.
     fn sides(
         &mut self,
         place: &'p Place,
@@ -166,7 +166,7 @@ impl<'p> Body<'p, '_> {
         (before, reached, value.unwrap_or_else(|| Fragment::settled(quote!(()))))
     }
 
-    /// What `text = text + more + ..` appends, where appending is what it comes to.
+    /// The strings that `text = text + more + ..` appends, if the assignment amounts to appending.
     fn appended(&self, place: &'p Place, value: &'p Expr) -> Option<Vec<&'p Expr>> {
         if place.ty.base != Base::String || place.ty.is_array() || !place.path.is_empty() {
             return None;
@@ -216,7 +216,7 @@ fn leaves<'p>(expr: &'p Expr, out: &mut Vec<&'p Expr>) {
     match &expr.kind {
         ExprKind::Binary(BinaryOp::Add, sides) if expr.ty.base == Base::String => {
             leaves(&sides.0, out);
-            // The right one of two sums is joined first: it is a part of its own.
+            // The right operand may be a sum itself, which is joined first: it is one part.
             out.push(&sides.1);
         }
         _ => out.push(expr),

@@ -1,4 +1,4 @@
-//! Calls of the program's functions and of what is built in.
+//! Calls of the program's functions and of built-ins.
 
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
@@ -12,11 +12,11 @@ use arl_lang::catalog::{Base, Effect, Entry, Kind, Mode as ParamMode, ParamType,
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// An argument on its way to the runtime.
+/// An argument for the runtime.
 pub(super) struct EmittedArgument<'p> {
     pub(super) param: usize,
     pub(super) value: Fragment,
-    /// A place that has to be written after the call.
+    /// A place that must be written after the call.
     pub(super) back: Option<Back<'p>>,
 }
 
@@ -56,7 +56,7 @@ impl<'p> Body<'p, '_> {
         Fragment::postfix(call).after(before)
     }
 
-    /// A use of something built in.
+    /// A use of a built-in.
     pub(super) fn builtin(&mut self, builtin: &'p Builtin) -> Fragment {
         let entry = builtin.entry;
         if let Some(special) = self.special(builtin) {
@@ -68,7 +68,7 @@ impl<'p> Body<'p, '_> {
         if moved {
             before.extend(self.line_statement());
         } else {
-            self.acts |= acts;
+            self.position.acts |= acts;
         }
         let in_turn = arguments.iter().filter_map(|argument| argument.back.as_ref()).any(Back::is_in_turn);
         let mut call = match entry.kind {
@@ -90,7 +90,7 @@ impl<'p> Body<'p, '_> {
         if backs.is_empty() || in_turn {
             return Fragment::postfix(call).after(before);
         }
-        // Variables that others see are written after the call, so the call is a statement of its own.
+        // Variables visible elsewhere are written after the call, so the call is a statement of its own.
         let result = if entry.result == Base::Void {
             before.extend(quote!(#call;));
             Fragment::settled(quote!(()))
@@ -114,14 +114,14 @@ impl<'p> Body<'p, '_> {
         facts.calls.iter().any(|id| self.unit.movers.get(id.0 as usize) == Some(&true))
     }
 
-    /// The arguments, evaluated in the order of the program; with `ahead`, all that matters is evaluated in statements
-    /// of its own.
+    /// The arguments, evaluated in the order of the program; with `ahead`, everything whose order matters is evaluated
+    /// in statements of its own.
     pub(super) fn arguments(&mut self, builtin: &'p Builtin, ahead: bool) -> (TokenStream, Vec<EmittedArgument<'p>>) {
         let entry = builtin.entry;
         let mut before = TokenStream::new();
         let mut out = Vec::new();
-        // Values first, as one sequence; a written variable has no value to be evaluated but its indices.
-        // Conditions and actions are evaluated later, by whoever looks at them.
+        // Values come first, as one sequence; of a written variable only the indices are evaluated. Conditions and
+        // actions are evaluated later, when the runtime looks at them.
         let later = |arg: &Bound| {
             let mode = entry.params.get(arg.param).map(|param| param.mode);
             matches!(mode, Some(ParamMode::Condition | ParamMode::Action))
@@ -158,7 +158,7 @@ impl<'p> Body<'p, '_> {
         (before, out)
     }
 
-    /// The runtime's functions take six-axis robots' structures; its instructions take either family's.
+    /// The runtime's functions take structures of six-axis robots, its instructions those of either family.
     fn for_the_runtime(&self, entry: &Entry, param: usize, value: Fragment) -> Fragment {
         match entry.params.get(param).map(|param| param.ty) {
             Some(ParamType::One(base)) if entry.kind == Kind::Function && differs(base, self.family()) => {
@@ -225,7 +225,7 @@ pub(super) fn instruction_call(entry: &Entry, arguments: &[EmittedArgument<'_>],
     quote!(#path(#(#required),*)#(#rest)*.#how(#cx))
 }
 
-/// Whether the arguments are passed in another order than they stand in the program.
+/// Whether the arguments are passed in another order than in the program.
 fn reordered(entry: &Entry, args: &[Bound]) -> bool {
     let key = |bound: &Bound| match (entry.kind, entry.params.get(bound.param).map(|param| param.presence)) {
         (Kind::Function, _) | (_, Some(Presence::Required)) => bound.param,

@@ -1,10 +1,10 @@
-//! `place op= value`, where Rust has the operator in this form with the meaning of ARL.
+//! `place op= value`, if Rust has the operator in this form with the meaning of ARL.
 
 use crate::hir::{Expr, ExprKind, Place, Root, Value};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::Base;
 
-/// Whether `place op= value` can be written so.
+/// Whether `place op= value` can be written as such in Rust.
 pub(super) fn is_native(op: BinaryOp, place: &Place, value: &Expr) -> bool {
     use BinaryOp::*;
     let known = match &value.kind {

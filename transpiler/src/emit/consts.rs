@@ -6,17 +6,17 @@ use crate::hir::Value;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// A constant whose type the place around it tells.
+/// A constant whose type follows from its context.
 pub(super) fn constant(value: &Value) -> Fragment {
     literal(value, false)
 }
 
-/// A constant that shows its type itself: the receiver of a method, the argument of a generic function.
+/// A constant that shows its type: the receiver of a method, the argument of a generic function.
 pub(super) fn typed_constant(value: &Value) -> Fragment {
     literal(value, true)
 }
 
-/// A constant as text, where its type is known; a string as a literal of Rust's own.
+/// A constant as text, if its type is known; a string becomes a Rust literal.
 pub(super) fn text(value: &Value) -> String {
     match value {
         Value::String(text) => Literal::string(text).to_string(),
@@ -70,7 +70,7 @@ fn double(value: f64) -> Fragment {
         return Fragment::postfix(path);
     }
     let size = value.abs();
-    // Rust's own way of writing a number, with an exponent where the digits would be many.
+    // Rust's notation of a number, with an exponent if there would be many digits.
     let text = if size >= 1e15 || (size > 0.0 && size < 1e-5) { format!("{size:e}") } else { format!("{size:?}") };
     let number: TokenStream = text.parse().unwrap_or_else(|_| quote!(0.0));
     signed(number, value.is_sign_negative())

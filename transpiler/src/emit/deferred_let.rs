@@ -1,7 +1,7 @@
 //! Variables that are declared at their first assignment: `int i` followed by `i = 5` is `let i = 5`.
 //!
-//! This is for late variables (whose first value nobody reads) whose first mention is an assignment in the very block
-//! of their declaration.
+//! Applies to late variables (whose first value is never read) whose first mention is an assignment in the same block
+//! as their declaration.
 
 use super::body::Body;
 use super::mentions::{in_expression, in_statement};
@@ -10,29 +10,28 @@ use crate::hir::{Expr, ExprKind, LocalId, Passed, Place, Root, Stmt, StmtKind};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// So far down the block the first mention is looked for.
+/// The number of statements that are searched for the first mention.
 const REACH: usize = 64;
 
 impl Body<'_, '_> {
-    /// Notes which of the variables that a block declares get their `let` at their first assignment.
+    /// Records which of the variables that a block declares get their `let` at their first assignment.
     pub(super) fn find_deferred(&mut self, statements: &[&Stmt]) {
         for (at, stmt) in statements.iter().enumerate() {
             let StmtKind::Let(id, _) = stmt.kind else { continue };
-            if !self.usage.is_late(id) {
+            if !self.locals.usage.is_late(id) {
                 continue;
             }
             let rest = statements.iter().skip(at + 1).take(REACH);
             if rest.into_iter().find(|stmt| in_statement(stmt, id)).is_some_and(|stmt| only_assigns(stmt, id)) {
-                self.deferred.insert(id);
+                self.locals.deferred.insert(id);
             }
         }
     }
 
-    /// `let`, where the assignment to this place is the declaration, too; with the type where the value does not show
-    /// it.
+    /// `let`, if the assignment to this place is also the declaration; with the type if the value does not show it.
     pub(super) fn deferred_let(&mut self, place: &Place, value: Option<&Expr>) -> Option<TokenStream> {
         let id = self.plain_local(place.root)?;
-        if !place.path.is_empty() || !self.deferred.remove(&id) {
+        if !place.path.is_empty() || !self.locals.deferred.remove(&id) {
             return None;
         }
         let (mutable, name) = (self.mutable(id), self.local(id));
@@ -44,7 +43,7 @@ impl Body<'_, '_> {
 /// Whether a statement assigns to a local and does not mention it otherwise.
 fn only_assigns(stmt: &Stmt, id: LocalId) -> bool {
     if let StmtKind::For(each) = &stmt.kind {
-        // Its first statement stands before the loop, in the block of the declaration.
+        // Its first statement is before the loop, in the block of the declaration.
         return matches!(each.init.as_slice(), [init] if only_assigns(init, id));
     }
     let StmtKind::Eval(expr) = &stmt.kind else { return false };

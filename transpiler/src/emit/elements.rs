@@ -1,5 +1,6 @@
-//! Where the elements of arrays are. An array is a pointer to its elements, and whatever a loop writes might change the
-//! pointer as far as rustc knows, so that it is read in each round. A loop in which nothing waits looks it up once.
+//! Looks up the elements of arrays. An array is a pointer to its elements. For all rustc knows, any write in a loop
+//! might change this pointer, so that it is read in each round. A loop in which nothing waits therefore looks it up
+//! once.
 
 use super::body::Body;
 use super::types::{array_type, is_cells};
@@ -9,24 +10,24 @@ use crate::visit;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-/// The global arrays whose elements a loop around has looked up, and the names of these.
+/// The global arrays whose elements a surrounding loop has looked up, and the names of these elements.
 pub(super) type LookedUp = Vec<(GlobalId, Ident)>;
 
 /// How a loop uses an array.
 struct Use<'p> {
     place: &'p Place,
-    /// Whether it uses nothing but elements.
+    /// Whether only elements are used.
     elements_only: bool,
     written: bool,
 }
 
-/// The arrays that a loop uses, in the order in which it does.
+/// The arrays that a loop uses, in the order of their use.
 #[derive(Default)]
 struct Uses<'p>(Vec<Use<'p>>);
 
 impl<'p> Uses<'p> {
     fn see(&mut self, expr: &'p Expr) {
-        // What stays the same anyway is not written.
+        // An assignment that changes nothing is not a write.
         let writes = facts::same_anyway(expr).is_none();
         match &expr.kind {
             ExprKind::Place(place) => self.place(place, false),
@@ -34,7 +35,7 @@ impl<'p> Uses<'p> {
             ExprKind::Assign(both) | ExprKind::AssignOp(_, both) => self.place(&both.0, writes),
             ExprKind::Builtin(builtin) => builtin.args.iter().for_each(|arg| {
                 if let Passed::Out(place) = &arg.value {
-                    // Built-ins may be handed the variable itself.
+                    // Built-ins may take the variable itself.
                     self.place(place, true);
                     self.whole(place.root);
                 }
@@ -69,8 +70,8 @@ fn is_same(one: Root, other: Root) -> bool {
 }
 
 impl<'p> Body<'p, '_> {
-    /// The statements that look up the elements of the arrays that a loop with these parts uses, with the names of
-    /// these.
+    /// The statements that look up the elements of the arrays that a loop with these parts uses, with the names of the
+    /// elements.
     pub(super) fn look_up(&mut self, blocks: &[&'p [Stmt]], exprs: &[&'p Expr]) -> Vec<(Ident, TokenStream)> {
         let mut uses = Uses::default();
         for stmt in blocks.iter().copied().flatten() {
@@ -89,11 +90,11 @@ impl<'p> Body<'p, '_> {
                 let variable = self.whole_variable(used.place.root);
                 let wanted = self.unit.names.global(id.0).to_string();
                 let name = self.reserve(&wanted);
-                self.looked_up.push((id, name.clone()));
+                self.locals.looked_up.push((id, name.clone()));
                 let statement = quote!(let #name = #variable.elements(););
                 Some((name, statement))
             }
-            Root::Local(id) if self.visible.contains(&id) && self.has_pointer(id) => {
+            Root::Local(id) if self.locals.visible.contains(&id) && self.has_pointer(id) => {
                 let name = self.local(id);
                 let how = if used.written { quote!(elements_mut) } else { quote!(elements) };
                 let statement = quote!(let #name = #name.#how(););
@@ -103,7 +104,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// Whether a local variable is a pointer to its elements, and this function's own.
+    /// Whether a local variable is a pointer to its elements and belongs to this function alone.
     fn has_pointer(&self, id: LocalId) -> bool {
         let is_array = |ty: Type| ty.is_array() && array_type(ty, self.family()) == "Array";
         self.func.is_some_and(|func| {
@@ -112,14 +113,14 @@ impl<'p> Body<'p, '_> {
         })
     }
 
-    /// The name of the elements of a global array, where they have been looked up.
+    /// The name of the elements of a global array, if they have been looked up.
     pub(super) fn elements_of(&self, id: GlobalId) -> Option<&Ident> {
-        self.looked_up.iter().find(|(known, _)| *known == id).map(|(_, name)| name)
+        self.locals.looked_up.iter().find(|(known, _)| *known == id).map(|(_, name)| name)
     }
 
-    /// Forgets what was looked up since there were so many.
+    /// Forgets the arrays looked up since there were `before` of them.
     pub(super) fn forget_looked_up(&mut self, before: usize) {
-        for (_, name) in self.looked_up.split_off(before) {
+        for (_, name) in self.locals.looked_up.split_off(before) {
             self.release(&name);
         }
     }

@@ -1,8 +1,9 @@
 //! Interrupts, timers and triggers: their conditions and actions become async closures that own what they need, since
-//! they run when the function that declares them may be over.
+//! they may run after the function that declares them has ended.
 
-use super::body::{Body, Tail};
+use super::body::Body;
 use super::calls::{EmittedArgument, instruction_call};
+use super::control_flow::Tail;
 use super::fragment::Fragment;
 use super::statements::{is_unit, without_detour};
 use super::tokens::mentions;
@@ -28,7 +29,7 @@ impl<'p> Body<'p, '_> {
             let closure = if mode == Some(Mode::Action) { self.action(expr) } else { self.watched(expr) };
             arguments.push(EmittedArgument { param: arg.param, value: Fragment::postfix(closure), back: None });
         }
-        self.acts = true;
+        self.position.acts = true;
         let call = self.checked(instruction_call(entry, &arguments, quote!(run)));
         Fragment::postfix(call).after(quote!(#before #line))
     }
@@ -37,7 +38,7 @@ impl<'p> Body<'p, '_> {
     fn watched(&mut self, expr: &'p Expr) -> TokenStream {
         let value = self.apart(|body| body.value(expr));
         let before = &value.before;
-        // What changes something by being looked at may never come to rest.
+        // A condition that changes something by being evaluated may never come to rest.
         let goes_on = self.changes_something(expr).then(|| quote!(cx.goes_on();));
         let result = without_detour(&value).unwrap_or_else(|| {
             let value = &value.tokens;
@@ -52,7 +53,7 @@ impl<'p> Body<'p, '_> {
             if !matches!(expr.kind, ExprKind::Call(..) | ExprKind::Builtin(_)) {
                 return (body.effect(expr, Tail::Inner), None);
             }
-            body.acts = false;
+            body.position.acts = false;
             let value = body.value(expr);
             let (before, pointer) = (value.before.clone(), body.pointer());
             match without_detour(&value).filter(|_| expr.ty.base == Base::Void) {
@@ -68,11 +69,11 @@ impl<'p> Body<'p, '_> {
         self.closure(expr, quote!(#frame #code), result.unwrap_or_else(|| quote!(Ok(()))))
     }
 
-    /// Emits what runs at another time than what stands around it.
+    /// Emits code that runs at another time than the code around it.
     fn apart<R>(&mut self, emit: impl FnOnce(&mut Self) -> R) -> R {
-        let acts = self.acts;
+        let acts = self.position.acts;
         let result = self.with_own_temporaries(emit);
-        self.acts = acts;
+        self.position.acts = acts;
         result
     }
 
@@ -85,13 +86,13 @@ impl<'p> Body<'p, '_> {
         let cx = if mentions(&body, "cx") || mentions(&result, "cx") { quote!(cx) } else { quote!(_) };
         let body = if body.is_empty() { result } else { quote!({ #body #result }) };
         let taken = self.taken_along(expr);
-        let moves = (!taken.is_empty() || self.columns.are_in(&body)).then(|| quote!(move));
+        let moves = (!taken.is_empty() || self.position.columns.are_in(&body)).then(|| quote!(move));
         let closure = quote!(async #moves |#cx: &Cx| #body);
         let own: TokenStream = taken.into_values().flatten().collect();
         if own.is_empty() { closure } else { quote!({ #own #closure }) }
     }
 
-    /// What a closure takes along, each with the statement that makes its own of it where it does not do so by itself.
+    /// What a closure captures, each with the statement that makes an owned value of it, if needed.
     fn taken_along(&self, expr: &Expr) -> BTreeMap<String, Option<TokenStream>> {
         let cloned = |name: Ident, ty: Type, shared: bool| {
             let own = match shared {

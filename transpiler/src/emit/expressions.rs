@@ -14,9 +14,9 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl<'p> Body<'p, '_> {
-    /// An expression, wanted in some way.
+    /// An expression in the wanted mode.
     pub(super) fn expression(&mut self, expr: &'p Expr, mode: Mode) -> Fragment {
-        if let Some(column) = self.columns.of(expr, mode) {
+        if let Some(column) = self.position.columns.of(expr, mode) {
             return column;
         }
         match mode {
@@ -35,7 +35,7 @@ impl<'p> Body<'p, '_> {
     /// An expression as a value to keep.
     pub(super) fn value(&mut self, expr: &'p Expr) -> Fragment {
         match &expr.kind {
-            ExprKind::Const(value) => self.columns.of(expr, Mode::Value).unwrap_or_else(|| constant(value)),
+            ExprKind::Const(value) => self.position.columns.of(expr, Mode::Value).unwrap_or_else(|| constant(value)),
             ExprKind::Place(place) => self.read(place),
             ExprKind::FieldOf(inner, id, index) => {
                 let field = component(*id, *index, self.family());
@@ -67,15 +67,17 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// The value as the receiver of a method or an argument whose type nothing else tells.
+    /// The value as the receiver of a method, or as an argument whose type does not follow from anything else.
     pub(super) fn typed_value(&mut self, expr: &'p Expr) -> Fragment {
         match &expr.kind {
-            ExprKind::Const(value) => self.columns.of(expr, Mode::Value).unwrap_or_else(|| typed_constant(value)),
+            ExprKind::Const(value) => {
+                self.position.columns.of(expr, Mode::Value).unwrap_or_else(|| typed_constant(value))
+            }
             _ => self.value(expr),
         }
     }
 
-    /// `&value`, without a copy of what a variable holds where that is possible.
+    /// `&value`, without copying the value of a variable if possible.
     pub(super) fn reference(&mut self, expr: &'p Expr) -> Fragment {
         let inner = match &expr.kind {
             ExprKind::Place(place) => self.look_at(place),
@@ -87,7 +89,7 @@ impl<'p> Body<'p, '_> {
         })
     }
 
-    /// The value for an argument that takes anything printable.
+    /// The value for an argument that may be anything printable.
     fn printed(&mut self, expr: &'p Expr) -> Fragment {
         match &expr.kind {
             ExprKind::Const(Value::String(text)) => {
@@ -103,7 +105,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// The value as a side of a comparison.
+    /// The value as an operand of a comparison.
     fn compared(&mut self, expr: &'p Expr) -> Fragment {
         match &expr.kind {
             ExprKind::Const(Value::String(text)) => Fragment::settled(quote!(#text)),
@@ -112,18 +114,18 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// A condition that stands where no statement can go before it.
+    /// A condition at a place where no statement can precede it.
     pub(super) fn inline_value(&mut self, expr: &'p Expr) -> Fragment {
         self.value(expr).inline()
     }
 
-    /// `index(i, 6).at(FILE, 3)?`, or the number where it is known.
+    /// `index(i, 6).at(FILE, 3)?`, or the number if it is known.
     pub(super) fn index(&mut self, indices: &'p [Expr], array: Type) -> Fragment {
         if let Some(at) = self.known_index(indices, array) {
             let at = Literal::usize_unsuffixed(at);
             return Fragment::settled(quote!(#at));
         }
-        if self.ranges.are_inside(indices, array) {
+        if self.locals.ranges.are_inside(indices, array) {
             return self.sure_index(indices, array);
         }
         let sizes: Vec<Literal> = array.dims().iter().map(|size| Literal::u16_unsuffixed(*size)).collect();
@@ -137,7 +139,7 @@ impl<'p> Body<'p, '_> {
         Fragment::postfix(self.checked(call)).after(before)
     }
 
-    /// `i as usize * 3 + k as usize`, where the indices cannot leave the array.
+    /// `i as usize * 3 + k as usize`, if the indices cannot leave the array.
     fn sure_index(&mut self, indices: &'p [Expr], array: Type) -> Fragment {
         let operands: Vec<_> = indices.iter().map(|index| OrderedOperand::Expr(index, Mode::Value)).collect();
         let (before, fragments) = self.sequence(&operands, |_| false);
@@ -161,8 +163,8 @@ impl<'p> Body<'p, '_> {
             [_] if array.dims().len() == 1 => Precedence::Cast,
             _ => Precedence::Sum,
         };
-        // What loops count does not change within a round.
-        let settled = indices.iter().all(|index| self.ranges.is_counted(index));
+        // Loop counters do not change within a round.
+        let settled = indices.iter().all(|index| self.locals.ranges.is_counted(index));
         Fragment { settled, ..Fragment::new(quote!(#(#terms)+*), precedence) }.after(before)
     }
 
@@ -207,7 +209,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// A number as a condition: everything but zero is true. With `wanted` false the opposite.
+    /// A number as a condition: every value but zero is true. With `wanted` false, the opposite.
     pub(super) fn as_condition(&mut self, inner: &'p Expr, wanted: bool) -> Fragment {
         let op = if wanted { BinaryOp::NotEqual } else { BinaryOp::Equal };
         let zero = match inner.ty.base {
@@ -219,7 +221,7 @@ impl<'p> Body<'p, '_> {
         self.typed_value(inner).map(Precedence::Compare, |value| infix(op, value, &zero))
     }
 
-    /// `Pose { x: 1.0, ..Pose::default() }`, the components in the order in which the program has them.
+    /// `Pose { x: 1.0, ..Pose::default() }`, with the components in the order of the program.
     fn structure(&mut self, id: Struct, values: &'p [Option<Expr>]) -> Fragment {
         let family = self.family();
         let name = type_name(Base::Struct(id), family);
@@ -254,7 +256,7 @@ impl<'p> Body<'p, '_> {
         Fragment::postfix(quote!(#array::<#element, #count>::from_values(&[#(#values),*]))).after(before)
     }
 
-    /// The value of a place that has been read as an owned copy where it is not `Copy`.
+    /// The value of a place that has been read, as an owned copy if it is not `Copy`.
     pub(super) fn owned(place: Fragment, ty: Type) -> Fragment {
         if is_copy(ty) {
             return place;

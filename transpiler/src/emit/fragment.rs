@@ -1,9 +1,9 @@
-//! Pieces of Rust with what is needed to put them together: precedence, and statements that go before.
+//! Pieces of Rust code with the information needed to combine them: precedence and preceding statements.
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// How tightly an expression holds together; a piece that holds less than its place asks for gets parentheses.
+/// How tightly an expression binds; a piece that binds less tightly than its place requires is put in parentheses.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Precedence {
     Or,
@@ -21,7 +21,7 @@ pub(super) enum Precedence {
 }
 
 impl Precedence {
-    /// The next tighter one.
+    /// The next tighter precedence.
     pub(super) fn tighter(self) -> Self {
         use Precedence::*;
         match self {
@@ -47,9 +47,9 @@ pub(super) struct Fragment {
     pub(super) before: TokenStream,
     /// The expression.
     pub(super) tokens: TokenStream,
-    /// How tightly it holds together.
+    /// How tightly it binds.
     pub(super) precedence: Precedence,
-    /// Whether it is a constant or a temporary, so that it may be evaluated later without a difference.
+    /// Whether it is a constant or a temporary, so that it may be evaluated later with the same result.
     pub(super) settled: bool,
 }
 
@@ -69,26 +69,26 @@ impl Fragment {
         Self { settled: true, ..Self::postfix(tokens) }
     }
 
-    /// The same with statements in front of those it has already.
+    /// The same expression, with statements before the existing ones.
     pub(super) fn after(mut self, before: TokenStream) -> Self {
         let own = std::mem::take(&mut self.before);
         self.before = quote!(#before #own);
         self
     }
 
-    /// The expression where at least `least` is wanted, in parentheses if need be. The statements before it are the
-    /// caller's business.
+    /// The expression at a place that requires at least the precedence `least`, in parentheses if necessary. The caller
+    /// handles the statements before it.
     pub(super) fn at(&self, least: Precedence) -> TokenStream {
         let tokens = &self.tokens;
         if self.precedence < least { quote!((#tokens)) } else { tokens.clone() }
     }
 
-    /// As the receiver of a method or the base of a field.
+    /// The expression as the receiver of a method or the base of a field.
     pub(super) fn receiver(&self) -> TokenStream {
         self.at(Precedence::Postfix)
     }
 
-    /// A piece that contains its statements as a block.
+    /// A piece that contains its statements, as a block.
     pub(super) fn inline(self) -> Fragment {
         if self.before.is_empty() {
             return self;
@@ -97,7 +97,7 @@ impl Fragment {
         Fragment::postfix(quote!({ #before #tokens }))
     }
 
-    /// The same expression changed, with the statements kept.
+    /// The changed expression, with the statements kept.
     pub(super) fn map(self, precedence: Precedence, change: impl FnOnce(&Fragment) -> TokenStream) -> Fragment {
         let tokens = change(&self);
         Fragment { before: self.before, tokens, precedence, settled: self.settled }

@@ -1,16 +1,18 @@
 //! Functions: signature, attributes, body.
 
-use super::body::{Body, Tail, Unit};
+use super::body::Body;
+use super::control_flow::Tail;
 use super::mentions;
 use super::tokens::mentions;
 use super::types::{base_type, bytes, is_number, rust_type};
+use super::unit::Unit;
 use crate::effects::flow;
 use crate::hir::{Func, FuncId, LocalId, Stmt, StmtKind};
 use arl_lang::catalog::Base;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// The most statements that are compiled into every call of a function that calls itself.
+/// The maximum number of statements that are compiled into every call of a recursive function.
 const MOST_SHALLOW: usize = 8;
 
 /// One function of the program.
@@ -46,8 +48,8 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         let machine = body.machine(func);
         quote!(#guard #machine)
     } else {
-        // Not before it is about to call itself: most calls end without.
-        body.guard = guard;
+        // Only right before the function calls itself: most calls end without doing so.
+        body.form.guard = guard;
         match body.shallow(func) {
             0 => body.until_end(&func.body),
             shallow => body.deeper(func, shallow, &result),
@@ -55,10 +57,10 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
     };
     let statements = body.run_in_frame(func, statements);
     let shared = body.shared_parameters(&func.params);
-    let inlined = body.inlined.then(|| quote!(#[inline(always)]));
-    let wastes = body.usage.wastes.then(|| quote!(#[allow(unused_assignments)]));
+    let inlined = body.form.inlined.then(|| quote!(#[inline(always)]));
+    let wastes = body.locals.usage.wastes.then(|| quote!(#[allow(unused_assignments)]));
     let unused = (unit.reached.get(id.0 as usize) != Some(&true)).then(|| quote!(#[allow(dead_code)]));
-    let drops = body.usage.drops.then(|| quote!(#[allow(unused_mut, unused_variables)]));
+    let drops = body.locals.usage.drops.then(|| quote!(#[allow(unused_mut, unused_variables)]));
     quote! {
         #comment
         #drops
@@ -74,7 +76,7 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
 }
 
 impl<'p> Body<'p, '_> {
-    /// `cx.enter().at(FILE, 3)?;`, with what the function is handed of strings and arrays.
+    /// `cx.enter().at(FILE, 3)?;`, with the size of the strings and arrays passed to the function.
     fn entered(&mut self, func: &Func) -> TokenStream {
         let handed: Vec<TokenStream> = func.params.iter().filter_map(|id| self.handed_bytes(func, *id)).collect();
         if handed.is_empty() {
@@ -86,7 +88,7 @@ impl<'p> Body<'p, '_> {
         quote!(let #held = #enter;)
     }
 
-    /// How many bytes a string or an array takes besides its place among the parameters.
+    /// How many bytes a string or an array takes in addition to its parameter.
     fn handed_bytes(&self, func: &Func, id: LocalId) -> Option<TokenStream> {
         let ty = func.locals.get(id.0 as usize)?.ty;
         let name = self.local(id);
@@ -94,14 +96,14 @@ impl<'p> Body<'p, '_> {
             let size = Literal::usize_unsuffixed(bytes(ty.base, self.family()).saturating_mul(ty.len()));
             return Some(quote!(#size));
         }
-        let text = ty.base == Base::String && self.usage.is_read(id);
+        let text = ty.base == Base::String && self.locals.usage.is_read(id);
         text.then(|| if self.is_shared(id) { quote!(#name.with(|text| text.len())) } else { quote!(#name.len()) })
     }
 
     /// The statements up to the end of the function.
     fn until_end(&mut self, block: &'p [Stmt]) -> TokenStream {
         let statements = self.block(block, Tail::Function);
-        if flow::block_diverges(block) && self.frame.is_none() {
+        if flow::block_diverges(block) && self.form.frame.is_none() {
             statements
         } else {
             let end = self.end_result();
@@ -109,11 +111,11 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// How many statements at the start of a function that calls itself decide whether it does. Where they are compiled
-    /// into the callers, half of all calls are saved.
+    /// The number of statements at the start of a recursive function that decide whether it calls itself. Compiling
+    /// them into the callers saves half of all calls.
     fn shallow(&self, func: &Func) -> usize {
         let numbers = func.params.iter().all(|param| {
-            !self.usage.is_mutable(*param)
+            !self.locals.usage.is_mutable(*param)
                 && !self.is_shared(*param)
                 && func.locals.get(param.0 as usize).is_some_and(|local| is_number(local.ty))
         });
@@ -126,12 +128,12 @@ impl<'p> Body<'p, '_> {
         if length > MOST_SHALLOW || shallow.len() == func.body.len() { 0 } else { shallow.len() }
     }
 
-    /// The first statements, and the others in a function of their own.
+    /// The first statements, followed by the others in a function of their own.
     fn deeper(&mut self, func: &'p Func, shallow: usize, result: &TokenStream) -> TokenStream {
         let (first, rest) = func.body.split_at(shallow);
-        let guard = self.guard.take();
+        let guard = self.form.guard.take();
         let first = self.block(first, Tail::Inner);
-        self.guard = guard;
+        self.form.guard = guard;
         let rest_code = self.until_end(rest);
         let name = self.fresh("deeper");
         let used = func.params.iter().filter(|param| rest.iter().any(|stmt| mentions::in_statement(stmt, **param)));
@@ -146,8 +148,8 @@ impl<'p> Body<'p, '_> {
             params.extend(quote!(#name: #ty,));
             args.extend(quote!(#name,));
         }
-        self.inlined = true;
-        // A result that is passed on as it is hides from LLVM that what is compiled into the callers cannot fail.
+        self.form.inlined = true;
+        // Passing the result on as it is would hide from LLVM that the code compiled into the callers cannot fail.
         let end = if func.result == Base::Void {
             quote!(return #name(cx, #args);)
         } else {
@@ -166,7 +168,7 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// How many statements there are, with those inside.
+/// The number of statements, including inner ones.
 fn length(stmt: &Stmt) -> usize {
     1 + flow::blocks(stmt).flatten().map(length).sum::<usize>()
 }

@@ -1,19 +1,20 @@
-//! Functions with `goto` as machines: a loop around a `match` over states.
+//! Functions with `goto` become machines: a loop around a `match` over states.
 //!
 //! Invariants:
-//! - A state begins at the start of the function, at each label, and where a decomposed statement goes on. Only
-//!   statements that contain a label are decomposed; any other one stays whole inside a state, so nothing is ever
-//!   jumped into but states.
-//! - The code of a state ends by setting the next state or by returning. A jump from inside a statement that stayed
-//!   whole sets the state and continues the machine's loop.
-//! - A variable that more than one state mentions lives outside the loop (it is hoisted), with its start value; its
-//!   declaration becomes an assignment. A jump to a label gives every hoisted variable that is visible there but was
-//!   not visible where the jump stands its start value: its declaration is jumped over.
-//! - Names of locals are distinct in such functions, as all hoisted ones share a scope.
-//! - Each jump backwards gives the cycle back when the budget is used up, as each round of a loop does.
+//! - A state begins at the start of the function, at each label, and where a decomposed statement continues. Only
+//!   statements that contain a label are decomposed; any other one stays whole inside a state, so that jumps lead only
+//!   into states.
+//! - The code of a state ends by setting the next state or by returning. A jump from inside a whole statement sets the
+//!   state and continues the machine's loop.
+//! - A variable that more than one state mentions lives outside the loop (it is hoisted), with its default value; its
+//!   declaration becomes an assignment. A jump to a label resets to its default value every hoisted variable that is
+//!   visible at the label but not at the jump, because the jump skips its declaration.
+//! - The names of locals are distinct in such functions, as all hoisted ones share a scope.
+//! - Each backward jump yields the cycle when the budget is used up, as each round of a loop does.
 
-use super::body::{Body, Exit, Loop, Tail};
+use super::body::Body;
 use super::consts::constant;
+use super::control_flow::{Exit, Loop, Tail};
 use super::hooks::{Lines, written};
 use super::loops::give_back;
 use super::machine::{Machine, MachineState};
@@ -33,17 +34,17 @@ impl<'p> Body<'p, '_> {
     /// The body of a function with `goto`.
     pub(super) fn machine(&mut self, func: &'p Func) -> TokenStream {
         let variable = self.reserve("state");
-        let (commented, visible) = (self.commented, self.visible.clone());
-        // A first run finds out which variables more than one state needs.
+        let (commented, visible) = (self.position.commented, self.locals.visible.clone());
+        // A first run finds out which variables are used by more than one state.
         self.run(func, variable.clone(), declared(&func.body), true);
         let all = declared(&func.body);
-        let hoisted = match &self.machine {
+        let hoisted = match &self.flow.machine {
             // A debugger may go from any state to any other one.
-            Some(_) if self.frame.is_some() => all,
+            Some(_) if self.form.frame.is_some() => all,
             Some(machine) => all.into_iter().filter(|id| machine.is_shared(*id, &self.local(*id))).collect(),
             None => HashSet::new(),
         };
-        (self.commented, self.visible) = (commented, visible);
+        (self.position.commented, self.locals.visible) = (commented, visible);
         self.run(func, variable, hoisted, false);
         self.finish()
     }
@@ -51,7 +52,7 @@ impl<'p> Body<'p, '_> {
     fn run(&mut self, func: &'p Func, variable: Ident, hoisted: HashSet<LocalId>, trial: bool) {
         let mut visible_at = HashMap::new();
         labels(&func.body, &mut func.params.clone(), &mut visible_at);
-        self.machine = Some(Machine {
+        self.flow.machine = Some(Machine {
             variable,
             label: syn::Lifetime::new("'machine", proc_macro2::Span::call_site()),
             states: Vec::new(),
@@ -73,11 +74,11 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// The loop around the states that can be reached, and the variables outside it.
+    /// The loop around the reachable states, and the variables outside it.
     fn finish(&mut self) -> TokenStream {
-        let Some(machine) = self.machine.take() else { return TokenStream::new() };
+        let Some(machine) = self.flow.machine.take() else { return TokenStream::new() };
         let reached = machine.reached();
-        self.usage.drops = reached.contains(&false);
+        self.locals.usage.drops = reached.contains(&false);
         let states: Vec<&MachineState> =
             machine.states.iter().zip(&reached).filter(|(_, reached)| **reached).map(|(state, _)| state).collect();
         let mut hoisted: Vec<LocalId> = machine.hoisted.iter().copied().collect();
@@ -101,10 +102,11 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// The state that the machine begins in: the first one, or where a debugger has set the program pointer to.
+    /// The first state of the machine: that of the function, or the one to which a debugger has set the program
+    /// pointer.
     fn first_state(&self, machine: &Machine) -> TokenStream {
         let start = machine.states.first().map(|state| &state.name);
-        let Some(frame) = &self.frame else { return quote!(State::#start) };
+        let Some(frame) = &self.form.frame else { return quote!(State::#start) };
         let cases = machine.lines_of.iter().map(|(at, lines)| {
             let (name, lines) = (machine.states.get(*at).map(|state| &state.name), written(*lines));
             quote!((#lines, State::#name))
@@ -112,7 +114,7 @@ impl<'p> Body<'p, '_> {
         quote!(#frame.begins_in(State::#start, [#(#cases),*]))
     }
 
-    /// A variable that lives in front of where it is declared, with its start value.
+    /// A variable that lives before its declaration, with its default value.
     pub(super) fn hoisted_variable(&self, id: LocalId) -> Option<TokenStream> {
         let (local, family) = (self.func?.locals.get(id.0 as usize)?, self.family());
         let (name, start) = (self.local(id), self.kept(id, self.first_value(local)));
@@ -125,10 +127,10 @@ impl<'p> Body<'p, '_> {
         Some(quote!(let mut #name #ty = #start; #shown))
     }
 
-    /// What a variable is before its declaration.
+    /// The value of a variable before its declaration.
     fn first_value(&self, local: &Local) -> TokenStream {
-        // A debugger may jump over the declaration of a constant.
-        let known = local.value.as_ref().filter(|_| local.constant && self.frame.is_some());
+        // A debugger may skip the declaration of a constant.
+        let known = local.value.as_ref().filter(|_| local.constant && self.form.frame.is_some());
         if let Some(value) = known {
             return constant(value).tokens;
         }
@@ -136,14 +138,16 @@ impl<'p> Body<'p, '_> {
         if local.shared { shared_value(local.ty, start) } else { start }
     }
 
-    /// Whether the declaration of a local is an assignment to a variable outside the machine, or in front of parts.
+    /// Whether the declaration of a local is an assignment to a variable outside the machine or before the parts of a
+    /// block.
     pub(super) fn is_hoisted(&self, id: LocalId) -> bool {
-        self.hoisted.contains(&id) || self.machine.as_ref().is_some_and(|machine| machine.hoisted.contains(&id))
+        self.locals.hoisted.contains(&id)
+            || self.flow.machine.as_ref().is_some_and(|machine| machine.hoisted.contains(&id))
     }
 
-    /// Notes where a declaration stands.
+    /// Records the state that contains a declaration.
     pub(super) fn note_declaration(&mut self, id: LocalId) {
-        if let Some(machine) = &mut self.machine {
+        if let Some(machine) = &mut self.flow.machine {
             machine.declared_in.insert(id, machine.current);
         }
     }
@@ -155,14 +159,14 @@ impl<'p> Body<'p, '_> {
         quote!(#before #jump)
     }
 
-    /// What happens before a jump to a label, and its state.
+    /// The code before a jump to a label, and the label's state.
     fn departure(&mut self, label: LabelId, span: Span) -> (TokenStream, usize) {
         let state = self.label_state(label);
-        let Some(machine) = &self.machine else { return (TokenStream::new(), state) };
+        let Some(machine) = &self.flow.machine else { return (TokenStream::new(), state) };
         let seen = machine.visible_at.get(&label).map_or(&[][..], Vec::as_slice);
         let resets: Vec<TokenStream> = seen
             .iter()
-            .filter(|id| !machine.trial && machine.hoisted.contains(id) && !self.visible.contains(id))
+            .filter(|id| !machine.trial && machine.hoisted.contains(id) && !self.locals.visible.contains(id))
             .filter_map(|id| {
                 let local = self.func?.locals.get(id.0 as usize)?;
                 let (name, start, shown) = (self.local(*id), self.first_value(local), self.shown(*id));
@@ -184,13 +188,13 @@ impl<'p> Body<'p, '_> {
         quote!(#set #go_on)
     }
 
-    /// The next round of the machine's loop.
+    /// Continues with the next round of the machine's loop.
     pub(super) fn go_on(&mut self) -> TokenStream {
         if let Some(leave) = self.leave_part(Leave::Jump, None) {
             return leave;
         }
-        let inside = self.loops.iter().any(|outer| !matches!(outer.on_continue, Exit::State(_)));
-        match &self.machine {
+        let inside = self.flow.loops.iter().any(|outer| !matches!(outer.on_continue, Exit::State(_)));
+        match &self.flow.machine {
             Some(machine) if inside => {
                 let label = &machine.label;
                 quote!(continue #label;)
@@ -200,7 +204,7 @@ impl<'p> Body<'p, '_> {
     }
 
     fn set_state(&self, state: usize) -> TokenStream {
-        match &self.machine {
+        match &self.flow.machine {
             Some(machine) => match machine.states.get(state) {
                 Some(MachineState { name, .. }) => {
                     let variable = &machine.variable;
@@ -213,7 +217,7 @@ impl<'p> Body<'p, '_> {
     }
 
     fn new_state(&mut self, wanted: &str) -> usize {
-        let Some(machine) = &mut self.machine else { return 0 };
+        let Some(machine) = &mut self.flow.machine else { return 0 };
         let mut name = if wanted == "Self" { "SelfLabel".to_owned() } else { wanted.to_owned() };
         let mut number = 2;
         while !machine.named.insert(name.clone()) {
@@ -224,26 +228,26 @@ impl<'p> Body<'p, '_> {
         machine.states.len() - 1
     }
 
-    /// A new state named after the line that is emitted.
+    /// A new state named after the current line.
     fn state_here(&mut self, what: &str) -> usize {
-        let name = format!("{what}{}", self.line);
+        let name = format!("{what}{}", self.position.line);
         self.new_state(&name)
     }
 
     fn label_state(&mut self, label: LabelId) -> usize {
-        if let Some(state) = self.machine.as_ref().and_then(|machine| machine.of_label.get(&label)) {
+        if let Some(state) = self.flow.machine.as_ref().and_then(|machine| machine.of_label.get(&label)) {
             return *state;
         }
         let name = self.func.and_then(|func| func.labels.get(label.0 as usize)).map_or("", |label| label.name.as_str());
         let state = self.new_state(&camel_case(name));
-        if let Some(machine) = &mut self.machine {
+        if let Some(machine) = &mut self.flow.machine {
             machine.of_label.insert(label, state);
         }
         state
     }
 
     fn append(&mut self, code: TokenStream) {
-        if let Some(machine) = &mut self.machine
+        if let Some(machine) = &mut self.flow.machine
             && let Some(state) = machine.states.get_mut(machine.current)
         {
             state.code.extend(code);
@@ -251,10 +255,10 @@ impl<'p> Body<'p, '_> {
     }
 
     fn is_open(&self) -> bool {
-        self.machine.as_ref().is_some_and(|machine| machine.open)
+        self.flow.machine.as_ref().is_some_and(|machine| machine.open)
     }
 
-    /// Ends the current state with a jump, where its end is reached.
+    /// Ends the current state with a jump, if its end can be reached.
     fn close(&mut self, next: usize) {
         if self.is_open() {
             let set = self.set_state(next);
@@ -264,13 +268,13 @@ impl<'p> Body<'p, '_> {
     }
 
     fn shut(&mut self) {
-        if let Some(machine) = &mut self.machine {
+        if let Some(machine) = &mut self.flow.machine {
             machine.open = false;
         }
     }
 
     fn open(&mut self, state: usize) {
-        if let Some(machine) = &mut self.machine {
+        if let Some(machine) = &mut self.flow.machine {
             machine.current = state;
             machine.open = true;
         }
@@ -278,7 +282,7 @@ impl<'p> Body<'p, '_> {
 
     /// The statements of a block whose labels are states.
     fn states(&mut self, block: &'p [Stmt]) {
-        let visible = self.visible.len();
+        let visible = self.locals.visible.len();
         let mut whole = Vec::new();
         for group in self.groups(flow::reachable(block)) {
             let stmt = match group {
@@ -308,7 +312,7 @@ impl<'p> Body<'p, '_> {
                 StmtKind::Break | StmtKind::Continue => self.state_exit(stmt),
                 _ if flow::has_label(stmt) => {
                     if !self.is_open() {
-                        // Only its labels are reached; the way in goes into a state that is dropped.
+                        // Only its labels can be reached; the code before them goes into a state that is dropped.
                         let aside = self.state_here("Aside");
                         self.open(aside);
                     }
@@ -320,21 +324,21 @@ impl<'p> Body<'p, '_> {
             }
         }
         self.whole(whole);
-        self.visible.truncate(visible);
+        self.locals.visible.truncate(visible);
     }
 
-    /// Notes that the lines of a statement, and of those inside, stand in the current state.
+    /// Records that the lines of a statement and of those inside belong to the current state.
     fn note_lines(&mut self, stmt: &Stmt) {
         self.note(Some(self.lines_with(stmt)));
     }
 
-    /// Notes that something of the line that is emitted stands in the current state.
+    /// Records that the current line belongs to the current state.
     fn note_line(&mut self) {
-        self.note(Some((self.line, self.line)));
+        self.note(Some((self.position.line, self.position.line)));
     }
 
     fn note(&mut self, lines: Option<Lines>) {
-        if let (Some(machine), Some(lines), true) = (&mut self.machine, lines, self.frame.is_some()) {
+        if let (Some(machine), Some(lines), true) = (&mut self.flow.machine, lines, self.form.frame.is_some()) {
             machine.note_lines(lines);
         }
     }
@@ -361,7 +365,7 @@ impl<'p> Body<'p, '_> {
         self.note_lines(stmt);
         self.append(quote!(#comment #halt));
         let breaks = matches!(stmt.kind, StmtKind::Break);
-        let exit = self.loops.last().map(|outer| if breaks { &outer.on_break } else { &outer.on_continue });
+        let exit = self.flow.loops.last().map(|outer| if breaks { &outer.on_break } else { &outer.on_continue });
         if let Some(Exit::State(state)) = exit {
             let state = *state;
             self.close(state);
@@ -380,7 +384,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// A branch: inside its state where it has no label, else a state of its own, filled later.
+    /// A branch: inside its state if it has no label, otherwise a state of its own that is filled later.
     fn branch(&mut self, block: &'p [Stmt], after: usize, later: &mut Vec<(Option<usize>, &'p [Stmt])>) -> TokenStream {
         if let Some(Stmt { kind: StmtKind::Label(label), .. }) = flow::reachable(block).first() {
             let state = self.label_state(*label);
@@ -402,7 +406,7 @@ impl<'p> Body<'p, '_> {
         for (state, block) in later {
             match state {
                 Some(state) => self.open(state),
-                // The label at its start opens a state.
+                // The label at the start of the block opens a state.
                 None => self.shut(),
             }
             self.states(block);
@@ -418,7 +422,7 @@ impl<'p> Body<'p, '_> {
             self.stand_at(condition.span);
             self.note_line();
             let mut value = self.value_alone(condition);
-            if self.frame.is_some() {
+            if self.form.frame.is_some() {
                 let pointer = if at == 0 { self.pointer() } else { TokenStream::new() };
                 value = self.or_led(block, value.after(pointer));
             } else if at == 0 {
@@ -448,7 +452,7 @@ impl<'p> Body<'p, '_> {
             codes.push((arm.value.as_ref(), self.branch(&arm.body, after, &mut later)));
         }
         let otherwise = self.set_state(after);
-        let code = if self.frame.is_some() {
+        let code = if self.form.frame.is_some() {
             let codes = codes.into_iter().map(|(_, code)| code).collect();
             self.led_switch(subject, arms, codes, otherwise)
         } else {
@@ -458,16 +462,16 @@ impl<'p> Body<'p, '_> {
         self.fill(later, after);
     }
 
-    /// The body of a decomposed loop, from the current state on.
+    /// The body of a decomposed loop, starting in the current state.
     fn split_body(&mut self, body: &'p [Stmt], continues: usize, after: usize) {
-        self.loops.push(Loop { on_break: Exit::State(after), on_continue: Exit::State(continues) });
+        self.flow.loops.push(Loop { on_break: Exit::State(after), on_continue: Exit::State(continues) });
         self.states(body);
-        self.loops.pop();
+        self.flow.loops.pop();
     }
 
-    /// What leaves the current state for `after` unless the condition holds.
+    /// Code that leaves the current state for `after` unless the condition holds.
     fn unless(&mut self, condition: &'p Expr, after: usize) -> TokenStream {
-        self.acts = false;
+        self.position.acts = false;
         let value = self.negated(condition);
         let pointer = self.pointer();
         let (before, unmet) = (&value.before, &value.tokens);
@@ -512,8 +516,8 @@ impl<'p> Body<'p, '_> {
     }
 
     fn split_for(&mut self, each: &'p For) {
-        let visible = self.visible.len();
-        let line = self.line;
+        let visible = self.locals.visible.len();
+        let line = self.position.line;
         self.note_line();
         let head = self.halt_at_head(&each.init);
         self.append(head);
@@ -532,23 +536,23 @@ impl<'p> Body<'p, '_> {
         self.split_body(&each.body, next, after);
         self.close(next);
         self.open(next);
-        self.line = line;
+        self.position.line = line;
         let (spend, halt) = (self.spend(each.info), self.halt());
         let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
         self.append(quote!(#halt #spend #step));
         self.close(head);
         self.open(after);
-        self.visible.truncate(visible);
+        self.locals.visible.truncate(visible);
     }
 }
 
-/// Whether a statement of a block with labels begins a state, ends one, or is taken apart.
+/// Whether a statement of a block with labels begins a state, ends one, or is decomposed.
 fn is_state(stmt: &Stmt) -> bool {
     matches!(stmt.kind, StmtKind::Label(_) | StmtKind::Goto(_) | StmtKind::Break | StmtKind::Continue)
         || flow::has_label(stmt)
 }
 
-/// The locals that are declared at the top and in statements with labels.
+/// The locals that are declared at the top level and in statements with labels.
 fn declared(block: &[Stmt]) -> HashSet<LocalId> {
     let mut found = HashSet::new();
     for stmt in block {

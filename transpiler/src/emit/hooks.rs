@@ -1,14 +1,13 @@
-//! Hooks for a debugger: a frame for each function, its variables, and a place to halt at before each statement.
+//! Hooks for a debugger: a frame for each function, its variables, and a point to halt at before each statement.
 //!
-//! A debugger may also set the program pointer to another line of a function. Its statements are then gone through once
-//! more from the first one, and none of them runs before that line.
+//! A debugger may also set the program pointer to another line of a function. The statements of the function are then
+//! processed again from the first one, and none of them runs before that line.
 //!
 //! Invariants:
-//! - Each statement asks its frame whether it runs. One with blocks asks whether the pointer was set to a line in it,
-//!   and takes the way there without looking at its conditions.
-//! - Declarations are always gone through: a variable that is there already stays the same one, any other one has its
-//!   start value.
-//! - Nothing of all that is in programs that are not emitted for a debugger.
+//! - Each statement asks its frame whether it runs. A statement with blocks asks whether the pointer was set to a line
+//!   in it; if so, it leads there without evaluating its conditions.
+//! - Declarations are always processed: a variable that exists already is kept, any other one gets its default value.
+//! - Programs that are not emitted for a debugger contain no hooks.
 
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
@@ -20,7 +19,7 @@ use arl_lang::span::Span;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// The first and the last line that something may halt at.
+/// The first and the last line at which something may halt.
 pub(super) type Lines = (u32, u32);
 
 impl<'p> Body<'p, '_> {
@@ -31,23 +30,23 @@ impl<'p> Body<'p, '_> {
         }
         let frame = self.reserve("frame");
         let (name, line) = (&func.name, self.line_number());
-        self.frame = Some(frame.clone());
+        self.form.frame = Some(frame.clone());
         let shown: TokenStream = func.params.iter().map(|id| self.shown(*id)).collect();
         quote!(let #frame = cx.frame(#name, FILE, #line); #shown)
     }
 
-    /// `frame.run(async || -> Done<()> { .. }).await`: the statements of a function, which may begin anew.
+    /// `frame.run(async || -> Done<()> { .. }).await`: the statements of a function, which may begin again.
     pub(super) fn run_in_frame(&self, func: &Func, statements: TokenStream) -> TokenStream {
-        let Some(frame) = &self.frame else { return statements };
+        let Some(frame) = &self.form.frame else { return statements };
         let value = base_type(func.result, self.family());
         let result = if func.result == Base::Void { quote!(()) } else { value };
         quote!(#frame.run(async || -> Done<#result> { #statements }).await)
     }
 
-    /// `frame.variable(2, "late", &late);`, behind its declaration.
+    /// `frame.variable(2, "late", &late);`, after its declaration.
     pub(super) fn shown(&self, id: LocalId) -> TokenStream {
         let local = self.func.and_then(|func| func.locals.get(id.0 as usize));
-        let (Some(frame), Some(local)) = (&self.frame, local.filter(|local| local.shared)) else {
+        let (Some(frame), Some(local)) = (&self.form.frame, local.filter(|local| local.shared)) else {
             return TokenStream::new();
         };
         let (name, variable, number) = (&local.name, self.local(id), number(id));
@@ -61,10 +60,10 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// What a variable is declared with where its declaration is jumped over: what it was, or its start value.
+    /// The value of a variable whose declaration is skipped: its old value, or its default value.
     pub(super) fn kept(&self, id: LocalId, start: TokenStream) -> TokenStream {
         let shared = self.func.and_then(|func| func.locals.get(id.0 as usize)).is_some_and(|local| local.shared);
-        match &self.frame {
+        match &self.form.frame {
             Some(frame) if shared => {
                 let number = number(id);
                 quote!(#frame.kept(#number, || #start))
@@ -73,7 +72,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// A declaration's value, which is computed where the declaration runs.
+    /// The value of a declaration, which is computed if the declaration runs.
     pub(super) fn declared(
         &self,
         id: LocalId,
@@ -81,18 +80,18 @@ impl<'p> Body<'p, '_> {
         value: TokenStream,
         start: TokenStream,
     ) -> TokenStream {
-        let Some(frame) = &self.frame else { return value };
+        let Some(frame) = &self.form.frame else { return value };
         let (line, kept) = (self.line_number(), self.kept(id, start));
         quote!(if #frame.runs(#line).await { #before #value } else { #kept })
     }
 
-    /// A statement's code, where the statement runs.
+    /// The code of a statement, executed if the statement runs.
     pub(super) fn where_it_runs(&self, stmt: &Stmt, code: TokenStream) -> TokenStream {
-        let Some(frame) = &self.frame else { return code };
+        let Some(frame) = &self.form.frame else { return code };
         let line = self.line_number();
         match &stmt.kind {
             StmtKind::Label(_) | StmtKind::Let(_, None) => code,
-            // Constants are declared in any case; of variables the declaration itself asks.
+            // Constants are declared in any case; the declaration of a variable asks by itself.
             StmtKind::Let(id, _) if self.is_shared(*id) => code,
             StmtKind::Let(..) => quote!(#frame.runs(#line).await; #code),
             _ if has_blocks(stmt) => {
@@ -103,25 +102,25 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// `frame.runs(12).await;`, for what runs in any case where it is reached.
+    /// `frame.runs(12).await;`, for code that always runs when it is reached.
     pub(super) fn halt(&self) -> TokenStream {
         let line = self.line_number();
-        self.frame.as_ref().map(|frame| quote!(#frame.runs(#line).await;)).unwrap_or_default()
+        self.form.frame.as_ref().map(|frame| quote!(#frame.runs(#line).await;)).unwrap_or_default()
     }
 
-    /// A condition that is halted at, unless the program pointer was set to a line of what it leads to.
+    /// A condition with a halt before it, unless the program pointer was set to a line that the condition leads to.
     pub(super) fn or_led(&self, block: &[Stmt], condition: Fragment) -> Fragment {
-        let Some(frame) = &self.frame else { return condition };
+        let Some(frame) = &self.form.frame else { return condition };
         let line = self.line_number();
         let condition = condition.inline().at(Precedence::And);
         self.led(block, Fragment::new(quote!(#frame.runs(#line).await && #condition), Precedence::And))
     }
 
-    /// `frame.leads_to(13, 15) || condition`, where the block that it leads to has lines of its own: those of a compact
-    /// `if` hang on the condition.
+    /// `frame.leads_to(13, 15) || condition`, if the block after the condition has lines of its own: the block of a
+    /// compact `if` shares the line of the condition.
     pub(super) fn led(&self, block: &[Stmt], condition: Fragment) -> Fragment {
-        let lines = self.lines_of_block(block).map(|(first, last)| (first.max(self.line + 1), last));
-        match (&self.frame, lines.filter(|(first, last)| first <= last)) {
+        let lines = self.lines_of_block(block).map(|(first, last)| (first.max(self.position.line + 1), last));
+        match (&self.form.frame, lines.filter(|(first, last)| first <= last)) {
             (Some(frame), Some(lines)) => {
                 let (lines, condition) = (written(lines), condition.inline().at(Precedence::Or));
                 Fragment::new(quote!(#frame.leads_to(#lines) || #condition), Precedence::Or)
@@ -130,9 +129,9 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// What is done in a loop unless the program pointer was set to a line of its body.
+    /// Code that runs in a loop unless the program pointer was set to a line of its body.
     pub(super) fn unless_led(&self, body: &[Stmt], code: TokenStream) -> TokenStream {
-        match (&self.frame, self.lines_of_block(body)) {
+        match (&self.form.frame, self.lines_of_block(body)) {
             (Some(frame), Some(lines)) => {
                 let lines = written(lines);
                 quote!(if !#frame.leads_to(#lines) { #code })
@@ -141,7 +140,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// `switch(subject)`: the arm is chosen first, by the pointer or by the subject. `codes` are the arms' own.
+    /// `switch(subject)`: the arm is chosen first, by the pointer or by the subject. `codes` is the code of the arms.
     pub(super) fn led_switch(
         &mut self,
         subject: &'p Expr,
@@ -149,7 +148,7 @@ impl<'p> Body<'p, '_> {
         codes: Vec<TokenStream>,
         otherwise: TokenStream,
     ) -> TokenStream {
-        let Some(frame) = self.frame.clone() else { return TokenStream::new() };
+        let Some(frame) = self.form.frame.clone() else { return TokenStream::new() };
         self.stand_at(subject.span);
         let arm = self.fresh("arm");
         let number = |at: usize| Literal::usize_unsuffixed(at);
@@ -159,10 +158,10 @@ impl<'p> Body<'p, '_> {
         });
         let none = number(arms.len());
         let halt = self.halt();
-        self.acts = false;
+        self.position.acts = false;
         let chosen = self.chosen(subject, numbered.collect(), quote!(#none));
         let lines = arms.iter().map(|arm| {
-            // Nothing leads into an arm without statements.
+            // The pointer cannot lead into an arm without statements.
             let lines = written(self.lines_of_block(&arm.body).unwrap_or((1, 0)));
             quote!((#lines))
         });
@@ -179,16 +178,16 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// What is done in front of a `for` that has nothing to halt at there.
+    /// A halt before a `for` that has nothing else to halt at there.
     pub(super) fn halt_at_head(&self, init: &[Stmt]) -> TokenStream {
         let halts = init.iter().any(|stmt| !matches!(stmt.kind, StmtKind::Let(_, None)));
         if halts { TokenStream::new() } else { self.halt() }
     }
 
-    /// The frame of an event's action, which halts before it does anything.
+    /// The frame of an event's action, which halts before the action does anything.
     pub(super) fn action_opened(&self) -> TokenStream {
-        let Some(frame) = &self.frame else { return TokenStream::new() };
-        let line = Literal::u32_unsuffixed(self.line);
+        let Some(frame) = &self.form.frame else { return TokenStream::new() };
+        let line = Literal::u32_unsuffixed(self.position.line);
         quote!(let #frame = cx.action(FILE, #line); #frame.runs(#line).await;)
     }
 
@@ -205,7 +204,7 @@ impl<'p> Body<'p, '_> {
         (first, inner.chain(conditions).fold(first, u32::max))
     }
 
-    /// The lines of the statements of a block; none for an empty one.
+    /// The lines of the statements of a block; `None` for an empty one.
     pub(super) fn lines_of_block(&self, block: &[Stmt]) -> Option<Lines> {
         let (first, last) = (block.first()?, block.last()?);
         Some((self.unit.line(self.module, first.span), self.lines_with(last).1))
@@ -222,7 +221,7 @@ fn number(id: LocalId) -> Literal {
     Literal::usize_unsuffixed(id.0 as usize)
 }
 
-/// Whether statements stand inside a statement.
+/// Whether a statement contains other statements.
 fn has_blocks(stmt: &Stmt) -> bool {
     matches!(
         stmt.kind,

@@ -1,15 +1,16 @@
 //! Loops.
 //!
-//! A loop that has to give the cycle back does so behind its last statement; where a `continue` would jump over that,
-//! at the start of the round. `continue` of a loop with something to do behind its body (a step, an `until`) leaves a
+//! A loop that has to yield the cycle does so after its last statement, or at the start of the round if a `continue`
+//! would jump over that. `continue` of a loop with something to do after its body (a step, an `until`) leaves a
 //! labelled block around the body.
 //!
-//! What lives across an `.await` lies in the memory of the future, and the compiler cannot keep it in a register in
-//! between. Numbers that a loop changes are therefore handed to the wait and come back from it. Where nothing inside a
-//! loop counts rounds or waits, the wait is taken out of it altogether: an inner loop runs as long as there are rounds
+//! Values that live across an `.await` are in the memory of the future, and the compiler cannot keep them in registers
+//! in between. Numbers that a loop changes are therefore passed to the wait and returned from it. If nothing inside a
+//! loop counts rounds or waits, the wait is moved out of it altogether: an inner loop runs as long as there are rounds
 //! left.
 
-use super::body::{Body, Exit, Loop, Tail, label};
+use super::body::Body;
+use super::control_flow::{Exit, Loop, Tail, label};
 use super::fragment::{Fragment, Precedence};
 use super::tokens::uses_variable;
 use crate::effects::{facts, flow, loops};
@@ -21,26 +22,26 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use std::collections::HashSet;
 
-/// What of the checked program is in a loop.
+/// The parts of a loop in the checked program.
 struct Parts<'a, 'p> {
     blocks: &'a [&'p [Stmt]],
     exprs: &'a [&'p Expr],
 }
 
-/// Variables in memory that a loop has copies of: in registers, as long as nothing waits.
+/// Variables in memory that a loop copies into registers as long as nothing waits.
 struct Copies {
     read: Vec<Ident>,
-    /// These are written back.
+    /// The copies that are written back.
     written: Vec<Ident>,
 }
 
-/// The pieces of a loop.
+/// The emitted pieces of a loop.
 struct Turns {
-    /// `'name:`, where something jumps to it.
+    /// `'name:`, if anything jumps to it.
     label: TokenStream,
-    /// What is looked at before each round.
+    /// The condition that is evaluated before each round.
     condition: Option<TokenStream>,
-    /// What runs in each round.
+    /// The code that runs in each round.
     round: TokenStream,
 }
 
@@ -64,8 +65,8 @@ impl<'p> Body<'p, '_> {
         quote!(let #first = #name; #turns #charged)
     }
 
-    /// A condition at the start of each round: for a `while`, or statements that break out where it does not fit into
-    /// one. A debugger may halt there, or only leads into the body.
+    /// A condition at the start of each round: for a `while`, or as statements that break out if it does not fit into
+    /// one. A debugger may halt there, or may only lead into the body.
     fn head(
         &mut self,
         condition: &'p Expr,
@@ -75,7 +76,7 @@ impl<'p> Body<'p, '_> {
     ) -> (TokenStream, Option<TokenStream>) {
         let value = self.on_trial(|body| body.value_alone(condition));
         let pointer = self.pointer();
-        // A loop that counts alone looks at its condition once more when it has given the cycle back.
+        // A loop that counts alone evaluates its condition again after it has yielded the cycle.
         let once = info.counts_alone() && {
             let facts = self.facts(condition);
             facts.changes || !facts.writes.is_empty()
@@ -98,14 +99,14 @@ impl<'p> Body<'p, '_> {
         })
     }
 
-    /// A loop's body where nothing comes behind it.
+    /// The body of a loop if nothing comes after it.
     fn rounds(&mut self, body: &'p [Stmt], info: LoopInfo) -> TokenStream {
         let spend = self.spend(info);
         let continued = flow::continues(body);
-        self.loops.push(Loop { on_break: Exit::Plain, on_continue: Exit::Plain });
+        self.flow.loops.push(Loop { on_break: Exit::Plain, on_continue: Exit::Plain });
         let mut statements = self.block(body, Tail::Inner);
-        self.loops.pop();
-        if info.spends && !continued && self.hides(body, self.usage.kept(info)) {
+        self.flow.loops.pop();
+        if info.spends && !continued && self.hides(body, self.locals.usage.kept(info)) {
             statements = quote!({ #statements });
         }
         if continued {
@@ -140,7 +141,7 @@ impl<'p> Body<'p, '_> {
         Turns { label, condition: None, round }
     }
 
-    /// The body of a loop with something behind it, and the label that the loop needs.
+    /// The body of a loop with something after it, and the label that the loop needs.
     fn round_with_rest(
         &mut self,
         body: &'p [Stmt],
@@ -148,10 +149,10 @@ impl<'p> Body<'p, '_> {
         info: LoopInfo,
     ) -> (TokenStream, TokenStream) {
         if !flow::continues(body) {
-            self.loops.push(Loop { on_break: Exit::Plain, on_continue: Exit::Plain });
+            self.flow.loops.push(Loop { on_break: Exit::Plain, on_continue: Exit::Plain });
             let mut statements = self.block(body, Tail::Inner);
-            self.loops.pop();
-            let mut meant = self.usage.kept(info).to_vec();
+            self.flow.loops.pop();
+            let mut meant = self.locals.usage.kept(info).to_vec();
             if let Some(rest) = rest {
                 let facts = self.facts(rest);
                 meant.extend(facts.reads.iter().chain(&facts.writes));
@@ -161,21 +162,21 @@ impl<'p> Body<'p, '_> {
             }
             return (TokenStream::new(), statements);
         }
-        let number = self.label_number();
+        let number = self.flow.label_number();
         let round = label("round", number);
         let outer = flow::breaks(body).then(|| label("rounds", number));
         let on_break = match &outer {
             Some(outer) => Exit::Labelled(quote!(break #outer)),
             None => Exit::Plain,
         };
-        self.loops.push(Loop { on_break, on_continue: Exit::Labelled(quote!(break #round)) });
+        self.flow.loops.push(Loop { on_break, on_continue: Exit::Labelled(quote!(break #round)) });
         let statements = self.block(body, Tail::Inner);
-        self.loops.pop();
+        self.flow.loops.pop();
         let label = outer.map(|outer| quote!(#outer:));
         (quote!(#label), quote!(#round: { #statements }))
     }
 
-    /// Whether variables of a body would hide those that are meant behind it.
+    /// Whether variables of a body would hide those that are meant after it.
     fn hides(&self, body: &[Stmt], meant: &[LocalId]) -> bool {
         if meant.is_empty() {
             return false;
@@ -193,12 +194,12 @@ impl<'p> Body<'p, '_> {
 
     /// `for(init; condition; step)`
     pub(super) fn for_loop(&mut self, each: &'p For) -> TokenStream {
-        let visible = self.visible.len();
+        let visible = self.locals.visible.len();
         let code = match loops::emitted_range(each) {
             Some(range) => self.range_loop(each, &range),
             None => self.general_for(each),
         };
-        self.visible.truncate(visible);
+        self.locals.visible.truncate(visible);
         code
     }
 
@@ -212,21 +213,21 @@ impl<'p> Body<'p, '_> {
         let to = to.at(Precedence::Or);
         let to = if range.beyond { quote!(..=#to) } else { quote!(..#to) };
         let pointer = self.pointer();
-        self.visible.push(range.local);
+        self.locals.visible.push(range.local);
         let rounds = self.rounds(&each.body, each.info);
         quote!(#pointer #from_before for #name in #from #to { #rounds })
     }
 
-    /// A `for` that is not a range: its variables live in the block around it, or in one of their own where an outer
+    /// A `for` that is not a range: its variables live in the surrounding block, or in a block of their own if an outer
     /// variable has the same name.
     fn general_for(&mut self, each: &'p For) -> TokenStream {
-        let outer: Vec<String> = self.visible.iter().map(|id| self.local(*id).to_string()).collect();
+        let outer: Vec<String> = self.locals.visible.iter().map(|id| self.local(*id).to_string()).collect();
         let mut init = self.halt_at_head(&each.init);
-        let before = self.visible.len();
+        let before = self.locals.visible.len();
         for stmt in &each.init {
             init.extend(self.with_own_temporaries(|body| body.statement(stmt, Tail::Inner)));
         }
-        let hides = self.visible.iter().skip(before).any(|id| outer.contains(&self.local(*id).to_string()));
+        let hides = self.locals.visible.iter().skip(before).any(|id| outer.contains(&self.local(*id).to_string()));
         let ends = !each.condition.as_ref().is_none_or(flow::always) || flow::breaks(&each.body);
         let exprs: Vec<&Expr> = each.condition.iter().chain(&each.step).collect();
         let parts = Parts { blocks: &[&each.body], exprs: &exprs };
@@ -240,19 +241,19 @@ impl<'p> Body<'p, '_> {
 
     /// The condition, body and step of a `for`.
     fn turns_of_for(&mut self, each: &'p For) -> Turns {
-        let line = self.line;
+        let line = self.position.line;
         let (head, condition) = match &each.condition {
             Some(condition) if !flow::always(condition) => self.head(condition, each.info, &each.body, false),
             _ => (TokenStream::new(), None),
         };
-        let climbing = if self.frame.is_none() { self.climbs_from_zero(each) } else { None };
+        let climbing = if self.form.frame.is_none() { self.climbs_from_zero(each) } else { None };
         let condition = condition.map(|condition| climbing.unwrap_or(condition));
         let (label, statements) = self.round_with_rest(&each.body, each.step.as_ref(), each.info);
-        self.line = line;
+        self.position.line = line;
         let rest = if flow::goes_round(&each.body) {
             let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
             let spend = self.spend(each.info);
-            // At the very end, so that waiting ends where the next round begins: rustc makes a better loop of it.
+            // At the very end, so that waiting ends where the next round begins: rustc compiles this to a better loop.
             let halt = self.halt();
             quote!(#halt #step #spend)
         } else {
@@ -261,11 +262,11 @@ impl<'p> Body<'p, '_> {
         Turns { label, condition, round: quote!(#head #statements #rest) }
     }
 
-    /// The condition of a loop whose variable climbs from 0 or more, said so that rustc knows that, too, and leaves out
-    /// its own check of an index. With constants it finds out by itself.
+    /// The condition of a loop whose variable rises from 0 or more, written such that rustc knows this, too, and omits
+    /// its own check of an index. With constants rustc finds out by itself.
     fn climbs_from_zero(&self, each: &For) -> Option<TokenStream> {
         let head = loops::Head::of(each)?;
-        let (least, _) = self.ranges.of_local(head.local)?;
+        let (least, _) = self.locals.ranges.of_local(head.local)?;
         let known = |expr| loops::whole_number(expr).is_some();
         let waits = each.info.spends || each.info.counting == Counting::Inside;
         let obvious = known(head.from) && head.step.is_none_or(known) && !waits;
@@ -281,7 +282,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// For a loop whose rounds are counted behind it: what goes before and behind the loop.
+    /// For a loop whose rounds are counted after it: the code before and after the loop.
     fn rounds_behind(&mut self, each: &'p For) -> Option<(TokenStream, TokenStream)> {
         if each.info.counting != Counting::Behind {
             return None;
@@ -296,14 +297,14 @@ impl<'p> Body<'p, '_> {
         Some((quote!(let #first = #name;), charged))
     }
 
-    /// The value of a variable that a loop counts.
+    /// The value of the variable that a loop counts.
     fn counted(&self, id: LocalId) -> TokenStream {
         let name = self.local(id);
         if self.is_shared(id) { quote!(#name.get()) } else { quote!(#name) }
     }
 
-    /// The statement that counts the rounds of a loop behind it, whose variable has gone a way in such steps, or in
-    /// those of 1.
+    /// The statement that counts the rounds of a loop after it: its variable has changed by `way` in steps of `step`,
+    /// or of 1.
     fn charged(&self, way: TokenStream, step: Option<TokenStream>, info: LoopInfo) -> TokenStream {
         let count = step.map_or_else(|| way.clone(), |step| quote!(steps(#way, #step)));
         let count = match info.rounds {
@@ -313,7 +314,7 @@ impl<'p> Body<'p, '_> {
                 quote!((#count + 1) * #rounds)
             }
         };
-        match &self.counter {
+        match &self.flow.counter {
             Some(counter) => quote!(#counter.charge(#count);),
             None if info.spends => {
                 let wait = self.wait_for_cycle(info);
@@ -323,7 +324,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// A loop that may end or not.
+    /// A loop, which may be endless.
     fn turns(
         &mut self,
         info: LoopInfo,
@@ -335,18 +336,18 @@ impl<'p> Body<'p, '_> {
             return self.turns_in_context(info, &parts, emit);
         }
         let counter = self.reserve("rounds");
-        let outer = self.counter.replace(counter.clone());
-        let before = self.looked_up.len();
+        let outer = self.flow.counter.replace(counter.clone());
+        let before = self.locals.looked_up.len();
         let elements = self.look_up(parts.blocks, parts.exprs);
         let Copies { mut read, mut written } = self.copies(info, &parts);
         let Turns { label, condition, round } = emit(self);
-        self.counter = outer;
+        self.flow.counter = outer;
         self.forget_looked_up(before);
         self.release(&counter);
         let taken = quote!(#counter.take());
         let condition = condition.map(|condition| quote!(#condition &&));
         let wait = self.wait_for_cycle(info);
-        // What changes nothing has been left out.
+        // Code that changes nothing has been omitted.
         let turns = quote!(#condition #round);
         let is_used = |name: &Ident| uses_variable(&turns, &name.to_string());
         read.retain(is_used);
@@ -403,8 +404,8 @@ impl<'p> Body<'p, '_> {
         parts: &Parts<'_, 'p>,
         emit: impl FnOnce(&mut Self) -> Turns,
     ) -> TokenStream {
-        let before = self.looked_up.len();
-        let behind = info.counting.is_behind() && self.counter.is_none();
+        let before = self.locals.looked_up.len();
+        let behind = info.counting.is_behind() && self.flow.counter.is_none();
         let elements = if behind { self.look_up(parts.blocks, parts.exprs) } else { Vec::new() };
         let Turns { label, condition, round } = emit(self);
         self.forget_looked_up(before);
@@ -427,7 +428,7 @@ impl<'p> Body<'p, '_> {
                 ExprKind::Assign(both) | ExprKind::AssignOp(_, both) => (&both.0, true),
                 _ => return,
             };
-            // What stays the same anyway is not written.
+            // An assignment that changes nothing is not a write.
             let writes = writes && facts::same_anyway(expr).is_none();
             if let Root::Local(id) = place.root {
                 if writes { &mut written } else { &mut read }.insert(id);
@@ -435,13 +436,13 @@ impl<'p> Body<'p, '_> {
         };
         parts.blocks.iter().copied().flatten().for_each(|stmt| visit::exprs_in_stmt(stmt, &mut see));
         parts.exprs.iter().for_each(|expr| visit::exprs(expr, &mut see));
-        let in_memory = self.usage.in_memory(info).iter().copied().filter(|id| self.is_seen(*id));
+        let in_memory = self.locals.usage.in_memory(info).iter().copied().filter(|id| self.is_seen(*id));
         let (written, others): (Vec<_>, Vec<_>) = in_memory.partition(|id| written.contains(id));
         let named = |ids: Vec<LocalId>| ids.into_iter().map(|id| self.local(id)).collect();
         Copies { read: named(others.into_iter().filter(|id| read.contains(id)).collect()), written: named(written) }
     }
 
-    /// Where a loop has to give the cycle back by itself: counts a round, and waits when none is left.
+    /// For a loop that has to yield the cycle by itself: counts a round and waits when none is left.
     pub(super) fn spend(&self, info: LoopInfo) -> TokenStream {
         if !info.counts_in_context() {
             return TokenStream::new();
@@ -454,15 +455,15 @@ impl<'p> Body<'p, '_> {
         quote!(if cx.spend_rounds(#rounds) { #wait })
     }
 
-    /// Whether no other variable of the same name hides a variable. One that is hidden stays in memory.
+    /// Whether a variable is not hidden by another one of the same name. A hidden one stays in memory.
     fn is_seen(&self, id: LocalId) -> bool {
         let name = self.local(id);
-        self.visible.iter().rfind(|other| self.local(**other) == name) == Some(&id)
+        self.locals.visible.iter().rfind(|other| self.local(**other) == name) == Some(&id)
     }
 
-    /// Waits for the next cycle and keeps what the loop needs.
+    /// Waits for the next cycle and keeps the variables that the loop needs.
     fn wait_for_cycle(&self, info: LoopInfo) -> TokenStream {
-        let kept = self.usage.kept(info).iter().copied().filter(|id| self.is_seen(*id));
+        let kept = self.locals.usage.kept(info).iter().copied().filter(|id| self.is_seen(*id));
         let kept: Vec<_> = kept.map(|id| self.local(id)).collect();
         match kept.as_slice() {
             [] => quote!(cx.next_cycle().await;),
@@ -472,7 +473,7 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// Gives the cycle back once the budget of rounds is used up.
+/// Yields the cycle once the budget of rounds is used up.
 pub(super) fn give_back() -> TokenStream {
     quote!(if cx.spend() {
         cx.next_cycle().await;

@@ -1,4 +1,4 @@
-//! What is known of a function with `goto` while it becomes a machine: its states, and where its variables stand.
+//! The state while a function with `goto` becomes a machine: its states, and the positions of its variables.
 
 use super::hooks::Lines;
 use super::tokens::{each_word, mentions};
@@ -17,15 +17,15 @@ pub(super) struct Machine {
     /// The locals that are visible at each label.
     pub(super) visible_at: HashMap<LabelId, Vec<LocalId>>,
     pub(super) hoisted: HashSet<LocalId>,
-    /// The lines of the statements that each state has, for a debugger.
+    /// The lines of the statements in each state, for a debugger.
     pub(super) lines_of: Vec<(usize, Lines)>,
-    /// The states that the declarations of locals stand in.
+    /// The states that contain the declarations of locals.
     pub(super) declared_in: HashMap<LocalId, usize>,
-    /// Whether this run only looks which states mention which variables.
+    /// Whether this run only determines which states mention which variables.
     pub(super) trial: bool,
-    /// The state whose code grows.
+    /// The state to which code is being added.
     pub(super) current: usize,
-    /// Whether its end is reached.
+    /// Whether control can reach its end.
     pub(super) open: bool,
 }
 
@@ -37,13 +37,13 @@ pub(super) struct MachineState {
 }
 
 impl Machine {
-    /// Whether a variable is mentioned in another state than that of its declaration.
+    /// Whether a variable is mentioned in a state other than that of its declaration.
     pub(super) fn is_shared(&self, id: LocalId, name: &Ident) -> bool {
         let (name, home) = (name.to_string(), self.declared_in.get(&id));
         self.states.iter().enumerate().any(|(at, state)| Some(&at) != home && mentions(&state.code, &name))
     }
 
-    /// Notes that statements of these lines stand in the current state.
+    /// Records that statements of these lines belong to the current state.
     pub(super) fn note_lines(&mut self, lines: Lines) {
         if self.open {
             self.lines_of.push((self.current, lines));

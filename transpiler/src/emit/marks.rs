@@ -1,7 +1,7 @@
-//! What goes around the printer: the lines of the ARL program as comments, and the rows of tables.
+//! Text that bypasses the printer: the lines of the ARL program as comments, and the rows of tables.
 //!
-//! prettyplease drops comments, and takes its time over long tables. So markers stand in for both until the text is
-//! printed: macro calls whose name no ARL name can take, as those are lower case.
+//! prettyplease drops comments and is slow for long tables. Markers therefore replace both until the text is printed:
+//! macro calls whose name cannot be an ARL name, as those are lower case.
 
 use super::names::ident;
 use proc_macro2::{Group, Literal, TokenStream, TokenTree};
@@ -26,13 +26,13 @@ impl Marks {
         quote!(#name!(#number);)
     }
 
-    /// A marker in front of a `match` arm.
+    /// A marker before a `match` arm.
     pub(super) fn comment_of_arm(&self, text: String) -> TokenStream {
         let (name, number) = (ident(COMMENT), self.number(text));
         quote!(#name!(#number) => {})
     }
 
-    /// A marker for an array of these rows, one a line, each with its comma: what a `static` is set to.
+    /// A marker for an array of these rows, one per line and each with its comma: the value of a `static`.
     pub(super) fn rows(&self, rows: String) -> TokenStream {
         let (name, number) = (ident(ROWS), self.number(rows));
         quote!(#name!(#number))
@@ -44,7 +44,7 @@ impl Marks {
         Literal::usize_unsuffixed(texts.len() - 1)
     }
 
-    /// Puts the comments and the rows into the printed text.
+    /// Inserts the comments and the rows into the printed text.
     pub(super) fn fill(&self, printed: &str) -> String {
         let texts = self.texts.borrow();
         let text_of =
@@ -57,7 +57,7 @@ impl Marks {
             if let Some(text) = code.strip_prefix(COMMENT_CALL).and_then(text_of) {
                 put_comment(&mut out, indent, text);
             } else if let Some((front, rest)) = rows_call(code) {
-                // A long line is broken behind the parenthesis.
+                // A long line is broken after the parenthesis.
                 let broken = rest.is_empty().then(|| lines.by_ref().take(2).map(str::trim).collect::<String>());
                 let rows = text_of(broken.as_deref().unwrap_or(rest));
                 put_rows(&mut out, indent, front, rows.map_or("", String::as_str));
@@ -69,7 +69,7 @@ impl Marks {
         out
     }
 
-    /// The code with rows in place of their markers, and without comments.
+    /// The code with the rows in place of their markers, and without comments.
     pub(super) fn without_comments(&self, code: TokenStream) -> TokenStream {
         let mut out = TokenStream::new();
         let mut tokens = code.into_iter().peekable();
@@ -103,8 +103,8 @@ impl Marks {
     }
 }
 
-/// The front of a line that sets a `static` to rows, and what follows the marker's parenthesis. No line of a text
-/// begins so: texts are escaped.
+/// The start of a line that sets a `static` to rows, and the text after the marker's parenthesis. No line of a string
+/// can begin like this, as strings are escaped.
 fn rows_call(code: &str) -> Option<(&str, &str)> {
     let (front, rest) = code.split_once(ROWS_CALL)?;
     code.starts_with("static ").then_some((front, rest))
@@ -131,8 +131,8 @@ fn put_rows(out: &mut String, indent: &str, front: &str, rows: &str) {
     out.extend([indent, "];\n"]);
 }
 
-/// A line of a program, fit for a comment: long ones are cut, control characters and those that turn the direction of
-/// text become `?`.
+/// A line of a program as the text of a comment: long lines are cut, control characters and those that change the
+/// direction of text become `?`.
 pub(super) fn clean(line: &str) -> String {
     let unfit = |c: char| {
         c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}')

@@ -1,4 +1,4 @@
-//! Where locals are mentioned.
+//! Mentions of locals.
 
 use crate::effects::flow;
 use crate::effects::parts::children;
@@ -25,7 +25,7 @@ pub(super) fn in_expression(expr: &Expr, id: LocalId) -> bool {
     own || children(expr).into_iter().any(|child| in_expression(child, id))
 }
 
-/// Shows each mention of a local in a statement.
+/// Calls `see` for each mention of a local in a statement.
 pub(super) fn each_local(stmt: &Stmt, see: &mut dyn FnMut(LocalId)) {
     flow::expressions(stmt).for_each(|expr| each_local_in(expr, see));
     flow::blocks(stmt).flatten().for_each(|stmt| each_local(stmt, see));

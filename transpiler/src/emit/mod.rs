@@ -1,10 +1,11 @@
-//! From the checked program to readable Rust, as `docs/emitted-code.md` describes it.
+//! Turns the checked program into readable Rust, as described in `docs/emitted-code.md`.
 
 mod assignments;
 mod body;
 mod calls;
 mod compound;
 mod consts;
+mod control_flow;
 mod deferred_let;
 mod elements;
 mod events;
@@ -13,6 +14,7 @@ mod fragment;
 mod functions;
 mod goto;
 mod hooks;
+mod local_names;
 mod loops;
 mod machine;
 mod marks;
@@ -33,53 +35,49 @@ mod templates;
 mod temporaries;
 mod tokens;
 mod types;
+mod unit;
 mod usage;
 mod usage_graph;
 mod variables;
 mod waiting;
 mod written_back;
 
-use crate::effects;
 use crate::hir::Program;
-use body::Unit;
-use marks::Marks;
-use names::Names;
 use proc_macro2::TokenStream;
-use slots::Slots;
-use templates::Templates;
+use unit::Unit;
 
-/// How to emit.
+/// Options of the emitter.
 #[derive(Clone, Debug, Default)]
 pub struct EmitOptions {
-    /// No comment in the first line that says where the code comes from.
+    /// Omits the comment in the first line that says where the code comes from.
     pub no_header: bool,
-    /// From which sizes on code takes the forms that are compiled sooner.
+    /// The sizes from which on code takes the forms that compile faster.
     pub sizes: Sizes,
-    /// For a debugger: the program halts where it is told to, and shows its variables.
-    /// [`compile_program`](crate::compile::compile_program) makes the checked program ready for it.
+    /// For a debugger: the program can be halted and shows its variables.
+    /// [`compile_program`](crate::compile::compile_program) prepares the checked program for it.
     pub watched: bool,
     /// Global variables keep their names, so that they can be set from outside.
     pub named: bool,
 }
 
-/// From which sizes on code takes the forms that are compiled sooner. They change nothing of what a program does.
+/// The sizes from which on code takes the forms that compile faster. They do not change what a program does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Sizes {
-    /// So many like statements in a row become a table.
+    /// This many similar statements in a row become a table.
     pub table: usize,
-    /// So many rows for each kind of statement in it.
+    /// The minimum number of rows in a table for each kind of statement.
     pub rows_of_a_kind: usize,
-    /// A block with more `.await`s than this is in parts.
+    /// A block with more `.await`s than this is split into parts.
     pub awaits: usize,
-    /// A part has at most so many, where its statements have no more each.
+    /// The maximum number of `.await`s in a part, unless one of its statements has more.
     pub awaits_of_a_part: usize,
-    /// A part has at least so many.
+    /// The minimum number of `.await`s in a part.
     pub least_awaits: usize,
-    /// In a program with more than this, functions with at least as many as a part are compiled by themselves.
+    /// In a program with more `.await`s than this, functions with at least as many as a part are compiled separately.
     pub awaits_of_a_program: usize,
-    /// And calls that are found so often, with other constants, become a function.
+    /// In such a program, calls that occur this often with different constants become a function.
     pub uses_of_a_template: usize,
-    /// More variables of one type and module than this are an array.
+    /// More variables of one type and module than this become an array.
     pub variables: usize,
 }
 
@@ -90,7 +88,7 @@ impl Default for Sizes {
 }
 
 impl Sizes {
-    /// What costs least to compile.
+    /// The sizes that compile fastest.
     pub const DEFAULT: Self = Self {
         table: 8,
         rows_of_a_kind: 4,
@@ -102,7 +100,7 @@ impl Sizes {
         variables: 64,
     };
 
-    /// All forms wherever they are possible: for tests.
+    /// Uses all forms wherever possible, for tests.
     pub const LEAST: Self = Self {
         table: 1,
         rows_of_a_kind: 1,
@@ -115,14 +113,14 @@ impl Sizes {
     };
 }
 
-/// The Rust for a checked program whose effects are known (see [`crate::effects::infer`]). The same program gives the
-/// same text.
+/// The Rust code for a checked program whose effects are known (see [`crate::effects::infer`]). The same program always
+/// gives the same text.
 pub fn emit(program: &Program, options: &EmitOptions) -> String {
     let unit = Unit::new(program, options);
     let tokens = program::items(&unit);
     let printed = match syn::parse2::<syn::File>(tokens.clone()) {
         Ok(file) => prettyplease::unparse(&file),
-        // A mistake of this compiler; rustc shows it where the user builds.
+        // A bug in this compiler; rustc shows it in the user's build.
         Err(error) => {
             let text = format!("arl2rs emitted code that Rust cannot read: {error}");
             format!("compile_error!({text:?});\n/*\n{}\n*/\n", tokens.to_string().replace("*/", "* /"))
@@ -132,7 +130,7 @@ pub fn emit(program: &Program, options: &EmitOptions) -> String {
     if options.no_header { text } else { format!("{}{text}", header(program)) }
 }
 
-/// The same as tokens, without comments: what the macro expands to.
+/// The same code as tokens, without comments: the expansion of the macro.
 pub fn emit_tokens(program: &Program) -> TokenStream {
     let unit = Unit::new(program, &EmitOptions::default());
     unit.marks.without_comments(program::items(&unit))
@@ -141,32 +139,4 @@ pub fn emit_tokens(program: &Program) -> TokenStream {
 fn header(program: &Program) -> String {
     let file = program.modules.first().map_or("", |module| module.file.as_str());
     format!("// Emitted by arl2rs {} from {}. Changes belong there.\n\n", env!("CARGO_PKG_VERSION"), marks::clean(file))
-}
-
-impl<'p> Unit<'p> {
-    fn new(program: &'p Program, &EmitOptions { sizes, watched, named, .. }: &EmitOptions) -> Self {
-        let lines = program.modules.iter().map(|module| arl_lang::span::LineIndex::new(&module.source)).collect();
-        let (movers, reached) = (effects::pointer_movers(program), effects::reached(program));
-        let mut names = Names::new(program);
-        let slots = Slots::new(program, &names, sizes);
-        let apart = parts::apart(program, sizes);
-        let templates = match parts::is_large(program, sizes) {
-            true => Templates::new(program, &mut names, &slots, sizes),
-            false => Templates::default(),
-        };
-        Self {
-            program,
-            names,
-            slots,
-            templates,
-            marks: Marks::default(),
-            lines,
-            movers,
-            reached,
-            apart,
-            sizes,
-            watched,
-            named: named || watched,
-        }
-    }
 }

@@ -1,13 +1,13 @@
 //! Rust names for the names of the program.
 //!
-//! A folded ARL name is its Rust name, unless it is a word of Rust or would hide something that the emitted code uses;
-//! then it gets underscores behind it. Names with two underscores in a row keep one, which is what rustc wants.
+//! A folded ARL name is its Rust name, unless it is a Rust keyword or would hide something that the emitted code uses;
+//! it then gets trailing underscores. Of two or more underscores in a row one is kept, as rustc expects.
 
 use crate::hir::{Func, LocalId, ModuleId, Program};
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use std::collections::{HashMap, HashSet};
 
-/// Words that cannot be names, in any edition up to 2024.
+/// Words that cannot be names in any edition up to 2024.
 const KEYWORDS: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else",
     "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod",
@@ -15,7 +15,7 @@ const KEYWORDS: &[&str] = &[
     "try", "type", "typeof", "union", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-/// Functions of the prelude, and the names that emitted functions give to what they are passed.
+/// Functions of the prelude, and the parameter names of emitted functions.
 const VALUES: &[&str] = &[
     "append",
     "cx",
@@ -34,30 +34,30 @@ const VALUES: &[&str] = &[
     "truth",
 ];
 
-/// What a module must not hide: crates, and what the functions of the program as a whole are passed.
+/// Names that a module must not hide: crates, and the parameters of functions of the program as a whole.
 const OUTSIDE: &[&str] = &["arl_rt", "core", "std", "alloc", "cx", "g"];
 
-/// Whether a word is reserved by Rust.
+/// Whether a word is a Rust keyword.
 fn is_keyword(name: &str) -> bool {
     KEYWORDS.contains(&name)
 }
 
-/// Whether a name is taken by what emitted functions use.
+/// Whether emitted functions use a name for something else.
 pub(super) fn is_taken_value(name: &str) -> bool {
     VALUES.contains(&name)
 }
 
-/// A Rust name; the text must be fit for one.
+/// A Rust name; the text must be a valid one.
 pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
 
-/// The name of a field or method: the folded name, unless it is a word of Rust.
+/// The name of a field or method: the folded name, unless it is a Rust keyword.
 pub(super) fn field(name: &str) -> Ident {
     ident(&tidy(&name.to_ascii_lowercase(), &|name| is_keyword(name)))
 }
 
-/// What a name of nothing but underscores becomes.
+/// The replacement for a name that consists only of underscores.
 const UNDERSCORE: &str = "underscore";
 
 /// `after_stop` as `AfterStop`.
@@ -71,7 +71,7 @@ pub(super) fn camel_case(name: &str) -> String {
     if out.starts_with(|c: char| c.is_ascii_alphabetic()) { out } else { format!("Label{out}") }
 }
 
-/// The name without doubled underscores, with underscores behind it as long as it is taken.
+/// The name without doubled underscores, with underscores appended as long as it is taken.
 fn tidy(name: &str, taken: &dyn Fn(&str) -> bool) -> String {
     let mut tidy = String::with_capacity(name.len() + 1);
     let inner = name.trim_matches('_');
@@ -85,7 +85,7 @@ fn tidy(name: &str, taken: &dyn Fn(&str) -> bool) -> String {
     if name.len() > lead + inner.len() {
         tidy.push('_');
     }
-    // A lone underscore is not a name, and one in front would silence warnings about what is not used.
+    // A lone underscore is not a name, and a leading one would silence warnings about unused variables.
     while tidy == "_" || tidy.is_empty() || taken(&tidy) {
         tidy.push('_');
         if tidy == "__" {
@@ -95,8 +95,8 @@ fn tidy(name: &str, taken: &dyn Fn(&str) -> bool) -> String {
     tidy
 }
 
-/// Whether code uses the prelude: every path, call and type of it begins with one of these words or with one that is
-/// neither of Rust's own types nor of the module.
+/// Whether code uses the prelude: every path, call and type of the prelude begins with one of these words, or with a
+/// type that belongs neither to Rust itself nor to the module.
 pub(super) fn mentions_prelude(code: &TokenStream) -> bool {
     code.clone().into_iter().any(|token| match token {
         TokenTree::Ident(word) => {
@@ -108,7 +108,7 @@ pub(super) fn mentions_prelude(code: &TokenStream) -> bool {
     })
 }
 
-/// Types of the prelude begin with a capital letter, as do a few names that are not of it.
+/// Types of the prelude begin with a capital letter, as do a few names that do not belong to it.
 fn is_type(word: &str) -> bool {
     const OTHERS: &[&str] = &[
         "Globals",
@@ -143,7 +143,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// Finds names for a program.
+    /// Assigns names for a program.
     pub(super) fn new(program: &Program) -> Self {
         let mut used = HashSet::new();
         let modules = program
@@ -177,12 +177,11 @@ impl Names {
         pick(&self.funcs, id)
     }
 
-    /// The field of a global variable in its module's structure.
+    /// The field of a global variable in the structure of its module.
     pub(super) fn global(&self, id: u32) -> Ident {
         pick(&self.globals, id)
     }
 
-    /// Whether a module has a function of this Rust name.
     /// A name for one more function of a module: `lin_1`.
     pub(super) fn new_function(&mut self, module: ModuleId, wanted: &str) -> Ident {
         let wanted = wanted.to_ascii_lowercase();
@@ -193,22 +192,24 @@ impl Names {
         ident(&name)
     }
 
+    /// Whether a module has a function of this Rust name.
     pub(super) fn has_function(&self, module: ModuleId, name: &str) -> bool {
         self.functions_of.get(module.0 as usize).is_some_and(|names| names.contains(name))
     }
 
-    /// The names of a function's locals. Two of them may share a name where the program hides one behind the other, but
-    /// not where variables of several blocks share a scope: in functions with `goto` or parts, which are `scattered`.
+    /// The names of a function's locals. Two of them may share a name if the program hides one behind the other, but
+    /// not if variables of several blocks share a scope: in functions with `goto` or parts, which are `scattered`.
     pub(super) fn locals(&self, func: &Func, scattered: bool, unread: &dyn Fn(LocalId) -> bool) -> Vec<Ident> {
         let mut by_name: HashMap<String, String> = HashMap::new();
         let mut used = HashSet::new();
         let mut out = Vec::with_capacity(func.locals.len());
         for (at, local) in func.locals.iter().enumerate() {
-            // Underscores alone are not a name in Rust, and get one that has to show by itself that nothing reads it.
+            // A name of underscores alone is not valid in Rust. It gets a new one, which still has to show whether it
+            // is never read.
             let name = if local.name.chars().all(|c| c == '_') { UNDERSCORE } else { &local.name };
             let lead = if unread(LocalId(at as u32)) && !name.starts_with('_') { "_" } else { "" };
             let wanted = format!("{lead}{name}");
-            // `depth` that nobody reads and `_depth` are two.
+            // An unread `depth` and `_depth` are two different names.
             let key = if scattered { at.to_string() } else { format!("{lead} {}", local.name) };
             let name = by_name.entry(key).or_insert_with(|| {
                 let taken =
@@ -221,7 +222,7 @@ impl Names {
     }
 }
 
-/// The name of a file, in which anything may stand, made fit for Rust.
+/// The name of a file, which may contain any characters, made valid for Rust.
 fn of_file(name: &str) -> String {
     let fits = |text: &str| syn::parse_str::<Ident>(text).is_ok();
     let inner = |c: char| !c.is_whitespace() && fits(&format!("x_{c}"));

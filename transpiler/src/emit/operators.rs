@@ -1,4 +1,4 @@
-//! Operators. Whole numbers wrap, so their arithmetic is written as methods.
+//! Operators. Integers wrap, so their arithmetic is written as method calls.
 
 use super::body::Body;
 use super::consts::constant;
@@ -23,7 +23,7 @@ impl<'p> Body<'p, '_> {
         self.typed_value(inner).map(Precedence::Unary, |value| {
             let value = value.at(Precedence::Unary);
             match op {
-                // Two signs in a row read as another language's `--`, of which rustc warns.
+                // Two signs in a row look like the `--` of other languages, about which rustc warns.
                 UnaryOp::Negate if is_signed(&value) => quote!(-(#value)),
                 UnaryOp::Negate => quote!(-#value),
                 _ => quote!(!#value),
@@ -36,7 +36,7 @@ impl<'p> Body<'p, '_> {
         self.truth(condition, false)
     }
 
-    /// A condition, or with `wanted` false its opposite. `x == true` is `x`, `!(a < b)` is `a >= b`.
+    /// A condition, or its opposite if `wanted` is false. `x == true` is `x`, `!(a < b)` is `a >= b`.
     pub(super) fn truth(&mut self, condition: &'p Expr, wanted: bool) -> Fragment {
         match &condition.kind {
             ExprKind::Const(Value::Bool(value)) => return constant(&Value::Bool(*value == wanted)),
@@ -65,7 +65,7 @@ impl<'p> Body<'p, '_> {
         })
     }
 
-    /// A condition without looking for a simpler form.
+    /// A condition, without looking for a simpler form.
     fn value_of_condition(&mut self, condition: &'p Expr) -> Fragment {
         match &condition.kind {
             ExprKind::Binary(op, sides) => self.binary(*op, &sides.0, &sides.1),
@@ -102,7 +102,7 @@ impl<'p> Body<'p, '_> {
         self.operation(op, left.ty, left_side, &right_side, known).after(before)
     }
 
-    /// The operation on operands that have been emitted; `known` is the right one's value where it is constant.
+    /// The operation on emitted operands; `known` is the value of the right one if it is constant.
     pub(super) fn operation(
         &self,
         op: BinaryOp,
@@ -145,7 +145,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// `v == VelProfile::S`, where the program compares the numbers that enumerations stand for.
+    /// `v == VelProfile::S`, if the program compares the numbers of enumeration constants.
     fn compared_enums(&mut self, op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Option<Fragment> {
         if !matches!(op, BinaryOp::Equal | BinaryOp::NotEqual) {
             return None;
@@ -177,7 +177,7 @@ impl<'p> Body<'p, '_> {
         })
     }
 
-    /// `a + b` of strings: the left one is copied, or was made for the purpose; the right one is looked at.
+    /// `a + b` of strings: the left one is copied or is a temporary; the right one is only read.
     fn joined(&mut self, left: &'p Expr, right: &'p Expr) -> Fragment {
         let left_mode = match text_mode(left) {
             Mode::Reference => Mode::Reference,
@@ -197,7 +197,7 @@ fn is_signed(value: &TokenStream) -> bool {
     matches!(value.clone().into_iter().next(), Some(TokenTree::Punct(sign)) if sign.as_char() == '-')
 }
 
-/// The value of an enumeration that is used as its number.
+/// The value of an enumeration that is used as a number.
 fn enumeration(expr: &Expr) -> Option<(Enum, &Expr)> {
     match &expr.kind {
         ExprKind::Convert(inner) => match inner.ty.base {
@@ -208,20 +208,20 @@ fn enumeration(expr: &Expr) -> Option<(Enum, &Expr)> {
     }
 }
 
-/// The constant of an enumeration for a known number.
+/// The enumeration constant for a known number.
 fn constant_of(id: Enum, expr: &Expr) -> Option<Fragment> {
     let ExprKind::Const(Value::Int(index)) = expr.kind else { return None };
     let index = u16::try_from(index).ok().filter(|index| usize::from(*index) < id.def().constants.len())?;
     Some(constant(&Value::Enum(id, index)))
 }
 
-/// Whether the left operand has to show its type: the receiver of a method, the first argument of a shift.
+/// Whether the left operand must show its type: the receiver of a method, the first argument of a shift.
 fn needs_type(op: BinaryOp) -> bool {
     use BinaryOp::*;
     matches!(op, Add | Subtract | Multiply | ShiftLeft | ShiftRight)
 }
 
-/// How a string is wanted that is appended: a literal as it is, a local variable by reference.
+/// The mode of a string to be appended: a literal as it is, a local variable by reference.
 pub(super) fn text_mode(expr: &Expr) -> Mode {
     match &expr.kind {
         ExprKind::Const(Value::String(_)) => Mode::Compared,
@@ -245,8 +245,8 @@ fn is_divisor(value: &Value) -> bool {
     !matches!(value, Value::Int(0) | Value::Uint(0) | Value::Byte(0)) && *value != Value::Double(0.0)
 }
 
-/// rustc warns of comparisons that a literal decides alone; a named limit says that it is meant. `least` tells whether
-/// the side is compared so with the least value, else it is with the greatest.
+/// rustc warns about comparisons that a literal decides alone; a named limit shows the intention. With `least`, the
+/// side is checked for the least value of its type, otherwise for the greatest.
 fn limit(side: Fragment, base: Base, least: bool) -> Fragment {
     let text = side.tokens.to_string();
     let text = text.trim_end_matches(base_suffix(base));
@@ -261,7 +261,7 @@ fn limit(side: Fragment, base: Base, least: bool) -> Fragment {
     Fragment { tokens, ..side }
 }
 
-/// rustc warns of comparisons with the name of nan, which no number equals; with a sign it is the same.
+/// rustc warns about comparisons with the name NAN, which no number equals; with a sign the result is the same.
 fn nan_with_sign(side: Fragment) -> Fragment {
     let is_nan = side.tokens.to_string() == quote!(f64::NAN).to_string();
     if is_nan { Fragment::new(quote!(-f64::NAN), Precedence::Unary) } else { side }
@@ -275,7 +275,7 @@ fn base_suffix(base: Base) -> &'static str {
     }
 }
 
-/// The operator that is true where `op` is false; not for the order of doubles, which nan is not part of.
+/// The operator that is true where `op` is false; not for ordering doubles, because nan is unordered.
 fn opposite(op: BinaryOp, ty: Type) -> Option<BinaryOp> {
     let ordered = ty.base != Base::Double;
     match op {
@@ -289,7 +289,7 @@ fn opposite(op: BinaryOp, ty: Type) -> Option<BinaryOp> {
     }
 }
 
-/// How tightly an operator holds together.
+/// How tightly an operator binds.
 pub(super) fn precedence(op: BinaryOp) -> Precedence {
     match op {
         BinaryOp::Add | BinaryOp::Subtract => Precedence::Sum,

@@ -1,7 +1,7 @@
 //! Reading and writing variables, their components and elements.
 //!
-//! Locals are plain Rust variables. Global and system variables are `Cell`s, or `Shared` where their value is not
-//! `Copy`; handles are what they are.
+//! Locals are plain Rust variables. Global and system variables are `Cell`s, or `Shared` if their value is not `Copy`;
+//! handles are stored directly.
 
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
@@ -18,14 +18,14 @@ use quote::{ToTokens, quote};
 #[derive(Clone, Debug)]
 pub(super) struct Reached {
     root: Root,
-    /// Whether it is a local variable that events see, too.
+    /// Whether it is a local variable that is also visible to events.
     shared: bool,
     /// The type of the whole variable.
     whole: Type,
-    /// The type of what the path leads to.
+    /// The type at the end of the path.
     pub(super) ty: Type,
     path: Vec<Reach>,
-    /// The column of a table that says which variable of an array is meant.
+    /// The column of a table that selects the variable of an array.
     column: Option<Ident>,
 }
 
@@ -36,7 +36,7 @@ enum Reach {
     At(TokenStream),
 }
 
-/// How a variable is kept.
+/// How a variable is stored.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Storage {
     Local,
@@ -50,16 +50,16 @@ enum Storage {
 /// Where a value may be computed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Calm {
-    /// In a statement of its own only.
+    /// Only in a statement of its own.
     No,
-    /// Anywhere where nothing is held that it reads.
+    /// Anywhere, as long as nothing that it reads is borrowed.
     Quiet,
-    /// Anywhere: it has to do with locals only.
+    /// Anywhere: it depends on locals only.
     Local,
 }
 
 impl Calm {
-    /// For a value that these facts are about.
+    /// For a value with these facts.
     pub(super) fn of(facts: &Facts) -> Self {
         match facts.quiet() {
             true if !facts.world && !facts.context && !facts.globals => Calm::Local,
@@ -73,11 +73,11 @@ impl Calm {
 pub(super) enum Written<'p> {
     /// `place = value`
     Value(Fragment),
-    /// `place op= value`, where the operation cannot fail.
+    /// `place op= value`, if the operation cannot fail.
     Step {
         op: BinaryOp,
         value: Fragment,
-        /// The value where it is constant.
+        /// The value, if it is constant.
         known: Option<&'p Value>,
         /// Whether Rust has the operator in this form.
         native: bool,
@@ -95,7 +95,7 @@ impl Reached {
         }
     }
 
-    /// The index of the element that the path begins with.
+    /// The index of the element with which the path begins.
     fn first_index(&self) -> TokenStream {
         match self.path.first() {
             Some(Reach::At(at)) => at.clone(),
@@ -131,7 +131,7 @@ impl<'p> Body<'p, '_> {
             .collect()
     }
 
-    /// A place with its indices as they were emitted.
+    /// A place with its emitted indices.
     pub(super) fn reached(&self, place: &Place, indices: impl IntoIterator<Item = Fragment>) -> Reached {
         let mut indices = indices.into_iter();
         let path = place
@@ -144,10 +144,10 @@ impl<'p> Body<'p, '_> {
             .collect();
         let shared = matches!(place.root, Root::Local(_)) && self.plain_local(place.root).is_none();
         let whole = self.variable_type(place.root);
-        Reached { root: place.root, shared, whole, ty: place.ty, path, column: self.columns.slot(place) }
+        Reached { root: place.root, shared, whole, ty: place.ty, path, column: self.position.columns.slot(place) }
     }
 
-    /// A local variable that is a plain one in Rust, too: that events do not see.
+    /// A local variable that is a plain one in Rust, too, because events do not see it.
     pub(super) fn plain_local(&self, root: Root) -> Option<LocalId> {
         let Root::Local(id) = root else { return None };
         (!self.is_shared(id)).then_some(id)
@@ -207,7 +207,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// `at::p17`: where a variable is in its array.
+    /// `at::p17`: the position of a variable in its array.
     pub(super) fn place_in_array(&self, id: GlobalId) -> TokenStream {
         let owner = self.program().globals.get(id.0 as usize).map_or(self.module, |global| global.module);
         let (module, name) = (self.unit.names.module(owner), self.unit.names.global(id.0));
@@ -215,21 +215,21 @@ impl<'p> Body<'p, '_> {
         quote!(#path at::#name)
     }
 
-    /// The value of a place, to keep.
+    /// The value of a place, as an owned value.
     pub(super) fn read(&mut self, place: &'p Place) -> Fragment {
         let (before, indices) = self.sequence(&Self::index_operands(place), |_| false);
         let reached = self.reached(place, indices);
         self.read_reached(&reached).after(before)
     }
 
-    /// The value of a place, to look at: no copy of what a local variable holds.
+    /// The value of a place, only to be read: the value of a local variable is not copied.
     pub(super) fn look_at(&mut self, place: &'p Place) -> Fragment {
         let (before, indices) = self.sequence(&Self::index_operands(place), |_| false);
         let reached = self.reached(place, indices);
         self.look_at_reached(&reached).after(before)
     }
 
-    /// The value of a place whose indices are known, to keep.
+    /// The value of a place whose indices are known, as an owned value.
     pub(super) fn read_reached(&mut self, place: &Reached) -> Fragment {
         match place.kept() {
             Storage::Local => Self::owned(self.look_at_reached(place), place.ty),
@@ -257,7 +257,7 @@ impl<'p> Body<'p, '_> {
         Fragment::postfix(tokens)
     }
 
-    /// The place itself, of a local variable.
+    /// The place itself, for a local variable.
     pub(super) fn target(&self, place: &Reached) -> TokenStream {
         let (variable, steps) = (self.variable(place), place.steps());
         quote!(#variable #steps)
@@ -271,7 +271,7 @@ impl<'p> Body<'p, '_> {
         })
     }
 
-    /// The statement that writes a place whose indices are known. `calm` tells where the value may be computed.
+    /// The statement that writes a place whose indices are known. `calm` determines where the value may be computed.
     pub(super) fn write(&mut self, place: &Reached, written: Written<'p>, calm: Calm) -> TokenStream {
         let variable = self.variable(place);
         let item = matches!(place.path.as_slice(), [Reach::At(_)]);
@@ -281,7 +281,7 @@ impl<'p> Body<'p, '_> {
                 let (before, change) = self.changed(place.ty, &target, written);
                 quote!(#before #change;)
             }
-            // The checker has no assignment to handles.
+            // The checker accepts no assignment to handles.
             (Storage::Handle, _) => TokenStream::new(),
             (_, Written::Value(value)) if place.path.is_empty() => {
                 let (before, value) = (&value.before, &value.tokens);
@@ -310,7 +310,7 @@ impl<'p> Body<'p, '_> {
         quote!(#before #appended;)
     }
 
-    /// `target = value`, `target += value`, with the statements before.
+    /// `target = value`, `target += value`, with the preceding statements.
     fn changed(&self, ty: Type, target: &TokenStream, written: Written<'p>) -> (TokenStream, TokenStream) {
         match written {
             Written::Value(value) => {
@@ -328,7 +328,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// `variable.update(|it| ..)`; the value is computed before, unless it may be computed in there.
+    /// `variable.update(|it| ..)`; the value is computed before it, unless it may be computed inside.
     fn update(&mut self, place: &Reached, variable: &TokenStream, written: Written<'p>, calm: Calm) -> TokenStream {
         let kept = place.kept();
         let inside = if kept == Storage::Shared { calm == Calm::Local } else { calm != Calm::No };
@@ -371,7 +371,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// `Pose { x: value, ..it }`, for inner components nested.
+    /// `Pose { x: value, ..it }`, nested for inner components.
     fn rebuilt(&self, it: &TokenStream, path: &[Reach], value: TokenStream) -> TokenStream {
         let Some((Reach::Field(id, field), rest)) = path.split_first() else { return value };
         let inner = self.rebuilt(&quote!(#it.#field), rest, value);
@@ -382,7 +382,7 @@ impl<'p> Body<'p, '_> {
         quote!(#name { #field: #inner, ..#it })
     }
 
-    /// A value on its way into a system variable that does not take all of its type.
+    /// A value for a system variable that does not accept all values of its type.
     pub(super) fn limited(&self, place: &Place, value: Fragment, expr: Option<&Expr>) -> Fragment {
         let tokens = &value.tokens;
         let call = match facts::limit(place, expr) {

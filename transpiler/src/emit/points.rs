@@ -1,4 +1,4 @@
-//! Large tables: rustc's time grows faster than the length of an array literal of structures, so those are filled in
+//! Large tables: rustc's time grows faster than the length of an array literal of structures, so these are filled in
 //! pieces.
 
 use super::body::Body;
@@ -9,10 +9,10 @@ use arl_lang::catalog::Base;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// So many structures or strings go into one literal.
+/// The number of structures or strings in one literal.
 const PIECE: usize = 16;
 
-/// Whether an array's initialiser is filled in pieces.
+/// Whether the initialiser of an array is filled in pieces.
 pub(super) fn is_large(ty: Type, values: &[Expr]) -> bool {
     let plain = !matches!(ty.base, Base::Struct(_) | Base::String);
     let constants = values.iter().all(|value| matches!(value.kind, ExprKind::Const(_)));

@@ -1,7 +1,7 @@
 //! The file as a whole: a module for each ARL file, all variables, and what the controller runs.
 
-use super::body::Unit;
 use super::tokens::mentions;
+use super::unit::Unit;
 use super::variables::{self, Init};
 use super::{functions, names};
 use crate::hir::{Expr, ExprKind, FuncId, Module, ModuleId};
@@ -10,14 +10,14 @@ use arl_lang::catalog::Family;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// What a module has.
+/// The contents of a module.
 struct Parts {
     id: ModuleId,
-    /// Setting first values, where there are variables.
+    /// The initialisation, if there are variables.
     init: Option<Init>,
     /// Whether there is a `Variables` structure.
     variables: bool,
-    /// Whether values are read again at load.
+    /// Whether values are read again on load.
     data: bool,
 }
 
@@ -127,7 +127,7 @@ fn globals(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
     }
 }
 
-/// `Globals::init`, where there are variables but no `main`: no controller runs such a program and would set them.
+/// `Globals::init`, if there are variables but no `main`: no controller runs such a program and would initialise them.
 fn initialised_by_rust(unit: &Unit<'_>, inits: &TokenStream) -> Option<TokenStream> {
     let blank = blank(unit);
     let cx = context(inits);
@@ -190,7 +190,7 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
     }
 }
 
-/// The functions that list what the modules have: variables of data files, all of them, handles.
+/// The functions that list the contents of the modules: variables of data files, all variables, handles.
 fn tables(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
     let modules = |ids: &[ModuleId]| ids.iter().map(|id| unit.names.module(*id)).collect::<Vec<_>>();
     let ids = |has: &dyn Fn(&Parts) -> bool| parts.iter().filter(|part| has(part)).map(|part| part.id).collect();
@@ -227,7 +227,7 @@ fn tables(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
     quote!(#data #named #handles)
 }
 
-/// `fn beside(&self) -> Beside`, where the program uses something that runs beside the cycle.
+/// `fn beside(&self) -> Beside`, if the program uses something that runs in parallel to the cycle.
 fn beside(unit: &Unit<'_>) -> Option<TokenStream> {
     let (mut connections, mut modbus_tcp) = (false, false);
     let mut look = |expr: &Expr| {
@@ -251,7 +251,7 @@ fn beside(unit: &Unit<'_>) -> Option<TokenStream> {
     })
 }
 
-/// The calls that give all variables their first values, module after module.
+/// The calls that initialise all variables, module by module.
 fn init_calls(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
     let call = |part: &Parts| {
         let module = unit.names.module(part.id);
@@ -260,7 +260,7 @@ fn init_calls(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
     order_of_init(unit, parts).into_iter().filter_map(call).collect()
 }
 
-/// The modules in the order in which their variables get their first values.
+/// The modules in the order in which their variables are initialised.
 fn order_of_init<'a>(unit: &Unit<'_>, parts: &'a [Parts]) -> Vec<&'a Parts> {
     let mut order: Vec<&Parts> = Vec::new();
     for global in &unit.program.globals {
@@ -273,12 +273,12 @@ fn order_of_init<'a>(unit: &Unit<'_>, parts: &'a [Parts]) -> Vec<&'a Parts> {
     order
 }
 
-/// The name that the context has: `_cx` where it is not used.
+/// The name of the context: `_cx` if it is not used.
 fn context(code: &TokenStream) -> TokenStream {
     if mentions(code, "cx") { quote!(cx) } else { quote!(_cx) }
 }
 
-/// `Box::pin(async move { .. })`, with the name that the context has.
+/// `Box::pin(async move { .. })`, and the name of the context.
 fn future(code: TokenStream) -> (TokenStream, TokenStream) {
     let cx = context(&code);
     let g = mentions(&code, "g").then(|| quote!(let g = self;));

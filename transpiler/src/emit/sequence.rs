@@ -1,7 +1,7 @@
-//! Operands in order: ARL evaluates from left to right, also where Rust would not.
+//! Operands in order: ARL evaluates from left to right, even where Rust would not.
 //!
-//! An operand may need statements in front of the expression (an assignment inside it, say). They would run before the
-//! operands to its left, so those go into temporaries wherever that could be noticed.
+//! An operand may need statements before the expression (for example for an assignment inside it). These would run
+//! before the operands to its left, which therefore go into temporaries wherever the difference could be noticed.
 
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
@@ -10,24 +10,24 @@ use crate::hir::{Expr, Type};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// How a value is wanted.
+/// The form in which a value is needed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Mode {
-    /// To keep.
+    /// As an owned value.
     Value,
-    /// The same, where nothing around it tells the type of a number.
+    /// As an owned value where the type of a number does not follow from the context.
     Typed,
-    /// To put into a variable, whose type tells that of a number.
+    /// As the value of a variable, whose type determines the type of a number.
     Placed,
     /// As `&T`.
     Reference,
     /// As `&dyn Print`.
     Printed,
-    /// As a side of a comparison, which only looks at it.
+    /// As an operand of a comparison, which only reads it.
     Compared,
 }
 
-/// Something that is evaluated in its turn.
+/// An operand that is evaluated in order.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum OrderedOperand<'p> {
     /// An expression.
@@ -37,8 +37,8 @@ pub(super) enum OrderedOperand<'p> {
 }
 
 impl<'p> Body<'p, '_> {
-    /// Evaluates operands in order. Returns the statements that go first, and the expressions. Where `settle` says so,
-    /// an operand goes into a temporary unless it is constant.
+    /// Evaluates operands in order. Returns the statements that go first, and the expressions. If `settle` returns true
+    /// for an operand, it goes into a temporary unless it is constant.
     pub(super) fn sequence(
         &mut self,
         operands: &[OrderedOperand<'p>],
@@ -91,7 +91,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// What evaluating an operand involves.
+    /// The facts about the evaluation of an operand.
     pub(super) fn operand_facts(&self, operand: &OrderedOperand<'p>) -> Facts {
         match operand {
             OrderedOperand::Expr(expr, _) => self.facts(expr),
@@ -100,7 +100,7 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// A reference for printing, with the sizes of an array of more than one dimension, which Rust keeps flat.
+/// A reference for printing, with the sizes of a multidimensional array, which is flat in Rust.
 pub(super) fn nested(reference: Fragment, ty: Type) -> Fragment {
     if ty.dims().len() < 2 {
         return reference;

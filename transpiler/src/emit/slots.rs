@@ -1,9 +1,9 @@
-//! Many global variables of one type as one array: rustc is given a row for each, and not its code.
+//! Many global variables of one type as one array: rustc compiles a row for each instead of its code.
 //!
 //! Invariants:
-//! - the variables of an array are of one module and one type, their values are copied, and their first values are
-//!   constant;
-//! - they are in the order of their declarations, and get their first values in that order among all others.
+//! - the variables of an array belong to one module and have one type; their values are `Copy`, and their initial
+//!   values are constant;
+//! - they are in the order of their declarations, and are initialised in that order among all other variables.
 
 use super::Sizes;
 use super::names::{Names, ident};
@@ -17,7 +17,7 @@ use std::collections::{HashMap, HashSet};
 #[derive(Default, Debug)]
 pub(super) struct Slots {
     arrays: Vec<SlotArray>,
-    /// The array of a variable, and its number in it.
+    /// The array of a variable, and the variable's number in it.
     of: HashMap<GlobalId, (usize, usize)>,
 }
 
@@ -26,9 +26,9 @@ pub(super) struct Slots {
 pub(super) struct SlotArray {
     pub(super) module: ModuleId,
     pub(super) ty: Type,
-    /// Whether their values are read again at load.
+    /// Whether the values are read again on load.
     pub(super) teachable: bool,
-    /// The field of the module's variables.
+    /// The field in the module's variables.
     pub(super) field: Ident,
     pub(super) members: Vec<GlobalId>,
 }
@@ -64,7 +64,7 @@ impl Slots {
         slots
     }
 
-    /// The array of a variable, and its number in it.
+    /// The array of a variable, and the variable's number in it.
     pub(super) fn of(&self, id: GlobalId) -> Option<(&SlotArray, usize)> {
         let (array, at) = self.of.get(&id)?;
         Some((self.arrays.get(*array)?, *at))
@@ -76,12 +76,12 @@ impl Slots {
     }
 }
 
-/// Whether a variable may be in an array.
+/// Whether a variable may be stored in an array.
 fn may_be(global: &Global) -> bool {
     global.value.is_none() && is_copy(global.ty) && global.init.as_ref().is_none_or(is_constant)
 }
 
-/// Whether a value is made of constants, as they stand in the program.
+/// Whether a value consists of constants, as written in the program.
 pub(super) fn is_constant(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Const(_) => true,
@@ -90,7 +90,7 @@ pub(super) fn is_constant(expr: &Expr) -> bool {
     }
 }
 
-/// What an array of the type is called, but for its `s`.
+/// The name of an array of the type, without the final `s`.
 fn word(ty: Type, family: Family) -> &'static str {
     match ty.base {
         Base::Void => "void",

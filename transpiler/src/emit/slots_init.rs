@@ -1,13 +1,14 @@
-//! The first values of variables that are in an array.
+//! The initial values of variables stored in an array.
 
-use super::body::{Body, Unit};
+use super::body::Body;
 use super::rows::{Entry, Hole, Lead, Shape, of_value};
 use super::types::start_value;
+use super::unit::Unit;
 use crate::hir::{Expr, GlobalId, ModuleId};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-/// A variable with its first value.
+/// A variable with its initial value.
 struct First<'p> {
     /// Its number in the array.
     at: usize,
@@ -16,7 +17,7 @@ struct First<'p> {
     holes: Vec<Hole<'p>>,
 }
 
-/// The code that gives variables of one array their first values: a table.
+/// The code that initialises variables of one array: a table.
 pub(super) fn first_values(unit: &Unit<'_>, module: ModuleId, members: &[GlobalId]) -> TokenStream {
     let Some((array, _)) = members.first().and_then(|id| unit.slots.of(*id)) else { return TokenStream::new() };
     let family = unit.family();

@@ -1,6 +1,7 @@
 //! Statements and blocks.
 
-use super::body::{Body, Exit, Tail};
+use super::body::Body;
+use super::control_flow::{Exit, Tail};
 use super::fragment::{Fragment, Precedence};
 use super::parts::Leave;
 use super::sequence::Mode;
@@ -16,16 +17,16 @@ use quote::quote;
 impl<'p> Body<'p, '_> {
     /// The statements of a block, as a scope.
     pub(super) fn block(&mut self, block: &'p [Stmt], tail: Tail) -> TokenStream {
-        let visible = self.visible.len();
+        let visible = self.locals.visible.len();
         let statements = flow::reachable(block);
         self.find_deferred(&statements);
         let groups = self.groups(statements);
         let out = self.grouped(groups, tail);
-        self.visible.truncate(visible);
+        self.locals.visible.truncate(visible);
         out
     }
 
-    /// Whether a statement calls a function that may lead back to this one.
+    /// Whether a statement calls a function that may lead back to the current one.
     pub(super) fn calls_itself(&self, stmt: &Stmt) -> bool {
         let funcs = &self.program().funcs;
         let recursive = |id: &FuncId| funcs.get(id.0 as usize).is_some_and(|func| func.effects.recursive);
@@ -33,23 +34,23 @@ impl<'p> Body<'p, '_> {
             || flow::blocks(stmt).any(|block| block.iter().any(|stmt| self.calls_itself(stmt)))
     }
 
-    /// An expression of which it is asked afterwards whether it needs the program pointer.
+    /// An expression; afterwards the caller can ask whether it needs the program pointer.
     pub(super) fn value_alone(&mut self, expr: &'p Expr) -> Fragment {
-        self.acts = false;
+        self.position.acts = false;
         self.value(expr)
     }
 
     /// One statement with its comment.
     pub(super) fn statement(&mut self, stmt: &'p Stmt, tail: Tail) -> TokenStream {
-        // What may be jumped over gives no result.
-        let tail = if self.frame.is_some() { Tail::Inner } else { tail };
+        // A statement that may be skipped gives no result.
+        let tail = if self.form.frame.is_some() { Tail::Inner } else { tail };
         self.with_own_temporaries(|body| {
             body.stand_at(stmt.span);
-            body.acts = false;
+            body.position.acts = false;
             let comment = body.comment(stmt.span);
-            let line = body.line;
+            let line = body.position.line;
             let code = body.bare_statement(stmt, tail);
-            body.line = line;
+            body.position.line = line;
             let code = body.where_it_runs(stmt, code);
             quote!(#comment #code)
         })
@@ -77,7 +78,7 @@ impl<'p> Body<'p, '_> {
     /// `let x = value;`
     fn declaration(&mut self, id: LocalId, value: Option<&'p Expr>) -> TokenStream {
         let Some(local) = self.func.and_then(|func| func.locals.get(id.0 as usize)) else { return TokenStream::new() };
-        if local.constant && local.value.is_some() && !self.usage.is_read(id) {
+        if local.constant && local.value.is_some() && !self.locals.usage.is_read(id) {
             return TokenStream::new();
         }
         let (name, family) = (self.local(id), self.family());
@@ -88,13 +89,13 @@ impl<'p> Body<'p, '_> {
         let before = given.as_ref().map(|value| value.before.clone());
         let start = start_value(local.ty, family);
         let tokens = given.as_ref().map_or(&start, |value| &value.tokens);
-        self.visible.push(id);
+        self.locals.visible.push(id);
         self.note_declaration(id);
         let code = if self.is_hoisted(id) {
             quote!(#name = #tokens;)
-        } else if self.deferred.contains(&id) {
+        } else if self.locals.deferred.contains(&id) {
             TokenStream::new()
-        } else if self.usage.is_late(id) {
+        } else if self.locals.usage.is_late(id) {
             let (mutable, ty) = (self.mutable(id), rust_type(local.ty, family));
             quote!(let #mutable #name: #ty;)
         } else {
@@ -105,21 +106,21 @@ impl<'p> Body<'p, '_> {
         quote!(#pointer #before #code)
     }
 
-    /// `let x = Rc::new(Cell::new(value));`: a variable that events see, a new one each time.
+    /// `let x = Rc::new(Cell::new(value));`: a variable visible to events, a new one each time.
     fn shared_declaration(&mut self, id: LocalId, ty: Type, value: Option<&'p Expr>) -> TokenStream {
         let (name, family) = (self.local(id), self.family());
         let given = value.map(|value| self.expression(value, Mode::Placed));
         let before = given.as_ref().map(|value| value.before.clone());
         let start = shared_value(ty, start_value(ty, family));
         let cell = given.map(|value| shared_value(ty, value.tokens));
-        self.visible.push(id);
+        self.locals.visible.push(id);
         self.note_declaration(id);
         let pointer = self.pointer();
         let shown = self.shown(id);
         let of = needs_annotation(ty, value).then(|| shared_type(ty, family)).map(|ty| quote!(: #ty));
         let target = if self.is_hoisted(id) { quote!(#name) } else { quote!(let #name #of) };
         match cell {
-            Some(cell) if self.frame.is_some() => {
+            Some(cell) if self.form.frame.is_some() => {
                 let value = self.declared(id, &quote!(#pointer #before), cell, start);
                 quote!(#target = #value; #shown)
             }
@@ -131,7 +132,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// Puts parameters that events see where these can see them.
+    /// Makes parameters that events use visible to them.
     pub(super) fn shared_parameters(&self, params: &[LocalId]) -> TokenStream {
         let func = self.func;
         let shared = params.iter().filter(|id| self.is_shared(**id)).filter_map(|id| {
@@ -143,7 +144,7 @@ impl<'p> Body<'p, '_> {
         shared.collect()
     }
 
-    /// `: i32`, where the type does not show in the value.
+    /// `: i32`, if the value does not show the type.
     pub(super) fn annotation(&self, ty: Type, value: Option<&Expr>) -> TokenStream {
         if !needs_annotation(ty, value) {
             return TokenStream::new();
@@ -152,14 +153,14 @@ impl<'p> Body<'p, '_> {
         quote!(: #ty)
     }
 
-    /// `mut` where the variable changes.
+    /// `mut` if the variable changes.
     pub(super) fn mutable(&self, id: LocalId) -> TokenStream {
-        if self.usage.is_mutable(id) { quote!(mut) } else { TokenStream::new() }
+        if self.locals.usage.is_mutable(id) { quote!(mut) } else { TokenStream::new() }
     }
 
-    /// An expression for what it does.
+    /// An expression that is used for its effect.
     pub(super) fn effect(&mut self, expr: &'p Expr, tail: Tail) -> TokenStream {
-        self.acts = false;
+        self.position.acts = false;
         if let ExprKind::Builtin(builtin) = &expr.kind
             && flow::ends(expr)
         {
@@ -170,7 +171,7 @@ impl<'p> Body<'p, '_> {
             ExprKind::Assign(_) | ExprKind::AssignOp(..) | ExprKind::Step(..) => self.assignment(expr),
             ExprKind::Call(..) | ExprKind::Builtin(_) => {
                 let Fragment { before, tokens, settled, .. } = self.value(expr);
-                // What is settled has been computed before; a result that nobody wants is left.
+                // A settled value has been computed before; a result that is not used is dropped.
                 match settled {
                     false => quote!(#before #tokens;),
                     true if is_unit(&tokens) => before,
@@ -194,7 +195,7 @@ impl<'p> Body<'p, '_> {
             let condition_span = condition.span;
             self.stand_at(condition_span);
             let value = self.value_alone(condition);
-            let value = if self.frame.is_some() {
+            let value = if self.form.frame.is_some() {
                 let pointer = if at == 0 { self.pointer() } else { TokenStream::new() };
                 self.or_led(block, value.after(pointer))
             } else if at == 0 {
@@ -223,7 +224,7 @@ impl<'p> Body<'p, '_> {
         if let Some(leave) = self.leave_part(if breaks { Leave::Break } else { Leave::Continue }, None) {
             return leave;
         }
-        let Some(innermost) = self.loops.last() else { return TokenStream::new() };
+        let Some(innermost) = self.flow.loops.last() else { return TokenStream::new() };
         let exit = if breaks { &innermost.on_break } else { &innermost.on_continue };
         match exit.clone() {
             Exit::Plain if breaks => quote!(break;),
@@ -241,7 +242,7 @@ impl<'p> Body<'p, '_> {
             None => value.map(|value| self.value(value)),
         };
         let before = value.as_ref().map(|value| value.before.clone());
-        let direct = value.as_ref().filter(|_| self.fails() && self.frames.is_empty()).and_then(without_detour);
+        let direct = value.as_ref().filter(|_| self.fails() && self.flow.parts.is_empty()).and_then(without_detour);
         let tokens = value.map(|value| value.tokens);
         let code = match (tail, direct) {
             (Tail::Function, direct) => {
@@ -255,7 +256,7 @@ impl<'p> Body<'p, '_> {
         quote!(#pointer #code)
     }
 
-    /// A returned local variable is moved out, not copied.
+    /// A returned local variable is moved out instead of copied.
     fn moved_local(&self, value: &Expr) -> Option<TokenStream> {
         let ExprKind::Place(place) = &value.kind else { return None };
         let id = self.plain_local(place.root)?;
@@ -263,7 +264,7 @@ impl<'p> Body<'p, '_> {
         place.path.is_empty().then(|| quote!(#name))
     }
 
-    /// What the function returns with this value: `value`, `Ok(value)`, `Ok(())`, or nothing.
+    /// The expression that the function returns for this value: `value`, `Ok(value)`, `Ok(())`, or nothing.
     pub(super) fn result(&self, value: Option<TokenStream>) -> Option<TokenStream> {
         let fails = self.func.is_some_and(|func| func.effects.fails);
         match (fails, value) {
@@ -273,7 +274,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// What the function returns where its end is reached.
+    /// The expression that the function returns if its end is reached.
     pub(super) fn end_result(&self) -> Option<TokenStream> {
         let result = self.func.map_or(Base::Void, |func| func.result);
         let value = (result != Base::Void).then(|| start_value(Type::scalar(result), self.family()));
@@ -281,7 +282,7 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// `Ok(call?)` is `call`.
+/// `Ok(call?)` becomes `call`.
 pub(super) fn without_detour(value: &Fragment) -> Option<TokenStream> {
     let mut tokens: Vec<TokenTree> = value.tokens.clone().into_iter().collect();
     let asks = matches!(tokens.last(), Some(TokenTree::Punct(sign)) if sign.as_char() == '?');
@@ -293,18 +294,18 @@ pub(super) fn is_unit(tokens: &TokenStream) -> bool {
     tokens.to_string().replace(' ', "") == "()"
 }
 
-/// Statements that end in the same way in all branches give the function's result as an expression.
+/// Statements that end in the same manner in all branches give the function's result as an expression.
 fn tail_of(stmt: &Stmt, tail: Tail) -> Tail {
     if tail == Tail::Function && flow::diverges(stmt) && switch::is_plain(stmt) { Tail::Function } else { Tail::Inner }
 }
 
-/// Whether the type does not show in the value: `let x: i32 = 0`.
+/// Whether the value does not show the type: `let x: i32 = 0`.
 fn needs_annotation(ty: Type, value: Option<&Expr>) -> bool {
     let number = matches!(ty.base, Base::Int | Base::Uint | Base::Byte) && !ty.is_array();
     number && value.is_none_or(is_plain_number)
 }
 
-/// Whether a value is emitted as a number without type.
+/// Whether a value is emitted as a number without a type.
 fn is_plain_number(value: &Expr) -> bool {
     match &value.kind {
         ExprKind::Const(value) => matches!(value, Value::Int(_) | Value::Uint(_) | Value::Byte(_)),

@@ -1,7 +1,8 @@
-//! `switch`: a `match` where Rust has patterns for the values, a chain of comparisons for strings.
+//! `switch`: a `match` if Rust has patterns for the values, a chain of comparisons for strings.
 
-use super::body::{Body, Tail};
+use super::body::Body;
 use super::consts::constant;
+use super::control_flow::Tail;
 use super::fragment::Fragment;
 use super::sequence::Mode;
 use crate::effects::flow;
@@ -11,10 +12,10 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 impl<'p> Body<'p, '_> {
-    /// `switch(subject)` with its arms; the arm without value goes last, wherever it stands.
+    /// `switch(subject)` with its arms; the arm without a value goes last, wherever it stands.
     pub(super) fn switch(&mut self, subject: &'p Expr, arms: &'p [Arm], tail: Tail) -> TokenStream {
         self.stand_at(subject.span);
-        if self.frame.is_some() {
+        if self.form.frame.is_some() {
             let codes = arms.iter().map(|arm| self.commented_arm(arm, tail)).collect();
             return self.led_switch(subject, arms, codes, TokenStream::new());
         }
@@ -67,8 +68,8 @@ impl<'p> Body<'p, '_> {
         out
     }
 
-    /// What a chain compares again and again: a local variable as it is, since the arm is chosen before any of them
-    /// runs.
+    /// The subject that a chain compares repeatedly: a local variable is used directly, since the arm is chosen before
+    /// any of them runs.
     fn chain_subject(&mut self, subject: &'p Expr) -> Fragment {
         match &subject.kind {
             ExprKind::Place(place) if self.plain_local(place.root).is_some() && place.path.is_empty() => {
@@ -81,7 +82,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// A subject that nothing is compared with: only what evaluating it does.
+    /// A subject that is not compared with anything: it is only evaluated.
     fn only_evaluated(&mut self, subject: &'p Expr) -> Fragment {
         let value = self.expression(subject, Mode::Compared);
         let (before, tokens) = (&value.before, &value.tokens);
@@ -101,14 +102,14 @@ impl<'p> Body<'p, '_> {
 
     fn arm_comment(&mut self, arm: &Arm) -> TokenStream {
         let line = self.unit.line(self.module, arm.span);
-        if line == self.commented {
+        if line == self.position.commented {
             return TokenStream::new();
         }
-        self.commented = line;
+        self.position.commented = line;
         self.unit.marks.comment_of_arm(self.unit.text(self.module, arm.span))
     }
 
-    /// The statement that chooses the arm of a decomposed switch: each arm's code stands for its body.
+    /// The statement that chooses the arm of a decomposed switch: the code of each arm replaces its body.
     pub(super) fn chosen(
         &mut self,
         subject: &'p Expr,
@@ -149,7 +150,7 @@ fn is_chain(subject: &Expr) -> bool {
     matches!(subject.ty.base, Base::String | Base::Double)
 }
 
-/// Whether a statement may stand for the function's result: its branches are all there in Rust, too.
+/// Whether a statement may be the function's result: all its branches exist in Rust, too.
 pub(super) fn is_plain(stmt: &Stmt) -> bool {
     matches!(stmt.kind, StmtKind::If(..) | StmtKind::Switch(..))
 }

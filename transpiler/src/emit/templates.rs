@@ -1,13 +1,13 @@
-//! Calls that are found often in a large program, and differ in constants and in local variables only, become one
-//! function each: what rustc is given grows by a line for each of them, not by the code around their wait.
+//! Calls that occur often in a large program and differ only in constants and local variables become one function each:
+//! each call then adds a line to what rustc compiles, not the code around its wait.
 //!
 //! Invariants:
-//! - a call of such a function does what the code in its place would do, in the same order and at the same line;
-//! - it writes no local variable but the flag of a `waituntil`, which it returns;
-//! - the values of the locals that it reads do not change while it waits: events see none of them.
+//! - a call of such a function does the same as the code that it replaces, in the same order and at the same line;
+//! - it writes no local variable except the flag of a `waituntil`, which it returns;
+//! - the values of the locals that it reads do not change while it waits, as none of them is visible to events.
 
 use super::Sizes;
-use super::body::{Body, Unit};
+use super::body::Body;
 use super::fragment::Fragment;
 use super::names::{Names, field};
 use super::places::{Calm, Written};
@@ -16,6 +16,7 @@ use super::slots::Slots;
 use super::statements::without_detour;
 use super::tokens::{mentions, uses_variable};
 use super::types::{base_type, is_copy, rust_type};
+use super::unit::Unit;
 use crate::effects::parts::children;
 use crate::effects::{captures, flow};
 use crate::hir::{
@@ -29,10 +30,10 @@ use quote::quote;
 use std::cell::OnceCell;
 use std::collections::HashMap;
 
-/// More parameters than these, with those that are always there, are what clippy warns of.
+/// The number of parameters, in addition to those that are always there, above which clippy warns.
 const MOST_PARAMETERS: usize = 4;
 
-/// A call that may become one of a template.
+/// A call that may become a call of a template.
 #[derive(Clone, Debug)]
 struct Use<'p> {
     func: FuncId,
@@ -42,18 +43,18 @@ struct Use<'p> {
     locals: Vec<LocalId>,
 }
 
-/// Calls that differ in constants and local variables only.
+/// Calls that differ only in constants and local variables.
 #[derive(Debug)]
 struct Template<'p> {
     module: ModuleId,
     name: Ident,
-    /// The first of them: the function is made of it.
+    /// The first call, from which the function is made.
     first: Use<'p>,
     /// The holes whose fillings differ.
     varying: Vec<usize>,
 }
 
-/// How a call is emitted.
+/// A call that becomes a call of a template.
 #[derive(Debug)]
 struct Call<'p> {
     template: usize,
@@ -66,7 +67,7 @@ struct Call<'p> {
 pub(super) struct Templates<'p> {
     all: Vec<Template<'p>>,
     calls: HashMap<*const Expr, Call<'p>>,
-    /// The code of each, once it is called.
+    /// The code of each template, once it is called.
     codes: Vec<OnceCell<Code>>,
 }
 
@@ -74,7 +75,7 @@ pub(super) struct Templates<'p> {
 #[derive(Debug)]
 struct Code {
     item: TokenStream,
-    /// What it is handed besides constants and locals.
+    /// What the function receives in addition to constants and locals.
     cx: bool,
     g: bool,
     line: bool,
@@ -82,7 +83,7 @@ struct Code {
 }
 
 impl<'p> Templates<'p> {
-    /// Finds them, and gives them names that the program does not have.
+    /// Finds the templates of a program and gives them unused names.
     pub(super) fn new(program: &'p Program, names: &mut Names, slots: &Slots, sizes: Sizes) -> Self {
         let mut templates = Self::default();
         let mut order: Vec<Vec<Use<'p>>> = Vec::new();
@@ -129,19 +130,19 @@ impl<'p> Templates<'p> {
         self.codes.push(OnceCell::new());
     }
 
-    /// Whether a call becomes one of a template.
+    /// Whether a call becomes a call of a template.
     pub(super) fn have(&self, expr: &Expr) -> bool {
         self.calls.contains_key(&std::ptr::from_ref(expr))
     }
 
-    /// The functions of the templates of a module that are called.
+    /// The functions of a module's templates that are called.
     pub(super) fn items(&self, module: ModuleId) -> impl Iterator<Item = &TokenStream> {
         let own = self.all.iter().zip(&self.codes).filter(move |(template, _)| template.module == module);
         own.filter_map(|(_, code)| code.get()).map(|code| &code.item)
     }
 }
 
-/// Calls `see` for what statements do, and for the parts of their conditions.
+/// Calls `see` for expression statements and for the parts of conditions.
 fn each_call<'p>(block: &'p [Stmt], see: &mut dyn FnMut(&'p Expr)) {
     for stmt in block {
         match &stmt.kind {
@@ -165,7 +166,7 @@ fn conditions<'p>(condition: &'p Expr, see: &mut dyn FnMut(&'p Expr)) {
     }
 }
 
-/// Whether a call may become one of a template.
+/// Whether a call may become a call of a template.
 fn may_be_one(builtin: &Builtin, func: &Func) -> bool {
     let entry = builtin.entry;
     let form = matches!(entry.form, Form::Call | Form::WaitUntil);
@@ -181,7 +182,7 @@ fn may_be_one(builtin: &Builtin, func: &Func) -> bool {
         });
         reads
     };
-    // What only calculates is soon compiled, and may be in a loop that does nothing else.
+    // Pure computations compile fast and may be in a loop that does nothing else.
     form && entry.fails
         && entry.effect != Effect::Pure
         && !reads_flag()
@@ -193,7 +194,7 @@ fn may_be_one(builtin: &Builtin, func: &Func) -> bool {
         })
 }
 
-/// Whether a value is the same wherever it is evaluated, its locals given.
+/// Whether a value is the same wherever it is evaluated, given its locals.
 fn is_plain(value: &Expr, func: &Func) -> bool {
     let itself = match &value.kind {
         ExprKind::Call(..)
@@ -212,7 +213,7 @@ fn is_plain(value: &Expr, func: &Func) -> bool {
     itself && children(value).into_iter().all(|child| is_plain(child, func))
 }
 
-/// What is known of an index may differ from place to place.
+/// What is known about an index may differ between places.
 fn is_constant_step(step: &Projection) -> bool {
     match step {
         Projection::Field(..) => true,
@@ -220,7 +221,7 @@ fn is_constant_step(step: &Projection) -> bool {
     }
 }
 
-/// Whether a variable is not a local, or one whose value can be handed over.
+/// Whether a variable is not a local, or is a local whose value can be passed.
 fn is_own(place: &Place, func: &Func) -> bool {
     let Root::Local(id) = place.root else { return true };
     let known = |local: &crate::hir::Local| local.constant && local.value.is_some();
@@ -236,21 +237,21 @@ fn flag(builtin: &Builtin) -> Option<&Place> {
 }
 
 impl<'p> Template<'p> {
-    /// Its function.
+    /// The function of the template.
     fn code(&self, unit: &Unit<'p>) -> Code {
         let Self { name, first, .. } = self;
         let Some(func) = unit.program.funcs.get(first.func.0 as usize) else {
             return Code { item: TokenStream::new(), cx: false, g: false, line: false, waits: false };
         };
         let mut body = Body::of_function(unit, func);
-        body.in_template = true;
+        body.form.in_template = true;
         body.stand_at(first.expr.span);
         let comment = body.comment(first.expr.span);
         let holes: Vec<&Hole<'p>> = self.varying.iter().filter_map(|at| first.holes.get(*at)).collect();
         let line = body.reserve("line");
         let columns: Vec<Ident> = holes.iter().map(|hole| body.reserve(&field(hole.name).to_string())).collect();
-        body.columns = Columns::new(line.clone(), holes.iter().copied().zip(&columns));
-        body.acts = false;
+        body.position.columns = Columns::new(line.clone(), holes.iter().copied().zip(&columns));
+        body.position.acts = false;
         let value = body.builtin(first.builtin);
         let (pointer, before) = (body.pointer(), &value.before);
         let written = flag(first.builtin).and_then(|place| match place.root {
@@ -286,7 +287,7 @@ impl<'p> Template<'p> {
     }
 }
 
-/// What a template declares first, what it ends with, and its type: the `flag` that it writes, or its value.
+/// The first declaration of a template, its end and its type: for the `flag` that it writes, or for its value.
 fn result_of(ty: Base, value: &Fragment, flag: Option<Ident>, family: Family) -> [TokenStream; 3] {
     match flag {
         Some(flag) => [quote!(let #flag;), quote!(Ok(#flag)), quote!(bool)],
@@ -302,7 +303,7 @@ fn result_of(ty: Base, value: &Fragment, flag: Option<Ident>, family: Family) ->
     }
 }
 
-/// The head of a template's function.
+/// The header of a template's function.
 struct Head<'a> {
     comment: TokenStream,
     name: &'a Ident,
@@ -316,7 +317,7 @@ impl Head<'_> {
     fn with(self, code: &TokenStream) -> TokenStream {
         let Self { comment, name, params, result, has_many_params, waits } = self;
         let many = has_many_params.then(|| quote!(#[allow(clippy::too_many_arguments)]));
-        // Behind a pointer, so that those who call it neither keep nor copy what it needs.
+        // Behind a pointer, so that callers neither keep nor copy the data that it needs.
         match waits {
             true => quote! {
                 #comment
@@ -337,9 +338,9 @@ impl Head<'_> {
 }
 
 impl<'p> Body<'p, '_> {
-    /// The call of a template in place of a call; none where it has none.
+    /// The call of a template instead of a call; `None` if the call has no template.
     pub(super) fn template_call(&mut self, expr: &'p Expr, builtin: &'p Builtin) -> Option<Fragment> {
-        if self.in_template || !self.columns.is_empty() {
+        if self.form.in_template || !self.position.columns.is_empty() {
             return None;
         }
         let templates = &self.unit.templates;

@@ -1,16 +1,16 @@
-//! The temporaries of a statement: names that no other one of it has.
+//! The temporaries of a statement, each with its own name.
 
 use std::collections::{HashMap, HashSet};
 
-/// Where a statement has so many temporaries, new names are not looked for from the beginning.
+/// From this number of temporaries in a statement on, new names are not searched from the beginning.
 const MANY: usize = 32;
 
-/// The names of a statement's temporaries, in the order in which they were given.
+/// The names of a statement's temporaries, in the order in which they were assigned.
 #[derive(Default, Debug)]
 pub(super) struct Temporaries {
     given: Vec<Given>,
     names: HashSet<String>,
-    /// For a word, the number from which on free ones are looked for.
+    /// For each word, the number at which the search for a free name starts.
     next: HashMap<String, usize>,
 }
 
@@ -18,12 +18,12 @@ pub(super) struct Temporaries {
 struct Given {
     name: String,
     word: String,
-    /// `next` of the word before.
+    /// The previous `next` of the word.
     before: Option<usize>,
 }
 
 impl Temporaries {
-    /// Gives a name: the word itself, or with a number behind it, such that nobody has it, nor `is_taken`.
+    /// Assigns a name: the word itself, or the word followed by a number, such that it is unused and not `is_taken`.
     pub(super) fn give(&mut self, word: &str, is_taken: impl Fn(&str) -> bool) -> String {
         let before = self.next.get(word).copied();
         let mut number = before.filter(|_| self.given.len() >= MANY).unwrap_or(1);
@@ -38,12 +38,12 @@ impl Temporaries {
         name
     }
 
-    /// How many there are.
+    /// The number of temporaries.
     pub(super) fn len(&self) -> usize {
         self.given.len()
     }
 
-    /// Takes the last ones back but for so many.
+    /// Releases all temporaries but the first `len`.
     pub(super) fn truncate(&mut self, len: usize) {
         while self.given.len() > len
             && let Some(Given { name, word, before }) = self.given.pop()

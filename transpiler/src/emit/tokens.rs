@@ -1,4 +1,4 @@
-//! What stands in emitted code.
+//! Searches emitted code.
 
 use proc_macro2::{Ident, Spacing, TokenStream, TokenTree};
 
@@ -41,7 +41,7 @@ pub(super) fn uses_variable(code: &TokenStream, name: &str) -> bool {
     })
 }
 
-/// Whether the machine's label is named.
+/// Whether the code names the machine's label.
 pub(super) fn jumps(code: &TokenStream) -> bool {
     let mut quoted = false;
     code.clone().into_iter().any(|token| match token {
@@ -55,7 +55,7 @@ pub(super) fn jumps(code: &TokenStream) -> bool {
     })
 }
 
-/// Shows each word of the code.
+/// Calls `found` for each word of the code.
 pub(super) fn each_word(code: &TokenStream, found: &mut dyn FnMut(&Ident)) {
     for token in code.clone() {
         match token {

@@ -1,4 +1,4 @@
-//! Types and start values in Rust.
+//! Types and default values in Rust.
 
 use super::names::{field, ident};
 use crate::hir::Type;
@@ -6,7 +6,7 @@ use arl_lang::catalog::{Base, Family, Struct};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-/// Arrays up to this many bytes live where they are declared, larger ones on the heap.
+/// Arrays up to this size in bytes are stored in place, larger ones on the heap.
 const SMALL: usize = 1024;
 
 /// Whether values of the type are copied by a plain assignment.
@@ -66,7 +66,7 @@ pub(super) fn type_name(base: Base, family: Family) -> Ident {
     })
 }
 
-/// Whether this robot family has a type of its own here: the runtime keeps and returns what six-axis robots have.
+/// Whether the robot family has its own type here: the runtime stores and returns the types of six-axis robots.
 pub(super) fn differs(base: Base, family: Family) -> bool {
     matches!(base, Base::Struct(id) if id.def(family).rust != id.def(Family::SixAxis).rust)
 }
@@ -77,7 +77,7 @@ pub(super) fn array_type(ty: Type, family: Family) -> Ident {
     ident(if small { "SmallArray" } else { "Array" })
 }
 
-/// About the size of a value in memory.
+/// The approximate size of a value in memory, in bytes.
 pub(super) fn bytes(base: Base, family: Family) -> usize {
     match base {
         Base::Void => 0,
@@ -92,7 +92,7 @@ pub(super) fn bytes(base: Base, family: Family) -> usize {
     }
 }
 
-/// The variable that a global of this type is: `Cell<i32>`, `Shared<Str>`, or the handle itself.
+/// The type of a global variable of this type: `Cell<i32>`, `Shared<Str>`, or the handle itself.
 pub(super) fn variable_type(ty: Type, family: Family) -> TokenStream {
     let value = rust_type(ty, family);
     if is_cells(ty) {
@@ -109,7 +109,7 @@ pub(super) fn variable_type(ty: Type, family: Family) -> TokenStream {
     }
 }
 
-/// The variable that a local of this type is which events see, too: `Rc<Cell<i32>>`.
+/// The type of a local variable of this type that is visible to events: `Rc<Cell<i32>>`.
 pub(super) fn shared_type(ty: Type, family: Family) -> TokenStream {
     let value = rust_type(ty, family);
     if is_handle(ty) {
@@ -121,7 +121,7 @@ pub(super) fn shared_type(ty: Type, family: Family) -> TokenStream {
     }
 }
 
-/// Such a variable with this value.
+/// A variable of that type with this value.
 pub(super) fn shared_value(ty: Type, value: TokenStream) -> TokenStream {
     if is_handle(ty) {
         quote!(Rc::new(#value))
@@ -132,7 +132,7 @@ pub(super) fn shared_value(ty: Type, value: TokenStream) -> TokenStream {
     }
 }
 
-/// The start value of a type.
+/// The default value of a type.
 pub(super) fn start_value(ty: Type, family: Family) -> TokenStream {
     if ty.is_array() {
         let (array, element) = (array_type(ty, family), base_type(ty.base, family));

@@ -1,5 +1,6 @@
-//! How the locals of a function are used, so that the emitted variables are `mut`, initialised and named as rustc likes
-//! them: a value that nobody reads is not assigned at the declaration, a variable that nobody reads has a `_` in front.
+//! How the locals of a function are used, so that the emitted variables are `mut`, initialised and named as rustc
+//! expects: a value that is never read is not assigned at the declaration, and a variable that is never read is
+//! prefixed with `_`.
 
 use super::compound::stepped;
 use super::mentions::indices;
@@ -13,36 +14,37 @@ use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place,
 /// How a local is used.
 #[derive(Clone, Copy, Default, Debug)]
 struct Local {
-    /// Its value is wanted somewhere.
+    /// Its value is used somewhere.
     read: bool,
     /// It is written (also in part) after its declaration.
     written: bool,
     /// A part of it is written, or a reference to it is passed to be written.
     parts: bool,
-    /// Its first value is never wanted: `let x: i32;`.
+    /// Its first value is never used: `let x: i32;`.
     late: bool,
-    /// It is assigned although it may have been already, after a declaration without value.
+    /// It is assigned where it may already have been assigned, after a declaration without a value.
     again: bool,
 }
 
-/// The findings about all locals of a function.
+/// The information about all locals of a function.
 #[derive(Default, Debug)]
 pub(super) struct Usage {
     locals: Vec<Local>,
-    /// Whether values are assigned that nobody reads.
+    /// Whether values are assigned that are never read.
     pub(super) wastes: bool,
-    /// Whether code has been left out that was counted here.
+    /// Whether code that was counted here has been omitted.
     pub(super) drops: bool,
-    /// What each loop keeps while it gives the cycle back.
+    /// What each loop keeps while it yields the cycle.
     kept: Kept,
 }
 
 impl Usage {
-    /// Looks through a function; `waits` tells of which functions calls may wait, and `scattered` that its statements
-    /// are taken apart: then rustc cannot follow its flow.
+    /// Examines a function. `waits` returns which functions may wait when called. `scattered`: the statements are
+    /// decomposed, so that rustc cannot follow the control flow.
     pub(super) fn of_function(func: &Func, scattered: bool, waits: &dyn Fn(FuncId) -> bool) -> Self {
         let mut usage = Self::of_plain_locals(func, scattered, waits);
-        // What events see is a cell: nobody knows who reads it, and changing it does not change the variable.
+        // A variable that events see is a cell: its readers are unknown, and writing to it does not change the
+        // variable.
         for (usage, _) in usage.locals.iter_mut().zip(&func.locals).filter(|(_, local)| local.shared) {
             *usage = Local { read: true, ..Local::default() };
         }
@@ -94,12 +96,12 @@ impl Usage {
         usage
     }
 
-    /// What a loop hands over while it gives the cycle back.
+    /// The locals that a loop passes to the wait while it yields the cycle.
     pub(super) fn kept(&self, info: LoopInfo) -> &[LocalId] {
         self.kept.handed.get(&info.number).map_or(&[], Vec::as_slice)
     }
 
-    /// What it needs behind that and lies in memory meanwhile.
+    /// The locals that a loop needs after the wait and that stay in memory meanwhile.
     pub(super) fn in_memory(&self, info: LoopInfo) -> &[LocalId] {
         self.kept.in_memory.get(&info.number).map_or(&[], Vec::as_slice)
     }
@@ -108,7 +110,7 @@ impl Usage {
         self.locals.get(id.0 as usize).copied().unwrap_or_default()
     }
 
-    /// Whether somebody wants its value.
+    /// Whether its value is used.
     pub(super) fn is_read(&self, id: LocalId) -> bool {
         self.get(id).read
     }
@@ -168,7 +170,7 @@ impl Usage {
         }
     }
 
-    /// An expression whose value nobody wants: what it assigns to is not read by that.
+    /// An expression whose value is not used: assigning to a variable does not count as reading it.
     fn effect(&mut self, expr: &Expr) {
         if let Some(value) = facts::same_anyway(expr) {
             if !matches!(value.kind, ExprKind::Place(_)) {
@@ -198,7 +200,7 @@ impl Usage {
         match &expr.kind {
             ExprKind::Place(place) => self.mark(place, |local| local.read = true),
             ExprKind::Assign(_) if facts::same_anyway(expr).is_some() => {}
-            // The value is known, so the variable is not read for it.
+            // The value is known, so that the variable is not read for it.
             ExprKind::Assign(sides) if matches!(sides.1.kind, ExprKind::Const(_)) => self.mark_written(&sides.0),
             ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => self.used_and_written(&sides.0),
             ExprKind::Step(_, place) => self.used_and_written(place),

@@ -1,7 +1,7 @@
-//! The reads and writes of a function's locals along its flow of control, to find values that nobody reads.
+//! The reads and writes of a function's locals along the control flow, to find values that are never read.
 //!
-//! The graph follows the emitted code: what rustc finds out about assignments, it should find out, too. Functions with
-//! `goto` are left out, as their states hide the flow from rustc.
+//! The graph follows the emitted code, so that it gives the same results about assignments as rustc. Functions with
+//! `goto` are left out, as their states hide the control flow from rustc.
 
 use super::compound::{is_native, stepped};
 use super::mentions::{in_expression, indices};
@@ -15,22 +15,22 @@ use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::{Entry, Mode};
 use std::collections::HashMap;
 
-/// More bits than this for one analysis are not worth it.
+/// An analysis that needs more bits than this is not worth it.
 const MOST_BITS: usize = 1 << 26;
 
-/// More locals than this are not kept while a loop gives the cycle back: nobody could read that.
+/// More locals than this are not kept while a loop yields the cycle, for readability.
 const MOST_KEPT: usize = 8;
 
-/// What the loops with these numbers do with locals while they give the cycle back.
+/// What the loops with these numbers do with locals while they yield the cycle.
 #[derive(Default, Debug)]
 pub(super) struct Kept {
-    /// What is handed to the wait and comes back from it.
+    /// The locals passed to the wait and returned from it.
     pub(super) handed: HashMap<u32, Vec<LocalId>>,
-    /// What lies in memory while they wait, and is needed behind the wait.
+    /// The locals that stay in memory during the wait and are needed after it.
     pub(super) in_memory: HashMap<u32, Vec<LocalId>>,
 }
 
-/// What kind of write.
+/// The kind of a write.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Site {
     /// The declaration, with no value or a constant one.
@@ -43,33 +43,33 @@ pub(super) enum Site {
 enum Op {
     Read(LocalId),
     Write(LocalId, Site),
-    /// A write that needs the old value for nothing but itself: of a part, or `x += 1`.
+    /// A write that needs the old value only for the write itself: of a part, or `x += 1`.
     Update(LocalId),
-    /// The declaration that is not a write: the variable starts anew.
+    /// A declaration that is not a write: the variable is new.
     Fresh(LocalId),
-    /// The loop with this number gives the cycle back.
+    /// The loop with this number yields the cycle.
     Pause(u32),
     /// Something else waits.
     Wait,
 }
 
-/// What reads a value.
+/// The readers of a value.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Readers {
-    /// Whatever needs it: a variable must have a value there.
+    /// All readers: the variable must have a value there.
     All,
-    /// Not the updates of the variable itself: so rustc finds values that nobody reads.
+    /// All except updates of the variable itself: rustc finds unused values in this manner.
     Others,
 }
 
-/// Operations that run one after the other.
+/// Operations that run one after another.
 #[derive(Default, Debug)]
 struct Node {
     ops: Vec<Op>,
     next: Vec<usize>,
 }
 
-/// The flow of a function.
+/// The control flow of a function.
 #[derive(Debug)]
 pub(super) struct Graph {
     nodes: Vec<Node>,
@@ -79,7 +79,7 @@ pub(super) struct Graph {
 }
 
 impl Graph {
-    /// The graph of a function, where `waits` tells of which functions calls may wait; `None` where it would be too
+    /// The graph of a function; `waits` returns which functions may wait when called. `None` if the graph would be too
     /// large.
     pub(super) fn of_function(func: &Func, waits: &dyn Fn(FuncId) -> bool) -> Option<Graph> {
         let mut builder =
@@ -111,9 +111,9 @@ impl Graph {
         found
     }
 
-    /// Of the locals that are written inside loops and of which it is asked whether they are `wanted`: those that are
-    /// live where each loop gives the cycle back. Locals that are live where something else waits lie in memory, as all
-    /// that are not handed over; `plain` tells which of these may be looked at there.
+    /// For the `wanted` locals that are written inside loops: those that are live where each loop yields the cycle.
+    /// Locals that are live where something else waits stay in memory, as do all that are not passed to the wait;
+    /// `plain` returns which of these may be read there.
     pub(super) fn kept(&self, wanted: &dyn Fn(LocalId) -> bool, plain: &dyn Fn(LocalId) -> bool) -> Kept {
         let live = self.live_at_start(Readers::All);
         let (mut waiting, mut pauses) = (Set::new(self.words), Vec::new());
@@ -131,7 +131,7 @@ impl Graph {
             self.repeated.iter().copied().filter(|id| wanted(*id) && !waiting.contains(*id)).collect();
         candidates.sort_unstable_by_key(|id| id.0);
         candidates.dedup();
-        // A local that is not kept everywhere lies in memory everywhere. Those of the inner blocks have higher numbers.
+        // A local that is not kept everywhere stays in memory everywhere. Locals of inner blocks have higher numbers.
         while let Some(first) = pauses.iter().find_map(|(_, live)| {
             let mut kept = candidates.iter().filter(|id| live.contains(**id));
             kept.next().copied().filter(|_| kept.count() >= MOST_KEPT)
@@ -177,7 +177,7 @@ impl Graph {
         live
     }
 
-    /// Of the `late` locals, those that are assigned where they may have been before.
+    /// The `late` locals that are assigned where they may already have been assigned.
     pub(super) fn assigned_again(&self, late: &dyn Fn(LocalId) -> bool) -> Vec<LocalId> {
         let mut assigned = vec![Set::new(self.words); self.nodes.len()];
         let mut found = Vec::new();
@@ -241,7 +241,7 @@ impl Set {
         }
     }
 
-    /// Adds a set; whether that changed something.
+    /// Adds a set; returns whether that changed anything.
     fn add_all(&mut self, other: &Set) -> bool {
         let mut changed = false;
         for (word, more) in self.0.iter_mut().zip(&other.0) {
@@ -251,7 +251,7 @@ impl Set {
         changed
     }
 
-    /// What is live before an operation, given what is live after it.
+    /// Computes what is live before an operation from what is live after it.
     fn before(&mut self, op: Op, readers: Readers) {
         match op {
             Op::Read(id) => self.add(id),
@@ -263,7 +263,7 @@ impl Set {
     }
 }
 
-/// Whether a built-in assigns what it writes, and passes no reference to it.
+/// Whether a built-in assigns its output and takes no reference to it.
 pub(super) fn writes_only(entry: &Entry) -> bool {
     entry.params.iter().any(|param| param.mode == Mode::Condition)
 }
@@ -277,12 +277,12 @@ struct Loop {
 
 struct Builder<'a> {
     nodes: Vec<Node>,
-    /// The node that grows; none behind a jump.
+    /// The node being extended; `None` after a jump.
     current: Option<usize>,
     loops: Vec<Loop>,
-    /// What is written while a loop is open.
+    /// The locals that are written inside a loop.
     repeated: Vec<LocalId>,
-    /// Which functions may wait.
+    /// Returns which functions may wait.
     waits: &'a dyn Fn(FuncId) -> bool,
 }
 
@@ -309,7 +309,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Goes on in a new node that follows all of these.
+    /// Continues in a new node that follows all of these.
     fn join(&mut self, ends: impl IntoIterator<Item = Option<usize>>) {
         let node = self.node();
         let mut reached = false;
@@ -320,7 +320,7 @@ impl Builder<'_> {
         self.current = reached.then_some(node);
     }
 
-    /// Starts a new node behind the current one.
+    /// Starts a new node after the current one.
     fn step(&mut self) -> usize {
         let (from, node) = (self.current, self.node());
         self.link(from, node);
@@ -430,7 +430,7 @@ impl Builder<'_> {
         self.round(&each.body, each.info, head, out);
     }
 
-    /// The start of a round. Loops that count alone give the cycle back there.
+    /// The start of a round. Loops that count alone yield the cycle there.
     fn head(&mut self, info: LoopInfo) -> usize {
         let head = self.step();
         if info.counts_alone() {
@@ -439,21 +439,21 @@ impl Builder<'_> {
         head
     }
 
-    /// Where other loops give the cycle back.
+    /// The point where other loops yield the cycle.
     fn pause(&mut self, info: LoopInfo) {
         if info.counts_in_context() {
             self.op(Op::Pause(info.number));
         }
     }
 
-    /// Behind a loop whose rounds are counted there.
+    /// The point after a loop whose rounds are counted there.
     fn pause_behind(&mut self, info: LoopInfo) {
         if info.spends && info.counting.is_behind() {
             self.op(Op::Pause(info.number));
         }
     }
 
-    /// The body of a loop from the current node; afterwards the way out.
+    /// The body of a loop from the current node on, followed by the exit.
     fn round(&mut self, body: &[Stmt], info: LoopInfo, head: usize, out: Option<usize>) {
         self.loops.push(Loop { breaks: Vec::new(), continues: head, continued: false });
         let first = flow::continues(body);
@@ -470,7 +470,7 @@ impl Builder<'_> {
         self.join(std::iter::once(out).chain(breaks.into_iter().map(Some)));
     }
 
-    /// Goes on behind the body of the innermost loop, where its end or a `continue` leads there.
+    /// Continues after the body of the innermost loop, if its end or a `continue` leads there.
     fn go_on_if_reached(&mut self, end: Option<usize>, node: usize) {
         let continued = self.loops.last().is_some_and(|innermost| innermost.continued);
         self.current = (end.is_some() || continued).then_some(node);
@@ -515,7 +515,7 @@ impl Builder<'_> {
         self.pause_behind(each.info);
     }
 
-    /// An expression in the order of its evaluation; `wanted` tells whether its value is used.
+    /// An expression in the order of its evaluation; `wanted`: its value is used.
     fn expr(&mut self, expr: &Expr, wanted: bool) {
         if let Some(value) = facts::same_anyway(expr) {
             if wanted || !matches!(value.kind, ExprKind::Place(_)) {
@@ -601,7 +601,7 @@ impl Builder<'_> {
         if place.path.is_empty() {
             self.op(Op::Write(id, Site::Other));
         } else {
-            // Writing a part needs the whole.
+            // Writing a part needs the whole variable.
             self.op(Op::Update(id));
         }
         if wanted {
@@ -618,7 +618,7 @@ impl Builder<'_> {
     }
 }
 
-/// Whether `place op= value` is emitted so, for a local variable.
+/// Whether `place op= value` is emitted in this form, for a local variable.
 fn is_update(op: BinaryOp, sides: &(Place, Expr)) -> bool {
     let (place, value) = sides;
     let Root::Local(id) = place.root else { return false };

@@ -1,7 +1,7 @@
-//! The global variables of a module: their structure, their first values, and the slots for values that are read again
-//! at load.
+//! The global variables of a module: their structure, their initial values, and the slots for values that are read
+//! again on load.
 
-use super::body::{Body, Unit};
+use super::body::Body;
 use super::consts::typed_constant;
 use super::fragment::Fragment;
 use super::places::{Calm, Written};
@@ -10,15 +10,16 @@ use super::slots::{SlotArray, is_constant};
 use super::slots_init;
 use super::tokens::mentions;
 use super::types::{is_handle, rust_type, start_value, variable_type};
+use super::unit::Unit;
 use crate::hir::{Expr, ExprKind, Global, GlobalId, ModuleId, Place, Root, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use std::collections::HashMap;
 
-/// So many variables get their first values in one function; beyond it, rustc's time grows faster than the length.
+/// The number of variables initialised in one function; beyond it, rustc's time grows faster than the length.
 const MOST_IN_ONE: usize = 64;
 
-/// Setting the first values of variables: what a call of it needs.
+/// What a call that initialises variables needs.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct Init {
     waits: bool,
@@ -26,7 +27,8 @@ pub(super) struct Init {
     context: bool,
 }
 
-/// A module's variables that are variables in Rust, too: constants with a known value are written where they are used.
+/// The variables of a module that are variables in Rust, too: constants with a known value are written where they are
+/// used.
 pub(super) fn of_module<'p>(unit: &Unit<'p>, module: ModuleId) -> Vec<(GlobalId, &'p Global)> {
     let globals = unit.program.globals.iter().enumerate();
     globals
@@ -62,7 +64,7 @@ pub(super) fn structure(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId,
     }
 }
 
-/// `pub mod at { .. }`: where the variables are in their arrays.
+/// `pub mod at { .. }`: the positions of the variables in their arrays.
 fn places(unit: &Unit<'_>, module: ModuleId) -> Option<TokenStream> {
     let places: Vec<TokenStream> = unit
         .slots
@@ -86,7 +88,7 @@ fn places(unit: &Unit<'_>, module: ModuleId) -> Option<TokenStream> {
     })
 }
 
-/// The functions that give the variables their first values. `again` tells that all start values come first.
+/// The functions that give the variables their first values.
 pub(super) fn init(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId, &Global)]) -> (TokenStream, Init) {
     let mut all = Init::default();
     let mut parts = Vec::new();
@@ -122,7 +124,7 @@ pub(super) fn init(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId, &Glo
     let mut calls = TokenStream::new();
     for (at, (part, code)) in parts.iter().enumerate() {
         let name = format!("init_{}", at + 1);
-        // Together they would be one function after all, and compiling that takes more than twice as long for twice
+        // Otherwise they would be merged into one function, whose compilation takes more than twice as long for twice
         // as many variables.
         if !part.waits {
             functions.extend(quote!(#[inline(never)]));
@@ -134,14 +136,14 @@ pub(super) fn init(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId, &Glo
     (quote!(impl Variables { #whole #functions }), all)
 }
 
-/// What is given first values at once.
+/// The variables that are initialised in one step.
 enum Step<'p> {
     Alone(GlobalId, &'p Global),
     /// Variables of one array.
     Array(Vec<GlobalId>),
 }
 
-/// The steps in which the variables get their first values. Those of arrays wait until somebody may look at them.
+/// The steps in which the variables are initialised. Those of arrays are deferred until other code may read them.
 fn steps<'p>(unit: &Unit<'p>, globals: &[(GlobalId, &'p Global)]) -> Vec<Step<'p>> {
     let mut steps = Vec::new();
     let mut waiting: Vec<Vec<GlobalId>> = Vec::new();
@@ -185,7 +187,7 @@ fn init_function(vis: TokenStream, name: &str, init: Init, code: &TokenStream, d
     }
 }
 
-/// The call of an `init` function inside one that takes `cx` and `g`.
+/// The call of an `init` function inside a function that takes `cx` and `g`.
 pub(super) fn init_call(owner: &TokenStream, name: &str, init: Init) -> TokenStream {
     let name = format_ident!("{name}");
     let cx = init.context.then(|| quote!(cx,));
@@ -194,7 +196,7 @@ pub(super) fn init_call(owner: &TokenStream, name: &str, init: Init) -> TokenStr
     quote!(#owner::#name(#cx g)#wait #ask;)
 }
 
-/// The statement that gives a variable its first value.
+/// The statement that initialises a variable.
 fn first_value(unit: &Unit<'_>, module: ModuleId, id: GlobalId, global: &Global) -> TokenStream {
     if is_handle(global.ty) {
         return TokenStream::new();
@@ -224,7 +226,7 @@ fn first_value(unit: &Unit<'_>, module: ModuleId, id: GlobalId, global: &Global)
     quote!(#comment #write)
 }
 
-/// `fn data(&self) -> DataFile<'_>`: the variables of a data file that are read again at load.
+/// `fn data(&self) -> DataFile<'_>`: the variables of a data file that are read again on load.
 pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     let values = listed(unit, module, &|global| global.teachable, &|array| array.teachable);
     quote! {
@@ -237,7 +239,7 @@ pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     }
 }
 
-/// `fn all(&self) -> DataFile<'_>`: all variables, for a debugger and whoever knows them by their names.
+/// `fn all(&self) -> DataFile<'_>`: all variables, for a debugger and other code that knows them by name.
 pub(super) fn all(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     let shows = |global: &Global| !is_handle(global.ty);
     let values = listed(unit, module, &shows, &|_| true);
@@ -277,7 +279,7 @@ fn handles(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     }
 }
 
-/// The sizes of an array of several dimensions; of others none.
+/// The sizes of a multidimensional array; empty for other arrays.
 fn sizes_of_table(global: &Global) -> Vec<Literal> {
     match global.ty.dims() {
         dims if dims.len() > 1 => dims.iter().map(|size| Literal::u16_unsuffixed(*size)).collect(),
@@ -285,7 +287,7 @@ fn sizes_of_table(global: &Global) -> Vec<Literal> {
     }
 }
 
-/// A list of those variables of a module that are wanted.
+/// A list of the wanted variables of a module.
 fn listed(
     unit: &Unit<'_>,
     module: ModuleId,
@@ -335,7 +337,7 @@ fn listed(
     }
 }
 
-/// A constant in a data file: its value is part of the compiled program, so another one there is refused.
+/// A constant in a data file: its value is part of the compiled program, so a different value there is refused.
 fn fixed(value: &Value) -> TokenStream {
     let value = match value {
         Value::String(text) => quote!(#text),

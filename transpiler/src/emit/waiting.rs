@@ -1,5 +1,5 @@
-//! Built-ins that are not plain calls: `waituntil`, whose condition is evaluated again and again, and those that end
-//! the program.
+//! Built-ins that are not plain calls: `waituntil`, whose condition is evaluated repeatedly, and those that end the
+//! program.
 
 use super::body::Body;
 use super::calls::instruction_call;
@@ -12,7 +12,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 impl<'p> Body<'p, '_> {
-    /// The code for a special form; `None` where the general rule holds.
+    /// The code for a special form; `None` if the general rule applies.
     pub(super) fn special(&mut self, builtin: &'p Builtin) -> Option<Fragment> {
         let nothing = || Fragment::settled(quote!(()));
         match builtin.entry.form {
@@ -27,7 +27,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// A `jump` that looks at its `sig` above the target; `None` where that is false anyway.
+    /// A `jump` that checks its `sig` above the target; `None` if `sig` is always false.
     fn looking(&mut self, builtin: &'p Builtin) -> Option<Fragment> {
         let entry = builtin.entry;
         let is_condition =
@@ -44,7 +44,7 @@ impl<'p> Body<'p, '_> {
         let above = self.checked(quote!(#call.await));
         let name = self.fresh(entry.name);
         let unmet = self.negated(condition);
-        self.acts = true;
+        self.position.acts = true;
         let (first, unmet) = (&unmet.before, &unmet.tokens);
         let sink = self.checked(quote!(#name.sink(cx).await));
         let all = quote!(#before #line let #name = #above; #first if #unmet { #line #sink; });
@@ -68,7 +68,7 @@ impl<'p> Body<'p, '_> {
             let seconds = &limit.tokens;
             quote!(.maxtime(#seconds))
         });
-        self.acts = true;
+        self.position.acts = true;
         let start = self.checked(quote!(flow::waituntil(cx)#maxtime.start().await));
         let late = limit.is_some().then(|| self.fresh("wait"));
         let start = match &late {
@@ -104,8 +104,8 @@ impl<'p> Body<'p, '_> {
         quote!(#start #flag_before #write)
     }
 
-    /// Waits until the condition is looked at again. Where that changes something, or where time ends the wait, the
-    /// program does not only wait.
+    /// Waits until the condition is to be evaluated again. If evaluating it changes something, or if a time limit ends
+    /// the wait, the program does more than wait.
     fn next_look(&self, condition: &Expr, is_limited: bool) -> TokenStream {
         match is_limited || self.changes_something(condition) {
             true => quote!(cx.next_cycle().await;),
@@ -113,14 +113,14 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// Whether looking at a condition changes something.
+    /// Whether evaluating a condition changes something.
     pub(super) fn changes_something(&self, condition: &Expr) -> bool {
         let facts = self.facts(condition);
         facts.changes || !facts.writes.is_empty()
     }
 }
 
-/// Why the program ends.
+/// The reason why the program ends.
 pub(super) fn ending(builtin: &Builtin) -> TokenStream {
     if builtin.entry.form == Form::Restart { quote!(Stop::restart()) } else { quote!(Stop::exit()) }
 }

@@ -1,4 +1,4 @@
-//! Variables that a call writes: local ones by `&mut`, others by way of a temporary that is written back.
+//! Variables that a call writes: local ones through `&mut`, others through a temporary that is written back.
 
 use super::body::Body;
 use super::calls::{EmittedArgument, path};
@@ -12,29 +12,29 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
 use std::collections::{HashMap, HashSet};
 
-/// A place that has to be written after a call, and the temporary that holds its value until then.
+/// A place that must be written after a call, and the temporary that holds its value until then.
 pub(super) struct Back<'p> {
     place: &'p Place,
     reached: Reached,
     name: Ident,
-    /// The statement that reads the place, where nobody has done so.
+    /// The statement that reads the place, if it has not been emitted yet.
     read: TokenStream,
 }
 
 impl Back<'_> {
-    /// Reads the place in front of the call.
+    /// Reads the place before the call.
     pub(super) fn at_once(mut self, before: &mut TokenStream) -> Self {
         before.extend(std::mem::take(&mut self.read));
         self
     }
 
-    /// Whether the place is read, written to by the call, and written, before the next one is.
+    /// Whether the place is read, passed to the call and written back before the next place is read.
     pub(super) fn is_in_turn(&self) -> bool {
         !self.read.is_empty()
     }
 }
 
-/// Which variable is meant, whatever it is.
+/// Identifies a variable of any kind.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum RootKey {
     Local(u32),
@@ -53,8 +53,8 @@ impl RootKey {
 }
 
 impl<'p> Body<'p, '_> {
-    /// `&mut place` for a local variable; for others a temporary that is written back. `shared` says that the variable
-    /// is used by something else of the call, too.
+    /// `&mut place` for a local variable; for others a temporary that is written back. `shared`: the call also uses the
+    /// variable for something else.
     pub(super) fn out_argument(
         &mut self,
         place: &'p Place,
@@ -85,13 +85,13 @@ impl<'p> Body<'p, '_> {
         (value, Some(Back { place, reached, name, read }))
     }
 
-    /// Whether a call gets the place itself.
+    /// Whether a call receives the place itself.
     fn is_lent(&self, place: &Place, shared: bool) -> bool {
         self.plain_local(place.root).is_some() && !shared
     }
 
-    /// Whether two of the variables that a call writes by way of temporaries may be the same one, so that each has to
-    /// be written before the next one is read. `touched` are the locals that the call uses otherwise, too.
+    /// Whether two of the variables that a call writes through temporaries may be the same one, so that each must be
+    /// written before the next one is read. `touched` contains the locals that the call also uses otherwise.
     pub(super) fn takes_turns(&self, builtin: &'p Builtin, touched: &HashSet<LocalId>) -> bool {
         let mut paths: HashMap<RootKey, Vec<Option<Vec<i64>>>> = HashMap::new();
         for arg in &builtin.args {
@@ -110,7 +110,7 @@ impl<'p> Body<'p, '_> {
         })
     }
 
-    /// The steps of a place as numbers, where all of them are known.
+    /// The steps of a place as numbers, if all of them are known.
     fn constant_path(&self, place: &'p Place) -> Option<Vec<i64>> {
         let mut path = vec![0];
         for step in &place.path {
@@ -136,8 +136,7 @@ impl<'p> Body<'p, '_> {
         self.write(&back.reached, Written::Value(value), Calm::Local)
     }
 
-    /// `let scan = scan.argtosave(&mut out);` for each argument, and each variable is written before the next one is
-    /// read.
+    /// `let scan = scan.argtosave(&mut out);` for each argument; each variable is written before the next one is read.
     pub(super) fn call_in_turn(
         &mut self,
         entry: &Entry,
@@ -153,7 +152,7 @@ impl<'p> Body<'p, '_> {
         for argument in required {
             let name = self.fresh(entry.params.get(argument.param).map_or("value", |param| param.rust));
             let value = &argument.value.tokens;
-            // What the call looks at may be what it writes.
+            // The call may write what it reads.
             if is_reference(value) {
                 before.extend(quote!(let #name = Clone::clone(#value);));
                 values.push(quote!(&#name));
@@ -177,8 +176,8 @@ impl<'p> Body<'p, '_> {
         quote!(#name.run(#cx))
     }
 
-    /// The local variables that the arguments of a call read or write, those aside that are only written by the call
-    /// itself: it does that one after the other.
+    /// The local variables that the arguments of a call read or write, except those written only by the call itself,
+    /// which it does one after another.
     pub(super) fn touched(&self, builtin: &'p Builtin) -> HashSet<LocalId> {
         let mut touched = HashSet::new();
         if !builtin.args.iter().any(|arg| matches!(arg.value, Passed::Out(_))) {

@@ -3,8 +3,8 @@
 use super::levels::LineLevel;
 use super::lines::LogicalLine;
 
-/// Whether a blank line stands in front of each of the lines, none of which is blank itself; `written` says where the
-/// writer put some.
+/// For each line, none of which is blank itself, whether a blank line precedes it; `written` tells where the author put
+/// blank lines.
 pub(super) fn blanks(lines: &[LogicalLine<'_>], places: &[LineLevel], written: &[bool]) -> Vec<bool> {
     let mut blanks = Vec::with_capacity(lines.len());
     let mut opened = true;
@@ -16,9 +16,9 @@ pub(super) fn blanks(lines: &[LogicalLine<'_>], places: &[LineLevel], written: &
     blanks
 }
 
-/// One blank line between functions; comments directly above a function belong to it.
+/// Puts one blank line between functions; comments directly above a function belong to it.
 fn set_functions_apart(lines: &[LogicalLine<'_>], places: &[LineLevel], blanks: &mut [bool]) {
-    // The last line that is not a comment, and whether a function was open in front of it or begins with it.
+    // The last line that is not a comment. It matters whether a function was open before it or begins with it.
     let mut last: Option<usize> = None;
     for (at, (line, place)) in lines.iter().zip(places).enumerate() {
         if line.is_comment() {

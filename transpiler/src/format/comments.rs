@@ -1,19 +1,19 @@
-//! Comments at the ends of lines, in columns.
+//! Aligns comments at the ends of lines.
 
 use super::spacing::LEVEL;
 use super::table::width;
 
-/// How much shorter than the longest line of a group the shortest one may be.
+/// The maximum difference in width between the longest and the shortest line of a group.
 const FARTHEST: usize = 40;
 
-/// What a line has at its end.
+/// The end of a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum End {
     /// A comment.
     Comment(Commented),
-    /// None, but it declares something: so it parts no list of declarations.
+    /// No comment, but a declaration, which does not separate a list of declarations.
     Declaration(Commented),
-    /// Nothing that counts.
+    /// Anything else.
     Other,
 }
 
@@ -22,14 +22,14 @@ pub(super) enum End {
 pub(super) struct Commented {
     /// Its level.
     pub(super) level: usize,
-    /// The columns in front of the blank before the comment.
+    /// The number of columns before the blank that precedes the comment.
     pub(super) width: usize,
-    /// Whether it stands directly below the line before.
+    /// Whether it comes directly after the previous line.
     pub(super) follows: bool,
 }
 
 impl Commented {
-    /// A line with this text in front of its comment.
+    /// A line with this text before its comment.
     pub(super) fn new(body: &str, level: usize, follows: bool) -> Self {
         let width = match body.rsplit_once('\n') {
             Some((_, last)) => width(last),
@@ -39,7 +39,7 @@ impl Commented {
     }
 }
 
-/// The blanks in front of the comment of each line.
+/// The number of blanks before the comment of each line.
 pub(super) fn gaps(lines: &[End]) -> Vec<usize> {
     let mut gaps = vec![1; lines.len()];
     let mut start = 0;
@@ -56,7 +56,7 @@ pub(super) fn gaps(lines: &[End]) -> Vec<usize> {
     gaps
 }
 
-/// The lines at the beginning of `lines` whose comments stand in one column: which they are.
+/// The first lines of `lines` whose comments are aligned in one column, with their indices.
 fn group(lines: &[End]) -> Vec<(usize, Commented)> {
     let mut group: Vec<(usize, Commented)> = Vec::new();
     let (mut least, mut most) = (usize::MAX, 0);

@@ -1,15 +1,15 @@
-//! How deep each line stands, by the blocks around it.
+//! The nesting level of each line, by the blocks around it.
 
 use super::lines::LogicalLine;
 use arl_lang::outline::Turn;
 use arl_lang::syntax_error::{BLOCK_LEVELS, BlockKind};
 
-/// Where a line stands.
+/// The position of a line among the blocks.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(super) struct LineLevel {
-    /// The blocks around it that count.
+    /// The number of blocks around it that count.
     pub(super) level: usize,
-    /// The blocks that are open in front of it: where a comment above it stands if it closes one.
+    /// The number of blocks open before it: the level of a comment above it if it closes a block.
     pub(super) before: usize,
     /// Whether the next line is the first one of a block or a branch.
     pub(super) opens: bool,
@@ -31,11 +31,11 @@ impl LineLevel {
 /// An open block.
 struct Frame {
     kind: BlockKind,
-    /// Whether a `{` stands at its beginning.
+    /// Whether it begins with a `{`.
     braced: bool,
 }
 
-/// The places of the lines, and one more: that of the end of the text.
+/// The positions of the lines, followed by that of the end of the text.
 pub(super) fn places(lines: &[LogicalLine<'_>]) -> Vec<LineLevel> {
     let opens = doubtful_openers(lines);
     let mut doubts = opens.into_iter();
@@ -45,12 +45,12 @@ pub(super) fn places(lines: &[LogicalLine<'_>]) -> Vec<LineLevel> {
     places
 }
 
-/// More blocks than can be open do not move a line to the right.
+/// Limits the level: more blocks than can be open do not move a line further to the right.
 fn capped(level: usize) -> usize {
     level.min(BLOCK_LEVELS)
 }
 
-/// Where a line stands; the blocks are as it leaves them.
+/// The position of a line; updates the stack of blocks.
 fn place(line: &LogicalLine<'_>, stack: &mut Vec<Frame>, doubts: &mut impl Iterator<Item = bool>) -> LineLevel {
     let mut place = LineLevel { level: capped(stack.len()), before: capped(stack.len()), ..LineLevel::default() };
     for (at, turn) in line.turns.iter().enumerate() {
@@ -71,7 +71,7 @@ fn place(line: &LogicalLine<'_>, stack: &mut Vec<Frame>, doubts: &mut impl Itera
     place
 }
 
-/// Opens and closes blocks; gives the level of the line that does it.
+/// Opens and closes blocks; returns the level of the line that does so.
 fn take(turn: Turn, braced: bool, stack: &mut Vec<Frame>) -> usize {
     let level = match turn {
         Turn::Open(BlockKind::Func) => {
@@ -111,7 +111,7 @@ fn take(turn: Turn, braced: bool, stack: &mut Vec<Frame>) -> usize {
     level
 }
 
-/// Closes the block at `at` and those inside of it.
+/// Closes the block at `at` and those inside it.
 fn close(stack: &mut Vec<Frame>, at: Option<usize>) -> usize {
     let level = at.unwrap_or(stack.len());
     stack.truncate(level);
@@ -122,8 +122,8 @@ fn innermost(stack: &[Frame], kind: BlockKind) -> Option<usize> {
     stack.iter().rposition(|frame| frame.kind == kind)
 }
 
-/// Which of the lines that may open an `if` do: those with a `{`, and as many of a function's as it has more `endif`
-/// than `if`, the first ones.
+/// Which of the lines that may open an `if` do so: those with a `{`, and in each function the first ones, as many as it
+/// has more `endif` than `if`.
 fn doubtful_openers(lines: &[LogicalLine<'_>]) -> Vec<bool> {
     let mut openers: Vec<bool> = Vec::new();
     let mut first = 0;

@@ -1,4 +1,4 @@
-//! A text as logical lines: lexemes with their roles, and what lies between them.
+//! A text as logical lines: lexemes with their roles, and what is between them.
 
 use super::trivia::{self, Trivia};
 use arl_lang::lexer::{Lexeme, lexemes};
@@ -8,11 +8,11 @@ use arl_lang::outline::{LexemeRole, Outline, PlacedRole, PlacedTurn};
 /// A lexeme of a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlacedLexeme<'a> {
-    /// As it is written.
+    /// The text as written.
     pub(super) text: &'a str,
-    /// What the lexer takes it for.
+    /// Its kind according to the lexer.
     pub(super) lexeme: Lexeme,
-    /// What the grammar takes it for.
+    /// Its role according to the grammar.
     pub(super) role: LexemeRole,
     /// Whether a statement begins with it.
     pub(super) begins: bool,
@@ -25,46 +25,46 @@ impl PlacedLexeme<'_> {
     }
 }
 
-/// What a line is made of.
+/// A part of a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Item<'a> {
     /// A lexeme.
     Piece(PlacedLexeme<'a>),
     /// `/* */`
     Comment(&'a str),
-    /// `//`, without blanks at its end.
+    /// `//`, without trailing blanks.
     LineComment(&'a str),
-    /// `\` and the line end that it takes away.
+    /// `\` and the line end that it cancels.
     Continuation,
 }
 
-/// A logical line: up to a line end that counts.
+/// A logical line: up to a line end that is not cancelled.
 #[derive(Debug)]
 pub(super) struct LogicalLine<'a> {
-    /// All of it, without its line end.
+    /// The whole line, without its line end.
     pub(super) raw: &'a str,
     /// The offset of its end.
     end: usize,
-    /// What it is made of.
+    /// The parts of the line.
     pub(super) items: Vec<Item<'a>>,
-    /// What it means for the blocks, part by part.
+    /// Its effects on the blocks, in order.
     pub(super) turns: Vec<PlacedTurn>,
-    /// Whether something is wrong with it: then it stays as it is.
+    /// Whether it contains an error, so that it stays as it is.
     pub(super) frozen: bool,
 }
 
 impl<'a> LogicalLine<'a> {
-    /// Whether nothing stands on it.
+    /// Whether it is empty.
     pub(super) fn is_blank(&self) -> bool {
         self.items.is_empty() && !self.frozen
     }
 
-    /// Whether comments stand on it alone.
+    /// Whether it contains only comments.
     pub(super) fn is_comment(&self) -> bool {
         !self.frozen && self.pieces().next().is_none()
     }
 
-    /// Whether it declares variables or constants, as far as its first words tell.
+    /// Whether it declares variables or constants, judging by its first words.
     pub(super) fn declares(&self) -> bool {
         self.pieces().next().is_some_and(|first| first.is_word("const") || first.role == LexemeRole::Type)
     }
@@ -103,7 +103,7 @@ pub(super) fn read(text: &str) -> Vec<LogicalLine<'_>> {
     let mistakes = mistakes.into_iter().map(|at| at as usize);
     freeze(&mut lines, mistakes.collect());
     freeze(&mut lines, broken);
-    // Whether this `}` closes something depends on the lines around it.
+    // Whether such a `}` closes anything depends on the lines around it.
     for line in &mut lines {
         let closes = line.pieces().next().is_some_and(|piece| piece.lexeme == Lexeme::BraceClose);
         line.frozen |= closes;
@@ -111,18 +111,18 @@ pub(super) fn read(text: &str) -> Vec<LogicalLine<'_>> {
     lines
 }
 
-/// Gathers lines.
+/// Collects lines.
 struct Reader<'a> {
     text: &'a str,
     roles: std::iter::Peekable<std::vec::IntoIter<PlacedRole>>,
     lines: Vec<LogicalLine<'a>>,
-    /// The items of the line so far, and where it begins.
+    /// The items of the current line, and the position where it begins.
     items: Vec<Item<'a>>,
     start: usize,
 }
 
 impl<'a> Reader<'a> {
-    /// Takes what stands between two lexemes.
+    /// Takes the text between two lexemes.
     fn between(&mut self, from: usize, to: usize) {
         let text = self.text.get(from..to).unwrap_or_default();
         self.items.extend(trivia::split(text).map(|trivia| match trivia {
@@ -158,7 +158,7 @@ fn give_turns(lines: &mut [LogicalLine<'_>], turns: &[PlacedTurn]) {
     }
 }
 
-/// Marks the lines with mistakes at these offsets, which are in order.
+/// Freezes the lines with errors at these offsets, which are sorted.
 fn freeze(lines: &mut [LogicalLine<'_>], mistakes: Vec<usize>) {
     let mut left = mistakes.into_iter().peekable();
     for line in lines {

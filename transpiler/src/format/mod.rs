@@ -1,9 +1,9 @@
-//! The one way to lay a program out. What lies between the lexemes changes, and the case of words that the language
-//! has declared; nothing else.
+//! The formatter: the only layout of programs. It changes the space between lexemes and the case of words that the
+//! language declares, and nothing else.
 //!
-//! A line goes through these: `lines` reads it with its roles, `levels` says how deep it stands, `spelling` writes the
-//! words of the language as the manual does, `spacing` sets blanks, `table`, `comments` and `blanks` look at its
-//! neighbours. At the end `same` holds the outcome against the text that came.
+//! A line passes through these modules: `lines` reads it with its roles, `levels` determines its nesting level,
+//! `spelling` writes the words of the language as the manual does, `spacing` sets blanks, and `table`, `comments` and
+//! `blanks` consider its neighbours. Finally, `same` compares the result with the original text.
 
 mod blanks;
 mod comments;
@@ -24,10 +24,10 @@ pub use spacing::LEVEL;
 use spacing::Text;
 use table::TableRow;
 
-/// The mark that may stand at the beginning of a text.
+/// The byte order mark that may begin a text.
 const MARK: char = '\u{feff}';
 
-/// Lays a program out. Lines with mistakes stay as they are; so does the whole text where lexemes, comments or lines
+/// Formats a program. Lines with errors stay as they are; so does the whole text if its lexemes, comments or lines
 /// would not be the same afterwards. The line ends are those of the first line.
 ///
 /// ```
@@ -66,7 +66,8 @@ fn line_end(text: &str) -> &'static str {
     }
 }
 
-/// Lays out a text whose line ends are all `\n`; blank lines and the spelling of words go from `lines`.
+/// Formats a text whose line ends are all `\n`; removes blank lines from `lines` and changes the spelling of words
+/// there.
 fn lay_out(lines: &mut Vec<LogicalLine<'_>>) -> String {
     let written = take_blanks(lines);
     let functions = spelling::functions(lines);
@@ -82,7 +83,7 @@ fn lay_out(lines: &mut Vec<LogicalLine<'_>>) -> String {
     joined(lines, &places, &blanks, &texts)
 }
 
-/// Takes the blank lines out; says in front of which of the others they stood.
+/// Removes the blank lines; returns for each other line whether one preceded it.
 fn take_blanks(lines: &mut Vec<LogicalLine<'_>>) -> Vec<bool> {
     let mut written = Vec::with_capacity(lines.len());
     let mut blank = false;
@@ -97,7 +98,7 @@ fn take_blanks(lines: &mut Vec<LogicalLine<'_>>) -> Vec<bool> {
     written
 }
 
-/// Comments on lines of their own stand like the line that follows them.
+/// Indents comments on lines of their own like the line that follows them.
 fn indent_comments(lines: &[LogicalLine<'_>], places: &mut [LineLevel], end: LineLevel) {
     let mut below = end.level;
     for (line, place) in lines.iter().zip(places).rev() {
@@ -109,12 +110,12 @@ fn indent_comments(lines: &[LogicalLine<'_>], places: &mut [LineLevel], end: Lin
     }
 }
 
-/// The text of a line; `None` where it stays as it is.
+/// The text of a line; `None` if it stays as it is.
 fn text_of(line: &LogicalLine<'_>, place: LineLevel) -> Option<Text> {
     (!line.frozen).then(|| spacing::write(&line.items, (place.level + 1) * LEVEL))
 }
 
-/// Sets rows of declarations in columns.
+/// Aligns consecutive declarations in columns.
 fn set_tables(lines: &[LogicalLine<'_>], places: &[LineLevel], blanks: &[bool], texts: &mut [Option<Text>]) {
     let rows: Vec<Option<TableRow>> = lines.iter().map(table::row).collect();
     let level = |at: usize| places.get(at).map(|place| place.level);
@@ -140,7 +141,7 @@ fn set_tables(lines: &[LogicalLine<'_>], places: &[LineLevel], blanks: &[bool], 
     }
 }
 
-/// All lines, with one line end at the end.
+/// All lines, with a single line end at the end of the text.
 fn joined(lines: &[LogicalLine<'_>], places: &[LineLevel], blanks: &[bool], texts: &[Option<Text>]) -> String {
     let mut ends: Vec<End> = Vec::with_capacity(lines.len());
     for (((line, text), place), blank) in lines.iter().zip(texts).zip(places).zip(blanks) {

@@ -1,11 +1,11 @@
-//! Whether two texts say the same: the last thing that is looked at before a text is given away.
+//! Whether two texts have the same meaning: the final check before a formatted text is returned.
 
 use super::lines::{Item, LogicalLine};
 use arl_lang::lexer::Lexeme;
 use arl_lang::outline::{LexemeRole, Turn};
 use std::borrow::Cow;
 
-/// What must stay of a line.
+/// The parts of a line that must be preserved.
 #[derive(PartialEq, Eq, Debug)]
 enum Kept<'a> {
     /// A word, folded.
@@ -14,14 +14,14 @@ enum Kept<'a> {
     Lexeme(LexemeRole, Cow<'a, str>),
     Comment(&'a str),
     Continuation,
-    /// All of a line that stays as it is.
+    /// The whole of a line that stays as it is.
     Raw(&'a str),
-    /// What the line means for the blocks.
+    /// The effect of the line on the blocks.
     Turn(Turn),
     End,
 }
 
-/// Whether the lexemes, comments and lines of both texts are the same but for blanks, blank lines and the case of
+/// Whether the lexemes, comments and lines of both texts are the same except for blanks, blank lines and the case of
 /// words.
 pub(super) fn same(before: &[LogicalLine<'_>], after: &[LogicalLine<'_>]) -> bool {
     kept(before) == kept(after)
@@ -31,7 +31,7 @@ fn kept<'a>(lines: &[LogicalLine<'a>]) -> Vec<Kept<'a>> {
     let mut kept = Vec::new();
     let last = lines.iter().rposition(|line| !line.is_blank());
     for (at, line) in lines.iter().enumerate().filter(|(_, line)| !line.is_blank()) {
-        // Line ends at the end of the text are not part of a line.
+        // Line ends at the end of the text do not belong to a line.
         let raw = if last == Some(at) { line.raw.trim_end_matches('\n') } else { line.raw };
         if line.frozen {
             kept.push(Kept::Raw(raw));
@@ -47,7 +47,7 @@ fn kept<'a>(lines: &[LogicalLine<'a>]) -> Vec<Kept<'a>> {
 fn add<'a>(kept: &mut Vec<Kept<'a>>, item: &Item<'a>) {
     match item {
         Item::Piece(piece) if piece.role == LexemeRole::Unit => match kept.last_mut() {
-            // With or without a blank in front of its unit, a number is the same one.
+            // A number is the same with or without a blank before its unit.
             Some(Kept::Lexeme(_, before)) => before.to_mut().push_str(piece.text),
             _ => kept.push(Kept::Lexeme(piece.role, piece.text.into())),
         },

@@ -4,13 +4,13 @@ use super::lines::{Item, PlacedLexeme};
 use arl_lang::lexer::Lexeme;
 use arl_lang::outline::LexemeRole;
 
-/// The blanks of one level of blocks.
+/// The number of blanks for one block level.
 pub const LEVEL: usize = 4;
 
-/// Words that take their parentheses as a call does.
+/// Words that are followed directly by their parentheses, like the name in a call.
 const GUARDS: [&str; 6] = ["if", "elseif", "while", "for", "switch", "until"];
 
-/// What a piece is to its neighbours.
+/// The class of a piece, which determines the blanks around it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Class {
     Open,
@@ -20,18 +20,18 @@ enum Class {
     /// `.` and `::`
     Dot,
     Colon,
-    /// An operator in front of its only operand.
+    /// An operator before its only operand.
     Prefix,
-    /// `++` and `--` behind their operand.
+    /// `++` and `--` after their operand.
     Postfix,
     /// An operator between two operands, or an assignment.
     Binary,
     Unit,
-    /// A word, a number, a text.
+    /// A word, a number, a string.
     Word,
 }
 
-/// The piece before, and what is known of it.
+/// The previous piece and its class.
 #[derive(Clone, Copy)]
 struct Before<'a> {
     piece: PlacedLexeme<'a>,
@@ -39,7 +39,7 @@ struct Before<'a> {
 }
 
 impl Before<'_> {
-    /// Whether a value ends with it.
+    /// Whether a value may end with it.
     fn ends_value(&self) -> bool {
         match self.class {
             Class::Close | Class::Postfix | Class::Unit => true,
@@ -49,12 +49,12 @@ impl Before<'_> {
     }
 }
 
-/// A line as text: the first line without its indentation, then those behind a `\` indented by `continued` blanks.
+/// A line as text: the first line without its indentation, then the lines after a `\`, indented by `continued` blanks.
 #[derive(Default)]
 pub(super) struct Text {
-    /// All but a comment at its end.
+    /// The line without a comment at its end.
     pub(super) body: String,
-    /// A `//` comment behind something.
+    /// A `//` comment after other text.
     pub(super) trailing: Option<String>,
 }
 
@@ -75,7 +75,7 @@ pub(super) fn write(items: &[Item<'_>], continued: usize) -> Text {
     writer.text
 }
 
-/// What was written last.
+/// The kind of item written last.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Last {
     /// Nothing on this line of the text.
@@ -146,11 +146,11 @@ fn class(piece: &PlacedLexeme<'_>, behind_value: bool) -> Class {
     }
 }
 
-/// Whether a blank stands between two pieces of a statement.
+/// Whether there is a blank between two pieces of a statement.
 fn blank_between(before: Before<'_>, piece: &PlacedLexeme<'_>, class: Class) -> bool {
     match (before.class, class) {
         (Class::Open, _) | (_, Class::Close | Class::Separator | Class::Colon | Class::Postfix) => false,
-        // The point would become a part of the number.
+        // Otherwise the point would become a part of the number.
         (_, Class::Dot) => matches!(before.piece.lexeme, Lexeme::Number(_)),
         (Class::Dot, _) => false,
         (Class::Colon, _) => before.piece.role != LexemeRole::LabelColon,
@@ -162,7 +162,7 @@ fn blank_between(before: Before<'_>, piece: &PlacedLexeme<'_>, class: Class) -> 
     }
 }
 
-/// Whether a blank stands between a word or a closing bracket and an opening one.
+/// Whether there is a blank between a word or a closing bracket and an opening one.
 fn blank_before_bracket(before: Before<'_>, piece: &PlacedLexeme<'_>) -> bool {
     let word = before.piece;
     match piece.lexeme {

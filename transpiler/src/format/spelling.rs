@@ -1,4 +1,4 @@
-//! Words of the language and built-in names in the spelling of the manual; names of the program's own stay.
+//! Writes words of the language and built-in names in the spelling of the manual; names of the program itself stay.
 
 use super::lines::{Item, LogicalLine, PlacedLexeme};
 use arl_lang::catalog::{self, Base, Entry};
@@ -8,13 +8,13 @@ use arl_lang::outline::LexemeRole;
 use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
-/// The functions of the file, folded: these names are never those of built-in ones.
+/// The functions of the file, folded: these names never mean built-ins.
 pub(super) fn functions(lines: &[LogicalLine<'_>]) -> HashSet<String> {
     let mut names = HashSet::new();
     for line in lines {
         let mut pieces = line.pieces();
         if pieces.next().is_some_and(|first| first.is_word("func")) {
-            // The first one is the type of the result, unless that is missing.
+            // The first piece is the type of the result, unless that is missing.
             names.extend(pieces.take(2).map(|piece| piece.text.to_ascii_lowercase()));
         }
     }
@@ -45,11 +45,11 @@ pub(super) fn spell(items: &mut [Item<'_>], functions: &HashSet<String>) {
     }
 }
 
-/// The pieces around one.
+/// The pieces around a piece.
 #[derive(Clone, Copy)]
 struct Around<'a> {
     before: Option<PlacedLexeme<'a>>,
-    /// The one before `before`.
+    /// The piece before `before`.
     scope: Option<PlacedLexeme<'a>>,
     next: Option<PlacedLexeme<'a>>,
 }
@@ -63,23 +63,23 @@ impl<'a> Around<'a> {
         self.next.is_some_and(|next| next.lexeme == lexeme)
     }
 
-    /// What stands in front of the `::` in front of the piece.
+    /// The piece before a `::` that precedes this piece.
     fn scope(&self) -> Option<PlacedLexeme<'a>> {
         self.scope.filter(|_| self.is_before(Lexeme::Scope))
     }
 }
 
-/// Goes along a line.
+/// Goes through a line.
 struct Speller<'a> {
     functions: &'a HashSet<String>,
     /// The instruction of the statement.
     instruction: &'static [Entry],
-    /// For each open bracket: the function whose arguments stand in it.
+    /// For each open bracket, the function whose arguments it contains.
     open: Vec<&'static [Entry]>,
 }
 
 impl Speller<'_> {
-    /// The right spelling of a piece, where it is the language's.
+    /// The correct spelling of a piece, if the language declares it.
     fn spelled(&mut self, piece: &PlacedLexeme<'_>, around: Around<'_>) -> Option<&'static str> {
         if piece.begins {
             self.instruction = &[];
@@ -129,7 +129,7 @@ impl Speller<'_> {
         if around.before.is_some_and(|before| is_member(&before)) {
             return None;
         }
-        // A type in a declaration, or in front of a constant.
+        // A type in a declaration or before a constant.
         if around.next.is_some_and(|next| next.role == LexemeRole::Name) || around.is_next(Lexeme::Scope) {
             return type_name(piece.text);
         }
@@ -144,7 +144,7 @@ impl Speller<'_> {
     }
 }
 
-/// Whether what follows is a component, or something of a module or a type.
+/// Whether the next piece is a component, or a member of a module or a type.
 fn is_member(before: &PlacedLexeme<'_>) -> bool {
     matches!(before.lexeme, Lexeme::Dot | Lexeme::Scope)
 }
@@ -154,7 +154,7 @@ fn names(name: &'static str, aliases: &'static [&'static str]) -> impl Iterator<
     std::iter::once(name).chain(aliases.iter().copied())
 }
 
-/// How one of these names is spelled, where `written` is one of them.
+/// The spelling of the name that equals `written`, if there is one.
 fn one_of(mut names: impl Iterator<Item = &'static str>, written: &str) -> Option<&'static str> {
     names.find(|name| name.eq_ignore_ascii_case(written))
 }

@@ -1,25 +1,25 @@
-//! Tables of points: declarations in a row with start values in braces, in columns.
+//! Aligns tables of points: consecutive declarations with initial values in braces.
 
 use super::lines::{Item, LogicalLine, PlacedLexeme};
 use super::spacing::{LEVEL, write};
 use arl_lang::lexer::Lexeme;
 use arl_lang::outline::LexemeRole;
 
-/// The columns that a line of a table may take.
+/// The maximum width of a line of a table.
 const WIDEST: usize = 120;
 
 /// A declaration that may be a row of a table.
 #[derive(Debug)]
 pub(super) struct TableRow {
-    /// The type, folded, with `const` where it is there: rows of a table have the same.
+    /// The type, folded, including `const` if present; it is the same for all rows of a table.
     ty: String,
-    /// What stands in front of the `=`.
+    /// The text before the `=`.
     left: String,
     /// The values between the braces.
     cells: Vec<String>,
 }
 
-/// The row that a line is: one variable with a value in braces, on one line, without comments inside.
+/// A line as a row: one variable with a value in braces, on one line, without inner comments.
 pub(super) fn row(line: &LogicalLine<'_>) -> Option<TableRow> {
     let code = match line.items.as_slice() {
         [code @ .., Item::LineComment(_)] => code,
@@ -49,8 +49,7 @@ pub(super) fn row(line: &LogicalLine<'_>) -> Option<TableRow> {
     })
 }
 
-/// The values between commas; `None` where the braces do not end with the line, or a comma stands behind the last
-/// value.
+/// The values between commas; `None` if the braces do not end the line, or if a comma follows the last value.
 fn cells(items: &[Item<'_>]) -> Option<Vec<String>> {
     let mut cells = Vec::new();
     let mut depth = 0_usize;
@@ -75,12 +74,12 @@ fn cells(items: &[Item<'_>]) -> Option<Vec<String>> {
     Some(cells)
 }
 
-/// Whether both may stand in one table.
+/// Whether both rows may be in the same table.
 pub(super) fn fit(row: &TableRow, other: &TableRow) -> bool {
     row.ty == other.ty
 }
 
-/// The rows as text; `None` where they make no table.
+/// The rows as text; `None` if they do not form a table.
 pub(super) fn align(rows: &[&TableRow], level: usize) -> Option<Vec<String>> {
     let first = rows.first().filter(|_| rows.len() > 1)?;
     if rows.iter().any(|row| row.cells.len() != first.cells.len()) {
@@ -114,7 +113,7 @@ fn padded(text: &str, column: usize) -> String {
     format!("{text}{}", " ".repeat(column.saturating_sub(width(text))))
 }
 
-/// The columns that a text takes.
+/// The number of columns that a text takes.
 pub(super) fn width(text: &str) -> usize {
     text.chars().count()
 }

@@ -10,7 +10,7 @@ fn indented(line: &str) -> String {
     if line.is_empty() { "\n".into() } else { format!("    {line}\n") }
 }
 
-/// The same for statements of a function.
+/// Checks statements of a function.
 #[track_caller]
 fn statements(input: &str, expected: &str) {
     let expected: String = expected.lines().map(indented).collect();
@@ -101,7 +101,7 @@ fn words_of_the_language_are_spelled_as_in_the_manual() {
     );
 }
 
-/// The label of a built-in function as the catalog spells it.
+/// The label of a built-in function in the catalog's spelling.
 fn label_of(function: &str, label: &str) -> Option<&'static str> {
     let params = arl_lang::catalog::functions(function).iter().flat_map(|entry| entry.params);
     params.map(|param| param.name).find(|name| name.eq_ignore_ascii_case(label))
@@ -115,7 +115,7 @@ fn names_of_the_program_stay() {
         "func int Abs(int X)\n    return X\nendfunc\n\nfunc void Main()\n    int Jump = ABS(1)\n    Jump = Sin\n    \
          Other::SIN(1)\n    a.SIN = sin(1)\n    MyEnum::FAST(1)\n    print PI, FAST\n    SPL:\nendfunc\n",
     );
-    // Spellings of other editions stay those, in their own case.
+    // Spellings of other editions are kept, in their own case.
     statements(
         "StartWeaveLin w\nToolInertiapara t\nTOOLSWITCH 1,MU_name:m",
         "startweavelin w\nToolInertiaPara t\ntoolswitch 1, mu_name:m",

@@ -1,20 +1,20 @@
-//! What may stand between two lexemes: blanks, comments, line ends behind a `\`.
+//! The text between two lexemes: blanks, comments, line ends after a `\`.
 
-/// What blanks are.
+/// The characters that count as blanks.
 pub(super) const BLANKS: [char; 4] = [' ', '\t', '\u{b}', '\u{c}'];
 
-/// Something between lexemes that is not a blank.
+/// Text between lexemes that is not a blank.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Trivia<'a> {
     /// `/* */`
     Block(&'a str),
-    /// `//`, without blanks at its end.
+    /// `//`, without trailing blanks.
     Line(&'a str),
-    /// `\` and the line end behind it.
+    /// `\` and the line end after it.
     Continuation,
 }
 
-/// Splits what stands between two lexemes.
+/// Splits the text between two lexemes.
 pub(super) fn split(text: &str) -> impl Iterator<Item = Trivia<'_>> {
     let mut rest = text;
     std::iter::from_fn(move || {
@@ -25,7 +25,7 @@ pub(super) fn split(text: &str) -> impl Iterator<Item = Trivia<'_>> {
             return Some(Trivia::Line(comment.trim_end_matches(BLANKS)));
         }
         if rest.starts_with("/*") {
-            // The lexer has seen its end.
+            // The lexer has found its end.
             let end = rest.get(2..).and_then(|inside| inside.find("*/")).map_or(rest.len(), |at| at + 4);
             let (comment, behind) = rest.split_at(end);
             rest = behind;

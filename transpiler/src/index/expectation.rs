@@ -1,41 +1,41 @@
-//! What may stand at a place where somebody types.
+//! What may stand at the position where the user is typing.
 //!
-//! An editor puts the word [`HERE`] behind what was typed so far and has the text checked. Where the checker meets that
-//! word, it notes what it looked for and what it knew.
+//! An editor appends the word [`HERE`] to what was typed so far and has the text checked. Where the checker meets this
+//! word, it records what it looked for and what it knew.
 
 use super::Callee;
 use crate::diagnostics::Location;
 use crate::hir::{ModuleId, Type};
 use arl_lang::catalog::{Enum, Struct};
 
-/// The word that stands for what is not typed yet. It may end a name: `fee` and this word are one name.
+/// The word that stands for text that is not typed yet. It may end a name: `fee` and this word are one name.
 pub const HERE: &str = "__ARL2RS_HERE__";
 
 /// [`HERE`], folded as names are.
 pub(crate) const MARKER: &str = "__arl2rs_here__";
 
-/// What kind of name is looked for.
+/// The kind of name that is looked for.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Wanted {
-    /// A value; its type, where only one will do.
+    /// A value, with its type if only one is possible.
     Value(Option<Type>),
     /// A function whose arguments are there already.
     Function,
     /// An instruction whose arguments are there already.
     Instruction,
-    /// A variable or function of a module, behind `module::`.
+    /// A variable or function of a module, after `module::`.
     Member(ModuleId),
-    /// A component, behind a `.`, or in front of a value in braces.
+    /// A component, after a `.` or before a value in braces.
     Component(Struct),
     /// The name of a component, in braces whose other values have names.
     ComponentName(Struct),
-    /// What is done at an event: a call or an assignment.
+    /// The action of an event: a call or an assignment.
     Action,
-    /// A constant, behind `type::`.
+    /// A constant, after `type::`.
     EnumConstant(Enum),
-    /// A system variable, behind a `$`.
+    /// A system variable, after a `$`.
     System,
-    /// A label of `goto`; the labels that there are.
+    /// A label of `goto`, with the existing labels.
     Label(Vec<String>),
     /// The label of an argument, whose value is there already.
     ArgumentLabel,
@@ -45,36 +45,36 @@ pub enum Wanted {
     Nothing,
 }
 
-/// The arguments around a place.
+/// The arguments around a position.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ArgumentList {
-    /// Who gets them.
+    /// The callee that receives them.
     pub callee: Callee,
-    /// Where the callee's name stands.
+    /// The position of the callee's name.
     pub of: Location,
-    /// How many arguments each parameter has already, this one not counted.
+    /// How many arguments each parameter already has, not counting this one.
     pub taken: Vec<usize>,
-    /// The parameter that a value here would go to, where that is known.
+    /// The parameter that a value here would go to, if known.
     pub parameter: Option<usize>,
-    /// Whether it is all of an argument without a label, so that it may become one.
+    /// Whether the word is the whole of an argument without a label, so that it may become a label.
     pub may_be_label: bool,
 }
 
-/// What the checker looked for where [`HERE`] stood, and what it knew there.
+/// What the checker looked for at the position of [`HERE`], and what it knew there.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Expectation {
-    /// Where the word stands.
+    /// The position of the word.
     pub at: Location,
-    /// What it looked for.
+    /// What the checker looked for.
     pub wanted: Wanted,
     /// The module.
     pub module: ModuleId,
-    /// The number of the item in the file: globals and functions of smaller numbers are known.
+    /// The number of the item in the file: globals and functions with smaller numbers are visible.
     pub item: u32,
-    /// The local variables that are known, with their types and the places of their declarations.
+    /// The visible local variables, with their types and the positions of their declarations.
     pub locals: Vec<(String, Option<Type>, Location)>,
-    /// The arguments that it would be one of.
+    /// The list of arguments that it would belong to.
     pub arguments: Option<ArgumentList>,
-    /// The structure whose braces it would stand in, and which of its components are there already.
+    /// The structure whose braces would contain it, and which of its components are there already.
     pub braces: Option<(Struct, Vec<bool>)>,
 }

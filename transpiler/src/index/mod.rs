@@ -1,7 +1,7 @@
-//! What every name of a program means, place by place: what an editor asks for.
+//! What every name of a program means, by position, for editors.
 //!
-//! The checker records it where it resolves names (`check/mention.rs`), also in programs with mistakes. There is no
-//! second account of the language here. A name that could not be resolved has no mention.
+//! The checker records this where it resolves names (`check/mention.rs`), also in programs with errors. The rules of
+//! the language are not repeated here. A name that could not be resolved has no mention.
 
 mod expectation;
 
@@ -17,31 +17,31 @@ use std::collections::HashMap;
 /// What a name means.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Meaning {
-    /// A local variable or a parameter of a function, by the place of its declaration.
+    /// A local variable or a parameter of a function, by the position of its declaration.
     Local(Location),
     /// A global variable.
     Global(GlobalId),
     /// A function of the program.
     Function(FuncId),
-    /// A module: in front of `::`, or the path of an `import`.
+    /// A module: before `::`, or in the path of an `import`.
     Module(ModuleId),
-    /// A label of `goto`, by the place where it stands.
+    /// A label of `goto`, by its position.
     Label(Location),
     /// A built-in instruction or function.
     Builtin(&'static Entry),
-    /// The label of a built-in's argument: the entry and the number of the parameter.
+    /// The label of a built-in's argument: the entry and the index of the parameter.
     Parameter(&'static Entry, usize),
     /// A system variable.
     System(&'static SystemVariable),
     /// A constant with a plain name: `PI`.
     Constant(&'static Constant),
-    /// A constant of an enumeration, by its number.
+    /// A constant of an enumeration, by its index.
     EnumConstant(Enum, u16),
-    /// A component of a structure, by its number.
+    /// A component of a structure, by its index.
     Component(Struct, usize),
     /// A type.
     Type(Base),
-    /// A number that reads like a name: `ffh`.
+    /// A number that looks like a name: `ffh`.
     Number(u32),
 }
 
@@ -52,29 +52,29 @@ impl Meaning {
     }
 }
 
-/// What a mention does with what it names.
+/// What a mention does with the thing that it names.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Role {
     /// Declares it.
     Declares,
-    /// Writes it, and maybe reads it, too.
+    /// Writes it, and possibly also reads it.
     Writes,
     /// Anything else: reads, calls, jumps.
     Uses,
 }
 
-/// A name at a place.
+/// A name at a position.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Mention {
     /// The bytes of the name alone.
     pub at: Location,
-    /// What it means.
+    /// The meaning of the name.
     pub meaning: Meaning,
     /// What is done with it.
     pub role: Role,
 }
 
-/// Who gets an argument.
+/// The callee that receives an argument.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Callee {
     /// A function of the program.
@@ -88,26 +88,26 @@ pub enum Callee {
 pub struct Argument {
     /// The value, without label and unit.
     pub at: Location,
-    /// Where the name of the instruction or function stands.
+    /// The position of the name of the instruction or function.
     pub of: Location,
-    /// Who gets it.
+    /// The callee that receives it.
     pub callee: Callee,
-    /// The number of the parameter.
+    /// The index of the parameter.
     pub parameter: usize,
     /// Whether it was written with its label.
     pub labelled: bool,
-    /// Whether there is a unit behind it.
+    /// Whether a unit follows it.
     pub unit: bool,
 }
 
 /// A local variable or parameter.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LocalInfo {
-    /// Its type; `None` where the declaration is wrong.
+    /// Its type; `None` if the declaration is wrong.
     pub ty: Option<Type>,
     /// Whether it is `const`.
     pub constant: bool,
-    /// Its value, where it is a constant with a known one.
+    /// Its value, if it is a constant with a known value.
     pub value: Option<Value>,
     /// The function that it belongs to.
     pub func: Option<FuncId>,
@@ -118,38 +118,38 @@ pub struct LocalInfo {
 /// A global variable.
 #[derive(Clone, PartialEq, Debug)]
 pub struct GlobalInfo {
-    /// Its name, as it was declared.
+    /// Its name, as declared.
     pub name: String,
     /// Its module.
     pub module: ModuleId,
-    /// The number of its item in the file: what stands below it knows it.
+    /// The number of its item in the file: items below can see it.
     pub item: u32,
-    /// Its type; `None` where the declaration is wrong.
+    /// Its type; `None` if the declaration is wrong.
     pub ty: Option<Type>,
     /// Whether it is `const`.
     pub constant: bool,
-    /// Its value, where it is a constant with a known one.
+    /// Its value, if it is a constant with a known value.
     pub value: Option<Value>,
-    /// Where its name is declared.
+    /// The position of its name in the declaration.
     pub at: Location,
-    /// The whole declaration, with its other variables.
+    /// The whole declaration, including its other variables.
     pub declaration: Span,
 }
 
 /// A function of the program.
 #[derive(Clone, PartialEq, Debug)]
 pub struct FunctionInfo {
-    /// Its name, as it was declared.
+    /// Its name, as declared.
     pub name: String,
     /// Its module.
     pub module: ModuleId,
-    /// The number of its item in the file: what stands below it knows it.
+    /// The number of its item in the file: items below can see it.
     pub item: u32,
-    /// The names and types of its parameters, and where they are declared.
+    /// The names and types of its parameters, and the positions of their declarations.
     pub params: Vec<(String, Option<Type>, Location)>,
-    /// The type of its result; `None` where the declaration is wrong.
+    /// The type of its result; `None` if the declaration is wrong.
     pub result: Option<Base>,
-    /// Where its name is declared.
+    /// The position of its name in the declaration.
     pub at: Location,
     /// The line of its header.
     pub header: Span,
@@ -158,7 +158,7 @@ pub struct FunctionInfo {
 }
 
 impl FunctionInfo {
-    /// All of the function.
+    /// The span of the whole function.
     pub fn span(&self) -> Span {
         self.header.to(self.end)
     }
@@ -167,22 +167,22 @@ impl FunctionInfo {
 /// A module: a file of the program.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct ModuleInfo {
-    /// Its name, as it stands in front of `::`, folded.
+    /// Its name as written before `::`, folded.
     pub name: String,
     /// Its file.
     pub file: FileId,
-    /// The modules that it can name, by the names that it has for them.
+    /// The modules that it can name, with the names that it uses for them.
     pub imports: Vec<(String, ModuleId)>,
-    /// The data file beside it, whose variables need no module name.
+    /// Its data file, whose variables need no module name.
     pub data: Option<ModuleId>,
 }
 
 /// All names of a program.
 #[derive(Clone, Default, Debug)]
 pub struct Index {
-    /// Sorted by file and place.
+    /// Sorted by file and position.
     pub(crate) mentions: Vec<Mention>,
-    /// Sorted by file and place.
+    /// Sorted by file and position.
     pub(crate) arguments: Vec<Argument>,
     pub(crate) locals: HashMap<Location, LocalInfo>,
     /// The global variables, by [`GlobalId`].
@@ -191,12 +191,12 @@ pub struct Index {
     pub functions: Vec<FunctionInfo>,
     /// The modules, by [`ModuleId`]; the main module is the first.
     pub modules: Vec<ModuleInfo>,
-    /// What may stand where [`HERE`] stood in the text.
+    /// What may stand at the position of [`HERE`] in the text.
     pub expectation: Option<Expectation>,
 }
 
 impl Index {
-    /// The name at a place: the one that holds the byte `offset`, or ends there.
+    /// The name at a position: the one that contains the byte `offset` or ends there.
     pub fn at(&self, file: FileId, offset: u32) -> Option<&Mention> {
         let behind =
             self.mentions.partition_point(|mention| (mention.at.file, mention.at.span.start) <= (file, offset));
@@ -211,7 +211,7 @@ impl Index {
         self.mentions.get(start..end).unwrap_or_default()
     }
 
-    /// All names with this meaning, by file and place.
+    /// All names with this meaning, by file and position.
     pub fn with(&self, meaning: Meaning) -> impl Iterator<Item = &Mention> {
         self.mentions.iter().filter(move |mention| mention.meaning == meaning)
     }
@@ -221,32 +221,32 @@ impl Index {
         self.arguments.iter().filter(move |argument| argument.at.file == file)
     }
 
-    /// What is known of a local variable, by the place of its declaration.
+    /// The information about a local variable, by the position of its declaration.
     pub fn local(&self, declared: Location) -> Option<&LocalInfo> {
         self.locals.get(&declared)
     }
 
-    /// What is known of a global variable.
+    /// The information about a global variable.
     pub fn global(&self, id: GlobalId) -> Option<&GlobalInfo> {
         self.globals.get(id.0 as usize)
     }
 
-    /// What is known of a function.
+    /// The information about a function.
     pub fn function(&self, id: FuncId) -> Option<&FunctionInfo> {
         self.functions.get(id.0 as usize)
     }
 
-    /// What is known of a module.
+    /// The information about a module.
     pub fn module(&self, id: ModuleId) -> Option<&ModuleInfo> {
         self.modules.get(id.0 as usize)
     }
 
-    /// The module that a file is.
+    /// The module of a file.
     pub fn module_of(&self, file: FileId) -> Option<ModuleId> {
         self.modules.iter().position(|module| module.file == file).map(|at| ModuleId(at as u32))
     }
 
-    /// The function that a place lies in.
+    /// The function that contains a position.
     pub fn function_at(&self, file: FileId, offset: u32) -> Option<FuncId> {
         let holds = |function: &FunctionInfo| {
             let span = function.span();
@@ -255,7 +255,7 @@ impl Index {
         self.functions.iter().position(holds).map(|at| FuncId(at as u32))
     }
 
-    /// Where the program declares what is meant; `None` for what is built in.
+    /// The declaration of a meaning in the program; `None` for built-ins.
     pub fn declaration(&self, meaning: Meaning) -> Option<Location> {
         match meaning {
             Meaning::Local(at) | Meaning::Label(at) => Some(at),
@@ -266,10 +266,10 @@ impl Index {
         }
     }
 
-    /// Brings what was recorded into its order and takes out what was recorded twice.
+    /// Sorts the records and removes duplicates.
     pub(crate) fn finish(&mut self) {
         self.mentions.sort_by_key(|mention| (mention.at, mention.role));
-        // A place has one meaning: what is checked twice (overloads) was recorded twice.
+        // A position has one meaning: code that was checked twice (overloads) was recorded twice.
         self.mentions.dedup_by_key(|mention| mention.at);
         self.arguments.sort_by_key(|argument| (argument.at, argument.of));
         self.arguments.dedup_by_key(|argument| (argument.at, argument.of));

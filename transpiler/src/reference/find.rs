@@ -4,7 +4,7 @@ use crate::near::nearest;
 use crate::reference::topics::all;
 use arl_lang::catalog;
 
-/// All pages of a name: of what is built in, and about the language.
+/// All pages for a name: those of built-ins and those about the language.
 pub fn page(name: &str) -> Option<String> {
     let name = name.trim();
     let mut parts: Vec<String> = catalog::reference::page(name).into_iter().collect();

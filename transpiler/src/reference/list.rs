@@ -1,13 +1,13 @@
-//! What there is, by area.
+//! All pages, by area.
 
 use crate::reference::topics::AREAS;
 use arl_lang::catalog::{self, Base};
 use std::fmt::Write;
 
-/// How wide the list is, in characters.
+/// The width of the list, in characters.
 const WIDTH: usize = 100;
 
-/// All names that have a page, by area: those of the language with what each is about.
+/// All names that have a page, by area: those of the language with their summaries.
 pub fn list() -> String {
     let mut text = String::from("`arl2rs doc NAME` shows a page; `arl2rs doc --search WORDS` searches all of them.\n");
     for area in AREAS {

@@ -1,8 +1,8 @@
-//! The reference: pages about the language, written by hand in `transpiler/docs/reference/`, and pages of everything
-//! built in, written from the catalog.
+//! The reference: pages about the language, written by hand in `transpiler/docs/reference/`, and pages of all
+//! built-ins, generated from the catalog.
 //!
-//! A page of the language is `transpiler/docs/reference/AREA/NAME.md`: its title, a paragraph whose first sentence
-//! stands in lists, rules, examples, and at its end the lines `Words:` (the names by which it is found), `See:` and
+//! A page of the language is `transpiler/docs/reference/AREA/NAME.md`: its title, a paragraph whose first sentence is
+//! used in lists, rules, examples, and at its end the lines `Words:` (the names by which it is found), `See:` and
 //! `Manual:`. `cargo test -p arl2rs-cli --test reference` runs the examples.
 
 mod find;

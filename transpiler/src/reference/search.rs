@@ -1,4 +1,4 @@
-//! Looks for words in all pages.
+//! Searches all pages for words.
 
 use crate::alarms;
 use crate::diagnostics::registry;
@@ -6,22 +6,22 @@ use crate::reference::topics::{AREAS, first_sentence, summary_of};
 use arl_lang::catalog;
 use std::fmt::Write;
 
-/// How many pages are shown.
+/// The maximum number of pages shown.
 const MOST_FOUND: usize = 15;
 
 /// A page that can be found.
 struct Candidate {
-    /// How it is shown.
+    /// Its name as shown.
     name: String,
     /// The names that count most.
     names: String,
-    /// What it is about.
+    /// Its summary.
     summary: String,
-    /// All of its text.
+    /// Its whole text.
     text: String,
 }
 
-/// The pages in which all words stand, best first: a line each. `None` where there is none.
+/// The pages that contain all words, best first, one per line. `None` if there are none.
 pub fn search(words: &[String]) -> Option<String> {
     let words: Vec<String> =
         words.iter().flat_map(|words| words.split_whitespace()).map(str::to_ascii_lowercase).collect();
@@ -46,8 +46,8 @@ pub fn search(words: &[String]) -> Option<String> {
     Some(text)
 }
 
-/// How well a page fits a word: best in its name, then in what it is about, then anywhere; `None` where it does not
-/// stand.
+/// How well a page fits a word: best in its names, then in its summary, then anywhere; `None` if the page does not
+/// contain it.
 fn score(page: &Candidate, word: &str) -> Option<usize> {
     let is_name = page.names.split('\n').any(|name| name == word);
     let stands_in = |text: &str| text.to_ascii_lowercase().contains(word);

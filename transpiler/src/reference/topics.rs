@@ -1,4 +1,4 @@
-//! The pages about the language: statements, types, operators, and the rules that hold everywhere.
+//! The pages about the language: statements, types, operators, and general rules.
 
 use arl_lang::catalog;
 
@@ -54,7 +54,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Topic> {
 }
 
 impl Topic {
-    /// The page of a word of a control structure.
+    /// The page about a word of a control structure.
     pub fn of_keyword(word: &str) -> Option<&'static Topic> {
         arl_lang::control_word(word)?;
         all().find(|topic| topic.words().any(|other| other == word))
@@ -71,7 +71,7 @@ impl Topic {
         first_sentence(&paragraph).to_owned()
     }
 
-    /// The names by which the page is found, its file's among them.
+    /// The names by which the page is found, including the name of its file.
     pub(super) fn words(&self) -> impl Iterator<Item = &'static str> {
         let line = self.text.lines().find_map(|line| line.strip_prefix("Words: ")).unwrap_or_default();
         let words = line.split('`').skip(1).step_by(2);
@@ -83,7 +83,7 @@ impl Topic {
         self.words().any(|word| word.eq_ignore_ascii_case(name))
     }
 
-    /// The page as it is shown: without what only the test of its examples needs.
+    /// The page as shown: without the parts that only the test of its examples needs.
     pub fn shown(&self) -> String {
         let mut text = String::with_capacity(self.text.len());
         for line in self.text.lines().filter(|line| !line.starts_with("Words: ")) {

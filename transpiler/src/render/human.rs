@@ -1,4 +1,4 @@
-//! Diagnostics for people, with the source under them.
+//! Diagnostics for people, with the source below them.
 
 use super::{Position, severity_word};
 use crate::diagnostics::{Diagnostic, Files, Label, Location, Severity, SourceFile};
@@ -6,14 +6,14 @@ use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Patch,
 use arl_lang::span::Span;
 use std::ops::Range;
 
-/// Lines longer than this (bytes) are not shown.
+/// Lines longer than this (in bytes) are not shown.
 const LONGEST_LINE: usize = 2000;
-/// Lines shown around a place.
+/// The number of lines shown around a position.
 const AROUND: u32 = 2;
-/// Places at most this many lines apart are shown in one piece.
+/// Positions at most this many lines apart are shown together.
 const NEAR: u32 = 200;
 
-/// Several lines in rustc's manner, with a line end; `styled` adds terminal colours.
+/// Several lines in the style of rustc, with a line end; `styled` adds terminal colours.
 pub fn human(diagnostic: &Diagnostic, files: &Files, styled: bool) -> String {
     let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
     let level = match diagnostic.severity {
@@ -47,12 +47,12 @@ pub fn human(diagnostic: &Diagnostic, files: &Files, styled: bool) -> String {
     renderer.render(&groups) + "\n"
 }
 
-/// Whether two places are shown in one piece of source.
+/// Whether two positions are shown together in one piece of source.
 fn is_near(one: Location, other: Location, files: &Files) -> bool {
     one.file == other.file && files.line(one).abs_diff(files.line(other)) <= NEAR
 }
 
-/// Adds a place and the labels near it.
+/// Adds a position and the labels near it.
 fn place<'a>(
     group: Group<'a>,
     main: &'a Label,
@@ -85,7 +85,7 @@ fn origin<'a>(at: Location, file: &'a SourceFile, files: &Files) -> Origin<'a> {
     origin.line(position.line as usize).char_column(position.column as usize)
 }
 
-/// The lines around some spans, so that the cost of showing a mistake does not grow with the file.
+/// The lines around some spans, so that the cost of showing an error does not grow with the file.
 struct Window {
     text: String,
     start: usize,
@@ -93,7 +93,7 @@ struct Window {
 }
 
 impl Window {
-    /// `None` where there is no text to show or a line is too long.
+    /// `None` if there is no text to show or a line is too long.
     fn around(file: &SourceFile, spans: &[Span]) -> Option<Self> {
         if file.text.is_empty() {
             return None;
@@ -124,7 +124,7 @@ impl Window {
     }
 }
 
-/// A lone carriage return ends a line of ARL but not one of the renderer; both are one byte.
+/// A lone carriage return ends a line in ARL but not in the renderer; both line ends are one byte.
 fn one_kind_of_line_end(text: &str) -> String {
     let bytes = text.as_bytes();
     let lone = |at: usize| bytes.get(at) == Some(&b'\r') && bytes.get(at + 1) != Some(&b'\n');

@@ -1,11 +1,11 @@
-//! Diagnostics as JSON, one object a line.
+//! Diagnostics as JSON, one object per line.
 
 use super::{Position, severity_word};
 use crate::diagnostics::{Diagnostic, Files};
 use std::fmt::Write;
 
 /// One line without its line end: an object with code, severity, message, file, line, column, end_line, end_column and
-/// help (a string or null). Lines and columns count from 1, columns in characters; the end is behind the last one.
+/// help (a string or null). Lines and columns count from 1, columns in characters; the end is after the last character.
 pub fn json(diagnostic: &Diagnostic, files: &Files) -> String {
     let at = Position::of(diagnostic.primary.at, files);
     let file = files.get(diagnostic.primary.at.file).map_or("", |file| file.name.as_str());

@@ -1,4 +1,5 @@
-//! Diagnostics as text: like rustc's for people, one JSON object a line for tools, one plain line for build logs.
+//! Diagnostics as text: in the style of rustc for people, one JSON object per line for tools, one plain line for build
+//! logs.
 
 #[cfg(feature = "tools")]
 mod human;
@@ -12,21 +13,21 @@ pub use plain::{plain, plain_block};
 
 use crate::diagnostics::{Files, Location, Severity};
 
-/// A location in numbers that people count in: lines and columns from 1, columns in characters.
+/// A location as people count: lines and columns from 1, columns in characters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Position {
-    /// Line of the first character; 0 where the file has no text.
+    /// Line of the first character; 0 if the file has no text.
     pub line: u32,
     /// Column of the first character.
     pub column: u32,
     /// Line of the end.
     pub end_line: u32,
-    /// Column behind the last character.
+    /// Column after the last character.
     pub end_column: u32,
 }
 
 impl Position {
-    /// The position of `location`; all zero where its file is not among `files`.
+    /// The position of `location`; all zero if its file is not among `files`.
     pub fn of(location: Location, files: &Files) -> Self {
         let Some(file) = files.get(location.file) else {
             return Self { line: 0, column: 0, end_line: 0, end_column: 0 };

@@ -12,8 +12,8 @@ pub fn plain(diagnostic: &Diagnostic, files: &Files) -> String {
     text.replace(['\n', '\r'], " ")
 }
 
-/// Several lines, without the word for the severity: what is wrong, the source line with a mark under the place, other
-/// places, what would be right.
+/// Several lines, without the word for the severity: what is wrong, the source line with a mark under the position,
+/// other positions, what would be correct.
 pub fn plain_block(diagnostic: &Diagnostic, files: &Files) -> String {
     let at = Position::of(diagnostic.primary.at, files);
     let mut text = format!("{}: {}\n", diagnostic.code, diagnostic.message);
@@ -37,7 +37,7 @@ pub fn plain_block(diagnostic: &Diagnostic, files: &Files) -> String {
     text
 }
 
-/// The line with carets under the place. Tabs stay tabs in the line of carets, so that both lines align.
+/// The line with carets under the position. Tabs stay tabs in the line of carets, so that both lines align.
 fn mark(line: &str, at: Position, width: usize, label: &str) -> String {
     let before = at.column.saturating_sub(1) as usize;
     let lead: String = line.chars().take(before).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();

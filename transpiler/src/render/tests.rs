@@ -1,4 +1,4 @@
-//! Diagnostics as people and tools see them.
+//! Diagnostics as shown to people and tools.
 
 use super::*;
 use crate::diagnostics::{Code, Diagnostic, FileId, Fix, Label, Location};

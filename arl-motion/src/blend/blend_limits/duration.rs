@@ -1,20 +1,20 @@
-//! About how long a blend takes with given limits, and what the motions before and behind lose by it: enough to choose
-//! among several.
+//! About how long a blend takes with given limits, and what the motions before and behind lose by it: accurate enough
+//! to choose among several.
 
 use crate::blend::blend_limits::{BlendLimits, PARTS};
 use crate::limits::profile::ALIKE_FACTOR;
 use crate::limits::profile::{Change, Limits};
 
-/// The way before or behind a blend, as far as the robot can change its speed on it for the blend.
+/// The path before or behind a blend, as far as the robot can change its speed on it for the blend.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Approach {
-    /// Its limits in shares of the blend per s: with 1 / nominal time it goes as fast as the blend does nominally.
+    /// Its limits in shares of the blend per s: 1 / nominal time is the nominal speed of the blend.
     pub(crate) limits: Limits,
     /// Its length at the blend's scale.
     pub(crate) length: f64,
 }
 
-/// A part of the path on which one speed is allowed.
+/// A part of the path with one permitted speed.
 #[derive(Clone, Copy)]
 struct Part {
     length: f64,
@@ -24,7 +24,7 @@ struct Part {
 /// Lengths of the parts of an approach as shares of it, the nearest to the blend first.
 const APPROACH_SHARES: [f64; 6] = [1.0 / 32.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0];
 
-/// About how long it takes to cross, in s, and to go the ways before and behind.
+/// About how long it takes to cross the blend and the paths before and behind it, in s.
 pub(crate) fn duration(blend_limits: &BlendLimits, approaches: &[Approach; 2]) -> f64 {
     if blend_limits.end_zones.parts > 0 {
         return duration_with_end_zones(blend_limits, approaches);
@@ -49,7 +49,7 @@ pub(crate) fn duration(blend_limits: &BlendLimits, approaches: &[Approach; 2]) -
     time + before.outside(shared(with_before), first) + behind.outside(shared(with_behind), last)
 }
 
-/// The same with end zones: where they meet the middle of the blend there is no acceleration.
+/// The duration with end zones: where they meet the middle of the blend there is no acceleration.
 fn duration_with_end_zones(blend_limits: &BlendLimits, [before, behind]: &[Approach; 2]) -> f64 {
     let BlendLimits { speeds, acc, jerk, end_zones } = blend_limits;
     let parts: Vec<Part> = speeds.iter().map(|speed| Part { length: 1.0 / PARTS as f64, speed: *speed }).collect();
@@ -68,15 +68,14 @@ fn duration_with_end_zones(blend_limits: &BlendLimits, [before, behind]: &[Appro
     own + came + went
 }
 
-/// A time in s that [`duration`] is no less than with these speeds, or lower ones, whatever the acceleration and the
-/// jerk.
+/// A lower bound in s of [`duration`] with these speeds, or lower ones, whatever the acceleration and the jerk.
 pub(crate) fn shortest(speeds: &[f64; PARTS], approaches: &[Approach; 2]) -> f64 {
     let own: f64 = speeds.iter().map(|speed| 1.0 / speed).sum();
     let around: f64 = approaches.iter().map(|approach| approach.length / approach.limits.vel).sum();
     own / PARTS as f64 + around
 }
 
-/// Whether two become one stretch, with the lower limits: see the timing of the path.
+/// Whether two limits form one stretch, with the lower values: see the timing of the path.
 pub(crate) fn alike(a: &Limits, b: &Limits) -> bool {
     let alike = |a: f64, b: f64| a <= b * ALIKE_FACTOR && b <= a * ALIKE_FACTOR;
     alike(a.acc, b.acc) && alike(a.jerk, b.jerk)
@@ -91,8 +90,8 @@ impl Approach {
         APPROACH_SHARES.iter().map(|share| Part { length: self.length * share, speed: self.limits.vel })
     }
 
-    /// How long it takes with an arm, whose parts are given from the middle of the blend on, and how fast that one is
-    /// there, with at most this speed.
+    /// How long the approach takes with an end zone, whose parts are given from the middle of the blend on, and the
+    /// speed at the inner end, which is at most `speed`.
     fn with_end_zone<'a>(&self, arm: impl Iterator<Item = &'a Part>, outer: &Limits, speed: f64) -> (f64, f64) {
         let joined = alike(&self.limits, outer);
         let limits = if joined { lower(*outer, &self.limits) } else { *outer };
@@ -104,8 +103,8 @@ impl Approach {
         (time + self.outside(joined.then_some(&limits), outside), inside)
     }
 
-    /// What it adds to the time: where it shares the blend's limits, what the ramp at its other end loses by them;
-    /// where it keeps its own, all of it, when the blend is met at `speed`.
+    /// What the approach adds to the time: where it shares the blend's limits, what the ramp at its other end loses by
+    /// them; where it keeps its own, all of it, when the blend is met at `speed`.
     fn outside(&self, shared: Option<&Limits>, speed: f64) -> f64 {
         match shared {
             Some(shared) => {
@@ -116,13 +115,13 @@ impl Approach {
         }
     }
 
-    /// How long it takes with a stop in the middle of the blend, of which `more` is on this side.
+    /// How long the approach takes with a stop in the middle of the blend, of which `more` is on this side.
     pub(crate) fn with_stop(&self, more: f64) -> f64 {
         let whole = Self { length: self.length + more, ..*self };
         whole.lost(0.0) + whole.length / whole.limits.vel
     }
 
-    /// The time that it loses by beginning or ending at `speed`.
+    /// The time that is lost by beginning or ending at `speed`.
     fn lost(&self, speed: f64) -> f64 {
         let Self { limits, length } = self;
         if *length <= 0.0 {
@@ -139,7 +138,7 @@ impl Approach {
     }
 }
 
-/// How long a way takes that is entered and left at no more than `ends`, and how fast it begins and ends.
+/// How long a path takes that is entered and left at no more than `ends`, and the speeds at its start and its end.
 fn time(parts: &[Part], [first, last]: [f64; 2], limits: &Limits) -> (f64, [f64; 2]) {
     let before = [first].into_iter().chain(parts.iter().map(|part| part.speed));
     let behind = parts.iter().map(|part| part.speed).chain([last]);
@@ -147,7 +146,7 @@ fn time(parts: &[Part], [first, last]: [f64; 2], limits: &Limits) -> (f64, [f64;
     let fastest = free.iter().copied().fold(0.0, f64::max);
     let mut speeds = free.clone();
     for (from, slow) in free.iter().enumerate() {
-        // Nothing is bound by a place that is no slower than its neighbours.
+        // A place that is no slower than its neighbours limits nothing.
         let neighbours = [from.checked_sub(1), Some(from + 1)].map(|at| at.and_then(|at| free.get(at)));
         if neighbours.iter().flatten().all(|next| *next <= slow) {
             continue;
@@ -156,8 +155,8 @@ fn time(parts: &[Part], [first, last]: [f64; 2], limits: &Limits) -> (f64, [f64;
         let (left, right) = (left.iter_mut().rev(), right.iter_mut().skip(1));
         let (behind, ahead) = parts.split_at(from);
         let beside = free.split_at(from);
-        bind(*slow, left.zip(beside.0.iter().rev()).zip(behind.iter().rev()), (fastest, limits));
-        bind(*slow, right.zip(beside.1.iter().skip(1)).zip(ahead), (fastest, limits));
+        bind(*slow, left.zip(beside.0.iter().rev()).zip(behind.iter().rev()), fastest, limits);
+        bind(*slow, right.zip(beside.1.iter().skip(1)).zip(ahead), fastest, limits);
     }
     let ends = speeds.iter().zip(speeds.iter().skip(1));
     let each = |(part, (start, end)): (&Part, (&f64, &f64))| part.length / f64::midpoint(*start, *end).min(part.speed);
@@ -165,16 +164,17 @@ fn time(parts: &[Part], [first, last]: [f64; 2], limits: &Limits) -> (f64, [f64;
     (whole, [speeds.first(), speeds.last()].map(|speed| speed.copied().unwrap_or(0.0)))
 }
 
-/// Lowers speeds one way from a place at the speed `slow`, each with what it would be without that, and with the way to
-/// it from the one before, to what can be reached from there; none is above `fastest`.
+/// Lowers speeds in one direction from a place with the speed `slow` to what can be reached from there. Each speed
+/// comes with its value without this limit, and with the part that leads to it; no speed is above `fastest`.
 fn bind<'a>(
     slow: f64,
     speeds: impl Iterator<Item = ((&'a mut f64, &'a f64), &'a Part)>,
-    (fastest, limits): (f64, &Limits),
+    fastest: f64,
+    limits: &Limits,
 ) {
     let mut way = 0.0;
     for ((speed, free), part) in speeds {
-        // From a place that is as slow what lies behind is bound more strictly.
+        // From a place that is as slow, what lies behind is limited more strictly.
         if *free <= slow {
             return;
         }
@@ -189,7 +189,7 @@ fn bind<'a>(
     }
 }
 
-/// The highest speed that is reached from `speed` within a way, without acceleration at either end.
+/// The highest speed that is reached from `speed` within a distance, without acceleration at either end.
 fn reach(speed: f64, way: f64, limits: &Limits) -> f64 {
     let Limits { acc, jerk, .. } = *limits;
     // With the full acceleration for a while: way = (2 speed + gain) / 2 (gain / acc + acc / jerk).
@@ -229,7 +229,7 @@ mod tests {
     fn a_way_takes_what_its_ramps_and_its_speeds_take() {
         let limits = Limits { vel: 1.0, acc: 10.0, jerk: 1e9 };
         let part = |length: f64, speed: f64| Part { length, speed };
-        // Down from 1 to 0.5 and up again, in 0.0375 each.
+        // Down from 1 to 0.5 and up again, over 0.0375 each.
         let parts = [part(0.0375, 1.0), part(0.1, 0.5), part(0.0375, 1.0)];
         let (time, ends) = time(&parts, [2.0; 2], &limits);
         assert!((time - 0.3).abs() < 1e-6 && ends.iter().all(|end| (end - 1.0).abs() < 1e-6), "{time} {ends:?}");

@@ -1,8 +1,8 @@
-//! Blends whose ends have limits like those of the ways before and behind.
+//! Blends whose ends have limits like those of the paths before and behind.
 //!
-//! A blend that bends sharply leaves little acceleration and jerk to all of it, though its ends hardly bend. Where
-//! these keep what is there beside the blend, the robot slows down all the way to where it bends, and not before the
-//! blend begins.
+//! A blend that bends sharply leaves little acceleration and jerk for all of it, although its ends hardly bend. Where
+//! the ends keep the limits of the adjacent paths, the robot slows down up to where the blend bends, and not already
+//! before the blend begins.
 
 use crate::blend::blend_limits::duration::alike;
 use crate::blend::blend_limits::{BlendLimits, PARTS, Quickest, Site, lower_speeds};
@@ -11,20 +11,20 @@ use crate::limits::profile::Limits;
 /// Acceleration and jerk at both ends of a blend.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct EndZones {
-    /// How many parts each of them has; 0: they are as the middle.
+    /// Number of parts of each end zone; 0: the ends have the limits of the middle.
     pub(crate) parts: usize,
     pub(crate) acc: f64,
     pub(crate) jerk: f64,
 }
 
-/// How many parts are tried, fewer than half of the blend.
+/// Tried numbers of parts, fewer than half of the blend.
 const END_ZONE_PARTS: [usize; 4] = [2, 4, 5, 6];
-/// Shares of the acceleration, and of the jerk, that are there at rest, for the ends and for the middle.
+/// Shares of the acceleration, and of the jerk, available at rest, for the ends and for the middle.
 const END_ZONE_SHARES: [[f64; 2]; 2] = [[0.9, 0.6], [0.9, 0.9]];
 const MIDDLE_SHARES: [[f64; 2]; 4] = [[0.06, 0.35], [0.06, 0.6], [0.25, 0.35], [0.25, 0.6]];
 
-/// Tries limits with end zones, where some without have been found. `at_rest` is what all places leave of the
-/// acceleration and the jerk at rest.
+/// Tries limits with end zones, where limits without them have been found. `at_rest` is the acceleration and the jerk
+/// that all places leave at rest.
 pub(crate) fn try_end_zones(quickest: &mut Quickest<'_>, sites: &[Site], fastest: f64, at_rest: &Limits) {
     if quickest.best.is_none() {
         return;
@@ -51,7 +51,7 @@ pub(crate) fn try_end_zones(quickest: &mut Quickest<'_>, sites: &[Site], fastest
     }
 }
 
-/// Tries limits with so many parts in each end zone, of the limits and speeds `outer`, around those of `middle`.
+/// Tries limits with `parts` parts in each end zone: limits and speeds `outer` in the zones, `middle` between them.
 fn try_parts(
     quickest: &mut Quickest<'_>,
     parts: usize,

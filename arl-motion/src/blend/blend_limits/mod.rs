@@ -1,5 +1,5 @@
-//! How fast to cross a blend that bends: one acceleration and jerk for all of it, or for its middle and for both its
-//! ends, and a speed for each of its parts, so that not all of it is as slow as its sharpest place.
+//! Limits for crossing a blend that bends: one acceleration and jerk for all of it, or for its middle and for both
+//! ends, and a speed for each part, so that not all of it is as slow as its sharpest place.
 
 mod duration;
 mod end_zones;
@@ -13,34 +13,34 @@ pub(crate) use duration::Approach;
 use duration::{duration, shortest};
 use end_zones::EndZones;
 
-/// Parts of a blend, of the same nominal time, with a speed each.
+/// Number of parts of a blend, of equal nominal time, with a speed each.
 pub(crate) const PARTS: usize = 16;
 
-/// Limits of the share of a blend that is done, per s.
+/// Limits of the rate at which the done share of a blend changes, per s.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct BlendLimits {
-    /// For each part.
+    /// Speed of each part.
     pub(crate) speeds: [f64; PARTS],
-    /// In the middle; of all of it, where it has no end zones.
+    /// Acceleration and jerk in the middle, or of the whole blend where it has no end zones.
     pub(crate) acc: f64,
     pub(crate) jerk: f64,
     pub(crate) end_zones: EndZones,
 }
 
 impl BlendLimits {
-    /// The same limits all along.
+    /// Constant limits for the whole blend.
     pub(crate) fn even(Limits { vel, acc, jerk }: Limits) -> Self {
         Self { speeds: [vel; PARTS], acc, jerk, end_zones: EndZones::default() }
     }
 }
 
-/// Parts of the acceleration, and of the jerk, that are there at rest, among which the quickest are looked for. What is
-/// not taken of them is left for the bend.
+/// Shares of the acceleration, and of the jerk, available at rest, among which the quickest limits are sought. The
+/// remainder is left for the curvature.
 const ACC_SHARES: [f64; 5] = [0.06, 0.12, 0.25, 0.5, 0.9];
 const JERK_SHARES: [f64; 4] = [0.15, 0.35, 0.6, 0.9];
 
-/// The quickest limits to pass a blend with, no faster than `fastest`, under which no constraint is broken, and about
-/// how long it and the approaches take with them, in s.
+/// The quickest limits for passing a blend, no faster than `fastest`, that keep every constraint, and about how long it
+/// and the approaches take with them, in s.
 pub(crate) fn find_blend_limits(
     places: &[PlaceBounds],
     fastest: f64,
@@ -62,10 +62,10 @@ fn limits_at_rest(places: &[PlaceBounds]) -> Limits {
     Limits { vel: f64::INFINITY, acc: lowest(|row| row.acc / row.first), jerk: lowest(|row| row.jerk / row.first) }
 }
 
-/// Tries pairs of an acceleration and a jerk, the same for all of the blend.
+/// Tries pairs of an acceleration and a jerk that are the same for the whole blend.
 fn try_shares(quickest: &mut Quickest<'_>, sites: &[Site], fastest: f64, at_rest: &Limits) {
-    // Speeds only fall with the acceleration and the jerk: those of the pairs before are a bound, which is often enough
-    // to know that a pair is slower than another one.
+    // Speeds only fall as the acceleration and the jerk rise: the speeds of earlier pairs are a bound, which often
+    // suffices to know that a pair is slower than another one.
     let mut with_less_acc = [[fastest; PARTS]; JERK_SHARES.len()];
     for acc_share in ACC_SHARES {
         let mut with_less_jerk = [fastest; PARTS];
@@ -85,10 +85,10 @@ fn try_shares(quickest: &mut Quickest<'_>, sites: &[Site], fastest: f64, at_rest
     }
 }
 
-/// The quickest limits that have been found so far.
+/// The quickest limits found so far.
 struct Quickest<'a> {
     approaches: &'a [Approach; 2],
-    /// With the time that they take, in s.
+    /// The limits with the time that they take, in s.
     best: Option<(f64, BlendLimits)>,
 }
 
@@ -107,11 +107,12 @@ impl Quickest<'_> {
     }
 }
 
-/// A place with the parts that it speaks for, and bounds that are as strict as all of its own together.
+/// A place with the parts that it applies to, and bounds that are as strict as all of its own together.
 struct Site<'a> {
     parts: Range<usize>,
     rows: &'a [Constraint],
-    /// What the speed, the acceleration and its square, the jerk, the product of both and the cube use of the limits.
+    /// Shares of the limits that the speed; the acceleration and the squared speed; and the jerk, the product of
+    /// acceleration and speed, and the cubed speed use.
     vel: f64,
     acc: [f64; 2],
     jerk: [f64; 3],
@@ -134,7 +135,7 @@ impl<'a> Site<'a> {
         }
     }
 
-    /// Whether all bounds hold up to this speed, without a look at each.
+    /// Whether all bounds hold up to this speed, without checking each.
     fn surely_allows(&self, speed: f64, acc: f64, jerk: f64) -> bool {
         let square = speed * speed;
         self.vel * speed <= 1.0
@@ -170,7 +171,7 @@ fn fastest_within(row: &Constraint, speed: f64, acc: f64, jerk: f64) -> f64 {
     let (line, cube) = (3.0 * second * acc, third);
     let taken = |speed: f64| speed * (line + cube * speed * speed);
     if taken(speed) > left {
-        // Newton's steps come down to the root from above: what takes so much grows ever faster.
+        // Newton's steps approach the root from above, since `taken` grows ever faster.
         for _ in 0..40 {
             let next = speed - (taken(speed) - left) / (line + 3.0 * cube * speed * speed);
             if next >= speed * (1.0 - 1e-9) {
@@ -192,7 +193,7 @@ mod tests {
         (0..=30).map(|place| (f64::from(place) / 30.0, (0..6).map(|_| Constraint::random(random)).collect())).collect()
     }
 
-    /// Each speaks for the way to its neighbours.
+    /// Each place applies to the path up to its neighbours.
     fn bounds_of(places: &[(f64, Vec<Constraint>)]) -> Vec<PlaceBounds<'_>> {
         let around = 1.0 / 30.0;
         places.iter().map(|(share, rows)| PlaceBounds { from: share - around, to: share + around, rows }).collect()

@@ -1,12 +1,12 @@
-//! What the robot could do from a state if nothing better came up: the backup of the governor's invariant.
+//! What the robot could do from a state if nothing better were found: the backup of the governor's invariant.
 //!
-//! There are two kinds. Either it brakes within its stretch: to the lowest of all speeds that the way up to the end of
-//! the stretch asks for, and its acceleration has faded before that end. Or its acceleration fades at once, across ends
-//! of stretches, with the lowest limits of all stretches on the way; where that leads to, without acceleration, the
-//! first kind must be possible. At the end of a backup, and on the even way behind it, the first kind is possible: what
-//! it braked for is done, what was too far away to look at is farther than a stop, and the speed at which the next
-//! stretch may be entered is such that, from there on, all it asks for can be done. So there is always a backup: as
-//! long as the one in hand goes on, that; behind it, a new one.
+//! There are two kinds. In the first kind, the robot brakes within its stretch, to the lowest of all speeds demanded up
+//! to the end of the stretch, and its acceleration has faded before that end. In the second kind, its acceleration
+//! fades at once, across ends of stretches, with the lowest limits of all stretches on the way; where that leads,
+//! without acceleration, the first kind must be possible. At the end of a backup, and on the even path behind it, the
+//! first kind is possible: what it braked for is done, what was too far away to be examined is farther than a stop, and
+//! the speed at which the next stretch may be entered is such that, from there on, all its demands can be met. So there
+//! is always a backup: the current one as long as it lasts, and a new one behind it.
 
 use std::ops::ControlFlow;
 
@@ -17,7 +17,7 @@ use crate::follow::governor::{
 };
 use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 
-/// A speed to go to, and the limits on the way.
+/// A speed to change to, and the limits meanwhile.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Aim {
     goal: f64,
@@ -25,10 +25,10 @@ pub(crate) struct Aim {
 }
 
 impl Aim {
-    /// The way there from a state.
+    /// The change to it from a state.
     pub(crate) fn change(&self, state: &State) -> Change {
         let Self { goal, mut limits } = *self;
-        // With a little more of the jerk than is counted on the acceleration fades just with the speed.
+        // With a little more jerk than is normally used, the acceleration fades just with the speed.
         if fading(state.vel, state.acc.min(0.0), &limits) < 0.0 {
             limits.jerk = state.acc * state.acc / (2.0 * state.vel);
         }
@@ -37,8 +37,8 @@ impl Aim {
 }
 
 impl Governor<'_> {
-    /// What the robot could do from a state, as far as it concerns these cells' speeds, with a slack for speeds, as a
-    /// share, and for ways, in s of nominal time.
+    /// What the robot could do from a state, as far as the speeds of these cells are concerned, with a slack for
+    /// speeds, as a share, and for distances, in s of nominal time.
     pub(crate) fn possible(&self, state: &State, scale: Scale, slack: f64, cells: &Cells) -> Option<Aim> {
         self.within(state, scale, slack, cells).or_else(|| self.across(state, scale, slack))
     }
@@ -66,8 +66,8 @@ impl Governor<'_> {
         met.then_some(Aim { goal, limits })
     }
 
-    /// By how much, in full speeds or in s of nominal time, a state is beyond what the first kind allows, as far as it
-    /// concerns these cells' speeds; below 0 there is as much room.
+    /// By how much, in shares of full speed or in s of nominal time, a state is beyond what the first kind permits, as
+    /// far as the speeds of these cells are concerned; below 0, the room that is left.
     pub(crate) fn excess(&self, state: &State, scale: Scale, cells: &Cells) -> f64 {
         let Some((here, cell)) = self.at(state.at) else { return f64::INFINITY };
         let peak = fading(state.vel, state.acc.max(0.0), &careful(here, scale));
@@ -80,7 +80,7 @@ impl Governor<'_> {
         excess
     }
 
-    /// Whether the acceleration of a state fades no sooner than about where its stretch ends.
+    /// Whether the acceleration of a state fades at about the end of its stretch or later.
     pub(crate) fn fades_across(&self, state: &State, scale: Scale) -> bool {
         let Some(first) = self.stretches.front() else { return false };
         let way = way_of_fading(state.vel, state.acc, &careful(first, scale));
@@ -120,16 +120,16 @@ impl Governor<'_> {
                 let (limits, then) = found?;
                 let speed = cell.limits.vel * scale.vel * (1.0 + CELL_SPEED_SLACK + slack);
                 lowest = lowest.min(speed);
-                // Where it is slower in the end, it has to be so when the cell begins.
+                // Where the speed is lower in the end, it has to be lower already when the cell begins.
                 if then.vel > lowest || (vel > speed && start - at < way_to_speed(vel, acc, speed, &limits) - slack) {
                     return None;
                 }
                 if then.at < end {
-                    // Within a stretch braking at once does all that braking later does.
+                    // Within a stretch, braking at once achieves all that braking later would.
                     if began == Some(index) {
                         return None;
                     }
-                    // It ends in the middle of a cycle, and what comes then begins with the next one.
+                    // The fading ends in the middle of a cycle, and what follows begins with the next one.
                     let late = (then.at + self.cycle * then.vel).min(end.next_down());
                     let then = State { at: late.max(then.at), ..then };
                     let goes_on = self.within(&then, scale, slack, &ALL_CELLS).is_some();

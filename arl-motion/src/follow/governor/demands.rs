@@ -1,4 +1,4 @@
-//! What the way ahead demands of a state: speeds that have to be reached in time.
+//! What the path ahead demands of a state: speeds that have to be reached in time.
 
 use std::ops::{ControlFlow, Range};
 
@@ -8,10 +8,10 @@ use crate::follow::governor::{
 };
 use crate::limits::profile::{Limits, State};
 
-/// Cells, counted from the first one of all.
+/// Cells, counted from the very first one.
 pub(crate) type Cells = Range<usize>;
 pub(crate) const ALL_CELLS: Cells = 0..usize::MAX;
-/// None of them.
+/// No cells.
 pub(crate) const NO_CELLS: Cells = 0..0;
 
 /// A speed that has to be reached.
@@ -19,30 +19,30 @@ pub(crate) struct Demand {
     pub(crate) goal: f64,
     /// The limits up to there.
     pub(crate) limits: Limits,
-    /// How much of the way there is, in s of nominal time.
+    /// The available distance, in s of nominal time.
     room: f64,
     kind: Kind,
-    /// How much of the way is left at least, as far as that is known without a closer look.
+    /// A lower bound of the distance left, as far as it is known without a closer look.
     pub(crate) surely_left: f64,
     /// The cell whose speed it is.
     pub(crate) cell: Option<usize>,
 }
 
-/// What has to be over at the end of the path.
+/// What has to be completed at the end of the distance.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Kind {
     /// The speed has come down to the goal, and stays there.
     Slower,
     /// The acceleration has faded out.
     Faded,
-    /// The robot rests.
+    /// The robot is at rest.
     Rest,
-    /// Nothing helps.
+    /// The demand cannot be met.
     Never,
 }
 
 impl Demand {
-    /// How much of the way is left when a robot in this state has reached the speed.
+    /// The distance that is left when a robot in this state has reached the speed.
     pub(crate) fn left(&self, &State { vel, acc, .. }: &State) -> f64 {
         let limits = &self.limits;
         self.room
@@ -56,8 +56,8 @@ impl Demand {
 }
 
 impl Governor<'_> {
-    /// Tells what the rest of the stretch, with these of its `cells`, and the entry of the next one demand, as far as a
-    /// stop would reach.
+    /// Passes to `tell` what the rest of the stretch, with these `cells`, and the entry of the next stretch demand, as
+    /// far as a stop would reach.
     pub(crate) fn demands(
         &self,
         state: &State,
@@ -65,7 +65,7 @@ impl Governor<'_> {
         cells: &Cells,
         mut tell: impl FnMut(Demand) -> ControlFlow<()>,
     ) {
-        // What is told decides alone whether to go on.
+        // The result of `tell` only decides whether to continue.
         let _ = self.try_demands(state, scale, cells, &mut tell);
     }
 
@@ -102,7 +102,7 @@ impl Governor<'_> {
                 if at >= end {
                     continue;
                 }
-                // An acceleration below zero must fade before the speed does.
+                // A negative acceleration must fade before the speed is zero.
                 if !inside && !can_fade(vel, acc, &limits) {
                     tell(demand(0.0, 0.0, Kind::Never))?;
                 }
@@ -126,7 +126,8 @@ impl Governor<'_> {
                 None => tell(demand(0.0, end - at + 1e-3 * ROUNDING_SLACK, Kind::Rest))?,
                 Some(next) if end - at <= longest => {
                     let speed = next.entry * scale.vel * (1.0 + ENTRY_SPEED_SLACK);
-                    // No acceleration is left where the limits change. The last cycle may end a little behind it.
+                    // No acceleration is left where the limits change. The last cycle may end a little behind that
+                    // place.
                     let early = |vel: f64| (end - at - self.cycle * vel).max(0.0);
                     let fades = fading(vel, acc, &limits);
                     if fades <= speed {

@@ -1,10 +1,10 @@
-//! The governor: how fast to go along the path, cycle by cycle.
+//! The governor: chooses the speed along the path, cycle by cycle.
 //!
-//! Invariant: there is a change of speed in hand, the backup, that keeps the limits of all the way that it goes, and at
-//! whose end, without acceleration, the robot can come to the speed of every segment ahead before it gets there, and to
-//! rest before the end, within the limits of the segments in between. So a stop, a change of the override or a motion
-//! that comes late never leads off the path or beyond a limit: each cycle takes the highest jerk behind which another
-//! backup is found, and where none is, goes on along the one in hand.
+//! Invariant: there is always a current backup. It is a change of speed that keeps the limits over the whole distance
+//! that it covers, and at whose end, without acceleration, the robot can reach the speed of every segment ahead in
+//! time, and come to rest before the end, within the limits of the segments in between. So a stop, a change of the
+//! override or a motion that comes late never leads off the path or beyond a limit: each cycle takes the highest jerk
+//! behind which another backup is found, and follows the current backup where there is none.
 
 mod aim;
 mod demands;
@@ -17,14 +17,14 @@ use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 use crate::limits::search::{self, Enough};
 use demands::{ALL_CELLS, Cells, NO_CELLS};
 
-/// How fast to go.
+/// The requested speed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Pacing {
-    /// On, at a share of the full speed, above 0 to 1, with ramps as slow in proportion.
+    /// Continue at a share of the full speed, above 0 to 1, with proportionally slower ramps.
     Go(f64),
-    /// On, to a share of the full speed that has just changed, with all that the limits allow.
+    /// Continue, changing to a share of the full speed that is new, with all that the limits permit.
     Settle(f64),
-    /// To rest on the path, with so many times the acceleration and jerk.
+    /// Come to rest on the path, with acceleration and jerk scaled by this factor.
     Stop(f64),
 }
 
@@ -36,30 +36,31 @@ pub(crate) struct Scale {
     jerk: f64,
 }
 
-/// Nothing but the limits.
+/// The limits themselves.
 const FULL_LIMITS: Scale = Scale { vel: 1.0, acc: 1.0, jerk: 1.0 };
-/// The part of the acceleration that counts as none when the override has been reached.
+/// Share of the acceleration that counts as zero once the override has been reached.
 const SETTLED_SHARE_OF_ACCELERATION: f64 = 0.02;
 /// Relative slack for rounding in comparisons.
 const RELATIVE_SLACK: f64 = 1e-9;
-/// The same for the speed at which a slower segment is entered.
+/// Relative slack for the speed at which a slower segment is entered.
 const ENTRY_SPEED_SLACK: f64 = 1e-6;
-/// The same for a speed within its cell, where a little acceleration may be left from before it.
+/// Relative slack for a speed within its cell, where a little acceleration may be left from before.
 const CELL_SPEED_SLACK: f64 = 1e-5;
-/// A stop that is only by this part farther away than braking takes is where the robot stops anyway.
+/// Where the braking distance is shorter than the distance to a stop by no more than this share, the robot stops there
+/// anyway.
 const ENDING_STOP_SHARE: f64 = 0.02;
-/// Slack for rounding in s of nominal time, and in full speeds.
+/// Slack for rounding, in s of nominal time and in shares of the full speed.
 const ROUNDING_SLACK: f64 = 1e-12;
 /// Slack for a state that was found at the edge of what is possible.
 const EDGE_SLACK: f64 = 1e-9;
-/// The part of the interval in which the jerk is looked for that is near enough.
+/// Tolerance of the sought jerk, as a share of the interval in which it is sought.
 const JERK_TOLERANCE: f64 = 1e-9;
-/// Halvings of that interval, where nothing better leads to it.
+/// Number of bisections of that interval, where no better method applies.
 const JERK_HALVINGS: u32 = 16;
-/// A rest of the way that is so small a part of what a cycle's jerk moves is no way.
+/// A remaining distance that is a smaller share than this of what a cycle's jerk moves counts as zero.
 const SNAP_SHARE: f64 = 0.005;
 
-/// Looks at the way ahead.
+/// Finds the next state from the path ahead.
 pub(crate) struct Governor<'a> {
     pub(crate) stretches: &'a VecDeque<Stretch>,
     /// The length of a cycle in s.
@@ -67,14 +68,14 @@ pub(crate) struct Governor<'a> {
 }
 
 impl Governor<'_> {
-    /// A backup for the state, where it can go on; see the invariant. It is at the edge of that most of the time, but
-    /// for rounding.
+    /// A backup for the state, where the robot can continue; see the invariant. Apart from rounding, the state is at
+    /// the edge of that most of the time.
     pub(crate) fn holds(&self, state: &State) -> Option<Change> {
         self.possible(state, FULL_LIMITS, EDGE_SLACK, &ALL_CELLS).map(|aim| aim.change(state))
     }
 
-    /// The state a cycle later, with a backup for that state in place of the one for this state. Beyond the end of the
-    /// first cell `at` goes on into the next ones.
+    /// The state a cycle later; `backup` is replaced by the backup for that state. Beyond the end of the first cell,
+    /// `at` continues into the next ones.
     pub(crate) fn next(&self, state: &State, backup: &mut Change, pacing: Pacing) -> State {
         let step = self.paced(state, backup, pacing);
         // Rounding must not carry it past a stop.
@@ -86,7 +87,7 @@ impl Governor<'_> {
         state
     }
 
-    /// Where the robot stops, if it is up to `at`.
+    /// Where the robot stops, if the stop is no farther than `at`.
     fn stop_end(&self, at: f64) -> Option<f64> {
         let mut end = 0.0;
         for stretch in self.stretches {
@@ -117,7 +118,7 @@ impl Governor<'_> {
                 if let Some(next) = self.arrives(state, FULL_LIMITS).or_else(|| self.faster(state, quick)) {
                     return next;
                 }
-                // Too fast for this share yet: as soon as can be to the speed that it allows.
+                // Too fast for this share yet: change to the speed that the share permits as soon as possible.
                 let slowing = self.at(state.at).and_then(|(here, cell)| {
                     self.toward_within(state, cell.limits.vel * share, careful(here, FULL_LIMITS), FULL_LIMITS)
                 });
@@ -126,7 +127,7 @@ impl Governor<'_> {
         }
     }
 
-    /// The state a cycle later along the backup in hand, or along another one where that is over.
+    /// The state a cycle later along the current backup, or along another one once the current one is over.
     fn along(&self, state: &State, backup: &Change) -> Step {
         let another = if backup.duration() > 0.0 { None } else { self.holds(state) };
         let backup = another.as_ref().unwrap_or(backup);
@@ -134,7 +135,7 @@ impl Governor<'_> {
         Step { state: State { vel: next.vel.max(0.0), ..next }, backup: backup.later(self.cycle) }
     }
 
-    /// Whether the state is one that a motion at this share of the speed may have.
+    /// Whether a motion at this share of the speed may be in this state.
     pub(crate) fn settled(&self, state: &State, share: f64) -> bool {
         let scale = slowed(share);
         let calm = self
@@ -143,7 +144,7 @@ impl Governor<'_> {
         state.rests() || (calm && self.feasible(state, scale))
     }
 
-    /// The state at a stop, where it is reached within the cycle.
+    /// The state at a stop, where the stop is reached within the cycle.
     fn arrives(&self, state: &State, scale: Scale) -> Option<Step> {
         let here = self.stretches.front()?;
         let limits = careful(here, scale);
@@ -163,7 +164,7 @@ impl Governor<'_> {
         (there || left <= 2.0 * ROUNDING_SLACK).then_some(end)
     }
 
-    /// The quickest way on for a cycle; `None` where there is none.
+    /// The quickest step forward within a cycle; `None` where there is none.
     fn faster(&self, state: &State, scale: Scale) -> Option<Step> {
         let limits = self.touched(state, scale)?;
         let highest = ((limits.acc - state.acc) / self.cycle).min(limits.jerk);
@@ -173,7 +174,8 @@ impl Governor<'_> {
         if let Some(step) = self.step(next(highest), scale, 0.0) {
             return Some(step);
         }
-        // The more jerk, the longer the way to any speed: what the highest leaves undone is all that counts below it.
+        // The more jerk, the longer the distance to any speed: below the highest jerk, only what that jerk leaves
+        // undone matters.
         let undone = self.undone(&next(highest), scale);
         let enough = Enough { value: JERK_TOLERANCE * (highest - lowest), excess: ROUNDING_SLACK };
         let within = search::highest(lowest, highest, enough, |jerk| self.excess(&next(jerk), scale, &undone));
@@ -186,7 +188,7 @@ impl Governor<'_> {
             let some = farthest(lowest, highest, |jerk| self.feasible(&next(jerk), scale))?;
             self.step(next(some), scale, 0.0)
         });
-        // What was feasible stays so, if only to the last digits, on the way that was found for it.
+        // What was feasible stays so, apart from the last digits, along the backup that was found for it.
         found.or_else(|| {
             let aim = self.possible(state, scale, 0.0, &ALL_CELLS)?;
             let along = || self.along(state, &aim.change(state));
@@ -201,7 +203,7 @@ impl Governor<'_> {
         Some(Step { state, backup: aim.change(&state) })
     }
 
-    /// The highest jerk of a cycle, which ends about at `next`, behind which the acceleration can fade before the speed
+    /// The highest jerk of a cycle, which ends at about `next`, behind which the acceleration can fade before the speed
     /// is too high.
     fn highest_jerk(&self, state: &State, next: &State, scale: Scale) -> f64 {
         let fastest = |at: f64| self.at(at).map_or((0.0, f64::INFINITY), |(here, cell)| (cell.limits.vel, here.jerk));
@@ -211,9 +213,9 @@ impl Governor<'_> {
         let short = fastest - state.vel - state.acc * self.cycle / 2.0;
         let ramp = jerk * self.cycle;
         let acc = if short > 0.0 {
-            // It fades in whole cycles, the last of which may take less of the jerk: with n others, which leave the
-            // part p of a ramp to it, short = ramp cycle (n (n + 1) / 2 + (n + 1) p). So it comes to the speed and
-            // stays there.
+            // The acceleration fades in whole cycles, the last of which may use less jerk: with n others, which leave
+            // the part p of a ramp to it, short = ramp cycle (n (n + 1) / 2 + (n + 1) p). So the state reaches the
+            // speed and stays there.
             let ramps = short / (ramp * self.cycle);
             let others = (((1.0 + 8.0 * ramps).sqrt() - 1.0) / 2.0).floor();
             ramp * (others + (ramps - others * (others + 1.0) / 2.0) / (others + 1.0))
@@ -238,13 +240,13 @@ impl Governor<'_> {
         undone.unwrap_or(NO_CELLS)
     }
 
-    /// As slow as it can be a cycle later, down to rest.
+    /// The slowest possible step, down to rest.
     fn slower(&self, state: &State, backup: &Change, scale: Scale) -> Step {
         let Some(here) = self.stretches.front() else { return Step::rest(state.at) };
         if state.rests() {
             return Step::rest(state.at);
         }
-        // On the way to a stop that is hardly farther than braking takes, that is where to stop.
+        // Near a stop that is hardly farther than the braking distance, the robot stops at that stop.
         if let Some(end) = self.arrives(state, FULL_LIMITS) {
             return end;
         }
@@ -253,13 +255,13 @@ impl Governor<'_> {
         {
             return next;
         }
-        // Braking hardest may lead into a stretch that allows less.
+        // The hardest braking may lead into a stretch that permits less.
         let next = self.toward_within(state, 0.0, scaled(here, scale), scale);
         next.or_else(|| self.hardest(state, backup, scale)).unwrap_or_else(|| self.along(state, backup))
     }
 
-    /// The state a cycle later with the lowest jerk that leaves a backup, where more than the backup in hand asks for
-    /// does.
+    /// The state a cycle later with the lowest jerk that leaves a backup, where braking harder than the current backup
+    /// leaves one.
     fn hardest(&self, state: &State, backup: &Change, scale: Scale) -> Option<Step> {
         let limits = self.touched(state, scale)?;
         let lowest = lowest_jerk(state, self.cycle, &limits)?;
@@ -269,15 +271,15 @@ impl Governor<'_> {
         self.step(next(found), scale, 0.0)
     }
 
-    /// The state a cycle later on the quickest way to a speed, with no more than `limits`: within those of all
-    /// stretches that the cycle touches, or of this one, where only that leaves it possible to go on.
+    /// The state a cycle later on the quickest change to a speed, with at most `limits`: within the limits of all
+    /// stretches that the cycle touches, or of this stretch alone where only that leaves a backup.
     fn toward_within(&self, state: &State, goal: f64, limits: Limits, scale: Scale) -> Option<Step> {
         let all = self.touched(state, scale).map(|touched| lower(limits, touched));
         let found = all.into_iter().chain([limits]).map(|limits| self.toward(state, goal, &limits));
         found.filter(|next| next.at >= state.at).find_map(|next| self.step(next, scale, 0.0))
     }
 
-    /// Whether the robot brakes for a stop already.
+    /// Whether the robot already brakes for a stop.
     fn at_its_end(&self, state: &State) -> bool {
         let mut nearest = f64::INFINITY;
         let mut way = 0.0;
@@ -294,8 +296,8 @@ impl Governor<'_> {
         nearest <= ENDING_STOP_SHARE * way
     }
 
-    /// The state a cycle later on the way to the speed that is hardest to reach in time. What looking ahead found
-    /// feasible stays so, to the last digits.
+    /// The state a cycle later on the way to the speed that is hardest to reach in time. What was found feasible ahead
+    /// stays so, apart from the last digits.
     fn braking(&self, state: &State, scale: Scale) -> State {
         let Some((here, cell)) = self.at(state.at) else { return State { vel: 0.0, acc: 0.0, ..*state } };
         let highest = (cell.limits.vel * scale.vel).min(state.vel);
@@ -314,11 +316,11 @@ impl Governor<'_> {
         self.toward(state, goal, &limits)
     }
 
-    /// The state a cycle later on the quickest way to a speed.
+    /// The state a cycle later on the quickest change to a speed.
     fn toward(&self, state: &State, goal: f64, limits: &Limits) -> State {
         let State { at, vel, acc } = *state;
         if goal == 0.0 && acc < 0.0 && fading(vel, acc, limits) < 0.0 {
-            // A little more than the jerk is needed for the acceleration to fade with the speed.
+            // A little more than the jerk is needed to let the acceleration fade with the speed.
             if -2.0 * vel <= acc * self.cycle {
                 return state.after(acc * acc / (2.0 * vel), self.cycle);
             }
@@ -329,11 +331,11 @@ impl Governor<'_> {
         if goal == 0.0 && change.duration() <= self.cycle {
             return State { at: next.at.max(at), vel: 0.0, acc: 0.0 };
         }
-        // What would turn back is none; rounding does not count.
+        // A state that would move backwards is invalid; rounding does not count.
         State { vel: if next.vel < -ROUNDING_SLACK { next.vel } else { next.vel.max(0.0) }, ..next }
     }
 
-    /// Acceleration and jerk of all stretches that the robot is on within the cycle.
+    /// Acceleration and jerk within the limits of all stretches that the robot is on within the cycle.
     fn touched(&self, state: &State, scale: Scale) -> Option<Limits> {
         let here = self.stretches.front()?;
         let limits = scaled(here, scale);
@@ -377,13 +379,13 @@ struct Step {
 }
 
 impl Step {
-    /// Rest at a place.
+    /// At rest at a place.
     fn rest(at: f64) -> Self {
         Self { state: State { at, vel: 0.0, acc: 0.0 }, backup: Change::default() }
     }
 }
 
-/// A sum of lengths that ends when it has passed a bound.
+/// A sum of lengths that ends once it has passed a bound.
 trait TakeWhileSum {
     fn take_while_sum(self, bound: f64) -> f64;
 }
@@ -412,7 +414,7 @@ fn scaled(stretch: &Stretch, scale: Scale) -> Limits {
     Limits { vel, acc: acc * scale.acc, jerk: jerk * scale.jerk }
 }
 
-/// Acceleration and jerk that looking ahead counts on.
+/// Acceleration and jerk that may be used when looking ahead.
 fn careful(stretch: &Stretch, scale: Scale) -> Limits {
     let Limits { vel, acc, jerk } = scaled(stretch, scale);
     Limits { vel, acc: acc * LOOK_AHEAD_MARGIN, jerk: jerk * LOOK_AHEAD_MARGIN }
@@ -422,12 +424,12 @@ fn lower(a: Limits, b: Limits) -> Limits {
     Limits { vel: a.vel.min(b.vel), acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) }
 }
 
-/// The value nearest to `goal`, which will not do, from `start` on, that will; `None` where the first does not.
+/// The value nearest to `goal`, which is not acceptable, from `start` on, that is; `None` where `start` is not.
 fn farthest(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> Option<f64> {
     will_do(start).then(|| halved(start, goal, will_do))
 }
 
-/// The same from a start that will do.
+/// The value nearest to `goal` from a `start` that is acceptable.
 fn halved(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> f64 {
     let (mut found, mut beyond) = (start, goal);
     for _ in 0..JERK_HALVINGS {
@@ -437,31 +439,31 @@ fn halved(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> f64 {
     found
 }
 
-/// The speed that is left when the acceleration has faded out.
+/// The speed that is left once the acceleration has faded out.
 fn fading(vel: f64, acc: f64, limits: &Limits) -> f64 {
     vel + acc * acc.abs() / (2.0 * limits.jerk)
 }
 
-/// Whether the acceleration can fade before the speed ends, with the whole jerk if need be.
+/// Whether the acceleration can fade before the speed is zero, with the whole jerk if necessary.
 fn can_fade(vel: f64, acc: f64, limits: &Limits) -> bool {
     let whole = Limits { jerk: limits.jerk / LOOK_AHEAD_MARGIN, ..*limits };
     acc >= 0.0 || fading(vel, acc, &whole) >= -ROUNDING_SLACK
 }
 
-/// The way to rest and the time that it takes; `None` where the speed ends before the acceleration can fade.
+/// The distance and the time to rest; `None` where the speed is zero before the acceleration can fade.
 fn to_rest(vel: f64, acc: f64, limits: &Limits) -> Option<(f64, f64)> {
     if !can_fade(vel, acc, limits) {
         return None;
     }
     if acc < 0.0 && fading(vel, acc, limits) < 0.0 {
-        // With the whole jerk it fades evenly until rest.
+        // With the whole jerk, the acceleration fades evenly until rest.
         return Some((2.0 * vel * vel / (-3.0 * acc), -2.0 * vel / acc));
     }
     let change = Change::new(vel, acc, 0.0, limits);
     Some((change.distance(vel, acc), change.duration()))
 }
 
-/// The way until the acceleration has faded out, or until rest where [`to_rest`] lets it fade a little quicker.
+/// The distance until the acceleration has faded out, or until rest where [`to_rest`] lets it fade a little quicker.
 fn way_of_fading(vel: f64, acc: f64, limits: &Limits) -> f64 {
     let left = fading(vel, acc, limits);
     if left < 0.0 {
@@ -470,35 +472,35 @@ fn way_of_fading(vel: f64, acc: f64, limits: &Limits) -> f64 {
     Change::new(vel, acc, left, limits).distance(vel, acc)
 }
 
-/// At least as long as the way to rest.
+/// An upper bound of the distance to rest.
 fn longest_stop(vel: f64, acc: f64, limits: &Limits) -> f64 {
     let peak = fading(vel, acc.max(0.0), limits);
     peak * ((acc.abs() + 2.0 * limits.acc) / limits.jerk + peak / (2.0 * limits.acc))
 }
 
-/// The way until the speed has come down to `goal` and stays there.
+/// The distance until the speed has come down to `goal` and stays there.
 fn way_to_speed(vel: f64, acc: f64, goal: f64, limits: &Limits) -> f64 {
     let left = fading(vel, acc, limits);
     if left <= goal {
         if vel <= goal {
             return 0.0;
         }
-        // It brakes enough: the acceleration fades, and on the way the speed is passed.
+        // It brakes enough: the acceleration fades, and the speed is passed meanwhile.
         let time = (-acc - (acc * acc - 2.0 * limits.jerk * (vel - goal)).max(0.0).sqrt()) / limits.jerk;
         return State { at: 0.0, vel, acc }.after(limits.jerk, time).at;
     }
     Change::new(vel, acc, goal, limits).distance(vel, acc)
 }
 
-/// The hardest braking of a cycle from which the acceleration can still fade before the speed does; `None` where the
-/// speed cannot be kept from falling below zero.
+/// The jerk of the hardest braking in a cycle from which the acceleration can still fade before the speed is zero;
+/// `None` where the speed cannot be kept from falling below zero.
 fn lowest_jerk(state: &State, cycle: f64, limits: &Limits) -> Option<f64> {
     let State { vel, acc, .. } = *state;
     let jerk = limits.jerk;
-    // With x the acceleration afterwards: vel + (acc + x) cycle / 2 >= x2 / (2 jerk) where x < 0.
+    // Where x < 0 is the acceleration afterwards: vel + (acc + x) cycle / 2 >= x2 / (2 jerk).
     let inner = jerk * jerk * cycle * cycle + 4.0 * jerk * (2.0 * vel + acc * cycle);
     let fades = if inner >= 0.0 { (jerk * cycle - inner.sqrt()) / 2.0 } else { return None };
-    // Where it stays above zero, neither the speed nor the place may be behind what they were at rest and at the start.
+    // Where the acceleration stays above zero, the speed must not fall below zero, nor the position behind the start.
     let least =
         if fades < 0.0 { fades } else { (-2.0 * vel / cycle - acc).max(-6.0 * vel / cycle - 2.0 * acc).max(0.0) };
     let lowest = ((least.max(-limits.acc) - acc) / cycle).max(-limits.jerk);

@@ -1,23 +1,23 @@
-//! Who leads the robot along the path: the governor, or a time law.
+//! What leads the robot along the path: the governor or a time law.
 
 use crate::time_optimal::law_follower::LawFollower;
 
-/// Who leads the robot.
+/// What leads the robot.
 #[derive(Clone, Debug, Default)]
 pub(crate) enum Leader {
     /// The governor.
     #[default]
     Governor,
-    /// The governor, up to the next stop, as no law from rest has been found.
+    /// The governor, up to the next stop, because no law from rest was found.
     GovernorWithoutLaw,
     /// Time laws.
     Laws(Box<LawFollower>),
-    /// A time law that leads to rest sooner than the governor would, which goes on from there.
+    /// A time law that brings the robot to rest sooner than the governor would. The governor continues from there.
     ShorterStop(Box<LawFollower>),
 }
 
 impl Leader {
-    /// Who follows a law.
+    /// The follower of a law.
     pub(crate) fn follower(&self) -> Option<&LawFollower> {
         match self {
             Leader::Governor | Leader::GovernorWithoutLaw => None,
@@ -26,15 +26,15 @@ impl Leader {
     }
 }
 
-/// What becomes of segments that are appended.
+/// What becomes of appended segments.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) enum Appending {
-    /// They join the path where its leader can take them.
+    /// They join the path where its leader can follow them.
     #[default]
     Blended,
-    /// They come behind a stop.
+    /// They are laid behind a stop.
     BehindStop,
-    /// They join a draft of the path, whoever leads. Up to the time that it holds, in s of nominal time since the path
-    /// began, nothing has changed.
+    /// They join a draft of the path, whatever the leader. Up to the contained time, in s of nominal time since the
+    /// path began, nothing has changed.
     Draft(f64),
 }

@@ -1,10 +1,10 @@
 //! Shorter stops where the governor leads.
 //!
 //! The governor knows one acceleration and one jerk for each part of the path: those of its hardest place at full
-//! speed. Where the robot is slower, or elsewhere on that part, it could brake harder. So when it stops, the shortest
-//! way to rest is looked for beside the cycle, with the limits of each place, from the state that the governor's stop
-//! leads to meanwhile. If that is much shorter, a follower takes over and leads to rest; from there the governor goes
-//! on as before.
+//! speed. Where the robot is slower, or elsewhere on that part, it could brake harder. So when it brakes, the shortest
+//! stop is sought in parallel with the cycle, with the limits of each place, from the state that the governor's stop
+//! leads to meanwhile. If the stop found is much shorter, a follower takes over and brings the robot to rest; from
+//! there the governor continues as before.
 
 use crate::command::joints::Joints;
 use crate::follow::governor::Pacing;
@@ -18,14 +18,14 @@ use crate::time_optimal::stop_prediction::StopPrediction;
 use arl_robot::robot::Robot;
 use std::sync::Arc;
 
-/// How far the state may be from what was foreseen, as rounding leaves it: s of nominal time, full speeds, and these
-/// per s.
+/// Allowed differences from the predicted state, due to rounding: s of nominal time, shares of full speed, and such
+/// shares per s.
 const STATE_TOLERANCES: [f64; 3] = [1e-9, 1e-9, 1e-6];
 
 impl PathBuffer {
-    /// Sees to a shorter stop while the governor leads.
+    /// Requests a shorter stop while the governor leads, and takes it over once it is found.
     pub(crate) fn shorten_stop(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, pacing: Pacing) {
-        if self.leader.follower().is_some() {
+        if self.laws.leader.follower().is_some() {
             return;
         }
         let stop_scale = if let Pacing::Stop(stop_scale) = pacing { stop_scale } else { 0.0 };
@@ -33,28 +33,28 @@ impl PathBuffer {
             self.drop_stop_request();
             return;
         }
-        if self.stop_asked.is_none_or(|asked| asked < stop_scale) {
+        if self.laws.stop_asked.is_none_or(|asked| asked < stop_scale) {
             self.drop_stop_request();
-            self.stop_asked = Some(stop_scale);
+            self.laws.stop_asked = Some(stop_scale);
             if !self.stops_on_even_way(stop_scale) {
                 self.request_stop_law(robot, here, cycle, stop_scale);
             }
         } else if let Some(found) = self.take_stop_law()
-            && matches!(self.leader, Leader::Governor)
+            && matches!(self.laws.leader, Leader::Governor)
         {
-            self.leader = Leader::ShorterStop(Box::new(LawFollower::resting(found, stop_scale)));
+            self.laws.leader = Leader::ShorterStop(Box::new(LawFollower::resting(found, stop_scale)));
         }
     }
 
-    /// The governor leads again, or nobody does.
+    /// Returns the lead to the governor, or to none.
     pub(crate) fn return_to_governor(&mut self) {
-        if matches!(std::mem::take(&mut self.leader), Leader::ShorterStop(_)) {
+        if matches!(std::mem::take(&mut self.laws.leader), Leader::ShorterStop(_)) {
             self.backup = Change::default();
         }
-        self.stop_asked = None;
+        self.laws.stop_asked = None;
     }
 
-    /// Whether the governor's stop stays on a segment that has the same limits everywhere: none is shorter.
+    /// Whether the governor's stop stays on a segment that has the same limits everywhere: no stop is shorter.
     fn stops_on_even_way(&self, stop_scale: f64) -> bool {
         let State { vel, acc, .. } = self.state;
         self.segments.front().filter(|segment| segment.is_even()).is_some_and(|segment| {
@@ -66,8 +66,8 @@ impl PathBuffer {
 
     fn request_stop_law(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, stop_scale: f64) {
         self.cancel();
-        let at = self.passed + self.at;
-        let sampler = self.sampler_up_to(robot, (at, here), f64::INFINITY, (usize::MAX, f64::INFINITY));
+        let at = self.segments.passed() + self.at;
+        let sampler = self.sampler_up_to(robot, at, here, f64::INFINITY, usize::MAX, f64::INFINITY);
         self.find_entries();
         let prediction = StopPrediction::new(self.timing.clone(), self.state, self.backup, cycle, stop_scale);
         let cycles = 2 * self.search_cycles(cycle);
@@ -76,29 +76,29 @@ impl PathBuffer {
     }
 
     fn drop_stop_request(&mut self) {
-        self.stop_asked = None;
-        if self.pending.as_ref().is_some_and(is_for_stop) {
+        self.laws.stop_asked = None;
+        if self.laws.pending.as_ref().is_some_and(is_for_stop) {
             self.cancel();
         }
     }
 
-    /// The stop that was looked for, when it is time, if the robot is where it begins.
+    /// Takes the stop that was requested, when it is due, if the robot is where it begins.
     fn take_stop_law(&mut self) -> Option<Found> {
-        let pending = self.pending.as_mut().filter(|pending| is_for_stop(pending))?;
-        let found = match self.law_solver.look(&mut pending.search) {
+        let pending = self.laws.pending.as_mut().filter(|pending| is_for_stop(pending))?;
+        let found = match self.laws.solver.look(&mut pending.search) {
             Status::Running => return None,
             Status::Done(found) => found,
             Status::Late => {
-                self.law_solver.note_late(&mut pending.search);
+                self.laws.solver.note_late(&mut pending.search);
                 pending.search.cancel();
                 None
             }
         };
-        self.pending = None;
+        self.laws.pending = None;
         let found = found?;
         let start = found.law.at(0.0);
         let State { vel, acc, .. } = self.state;
-        let off = [start.at - self.passed - self.at, start.vel - vel, start.acc - acc];
+        let off = [start.at - self.segments.passed() - self.at, start.vel - vel, start.acc - acc];
         off.iter().zip(STATE_TOLERANCES).all(|(off, most)| off.abs() <= most).then_some(found)
     }
 }

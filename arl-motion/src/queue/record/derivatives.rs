@@ -1,4 +1,4 @@
-//! How axes and TCP move, by the differences of set-points: what a trace shows.
+//! Derivatives of axes and TCP from differences of set-points, as a trace shows them.
 
 use nalgebra::Vector3;
 
@@ -8,41 +8,41 @@ use arl_robot::frames::Carried;
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::Robot;
 
-/// Speed, acceleration, jerk.
+/// Number of derivatives: speed, acceleration, jerk.
 pub(super) const DERIVATIVES: usize = 3;
 
-/// The last cycles.
+/// State of the last cycles.
 #[derive(Clone, Debug)]
 pub(super) struct Derivatives {
     joints: Joints,
-    /// Speeds and accelerations of the axes.
+    /// Velocities and accelerations of the axes.
     rates: [[f64; ALL]; 2],
-    /// What was led last along a path; `None`: nothing was.
+    /// What was last moved along a path; `None` where nothing was.
     led: Option<Carried>,
     carried: Option<Carried>,
     way: Frame,
-    /// The TCP along its path, and the tool's turning in deg.
+    /// The TCP along its path, and the rotation of the tool in deg.
     moving: PathSpeed,
     turning: PathSpeed,
-    /// How many of the TCP's derivatives are known.
+    /// Number of derivatives of the TCP that are known.
     known: usize,
 }
 
 /// How a TCP moved in a cycle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfTool {
-    /// mm
+    /// Distance covered, in mm.
     pub(super) way: f64,
-    /// Its speed along its path with two derivatives, in mm/s and so on.
+    /// Speed of the TCP along its path with two derivatives, in mm/s and so on.
     pub(super) moving: [f64; DERIVATIVES],
-    /// The same of the tool's turning, in deg/s and so on.
+    /// Speed of the tool's rotation with two derivatives, in deg/s and so on.
     pub(super) turning: [f64; DERIVATIVES],
-    /// How many of them are known: no more than there were cycles in which this TCP was led along its path.
+    /// Number of known derivatives: at most the number of cycles in which this TCP was moved along its path.
     pub(super) known: usize,
 }
 
 impl Derivatives {
-    /// Of a robot that stands there.
+    /// The derivatives of a robot at rest at `joints`.
     pub(super) fn resting(joints: Joints) -> Self {
         Self {
             joints,
@@ -56,7 +56,7 @@ impl Derivatives {
         }
     }
 
-    /// The speeds, accelerations and jerks of the axes in a cycle of `period` s that ends at these positions.
+    /// The velocities, accelerations and jerks of the axes in a cycle of `period` s that ends at these positions.
     pub(super) fn axes(&mut self, joints: &Joints, period: f64) -> [[f64; ALL]; DERIVATIVES] {
         let difference = |now: &[f64; ALL], before: &[f64; ALL]| -> [f64; ALL] {
             let mut rates = *now;
@@ -70,13 +70,13 @@ impl Derivatives {
         [vel, acc, jerk]
     }
 
-    /// A cycle in which nobody asks for a TCP: what comes next begins anew.
+    /// Handles a cycle in which no TCP is asked for: the TCP's derivatives start again afterwards.
     pub(super) fn without_tool(&mut self, joints: &Joints, period: f64) {
         self.carried = None;
         self.axes(joints, period);
     }
 
-    /// How a TCP moves in the same cycle, before its axes are looked at. `led`: what is led along a path.
+    /// Finds how a TCP moves in the same cycle; called before `axes`. `led`: what is moved along a path.
     pub(super) fn tool(
         &mut self,
         carried: Carried,

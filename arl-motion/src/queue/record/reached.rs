@@ -1,7 +1,7 @@
-//! The speed that a motion reached by itself.
+//! The speed that a motion reached on its own path.
 
-/// The highest speed outside of the zones at both ends of a motion. Where they take all of it, the speed where the one
-/// ends and the other begins: there it goes along its own path for a moment.
+/// The highest speed outside the zones at both ends of a motion. Where the zones take all of it, the speed where one
+/// ends and the other begins: there the motion follows its own path for a moment.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]
 pub(super) struct Reached {
     outside: Option<f64>,
@@ -10,12 +10,12 @@ pub(super) struct Reached {
 }
 
 impl Reached {
-    /// The speed in a cycle outside of zones.
+    /// Notes the speed in a cycle outside the zones.
     pub(super) fn outside(&mut self, speed: f64) {
         self.outside = Some(self.outside.map_or(speed, |highest| highest.max(speed)));
     }
 
-    /// The speed in a cycle within the zone at its start, or in that by which it is left.
+    /// Notes the speed in a cycle within the zone at the start, or, with `leaves`, within the zone at the end.
     pub(super) fn within(&mut self, speed: f64, leaves: bool) {
         match (self.leaves, leaves) {
             (_, false) => self.between = Some(speed),
@@ -27,7 +27,7 @@ impl Reached {
         }
     }
 
-    /// The highest.
+    /// The highest speed.
     pub(super) fn highest(&self) -> f64 {
         self.outside.or(self.between).unwrap_or_default()
     }

@@ -1,23 +1,23 @@
-//! Why a blending zone was not used as it was asked for.
+//! Reasons why a blending zone was not used as requested.
 
 use std::fmt;
 
 use crate::blend::no_blend::NoBlend;
 
-/// Why a zone was not used at all, or only a part of it.
+/// Reason why a zone was not used at all, or only in part.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum SmallerZone {
-    /// The robot stops at the target, since there is no blend.
+    /// The robot stops at the target because there is no blend.
     Stop(NoBlend),
-    /// It stops there, since no motion followed while it was on its way: the program waits, or ends.
+    /// The robot stops there because no motion followed while it was on its path: the program waits or ends.
     NothingBehind,
-    /// It goes on through the target without a corner, as within a spline.
+    /// The path continues through the target without a corner, as within a spline.
     Flows,
-    /// A part of the zone was used: a zone takes half of a motion at most.
+    /// A part of the zone was used: a zone takes at most half of a motion.
     Half,
-    /// A part of the zone was used: this would be with a larger one.
+    /// A part of the zone was used: this is what a larger one would cause.
     Part(NoBlend),
-    /// The motion did not come to its end.
+    /// The motion was not completed.
     Unfinished,
 }
 

@@ -1,4 +1,4 @@
-//! The way back to what was set aside, and what of it is left.
+//! The return motion to suspended motion, and which motions of that are left.
 
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Speed, Target, Zone};
@@ -6,25 +6,25 @@ use crate::queue::suspend::{Asked, SuspendedMotion};
 use arl_robot::frames::Rig;
 use arl_robot::robot::Robot;
 
-/// The speed of the axes in % where no motion says one.
+/// Speed of the axes in % where no motion specifies one.
 const UNPROGRAMMED_SPEED_PERCENT: f64 = 5.0;
 
-/// Which motions are dropped.
+/// Which motions are skipped.
 pub(crate) enum Skipped<'a> {
     None,
     /// Up to this one.
     To(&'a Asked),
-    /// More than there are.
+    /// More motions than there are.
     Beyond,
 }
 
-/// A way of the axes where no motion says how: after nothing has moved yet.
+/// A slow motion of the axes, for a stop before any motion was executed.
 fn slowly_to(joints: Joints, rig: Rig) -> Command {
     let speed = Speed { percent: UNPROGRAMMED_SPEED_PERCENT, tcp: 1.0, ori: 1.0, exj: 1.0, exl: 1.0 };
     Command { target: Target::Joints(joints), rig, speed, duration: None, zone: Zone::NONE, line: 0 }
 }
 
-/// A way to where motion goes on.
+/// A motion to where the suspended motion continues.
 pub(crate) struct ReturnMotion {
     pub(crate) asked: Settings,
     pub(crate) command: Command,
@@ -40,7 +40,7 @@ impl SuspendedMotion {
         self.layer.requests.asked.iter().chain(&self.layer.requests.anew).filter(move |asked| asked.number >= first)
     }
 
-    /// Whether nothing of its own is left to go, and something below is to go on.
+    /// Whether none of its own motions is left, and something below it is to be continued.
     pub(crate) fn leads_on(&self) -> bool {
         self.layer.requests.going || (!self.layer.requests.starts.is_empty() && self.left().next().is_none())
     }
@@ -49,18 +49,18 @@ impl SuspendedMotion {
         let Some(last) = skip.checked_sub(1) else { return Skipped::None };
         match self.left().nth(last as usize) {
             Some(last) => Skipped::To(last),
-            // Where nothing was to go, there is nothing to drop.
+            // Where no motion was left, there is nothing to drop.
             None if self.left().next().is_none() => Skipped::None,
             None => Skipped::Beyond,
         }
     }
 
-    /// The way back to the place of the stop: none where the robot is there.
+    /// The return motion to the place of the stop; `None` where the robot is there.
     pub(crate) fn way_back(&self, robot: &Robot, here: &Joints) -> Option<ReturnMotion> {
         if *here == self.joints {
             return None;
         }
-        // Where nothing was to go, it is as the last motion was.
+        // Where no motion was left, the return motion is like the last one.
         let asked = self.left().next().or_else(|| self.layer.requests.asked.back());
         Some(match asked {
             Some(asked) => asked.way_back_to(robot, &self.joints),
@@ -74,7 +74,7 @@ impl SuspendedMotion {
 }
 
 impl Asked {
-    /// The way back to a place on it: straight for a motion of the TCP.
+    /// The return motion to a place on this motion: straight for a motion of the TCP.
     pub(crate) fn way_back_to(&self, robot: &Robot, place: &Joints) -> ReturnMotion {
         let target = if self.goes_straight() {
             let tcp = self.command.rig.carried.way_at(&robot.kinematics.forward(&place.axes));
@@ -85,7 +85,7 @@ impl Asked {
         ReturnMotion { asked: self.settings, command: Command { target, ..self.command.clone() }, end: Some(*place) }
     }
 
-    /// The way to its target.
+    /// The motion to its target.
     pub(crate) fn way_to(&self, robot: &Robot) -> ReturnMotion {
         match self.command.target {
             Target::Gate { .. } => ReturnMotion { asked: self.settings, command: self.command.clone(), end: None },

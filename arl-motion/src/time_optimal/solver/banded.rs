@@ -1,14 +1,14 @@
-//! Symmetric linear equations in which every unknown meets only the next two.
+//! Symmetric linear equations in which every unknown is coupled only with the next two.
 
 /// A symmetric positive definite matrix with two diagonals beside the main one, by columns: the diagonal element and
-/// the two below. After [`Banded::factor`] it holds its factors.
+/// the two below. After [`Banded::factor`] it contains its factors.
 #[derive(Default, Debug)]
 pub(crate) struct Banded {
     columns: Vec<[f64; 3]>,
 }
 
 impl Banded {
-    /// Makes it a matrix of zeros.
+    /// Resets it to a matrix of zeros.
     pub(crate) fn reset(&mut self, size: usize) {
         self.columns.clear();
         self.columns.resize(size, [0.0; 3]);
@@ -19,7 +19,8 @@ impl Banded {
         self.columns.get_mut(first..).unwrap_or_default()
     }
 
-    /// Takes from the sides of the other equations what the unknown `index` makes of them when it is `value`.
+    /// Subtracts from the right hand sides of the other equations what the unknown `index` contributes when it is
+    /// `value`.
     pub(crate) fn shift(&self, index: usize, value: f64, sides: &mut [f64]) {
         for beside in 1..=2 {
             if let (Some(column), Some(side)) = (self.columns.get(index), sides.get_mut(index + beside)) {
@@ -33,7 +34,7 @@ impl Banded {
         }
     }
 
-    /// Makes the unknown `index` zero, whatever the equations say.
+    /// Makes the unknown `index` zero, whatever the equations.
     pub(crate) fn pin(&mut self, index: usize) {
         for back in 1..=2 {
             if let Some(column) = index.checked_sub(back).and_then(|column| self.columns.get_mut(column)) {
@@ -45,7 +46,7 @@ impl Banded {
         }
     }
 
-    /// Factors it into L D L'. A pivot that rounding made too small is raised.
+    /// Factors it into L D L'. A pivot that is too small due to rounding is raised.
     pub(crate) fn factor(&mut self) {
         let (mut one, mut two) = ([0.0; 3], [0.0; 3]);
         for column in &mut self.columns {

@@ -1,27 +1,27 @@
-//! Why a path cannot be timed.
+//! Reasons why a path cannot be timed.
 
 use std::fmt;
 
-/// Why there is no motion along a path.
+/// The reason why there is no motion along a path.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Refusal {
-    /// Fewer than two places.
+    /// The path has fewer than two places.
     Short,
-    /// A place that is not a number or does not come after the one before.
+    /// A place is not a number or does not come after the one before.
     Place {
-        /// Its index.
+        /// Index of the place.
         place: usize,
     },
-    /// A row with a derivative that is not a number, or with a limit that is not positive.
+    /// A row has a derivative that is not a number, or a limit that is not positive.
     Row {
-        /// The index of its place.
+        /// Index of the row's place.
         place: usize,
     },
     /// Nothing moves along the path.
     Still,
-    /// A speed or acceleration at the start or the end that is not a number, or a speed below zero.
+    /// A speed or acceleration at the start or the end is not a number, or a speed is negative.
     Boundary,
-    /// The start or the end is too fast: no motion within the limits has them both.
+    /// The start or the end is too fast: no motion within the limits has both speeds.
     Fast,
 }
 

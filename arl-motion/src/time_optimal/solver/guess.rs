@@ -1,21 +1,22 @@
-//! About how fast a motion can be at each place, without a search.
+//! Estimates how fast a motion can be at each place, without a search.
 
 use crate::time_optimal::solver::screen::highest_square;
 use crate::time_optimal::solver::warp::Warp;
 use crate::time_optimal::solver::warped_row::WarpedRow;
 use crate::time_optimal::solver::{BoundaryState, Way};
 
-/// Of the fastest rise from rest with limited jerk the power 3/4 of the speed's square grows evenly with the way, by so
-/// much with the root of the jerk; a part of it leaves room for accelerations to begin and end.
+/// In the fastest rise from rest with limited jerk, the power 3/4 of the squared speed grows linearly with the
+/// distance, at this rate times the root of the jerk; only a share of it is used, to leave room for accelerations to
+/// begin and end.
 const RISE: f64 = 2.12;
 const GUESSED_SHARE_OF_RISE: f64 = 0.5;
 
-/// About how fast the warped parameter can go at the places, `places` in its own terms: as the limits leave it at an
-/// even speed, and as it can be reached from their neighbours.
+/// Estimates how fast the warped parameter can be at the places, given as warped parameters: as the limits permit at an
+/// even speed, and as can be reached from the neighbouring places.
 pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [BoundaryState; 2]) -> Vec<f64> {
     let last = places.len().saturating_sub(1);
     let mut squares = Vec::with_capacity(places.len());
-    // How much the square may grow, and its power 3/4.
+    // Limits of the growth of the square, and of its power 3/4.
     let mut rises = Vec::with_capacity(places.len());
     for (index, at) in places.iter().enumerate() {
         let place = warp.place(*at);
@@ -45,10 +46,10 @@ pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Bound
     squares.iter().map(|square| square.sqrt()).collect()
 }
 
-/// How often speeds are smoothed at once: a kink of theirs would be one of the problem that has none of its own.
+/// Number of smoothings in a row: a kink in the speeds would put a kink into a problem that has none of its own.
 const SMOOTHINGS: usize = 24;
 
-/// Speeds with less of a kink, each time between those of their neighbours by their logarithms.
+/// Speeds with smaller kinks: each speed is averaged with its neighbours by logarithms.
 pub(crate) fn smooth(speeds: Vec<f64>) -> Vec<f64> {
     let last = speeds.len().saturating_sub(1);
     (0..SMOOTHINGS).fold(speeds, |speeds, _| {
@@ -61,14 +62,14 @@ pub(crate) fn smooth(speeds: Vec<f64>) -> Vec<f64> {
     })
 }
 
-/// With so few places none is left out: a law is found soon enough.
+/// With no more places than this, none is left out: a law is found soon enough.
 const FEW_PLACES: usize = 160;
-/// Beside a sharp blend, as beside a stop, the speed changes much within a short time.
+/// Near a sharp blend, as near a stop, the speed changes much within a short time.
 const CHANGE_OF_SPEED: f64 = 1.1;
-/// What tells about the pace. At a given start all places stay: the state there may leave hardly a way on.
+/// Thinning to find a pace. Near a given start all places stay: the state there may leave hardly any possible motion.
 const COARSE: Thinning = Thinning { closest: 0.006, change: 1.5, begun: 0.1, keeps_jumps: false };
 
-/// About how long the fastest motion takes from each place to the next, in s: rather less.
+/// A low estimate of the time that the fastest motion takes from each place to the next, in s.
 pub(crate) fn guess_steps(way: &Way, edges: [BoundaryState; 2]) -> Option<Vec<f64>> {
     let (from, to) = way.span().ok()?;
     let warp = Warp::new(from, to, edges[0].rests(), edges[1].rests());
@@ -78,27 +79,26 @@ pub(crate) fn guess_steps(way: &Way, edges: [BoundaryState; 2]) -> Option<Vec<f6
     Some(places.windows(2).zip(speeds.windows(2)).map(step).collect())
 }
 
-/// Which places of a way are left out.
+/// Rules for leaving out places of a path.
 struct Thinning {
-    /// Places are so far apart in time, in s, ...
+    /// Distance in time, in s, within which places are left out, with the exceptions below.
     closest: f64,
-    /// ... but for those behind which the motion is so many times as fast as behind the last one that is kept, or as
-    /// slow; ...
+    /// Places stay behind which the speed differs by at least this factor from that behind the last place that is kept.
     change: f64,
-    /// ... for those so soon behind the start, in s; ...
+    /// Places stay within this time behind the start, in s.
     begun: f64,
-    /// ... and for those where derivatives jump, if these are to stay.
+    /// Whether places stay where derivatives jump.
     keeps_jumps: bool,
 }
 
-/// The way without places that are closer together than so many s by these steps, but for those where derivatives jump
-/// or the speed changes much; `None` where it has few of them.
+/// The path without places that are closer together than `closest` s by these steps, except those where derivatives
+/// jump or the speed changes much; `None` where it has few places.
 pub(crate) fn thinned(way: &Way, steps: &[f64], closest: f64) -> Option<Way> {
     keep(way, steps, &Thinning { closest, change: CHANGE_OF_SPEED, begun: 0.0, keeps_jumps: true })
 }
 
-/// The way with a third of its places or so, from which the pace of a law can be told, but not the law; `None` where it
-/// has few of them.
+/// The path with about a third of its places, which is enough for the pace of a law, but not for the law; `None` where
+/// it has few places.
 pub(crate) fn coarse(way: &Way, edges: [BoundaryState; 2]) -> Option<Way> {
     let steps = guess_steps(way, edges)?;
     keep(way, &steps, &COARSE)
@@ -112,7 +112,7 @@ fn keep(way: &Way, steps: &[f64], thinning: &Thinning) -> Option<Way> {
     let lengths = way.places().windows(2).map(|pair| pair[1] - pair[0]);
     let speeds: Vec<f64> = lengths.zip(steps).map(|(length, step)| length / step).collect();
     let changes = |from: f64, to: f64| from.max(to) > change * from.min(to);
-    // As if it stood before the start, so that the place behind that stays, too.
+    // Assumes rest before the start, so that the place behind the start stays, too.
     let (mut time, mut since, mut before, mut keep) = (0.0, 0.0, 0.0, vec![true]);
     for (index, (step, behind)) in (1..).zip(steps.iter().zip(speeds.iter().skip(1))) {
         (time, since) = (time + step, since + step);

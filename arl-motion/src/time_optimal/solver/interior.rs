@@ -1,11 +1,11 @@
 //! The interior point method for the problem with jerk limits.
 //!
-//! Primal and dual unknowns take Newton steps together, each first without and then with a correction for what the
-//! first leaves (Mehrotra). A jerk limit enters with its tangent at the current point, which is stricter than the limit
-//! itself: what a step keeps of the tangent, it keeps of the limit.
+//! Primal and dual unknowns take Newton steps together, each first without and then with a correction for the remainder
+//! of the first (Mehrotra). A jerk limit enters with its tangent at the current point, which is stricter than the limit
+//! itself: a step that keeps the tangent keeps the limit.
 //!
 //! Indices: there are two coefficients more than stretches, and the stretch i has those from i to i + 2; the ranges of
-//! limits and prices are those that the program numbered when it made them.
+//! limits and prices are those that the program assigned when it was created.
 
 use std::ops::Range;
 
@@ -16,60 +16,61 @@ use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::program::{Beginning, Known, Program, Site, SiteLimits, dot};
 use crate::time_optimal::solver::{BoundaryState, Pace, Refusal, Way};
 
-/// At most so many steps are taken; 10 to 30 are needed, up to 60 from a given state.
+/// Maximum number of steps; 10 to 30 are needed, up to 60 from a given state.
 const STEPS: usize = 80;
-/// How often limits that were left out may be added.
+/// Maximum number of times that limits which were left out are added.
 const ROUNDS: usize = 4;
-/// By so much a given speed and acceleration at an end may exceed the limits.
+/// Factor by which a given speed and acceleration at an end may exceed the limits.
 const TOLERANCE: f64 = 1.003;
-/// The same where the motion is about known: whether it keeps them as its set-points go is looked at anyway, and else
-/// there is none that is nearly as fast.
+/// The same factor where the motion is roughly known: whether its set-points keep the limits is checked anyway, and
+/// otherwise there is no motion that is nearly as fast.
 const TOLERANCE_OF_KNOWN: f64 = 1.006;
-/// The duration is so close to what it can be at best, as a share of it; the second where it is found again over its
-/// own pace then.
+/// Tolerance of the duration relative to the shortest possible one, as a share; the second one where the law is then
+/// found again over its own pace.
 const GAP: f64 = 5e-4;
 const ROUGH_GAP: f64 = 0.02;
-/// By so much limits may be exceeded, as a share of them.
+/// Share by which limits may be exceeded.
 const MOST_EXCESS: f64 = 1e-4;
-/// The sum of slack times price to begin with, in units of the duration at an even speed, and the least slack.
+/// The initial sum of slack times price, in units of the duration at an even speed, and the least slack.
 const FIRST_GAP: f64 = 10.0;
 const LEAST_SLACK: f64 = 0.1;
-/// The same where the motion is about known; the sum as a share of its duration.
+/// The same where the motion is roughly known; the sum as a share of its duration.
 const KNOWN_GAP: f64 = 0.05;
 const LEAST_KNOWN_SLACK: f64 = 0.003;
-/// The same where it is known up to somewhere, and guessed from there on.
+/// The same where the motion is known up to some place, and guessed from there on.
 const EXPECTED_GAP: f64 = 1.0;
 const LEAST_EXPECTED_SLACK: f64 = 0.03;
-/// After so many steps of less than this share in a row there is no way on.
+/// After this many steps in a row of less than this share, the search is stuck.
 const STUCK_STEPS: u32 = 4;
 const STUCK_SHARE: f64 = 0.01;
-/// By so little the coefficients that states at the ends give are missed, as a share.
+/// Relative difference from the coefficients given by the states at the ends that counts as zero.
 const NO_MISS: f64 = 1e-6;
 
-/// A law is found again over its own pace as long as its duration falls by at least this part, so many times at most.
+/// A law is found again over its own pace as long as its duration falls by at least this share, and at most this many
+/// times.
 const LEAST_GAIN: f64 = 0.003;
 const MOST_APPROACHES: usize = 6;
-/// The same where it is found roughly.
+/// The same values where the law is found roughly.
 const LEAST_ROUGH_GAIN: f64 = 0.02;
 const MOST_ROUGH_APPROACHES: usize = 4;
-/// Over the pace of a rough law a law takes by less than this part less time where its own pace is as good: the next
-/// one would take by a thirtieth of that less.
+/// Over the pace of a rough law, a law gains less than this share of the duration where its own pace is as good: the
+/// next one would gain a thirtieth of that.
 const LEAST_GAIN_ON_ROUGH: f64 = 0.01;
-/// One that takes longer than this many times the rough law has found no good way.
+/// A law that takes longer than the rough law by more than this factor is not good enough.
 const MOST_ON_ROUGH: f64 = 1.05;
-/// One that takes longer than this many times as long as it could is none.
+/// A law that takes longer than it could by more than this factor is rejected.
 pub(crate) const CREEPING: f64 = 1.2;
 
-/// The coefficients of the fastest motion, with all limits kept, of which the duration is so close to what it can be at
-/// best.
+/// The coefficients of the fastest motion, with all limits kept, whose duration is within `gap` of the shortest
+/// possible one.
 fn settle(program: &mut Program, gap: f64) -> Result<Vec<f64>, Refusal> {
     let free = program.given.is_empty();
     let tolerance = if program.beginning == Beginning::Known { TOLERANCE_OF_KNOWN } else { TOLERANCE };
     let mut coefficients = program.first.clone();
     let mut used = 0.0;
     for round in 0..=ROUNDS {
-        // Where all else fails there is the motion to begin with; from rest to rest it is slowed down below as far as
-        // it takes.
+        // Where all else fails, the initial motion is used; from rest to rest, it is slowed down below as far as
+        // necessary.
         coefficients.clone_from(&program.first);
         if round < ROUNDS {
             let mut climb = Climb::new(program);
@@ -85,7 +86,7 @@ fn settle(program: &mut Program, gap: f64) -> Result<Vec<f64>, Refusal> {
         }
     }
     if free {
-        // Everything slows down with x in this share, the jerk even more.
+        // Everything slows down with x in this proportion, the jerk even more.
         let share = 1.0 / f64::max(used, 1.0);
         coefficients.iter_mut().for_each(|value| *value *= share);
     } else if used > tolerance || program.missed(&coefficients) > NO_MISS || program.stops(&coefficients) {
@@ -94,7 +95,7 @@ fn settle(program: &mut Program, gap: f64) -> Result<Vec<f64>, Refusal> {
     Ok(coefficients)
 }
 
-/// Slacks and prices of limits, and their changes in a step.
+/// Slacks and prices of limits, with their changes in a step.
 #[derive(Clone, Copy, Default, Debug)]
 struct Prices {
     slack: Lanes,
@@ -103,19 +104,19 @@ struct Prices {
     price_step: Lanes,
 }
 
-/// The fastest motion within all limits of `way`, behind a law if there is one.
+/// Finds the fastest motion within all limits of `way`, behind a law if there is one.
 ///
-/// Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is
-/// enough; a guess is not that near. So a law is found over the pace of another one, until that is as good as its own.
+/// Between two places, only the acceleration's slope is free. With a parameter that runs as time does, that is enough;
+/// a guess is not that close. So a law is found over the pace of another one, until that is as good as its own.
 pub(crate) fn solve(way: &Way, edges: [BoundaryState; 2], before: Option<&Law>) -> Result<Law, Refusal> {
     let Some(before) = before else { return solve_alone(way, edges) };
-    // Few places tell the pace sooner, but not always where the start leaves hardly a way on. And where it has to slow
-    // down for what the law before has not seen, the pace of that may lead nowhere.
+    // A few places give the pace sooner, but not always where the start leaves hardly any possible motion. And where it
+    // has to slow down for what the law before has not covered, the pace of that law may fail.
     let coarse = coarse(way, edges);
     let mut best: Result<Law, Refusal> = Err(Refusal::Fast);
     let mut quickest = f64::INFINITY;
     for sparse in coarse.iter().chain([way]) {
-        match solve_behind(way, edges, (before, sparse)) {
+        match solve_behind(way, edges, before, sparse) {
             Ok((law, rough)) => {
                 let is_as_good = law.duration() < MOST_ON_ROUGH * rough.duration();
                 (best, quickest) = (faster(best, Ok(law)), quickest.min(rough.duration()));
@@ -128,11 +129,11 @@ pub(crate) fn solve(way: &Way, edges: [BoundaryState; 2], before: Option<&Law>) 
         }
     }
     best = faster(best, solve_alone(way, edges));
-    // The law before leads to rest: to look again from a later state is better than to creep.
+    // The law before leads to rest: searching again from a later state is better than creeping.
     if best.as_ref().is_ok_and(|law| law.duration() > CREEPING * quickest) { Err(Refusal::Fast) } else { best }
 }
 
-/// The faster one of two laws, if there are any.
+/// The faster one of two laws, as far as they were found.
 fn faster(one: Result<Law, Refusal>, other: Result<Law, Refusal>) -> Result<Law, Refusal> {
     match (one, other) {
         (Ok(one), Ok(other)) if other.duration() < one.duration() => Ok(other),
@@ -141,16 +142,16 @@ fn faster(one: Result<Law, Refusal>, other: Result<Law, Refusal>) -> Result<Law,
     }
 }
 
-/// From a guess.
+/// Finds a law from a guess.
 fn solve_alone(way: &Way, edges: [BoundaryState; 2]) -> Result<Law, Refusal> {
     let mut program = program(way, edges, Known::Nothing)?;
     let gap = if program.warp.is_even() { GAP } else { ROUGH_GAP };
     Ok(approach(way, edges, find(&mut program, gap)?))
 }
 
-/// As the law before goes, as far as that is known; with the rough law, over a way with fewer places, that its pace is
-/// of.
-fn solve_behind(way: &Way, edges: [BoundaryState; 2], (before, sparse): (&Law, &Way)) -> Result<(Law, Law), Refusal> {
+/// Finds a law from the pace of the law before, as far as that is known; also returns the rough law, over a path with
+/// fewer places, whose pace was used.
+fn solve_behind(way: &Way, edges: [BoundaryState; 2], before: &Law, sparse: &Way) -> Result<(Law, Law), Refusal> {
     let rough = solve_roughly(sparse, edges, before)?;
     let pace = rough.pace_at(way.places()).ok_or(Refusal::Fast)?;
     let law = solve_near(way, edges, &pace)?;
@@ -158,7 +159,7 @@ fn solve_behind(way: &Way, edges: [BoundaryState; 2], (before, sparse): (&Law, &
     Ok((law, rough))
 }
 
-/// The same for its pace alone.
+/// Finds a law for its pace alone.
 fn solve_roughly(way: &Way, edges: [BoundaryState; 2], before: &Law) -> Result<Law, Refusal> {
     let mut rough = find_roughly(program(way, edges, Known::Before(before))?)?;
     for _ in 0..MOST_ROUGH_APPROACHES {
@@ -173,7 +174,7 @@ fn solve_roughly(way: &Way, edges: [BoundaryState; 2], before: &Law) -> Result<L
     Ok(rough)
 }
 
-/// Over a law's own pace, again and again.
+/// Finds the law again over its own pace, repeatedly.
 fn approach(way: &Way, edges: [BoundaryState; 2], mut law: Law) -> Law {
     for _ in 0..MOST_APPROACHES {
         let nearer = law.pace().and_then(|pace| solve_near(way, edges, &pace).ok());
@@ -187,12 +188,12 @@ fn approach(way: &Way, edges: [BoundaryState; 2], mut law: Law) -> Law {
     law
 }
 
-/// Which part less time a law takes than another one.
+/// The share of the duration that a law saves compared with another one.
 fn gain(law: &Law, nearer: &Law) -> f64 {
     1.0 - nearer.duration() / law.duration()
 }
 
-/// The same where the pace is about known.
+/// Finds a law where the pace is roughly known.
 pub(crate) fn solve_near(way: &Way, edges: [BoundaryState; 2], pace: &Pace) -> Result<Law, Refusal> {
     find(&mut program(way, edges, Known::Pace(pace))?, GAP)
 }
@@ -201,8 +202,8 @@ fn program(way: &Way, edges: [BoundaryState; 2], known: Known) -> Result<Program
     if way.places().len() < 3 { Err(Refusal::Short) } else { Program::new(way, edges, known) }
 }
 
-/// The fastest motion, from the first beginning that leads to one, of which the duration is so close to what it can be
-/// at best.
+/// Finds the fastest motion, from the first beginning that leads to one, whose duration is within `gap` of the shortest
+/// possible one.
 fn find(program: &mut Program, gap: f64) -> Result<Law, Refusal> {
     for beginning in program.beginnings() {
         program.begin(beginning);
@@ -213,7 +214,7 @@ fn find(program: &mut Program, gap: f64) -> Result<Law, Refusal> {
     Err(Refusal::Fast)
 }
 
-/// About the same, for its pace alone: limits that were left out are not looked at, so it may exceed them.
+/// Finds the motion roughly, for its pace alone: limits that were left out are not checked, so it may exceed them.
 fn find_roughly(mut program: Program) -> Result<Law, Refusal> {
     for beginning in program.beginnings() {
         program.begin(beginning);
@@ -244,20 +245,20 @@ fn law(program: &Program, coefficients: &[f64]) -> Law {
     Law::new(program.warp.clone(), &program.places, &squares, laws.into_iter())
 }
 
-/// The way up to the optimum.
+/// The climb to the optimum.
 struct Climb<'a> {
     program: &'a Program,
     coefficients: Vec<f64>,
     prices: Vec<Prices>,
     matrix: Banded,
-    /// Right hand sides: what pulls to the optimum, what keeps from the limits, and the correction.
+    /// Right hand sides: the pull towards the optimum, the push away from the limits, and the correction.
     pull: Vec<f64>,
     push: Vec<f64>,
     correction: Vec<f64>,
     step: Vec<f64>,
 }
 
-/// x and the acceleration at a site and the bend there, or their changes.
+/// x, the acceleration and the bend at a site, or their changes.
 #[derive(Clone, Copy)]
 struct Here {
     square: f64,
@@ -278,7 +279,7 @@ impl Here {
     }
 }
 
-/// What the right hand side of a limit is, and its slope by x.
+/// The right hand side of a limit, and its slope by x.
 #[derive(Clone, Copy)]
 struct Most {
     value: f64,
@@ -295,14 +296,14 @@ fn parts(site: &Site, square: f64) -> [(Range<usize>, Range<usize>, Most); 2] {
     [(first..middle, prices..between, Most { value: 1.0, slope: 0.0 }), (from..to, between..between + to - from, jerk)]
 }
 
-/// What a step without correction comes to: the rates at which it uses up slacks and prices, and sums for the slack
-/// times price that it leaves.
+/// The prediction for a step without correction: the rates at which it uses up slacks and prices, and sums for the
+/// remaining slack times price.
 #[derive(Default)]
 struct Forecast {
     primal: Lanes,
     dual: Lanes,
     gap: Lanes,
-    /// By how much limits are exceeded where they are most.
+    /// The largest excess of a limit.
     excess: Lanes,
     /// Slack times change of price, price times change of slack, and change times change.
     sums: [Lanes; 3],
@@ -335,7 +336,7 @@ impl<'a> Climb<'a> {
             let forecast = self.predict();
             let gap = forecast.gap.sum();
             let duration = self.duration();
-            // A given state at an end may exceed them.
+            // A given state at an end may exceed the limits.
             let keeps = !self.program.given.is_empty() || forecast.excess.most() < MOST_EXCESS;
             let is_near = gap < most_gap * duration && (before - duration).abs() < 0.5 * most_gap * duration;
             if keeps && is_near && self.program.missed(&self.coefficients) < NO_MISS {
@@ -359,7 +360,7 @@ impl<'a> Climb<'a> {
         }
     }
 
-    /// Slacks as they are, and prices that all weigh the same.
+    /// Initialises the slacks from the limits, and prices with equal weights.
     fn price(&mut self) {
         let (gap, least) = match self.program.beginning {
             Beginning::Known => (KNOWN_GAP * self.duration(), LEAST_KNOWN_SLACK),
@@ -375,7 +376,7 @@ impl<'a> Climb<'a> {
                 for (range, bought, most) in parts(site, here.square) {
                     for (limits, prices) in program.limits[range].iter().zip(&mut prices[bought]) {
                         let room = Lanes::all(most.value) - here.of(limits);
-                        // What is exceeded needs a slack of the size of the excess.
+                        // A limit that is exceeded needs a slack of the size of the excess.
                         prices.slack = room.more(Lanes::all(least)).more(-room);
                         prices.price = Lanes::all(weight) * prices.slack.inverse();
                     }
@@ -391,7 +392,7 @@ impl<'a> Climb<'a> {
         stretches.map(|(stretch, three)| stretch.sites.iter().map(|site| of(site, three)).sum::<f64>()).sum()
     }
 
-    /// The equations of the Newton step.
+    /// Assembles the equations of the Newton step.
     fn assemble(&mut self) {
         let Self { program, coefficients, prices, matrix, pull, push, correction, .. } = self;
         let size = coefficients.len();
@@ -436,7 +437,7 @@ impl<'a> Climb<'a> {
                 let mut inner = inner.map(Lanes::sum);
                 let (mut to, off) = (to.map(Lanes::sum), off.map(Lanes::sum));
                 let fall = 0.5 * site.weight / (here.square * here.square.sqrt());
-                // The curve of the limits on the jerk counts against that of the duration. It may not outweigh it.
+                // The curvature of the jerk limits counts against that of the duration. It must not outweigh it.
                 inner[0] += 1.5 * fall / here.square * (1.0 - paid.sum() / site.weight).max(0.1);
                 to[0] += fall;
                 let three = [site.square, site.slope, stretch.bend];
@@ -455,7 +456,7 @@ impl<'a> Climb<'a> {
         }
     }
 
-    /// What the step that only pulls would come to, and the correction for it.
+    /// Predicts the result of the step that only pulls, and finds the correction for it.
     fn predict(&mut self) -> Forecast {
         let Self { program, coefficients, prices, correction, step, .. } = self;
         let mut forecast = Forecast::default();
@@ -502,7 +503,7 @@ impl<'a> Climb<'a> {
         forecast
     }
 
-    /// The changes of slacks and prices in the corrected step, and which shares of it are possible.
+    /// Finds the changes of slacks and prices in the corrected step, and the possible shares of it.
     fn correct(&mut self, centre: f64) -> (f64, f64) {
         let Self { program, coefficients, prices, step, .. } = self;
         let (centre, one) = (Lanes::all(centre), Lanes::all(1.0));
@@ -512,7 +513,7 @@ impl<'a> Climb<'a> {
             let (bend, bend_step) = (dot(&stretch.bend, three), dot(&stretch.bend, change));
             for site in &stretch.sites {
                 let (here, by) = (Here::new(site, bend, three), Here::new(site, bend_step, change));
-                // The square may not even come close to zero: the tangents would be worth nothing there.
+                // The square may not even come close to zero: the tangents would be useless there.
                 primal = primal.more(Lanes::all(-by.square / here.square * (NEAR / 0.9)));
                 for (range, bought, most) in parts(site, here.square) {
                     let (value, rise) = (Lanes::all(most.value), Lanes::all(most.slope * by.square));
@@ -534,7 +535,7 @@ impl<'a> Climb<'a> {
         ((NEAR * length(primal)).min(1.0), (NEAR * length(dual)).min(1.0))
     }
 
-    /// Takes the step; not if it is not a number.
+    /// Takes the step, unless it is not a number.
     fn take(&mut self, primal: f64, dual: f64) -> bool {
         if !(primal > 1e-9 && dual > 0.0 && self.step.iter().all(|step| step.is_finite())) {
             return false;
@@ -551,10 +552,10 @@ impl<'a> Climb<'a> {
     }
 }
 
-/// Which share of the longest possible step is taken.
+/// Share of the longest possible step that is taken.
 const NEAR: f64 = 0.99;
 
-/// The longest possible share of a step that uses things up at these rates, 1/[`NEAR`] at most.
+/// The longest possible share of a step that uses slacks or prices up at these rates, at most 1/[`NEAR`].
 fn length(rates: Lanes) -> f64 {
     1.0 / rates.most().max(NEAR)
 }

@@ -1,8 +1,8 @@
-//! Numbers side by side, as the processor takes them.
+//! Numbers side by side, for vector instructions of the processor.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-/// How many numbers there are side by side: what every processor of a kind has registers for.
+/// Number of lanes: what every processor of an architecture has registers for.
 pub(crate) const LANES: usize = 2;
 
 /// Numbers side by side.
@@ -16,7 +16,7 @@ impl Lanes {
         Self([value; LANES])
     }
 
-    /// 1 by each.
+    /// The reciprocals.
     #[inline(always)]
     pub(crate) fn inverse(self) -> Self {
         Self(self.0.map(|value| 1.0 / value))

@@ -1,9 +1,9 @@
-//! A timed path: the path parameter over time.
+//! A timed path: the path parameter as a function of time.
 
 use crate::time_optimal::solver::pace::Pace;
 use crate::time_optimal::solver::paced_warp::PacedWarp;
 
-/// How the path parameter moves at a moment.
+/// The state of the path parameter at a moment.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Moment {
     /// The path parameter.
@@ -16,18 +16,18 @@ pub struct Moment {
     pub jerk: f64,
 }
 
-/// The stretch from one place to the next, in which the paced parameter's acceleration changes evenly with the paced
+/// The stretch from one place to the next, in which the paced parameter's acceleration changes linearly with the paced
 /// parameter.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct LawInterval {
-    /// The paced parameter where it begins.
+    /// The paced parameter at its start.
     pub(crate) at: f64,
     /// Speed and acceleration of the paced parameter there.
     pub(crate) vel: f64,
     pub(crate) acc: f64,
-    /// How the acceleration changes with the paced parameter.
+    /// Change of the acceleration with the paced parameter.
     pub(crate) bend: f64,
-    /// When it begins.
+    /// Time at its start.
     time: f64,
 }
 
@@ -35,15 +35,15 @@ pub(crate) struct LawInterval {
 #[derive(Clone, Debug)]
 pub struct Law {
     warp: PacedWarp,
-    /// The end of the path in the path parameter.
+    /// The path parameter at the end of the path.
     end: f64,
     stretches: Vec<LawInterval>,
     duration: f64,
 }
 
 impl Law {
-    /// From the paced places, the squares of the paced parameter's speed there, and its acceleration at the start of
-    /// each stretch; `bends` as in [`LawInterval`].
+    /// Creates a law from the paced places, the squares of the paced parameter's speed there, and its acceleration at
+    /// the start of each stretch with its change, as in [`LawInterval`].
     pub(crate) fn new(
         warp: PacedWarp,
         places: &[f64],
@@ -61,7 +61,7 @@ impl Law {
         Self { warp, end, stretches, duration: time }
     }
 
-    /// When it is at its places; `None` where the law was found over the warped parameter itself.
+    /// The times at its places; `None` where the law was found over the warped parameter itself.
     pub(crate) fn pace(&self) -> Option<Pace> {
         let last = self.stretches.last().map(|last| last.after(self.duration - last.time).1);
         let speeds = self.warp.speeds(self.stretches.iter().map(|stretch| stretch.vel).chain(last))?;
@@ -69,18 +69,18 @@ impl Law {
         Some(Pace { times, ends: [*speeds.first()?, *speeds.last()?] })
     }
 
-    /// When it is at places of its path, those that it was found from or others; `None` as above.
+    /// The times at places of its path, those that it was found from or others; `None` as for `pace`.
     pub(crate) fn pace_at(&self, places: &[f64]) -> Option<Pace> {
         let Pace { ends, .. } = self.pace()?;
         Some(Pace { times: places.iter().map(|at| self.time_at(*at)).collect(), ends })
     }
 
-    /// How many stretches it has.
+    /// The number of its stretches.
     pub(crate) fn stretches(&self) -> usize {
         self.stretches.len()
     }
 
-    /// Tells all that makes it what it is.
+    /// Passes all numbers that define it to `note`.
     pub(crate) fn numbers(&self, note: &mut impl FnMut(u64)) {
         note(self.stretches.len() as u64);
         let Self { warp, end, stretches, duration } = self;
@@ -93,23 +93,23 @@ impl Law {
         }
     }
 
-    /// The path parameter where it ends.
+    /// The path parameter at its end.
     pub(crate) fn end(&self) -> f64 {
         self.end
     }
 
-    /// How fast the path parameter goes, in the mean.
+    /// The mean speed of the path parameter.
     pub(crate) fn mean_speed(&self) -> f64 {
         let start = self.warp.place(0, 0.0).at;
         if self.duration > 0.0 { (self.end - start) / self.duration } else { 0.0 }
     }
 
-    /// How long the motion takes, in s.
+    /// The duration of the motion, in s.
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// The state `time` after the start, in s; that of the start before, and that of the end after.
+    /// The state `time` s after the start; before the start, that at the start, and after the end, that at the end.
     pub fn at(&self, time: f64) -> Moment {
         let time = time.clamp(0.0, self.duration);
         let index = self.stretches.partition_point(|stretch| stretch.time <= time).saturating_sub(1);
@@ -127,7 +127,7 @@ impl Law {
         }
     }
 
-    /// When the path parameter is at `at`, in s from the start.
+    /// The time at which the path parameter is `at`, in s from the start.
     pub fn time_at(&self, at: f64) -> f64 {
         if at >= self.end {
             return self.duration;
@@ -147,7 +147,7 @@ impl LawInterval {
         (self.at + way, vel * (1.0 + bend * even) + acc * odd, acc + bend * way)
     }
 
-    /// How long it takes to get on by `way`.
+    /// The time that it takes to advance by `way`.
     fn duration(&self, way: f64) -> f64 {
         let Self { vel, acc, bend, .. } = *self;
         let then = (vel * vel + way * (2.0 * acc + way * bend)).max(0.0).sqrt();
@@ -155,7 +155,7 @@ impl LawInterval {
             return 0.0;
         }
         if vel + then <= 0.0 {
-            // Starting from and ending at rest in one stretch that does not speed up in between: it would never end.
+            // A single stretch from rest to rest without acceleration in between would never end.
             return 1e9;
         }
         let mut time = 2.0 * way / (vel + then);
@@ -193,7 +193,7 @@ fn growth(bend: f64, time: f64) -> (f64, f64) {
     } else {
         let rate = bend.abs().sqrt();
         let angle = rate * time;
-        // By the half angle, because 1 is not to be taken from the cosine.
+        // By the half angle, to avoid subtracting 1 from the cosine.
         let (odd, half) =
             if bend > 0.0 { (angle.sinh(), (0.5 * angle).sinh()) } else { (angle.sin(), (0.5 * angle).sin()) };
         (odd / rate, 2.0 * half * half / bend.abs())

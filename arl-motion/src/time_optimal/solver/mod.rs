@@ -1,14 +1,14 @@
 //! The fastest speed along a given path that keeps every axis's velocity, acceleration and jerk within limits.
 //!
 //! The unknown is x, the square of the path parameter's speed, as a function of the parameter. Velocity and
-//! acceleration limits are linear in x and its slope; without jerk limits the optimum is found by one pass back and one
-//! pass forth over the places (`reach`). A jerk limit bounds a linear form of x, its slope and its bend by 1/sqrt(x);
-//! the tangent of that bound is always below it, so every convex problem made with it is safe, and an interior point
-//! method that renews the tangents with every step (`interior`) climbs to the optimum.
+//! acceleration limits are linear in x and its slope. Without jerk limits the optimum is found by one backward and one
+//! forward pass over the places (`reach`). A jerk limit bounds a linear form of x, its slope and its second derivative,
+//! the bend, by 1/sqrt(x). The tangent of that bound is always below it, so every convex problem formed with it is
+//! safe, and an interior point method that renews the tangents in every step (`interior`) climbs to the optimum.
 //!
 //! At rest, x as a function of the path parameter has an infinite bend. The problem is therefore stated over a warped
-//! parameter (`warp`) of which the path parameter is the cube near rest: constant jerk is then constant speed. Over
-//! that one a first guess of the speed makes a parameter that goes about as the time does (`paced_warp`).
+//! parameter (`warp`) of which the path parameter is the cube near rest: constant jerk then means constant speed. From
+//! the warped parameter, a first guess of the speed makes a parameter that runs roughly as time does (`paced_warp`).
 
 mod banded;
 mod error;
@@ -36,12 +36,12 @@ pub use way::{Row, Way};
 
 use warp::Warp;
 
-/// How the path parameter moves at an end of the path.
+/// The motion of the path parameter at an end of the path.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct BoundaryState {
-    /// Its speed, per s; not negative.
+    /// Speed, per s; not negative.
     pub vel: f64,
-    /// Its acceleration, per s2; without meaning at rest, where the speed is 0.
+    /// Acceleration, per s2; ignored at rest, where the speed is 0.
     pub acc: f64,
 }
 
@@ -54,7 +54,7 @@ impl BoundaryState {
     }
 }
 
-/// Path parameters from `from` to `to`, `count` of them, that are close together where the motion is slow because it
+/// Returns `count` path parameters from `from` to `to` that are close together where the motion is slow because it
 /// starts or ends at rest: places for a [`Way`].
 pub fn places(from: f64, to: f64, count: usize, start: BoundaryState, end: BoundaryState) -> Vec<f64> {
     let warp = Warp::new(from, to, start.rests(), end.rests());
@@ -63,25 +63,26 @@ pub fn places(from: f64, to: f64, count: usize, start: BoundaryState, end: Bound
     (0..=last).map(|index| if index == last { to } else { inner(index) }).collect()
 }
 
-/// The fastest motion along `way` from `start` to `end`.
+/// Finds the fastest motion along `way` from `start` to `end`.
 ///
-/// Limits are kept at the places of the path, and between them as far as the places are close: some 100 where the path
-/// bends once. From rest to rest there always is a motion. Without jerk limits the acceleration jumps, and that of the
-/// edges does not count.
+/// Limits are kept at the places of the path, and between them as far as the places are close: about 100 where the path
+/// bends once. From rest to rest there always is a motion. Without jerk limits the acceleration jumps, and the
+/// accelerations at both ends are ignored.
 ///
-/// A motion that starts on the way of another one has half a percent of acceleration and jerk more to go by, and up to
-/// 0.3 % of all limits more at its first 50 places. What the state there uses beyond the limits, up to 1 %, comes on
-/// top. Where only braking is left that is still not always enough, and the start is refused as too fast: the old law
+/// A motion that starts on the path of another one has half a percent more acceleration and jerk available, and up to
+/// 0.3 % more of all limits at its first 50 places. What the state there uses beyond the limits, up to 1 %, is added.
+/// Where only braking is left, even that is not always enough, and the start is refused as too fast: the previous law
 /// remains valid.
 ///
 /// # Errors
-/// A way of fewer than two places or without order, rows that are not numbers or without positive limits, a way along
-/// which nothing moves, and edges that no motion within the limits has.
+/// The path has fewer than two places, or its places are not in order; rows contain values that are not numbers or
+/// limits that are not positive; nothing moves along the path; or no motion within the limits has the given states at
+/// both ends.
 pub fn fastest(way: &Way, start: BoundaryState, end: BoundaryState) -> Result<Law, Refusal> {
     fastest_behind(way, start, end, None)
 }
 
-/// The same where a law leads to the start, and on along the same path, as far as that goes.
+/// Finds the fastest motion where a law leads to the start, and on along the same path as far as the law goes.
 pub(crate) fn fastest_behind(
     way: &Way,
     start: BoundaryState,
@@ -95,7 +96,7 @@ pub(crate) fn fastest_behind(
     interior::solve(&way.rising_beside_rest([start, end]), [start, end], before)
 }
 
-/// The same where about the pace is known ([`Law::pace`]): that with other limits at the same places.
+/// Finds the fastest motion where the pace is roughly known ([`Law::pace`]): that with other limits at the same places.
 pub(crate) fn fastest_near(way: &Way, start: BoundaryState, end: BoundaryState, pace: &Pace) -> Result<Law, Refusal> {
     check(way, [start, end])?;
     interior::solve_near(&way.rising_beside_rest([start, end]), [start, end], pace)

@@ -1,30 +1,30 @@
-//! When a motion is at the places of a way, as far as that is known before it is found.
+//! The times of a motion at the places of a path, as far as they are known before the motion is found.
 
 use crate::time_optimal::solver::guess::smooth;
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::warp::Warp;
 
-/// When a motion is at places, in s, and how fast the warped parameter goes at the first and the last of them.
+/// The times of a motion at places, in s, and the speed of the warped parameter at the first and the last of them.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Pace {
     pub(crate) times: Vec<f64>,
     pub(crate) ends: [f64; 2],
 }
 
-/// Behind a law that is left, speeds come to what is guessed within so many places.
+/// Number of places behind a law within which speeds change to the guessed ones.
 const FADING_PLACES: f64 = 20.0;
 
 impl Pace {
-    /// Of a motion with these speeds of the warped parameter at the warped places.
+    /// The pace of a motion with these speeds of the warped parameter at the warped places.
     pub(crate) fn at_speeds(places: &[f64], speeds: &[f64]) -> Option<Self> {
         let mut times = vec![0.0];
         add_times(&mut times, places, speeds);
         Some(Self { times, ends: [*speeds.first()?, *speeds.last()?] })
     }
 
-    /// Of a motion that goes on along a law from the first of the places, `at` in the path parameter: as that goes
-    /// until it slows down for its end, then as guessed.
-    pub(crate) fn behind(law: &Law, (at, places): (&[f64], &[f64]), warp: &Warp, guess: &[f64]) -> Option<Self> {
+    /// The pace of a motion that continues along a law from the first of the places, `at` in the path parameter: that
+    /// of the law until it slows down for its end, then as guessed.
+    pub(crate) fn behind(law: &Law, at: &[f64], places: &[f64], warp: &Warp, guess: &[f64]) -> Option<Self> {
         let times: Vec<f64> = at.iter().map(|at| law.time_at(*at)).collect();
         let on = |index: usize| Some(law.at(*times.get(index)?).vel / warp.place(*places.get(index)?).first);
         let end = times.iter().position(|time| *time >= law.duration()).unwrap_or(times.len());
@@ -42,7 +42,7 @@ impl Pace {
     }
 }
 
-/// Goes on from the last of the times along places at speeds.
+/// Continues from the last of the times along places at speeds.
 fn add_times(times: &mut Vec<f64>, places: &[f64], speeds: &[f64]) {
     let mut time = times.last().copied().unwrap_or_default();
     for (place, speed) in places.windows(2).zip(speeds.windows(2)) {

@@ -1,23 +1,23 @@
-//! A parameter that goes about as the time does.
+//! A parameter that runs roughly as time does.
 //!
-//! Where the path bends sharply the motion is slower by orders of magnitude than elsewhere, over a way that is as much
-//! shorter. Over the path parameter such a problem cannot be solved with numbers of a computer. So a first guess of the
-//! speed makes another parameter, of which all places are about as far apart as they are in time, and in which the
-//! speed is about the same everywhere.
+//! Where the path bends sharply, the motion is slower by orders of magnitude than elsewhere, over a distance that is
+//! shorter in proportion. Over the path parameter, such a problem cannot be solved with floating point numbers. So a
+//! first guess of the speed makes another parameter, in which all places are about as far apart as they are in time,
+//! and the speed is about the same everywhere.
 //!
-//! Invariant: the path parameter is a function of it with two continuous derivatives that only grows. Third derivatives
-//! jump at the places.
+//! Invariant: the path parameter is a strictly increasing function of it with two continuous derivatives. Third
+//! derivatives jump at the places.
 
 use crate::time_optimal::solver::guess::smooth;
 use crate::time_optimal::solver::pace::Pace;
 use crate::time_optimal::solver::warp::{Warp, WarpedPoint};
 
-/// The warped parameter ([`Warp`]) over the paced one from one place to the next: a cubic.
+/// The warped parameter ([`Warp`]) as a function of the paced one from one place to the next: a cubic.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Knot {
     /// The paced parameter.
     at: f64,
-    /// The warped one and its derivatives.
+    /// The warped parameter and its derivatives.
     value: f64,
     first: f64,
     second: f64,
@@ -34,18 +34,19 @@ pub(crate) struct PacedWarp {
     is_even: bool,
 }
 
-/// How many times as fast it is at one place as at another, at least, for a parameter of its own to be worth while, and
-/// at neighbouring places at most.
+/// The least ratio of the speeds at two places for which a parameter of its own is worthwhile, and the largest ratio at
+/// neighbouring places.
 const LEAST_RANGE: f64 = 20.0;
 const FARTHEST_APART: f64 = 5.0;
-/// How many times guessed speeds are smoothed at most, because the paced parameter would turn back otherwise.
+/// Maximum number of times that guessed speeds are smoothed because the paced parameter would otherwise turn back.
 const ATTEMPTS: usize = 4;
-/// It grows at no place by less than this part of what it does between its neighbours.
+/// Its least growth at a place, as a share of its growth between the neighbouring places.
 const LEAST_GROWTH: f64 = 0.1;
 
 impl PacedWarp {
-    /// With the warped places, and a guess how fast the warped parameter goes at each. Where that is not much slower
-    /// anywhere than elsewhere, or the places are too far apart to tell, it is the warped parameter itself.
+    /// Creates a paced warp from the warped places, and a guess of the warped parameter's speed at each. Where that is
+    /// not much lower anywhere than elsewhere, or the places are too far apart to judge, the result is the warped
+    /// parameter itself.
     pub(crate) fn guessed(warp: Warp, places: &[f64], speeds: Vec<f64>) -> Self {
         let (least, most) =
             speeds.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), speed| (least.min(*speed), most.max(*speed)));
@@ -63,8 +64,8 @@ impl PacedWarp {
         Self::even(warp, places)
     }
 
-    /// How fast the warped parameter goes at the places where this one has these speeds; `None` where the two are the
-    /// same.
+    /// The speeds of the warped parameter at the places where the paced one has these speeds; `None` where the two
+    /// parameters are the same.
     pub(crate) fn speeds(&self, own: impl Iterator<Item = f64>) -> Option<Vec<f64>> {
         (!self.is_even).then(|| self.knots.iter().zip(own).map(|(knot, own)| knot.first * own).collect())
     }
@@ -86,7 +87,7 @@ impl PacedWarp {
             let (way, [from, to]) = ((place[1] - place[0]) / width, [slope[0], slope[1]]);
             let second = (6.0 * way - 4.0 * from - 2.0 * to) / width;
             let third = 6.0 * (from + to - 2.0 * way) / (width * width);
-            // The slope is a parabola: the least of it is at an end or where its own slope is zero.
+            // The slope is a parabola: its minimum is at an end or where its own slope is zero.
             let turn = (-second / third).clamp(0.0, *width);
             let least = from.min(to).min(from + turn * (second + turn * third / 2.0));
             if least.is_nan() || least < LEAST_GROWTH * way {
@@ -107,7 +108,7 @@ impl PacedWarp {
         self.is_even
     }
 
-    /// The paced parameter goes from 0 to this.
+    /// The end of the range of the paced parameter, which starts at 0.
     pub(crate) fn length(&self) -> f64 {
         self.length
     }
@@ -117,7 +118,7 @@ impl PacedWarp {
         self.knots.iter().map(|knot| knot.at)
     }
 
-    /// The path parameter and its derivatives at `at`, as they are from the place `index` to the next.
+    /// The path parameter and its derivatives at `at`, on the stretch from the place `index` to the next one.
     pub(crate) fn place(&self, index: usize, at: f64) -> WarpedPoint {
         let Some(knot) = self.knots.get(index) else { return self.warp.place(at) };
         let Knot { value, first, second, third, .. } = *knot;
@@ -163,9 +164,9 @@ impl PacedWarp {
     }
 }
 
-/// The slopes at all places of the spline through `values`, `widths` apart, that has the slopes `ends` at its ends.
+/// The slopes at all places of the spline through `values`, `widths` apart, with the slopes `ends` at its ends.
 fn slopes(values: &[f64], widths: &[f64], [first, last]: [f64; 2]) -> Vec<f64> {
-    // Each slope by the next one: slope = offset - factor * next.
+    // Each slope in terms of the next one: slope = offset - factor * next.
     let mut rows = vec![(0.0, first)];
     for ((value, width), before) in values.windows(3).zip(widths.windows(2)).zip(0..) {
         let [left, right] = [width[0], width[1]];

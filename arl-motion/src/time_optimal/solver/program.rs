@@ -1,11 +1,11 @@
 //! The problem with jerk limits, stated over the paced parameter.
 //!
-//! The square x of the speed is a quadratic spline: the acceleration, half its slope, is continuous and changes evenly
-//! from place to place. Its coefficients are the corners of the spline's control polygon, one for each stretch, in
-//! whose middle it lies, and one at either end of the path. The three that count in a stretch give x and the
-//! acceleration at its ends, and its bend; every limit is a function of these.
+//! The square x of the speed is a quadratic spline: the acceleration, half its slope, is continuous and changes
+//! linearly from place to place. Its coefficients are the corners of the spline's control polygon: one for each
+//! stretch, located in its middle, and one at either end of the path. The three that act on a stretch determine x and
+//! the acceleration at its ends, and its bend; every limit is a function of these.
 //!
-//! Indices: a path that is timed here has three places or more; there is one stretch less, and one coefficient more.
+//! Indices: a path that is timed here has at least three places; there is one stretch fewer, and one coefficient more.
 
 use crate::time_optimal::solver::guess::guess_speeds;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
@@ -17,16 +17,16 @@ use crate::time_optimal::solver::warp::{Warp, WarpedPoint};
 use crate::time_optimal::solver::warped_row::WarpedRow;
 use crate::time_optimal::solver::{BoundaryState, Refusal, Row, Way, reach};
 
-/// One end of a stretch: what of the stretch's three coefficients makes up x and the acceleration here.
+/// One end of a stretch, or its middle: factors of the stretch's three coefficients in x and the acceleration here.
 #[derive(Clone, Copy, Default, Debug)]
 pub(crate) struct Site {
     pub(crate) square: [f64; 3],
     pub(crate) slope: [f64; 3],
-    /// The share of the path that counts with the speed here.
+    /// Share of the path that counts with the speed here.
     pub(crate) weight: f64,
-    /// Its limits on speed and acceleration, and those on the jerk, which stretches share: from where to where.
+    /// Ranges of its limits on speed and acceleration, and of those on the jerk, which stretches share.
     pub(crate) limits: [(usize, usize); 2],
-    /// Where the prices of its limits begin, one after the other.
+    /// Index of the first price of its limits, which are consecutive.
     pub(crate) prices: usize,
 }
 
@@ -37,15 +37,15 @@ impl Site {
     }
 }
 
-/// A stretch between two places: its ends, and what of its three coefficients makes up the bend.
+/// A stretch between two places: its ends and its middle, and the factors of its three coefficients in the bend.
 #[derive(Clone, Copy, Default, Debug)]
 pub(crate) struct Interval {
     pub(crate) sites: [Site; 3],
     pub(crate) bend: [f64; 3],
 }
 
-/// Limits of one site: `square` x + `slope` a + `bend` k may be 1 at most; for those on the jerk 1/sqrt(x). Those that
-/// are not needed are zeros, which are within any limit.
+/// Limits of one site: `square` x + `slope` a + `bend` k may be at most 1, or 1/sqrt(x) for limits on the jerk. Unused
+/// entries are zeros, which are within any limit.
 #[derive(Clone, Copy, Default, Debug)]
 pub(crate) struct SiteLimits {
     pub(crate) square: Lanes,
@@ -61,28 +61,28 @@ pub(crate) struct Program {
     pub(crate) places: Vec<f64>,
     pub(crate) stretches: Vec<Interval>,
     pub(crate) limits: Vec<SiteLimits>,
-    /// How many prices there are.
+    /// Number of prices.
     pub(crate) prices: usize,
     /// The square of the speed that is 1 in these units.
     pub(crate) unit: f64,
-    /// The coefficients to begin with.
+    /// The initial coefficients.
     pub(crate) first: Vec<f64>,
-    /// What those were made from.
+    /// How the initial coefficients were chosen.
     pub(crate) beginning: Beginning,
-    /// What to begin with where the paced parameter goes about as the time does along a motion that is known.
+    /// The beginning to use where the paced parameter runs roughly as time does along a known motion.
     known: Option<Beginning>,
-    /// The coefficients that states at the ends give, two for each.
+    /// The coefficients given by the states at the ends, two for each.
     pub(crate) given: Vec<(usize, f64)>,
     edges: [BoundaryState; 2],
     screen: Screen,
-    /// The stretches with limits in the middle, from first to last.
+    /// The stretches with limits in the middle, in order.
     middles: Vec<usize>,
     /// The places at which derivatives of the path jump.
     jumps: Vec<bool>,
 }
 
-/// Where the screen has the rows of a place for the side before it, and for the one behind; behind those of all places
-/// it has those of the middles.
+/// The index in the screen of the rows of a place for the side before it, and for the side behind it. The rows of the
+/// middles come after those of all places.
 fn before(place: usize) -> usize {
     2 * place
 }
@@ -91,62 +91,62 @@ fn behind(place: usize) -> usize {
     2 * place + 1
 }
 
-/// The motion to begin with.
+/// The initial motion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Beginning {
-    /// At an even speed that all limits allow everywhere, whatever is chosen; states at the ends are come to on the way
-    /// up.
+    /// At an even speed that all limits permit everywhere, whatever is chosen; the states at the ends are approached
+    /// during the climb.
     Even,
     /// Smoothly from end to end.
     Smooth,
-    /// About as is known.
+    /// About as known.
     Known,
-    /// About as is known up to somewhere, and guessed from there on.
+    /// About as known up to some place, and guessed from there on.
     Expected,
 }
 
-/// What is known of a motion.
+/// What is known about a motion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Known<'a> {
     Nothing,
-    /// The pace of all of it.
+    /// The pace of the whole motion.
     Pace(&'a Pace),
-    /// The law that leads to its start, and on along the same path; if it tells a pace, else there is no such program.
+    /// The law that leads to its start, and on along the same path. There is no program if that gives no pace.
     Before(&'a Law),
 }
 
-/// A state at an end is come to from an even speed if the square of its own is no higher by more than so many times.
+/// A state at an end is approached from an even speed if the square of its own speed is higher by no more than this
+/// factor.
 const HIGHEST_FROM_EVEN: f64 = 6.0;
-/// What is known begins with this share of the square of the speed, but for the time beside a given state, in s, where
-/// that counts.
+/// A known motion begins with this share of the square of the speed, except for this time near a given state, in s.
 const SHARE_OF_KNOWN: f64 = 0.97;
 const GIVEN_STATE_S: f64 = 0.1;
 
-/// By so much acceleration and jerk are limited more strictly, for what happens between the places, and to leave room
-/// for a motion that starts on the way of another; that one has no such reserve.
+/// Factor by which acceleration and jerk are limited more strictly, for what happens between the places, and to leave
+/// room for a motion that starts on the path of another; that one has no such reserve.
 const RESERVE: f64 = 1.005;
-/// The same for the square of the speed, whatever is at the ends.
+/// The same factor for the square of the speed, whatever the states at the ends.
 const RESERVE_OF_SPEED: f64 = 1.0008;
-/// At a given start limits are as much higher as it takes for the state there, and by so much more; this fades out over
-/// so many places. The law before it was found over other places, where it may have used all that there is. Hardly so
-/// the limit of the square of the speed, which is programmed.
+/// At a given start, limits are raised as far as the state there requires, and by this share more; this fades out over
+/// `START_PLACES` places. The law before was found over other places, where it may have used everything available. The
+/// limit of the square of the speed, which is programmed, is raised by much less.
 const START_RESERVE: f64 = 0.003;
 const START_RESERVE_OF_SPEED: f64 = 2e-4;
-/// No state that a law leads to uses more of them.
+/// No state that a law leads to uses more than this of the limits.
 const MOST_USED_AT_START: f64 = 1.01;
 const START_PLACES: usize = 50;
-/// By so many times the square of the speed at the start may be higher than it could be without limits of jerk.
+/// Factor by which the square of the speed at the start may exceed what is possible without jerk limits.
 const MOST_EXCESS_AT_START: f64 = 1.02;
-/// How many stretches next to rest have all limits in the middle.
+/// Number of stretches next to rest that have all limits in the middle.
 const MIDDLES: usize = 4;
-/// A stretch has speed limits in its middle where the square of the speed may come as near to them as this part of it:
-/// what is as fast as it may be at all places would be faster between them.
+/// A stretch has speed limits in its middle where the square of the speed may reach this share of them: a motion as
+/// fast as permitted at all places would be faster between them.
 const NEAR_SPEED_LIMIT: f64 = 0.8;
 
-/// A share of the highest square of the paced parameter's speed that no motion comes down to, but for one that fails.
+/// A share of the highest square of the paced parameter's speed below which a motion counts as failed.
 const ALMOST_REST: f64 = 1e-9;
 
-/// Paces the parameter: as is known, or by a guess of the speeds along the way; and what the search begins with.
+/// Paces the parameter, as known or by a guess of the speeds along the path; also returns what the search begins with.
 fn pace_from(
     known: Known,
     way: &Way,
@@ -159,7 +159,7 @@ fn pace_from(
         Known::Nothing => (None, None),
         Known::Pace(pace) => (PacedWarp::along(warp, places, pace), Some(Beginning::Known)),
         Known::Before(law) => {
-            let pace = Pace::behind(law, (way.places(), places), &warp, &guess());
+            let pace = Pace::behind(law, way.places(), places, &warp, &guess());
             let along = pace.and_then(|pace| PacedWarp::along(warp, places, &pace));
             (Some(along.ok_or(Refusal::Fast)?), Some(Beginning::Expected))
         }
@@ -202,13 +202,14 @@ impl Program {
             _ => warp.find(*at),
         };
         let places: Vec<f64> = way.places().iter().enumerate().map(place).collect();
-        // Without jerk limits it is faster everywhere, but for the start, where a law may have used more than there is.
+        // Without jerk limits it is faster everywhere, except at the start, where a law may have used more than is
+        // available.
         let edges = [start, end];
         let most = reach::squares(way, edges, MOST_EXCESS_AT_START)?;
         let (warp, beginning) = pace_from(known, way, warp, &places, edges)?;
         let is_known = beginning == Some(Beginning::Known);
         let places: Vec<f64> = warp.places().collect();
-        let middles = middles(way, &warp, &places, (edges, &most));
+        let middles = middles(way, &warp, &places, edges, &most);
         let (mut rows, ends) = warped_rows(way, &warp, &places, &middles);
         let by_jerk = highest_square(rows.iter().map(|row| row.jerk[2]));
         let unit = rows.iter().fold(by_jerk, |unit, row| unit.min(1.0 / row.vel).min(1.0 / row.acc[1].abs()));
@@ -220,7 +221,8 @@ impl Program {
         rows.iter_mut().for_each(|row| row.scale(unit, [RESERVE_OF_SPEED, hold]));
         let given = given(&warp, &places, edges, unit);
         if !start.rests() {
-            ease(&mut rows, &ends, &middles, given_state(start, warp.place(0, 0.0), unit))?;
+            let (square, slope) = given_state(start, warp.place(0, 0.0), unit);
+            ease(&mut rows, &ends, &middles, square, slope)?;
         }
         let most = most.iter().zip(&places).enumerate().flat_map(|(index, (square, at))| {
             let slope = warp.place(index, *at).first;
@@ -249,12 +251,12 @@ impl Program {
         Ok(program)
     }
 
-    /// The spline.
+    /// Builds the spline.
     fn lay(&mut self, last: usize) {
         let places = &self.places;
         let length = self.warp.length();
         let corners: Vec<f64> = self.corners().collect();
-        // What of the coefficients `index` and `index` + 1 makes up x and the acceleration at a place.
+        // Factors of the coefficients `index` and `index` + 1 in x and the acceleration at a place.
         let shares = |index: usize| {
             let (before, after) = (corners[index], corners[index + 1]);
             let share = (places[index] - before) / (after - before);
@@ -283,7 +285,7 @@ impl Program {
         }
     }
 
-    /// The limits that may count.
+    /// Collects the limits that may count.
     fn limit(&mut self) {
         let Self { stretches, limits, prices, screen, middles, jumps, .. } = self;
         limits.clear();
@@ -306,7 +308,7 @@ impl Program {
             let [left, right, middle] = &mut stretch.sites;
             left.limits = place(limits, behind(index));
             let next = place(limits, before(index + 1));
-            // What does not depend on the bend is limited once a place, if it does not jump there.
+            // Limits that do not depend on the bend are set once per place, unless derivatives jump there.
             right.limits = if index == last || jumps[index + 1] { next } else { [(0, 0), next[1]] };
             if let Ok(extra) = middles.binary_search(&index) {
                 middle.limits = place(limits, before(last + 2) + extra);
@@ -318,8 +320,8 @@ impl Program {
         }
     }
 
-    /// The share of the limits that the solution `coefficients` takes up at most, all of them, and whether limits were
-    /// added because of those that it exceeds.
+    /// The largest share of all limits that the solution `coefficients` uses, and whether limits were added because the
+    /// solution exceeds them.
     pub(crate) fn review(&mut self, coefficients: &[f64]) -> (f64, bool) {
         let (mut used, mut added) = (0.0, false);
         let last = self.stretches.len() - 1;
@@ -339,13 +341,13 @@ impl Program {
         (used, added)
     }
 
-    /// By which share coefficients miss those that states at the ends give, at most.
+    /// The largest relative difference between coefficients and those given by the states at the ends.
     pub(crate) fn missed(&self, coefficients: &[f64]) -> f64 {
         let off = |(index, value): &(usize, f64)| ((value - coefficients[*index]) / value).abs();
         self.given.iter().map(off).fold(0.0, f64::max)
     }
 
-    /// Whether the motion would come to rest, or almost, on the way.
+    /// Whether the motion would come to rest, or almost, along the path.
     pub(crate) fn stops(&self, coefficients: &[f64]) -> bool {
         let squares = || {
             let stretches = self.stretches.iter().zip(coefficients.windows(3));
@@ -357,12 +359,12 @@ impl Program {
         }
         self.stretches.iter().zip(coefficients.windows(3)).any(|(stretch, three)| {
             let [from, to, _] = stretch.sites.map(|site| dot(&site.square, three));
-            // The ends and the corner in the middle make a parabola that stays above zero.
+            // The ends and the corner in the middle form a parabola that stays above zero.
             from < 0.0 || to < 0.0 || three[1] + (from * to).sqrt() < 0.0
         })
     }
 
-    /// What to begin with, one after the other until something leads to a motion.
+    /// The beginnings to try in order until one leads to a motion.
     pub(crate) fn beginnings(&self) -> Vec<Beginning> {
         let is_high = self.given.iter().any(|(_, value)| *value > HIGHEST_FROM_EVEN);
         let even = (!is_high).then_some(Beginning::Even);
@@ -370,7 +372,7 @@ impl Program {
         [self.known, even, smooth].into_iter().flatten().collect()
     }
 
-    /// Makes the coefficients to begin with.
+    /// Sets the initial coefficients.
     pub(crate) fn begin(&mut self, beginning: Beginning) {
         self.beginning = beginning;
         self.first = match beginning {
@@ -385,18 +387,18 @@ impl Program {
         }
     }
 
-    /// Where the coefficients lie.
+    /// Where the coefficients are located.
     fn corners(&self) -> impl Iterator<Item = f64> {
         let ends = [self.places.first(), self.places.last()].map(|end| end.copied());
         let middles = self.places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
         ends[0].into_iter().chain(middles).chain(ends[1])
     }
 
-    /// From end to end, in whose states x has its slope.
+    /// From end to end, with the slopes of x given by the states there.
     fn smooth(&self) -> Vec<f64> {
         let length = self.warp.length();
         let last = self.places.len() - 1;
-        // x and its slope at both ends; and the way over which the slope fades out.
+        // x and its slope at both ends; and the distance over which the slope fades out.
         let state = |edge: BoundaryState, at: usize| {
             let (square, slope) = if edge.rests() {
                 (1.0, 0.0)
@@ -418,7 +420,7 @@ impl Program {
         self.corners().map(at).collect()
     }
 
-    /// The paced parameter goes as the time does.
+    /// Coefficients with which the paced parameter runs as time does.
     fn at_pace(&self) -> Vec<f64> {
         let length = self.warp.length();
         let by_edge = |edge: &BoundaryState, away: f64| {
@@ -444,14 +446,9 @@ enum Counting {
     Speed,
 }
 
-/// The stretches with limits in their middles: those close to rest, where rows change so much, and those of the highest
-/// speed; `most` is the highest square of the speed at each place.
-fn middles(
-    way: &Way,
-    warp: &PacedWarp,
-    places: &[f64],
-    ([start, end], most): ([BoundaryState; 2], &[f64]),
-) -> Vec<Middle> {
+/// The stretches with limits in their middles: those close to rest, where rows change very much, and those of the
+/// highest speed; `most` is the highest square of the speed at each place.
+fn middles(way: &Way, warp: &PacedWarp, places: &[f64], [start, end]: [BoundaryState; 2], most: &[f64]) -> Vec<Middle> {
     let last = places.len() - 1;
     let count = MIDDLES.min(last / 2);
     let is_near_rest = |stretch: usize| (start.rests() && stretch < count) || (end.rests() && stretch + count >= last);
@@ -478,7 +475,7 @@ fn given_state(edge: BoundaryState, place: WarpedPoint, unit: f64) -> (f64, f64)
     (square / unit, slope / unit)
 }
 
-/// The coefficients that states at the ends give.
+/// The coefficients given by the states at the ends.
 fn given(warp: &PacedWarp, places: &[f64], [start, end]: [BoundaryState; 2], unit: f64) -> Vec<(usize, f64)> {
     let last = places.len() - 1;
     let two = |edge: BoundaryState, at: usize, beside: usize, [first, next]: [usize; 2]| {
@@ -491,13 +488,8 @@ fn given(warp: &PacedWarp, places: &[f64], [start, end]: [BoundaryState; 2], uni
 }
 
 /// Raises the limits of the first places, and of the stretches between them, for the state at the start, x and its
-/// slope; not for one that is far beyond them.
-fn ease(
-    rows: &mut [WarpedRow],
-    ends: &[usize],
-    middles: &[Middle],
-    (square, slope): (f64, f64),
-) -> Result<(), Refusal> {
+/// slope; refuses a state that is far beyond them.
+fn ease(rows: &mut [WarpedRow], ends: &[usize], middles: &[Middle], square: f64, slope: f64) -> Result<(), Refusal> {
     let range = |rows: &[WarpedRow], from: usize, to: usize| {
         let [from, to] = [from, to].map(|side| ends.get(side).copied().unwrap_or(rows.len()));
         from..to
@@ -525,7 +517,7 @@ fn ease(
     Ok(())
 }
 
-/// The sum of what three coefficients make up.
+/// The sum of three coefficients with these factors.
 pub(crate) fn dot(shares: &[f64; 3], three: &[f64]) -> f64 {
     shares.iter().zip(three).map(|(share, value)| share * value).sum()
 }
@@ -535,7 +527,7 @@ fn signs(limit: [f64; 3], kept: [bool; 2]) -> impl Iterator<Item = [f64; 3]> {
     [limit, limit.map(|value| -value)].into_iter().zip(kept).filter_map(|(limit, kept)| kept.then_some(limit))
 }
 
-/// Adds limits of one kind at one site.
+/// Adds the limits of one kind at one site.
 fn pack(all: &mut Vec<SiteLimits>, limits: impl Iterator<Item = [f64; 3]>) {
     let mut lane = LANES;
     for [square, slope, bend] in limits {

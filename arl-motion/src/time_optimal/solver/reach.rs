@@ -1,5 +1,5 @@
-//! The fastest motion without jerk limits: one pass back for the speeds from which the end can be reached, and one
-//! forth that takes the highest of them.
+//! The fastest motion without jerk limits: one backward pass for the speeds from which the end can be reached, and one
+//! forward pass that takes the highest of them.
 
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::paced_warp::PacedWarp;
@@ -13,7 +13,7 @@ struct Half {
     next: f64,
 }
 
-/// The fastest motion within the velocity and acceleration limits of `way`.
+/// Finds the fastest motion within the velocity and acceleration limits of `way`.
 pub(crate) fn solve(way: &Way, start: BoundaryState, end: BoundaryState) -> Result<Law, Refusal> {
     let (from, to) = way.span()?;
     if way.places().len() == 2 && start.rests() && end.rests() {
@@ -28,20 +28,20 @@ pub(crate) fn solve(way: &Way, start: BoundaryState, end: BoundaryState) -> Resu
     Ok(Law::new(PacedWarp::even(warp, &places), &places, &squares, slopes))
 }
 
-/// The squares of its speed at the places; that at the start may be so many times as high as it could be.
+/// The squares of its speed at the places; that at the start may exceed what is possible by the factor `most_excess`.
 pub(crate) fn squares(way: &Way, [start, end]: [BoundaryState; 2], most_excess: f64) -> Result<Vec<f64>, Refusal> {
     let caps = caps(way);
-    let mut circle_steps = Vec::new();
+    let mut half_planes = Vec::new();
     // The lowest and highest square of the speed at each place from which the end can be reached.
     let mut reach = vec![(0.0, 0.0); caps.len()];
     let (mut low, mut high) = (end.vel * end.vel, end.vel * end.vel);
     for (index, slot) in reach.iter_mut().enumerate().rev() {
         let cap = caps.get(index).copied().unwrap_or_default();
         if index + 1 < caps.len() {
-            stretch(way, index, &mut circle_steps);
-            let most = extreme(&circle_steps, (0.0, cap), (low, high), true).ok_or(Refusal::Fast)?;
+            stretch(way, index, &mut half_planes);
+            let most = extreme(&half_planes, (0.0, cap), (low, high), true).ok_or(Refusal::Fast)?;
             low = if low > 0.0 {
-                extreme(&circle_steps, (0.0, cap), (low, high), false).ok_or(Refusal::Fast)?.min(most)
+                extreme(&half_planes, (0.0, cap), (low, high), false).ok_or(Refusal::Fast)?.min(most)
             } else {
                 0.0
             };
@@ -58,8 +58,8 @@ pub(crate) fn squares(way: &Way, [start, end]: [BoundaryState; 2], most_excess: 
     square = square.clamp(low, high);
     let mut squares = vec![square];
     for (index, (low, high)) in reach.iter().skip(1).enumerate() {
-        stretch(way, index, &mut circle_steps);
-        let most = circle_steps.iter().filter(|half| half.next > 0.0).fold(*high, |most, half| {
+        stretch(way, index, &mut half_planes);
+        let most = half_planes.iter().filter(|half| half.next > 0.0).fold(*high, |most, half| {
             let next = (1.0 - half.here * square) / half.next;
             most.min(next)
         });
@@ -70,7 +70,7 @@ pub(crate) fn squares(way: &Way, [start, end]: [BoundaryState; 2], most_excess: 
     Ok(squares)
 }
 
-/// What rounding may add to a speed's square, as a factor.
+/// Factor that rounding may add to the square of a speed.
 const ROUNDING: f64 = 1.0 + 1e-6;
 
 /// The highest square of the speed at each place by the velocity limits; where none of them counts, the highest of all.
@@ -87,9 +87,9 @@ fn caps(way: &Way) -> Vec<f64> {
     caps
 }
 
-/// The half planes that the acceleration limits at both ends of the stretch `index` leave.
-fn stretch(way: &Way, index: usize, circle_steps: &mut Vec<Half>) {
-    circle_steps.clear();
+/// Collects the half planes that the acceleration limits at both ends of the stretch `index` leave.
+fn stretch(way: &Way, index: usize, half_planes: &mut Vec<Half>) {
+    half_planes.clear();
     let (Some(from), Some(to)) = (way.places().get(index), way.places().get(index + 1)) else { return };
     let slope = 0.5 / (to - from);
     for (rows, turned) in [(way.rows(index), false), (way.rows(index + 1), true)] {
@@ -97,17 +97,17 @@ fn stretch(way: &Way, index: usize, circle_steps: &mut Vec<Half>) {
             let (along, across) = (row.first * slope / row.acc, row.second / row.acc);
             let (here, next) = if turned { (-along, along + across) } else { (across - along, along) };
             if here != 0.0 || next != 0.0 {
-                circle_steps.extend([Half { here, next }, Half { here: -here, next: -next }]);
+                half_planes.extend([Half { here, next }, Half { here: -here, next: -next }]);
             }
         }
     }
 }
 
-/// The highest or lowest x in the box of x and y and the half planes, if they leave anything: by adding the half planes
-/// one after the other; one that cuts the optimum off has the new one on its edge.
-fn extreme(circle_steps: &[Half], x: (f64, f64), y: (f64, f64), highest: bool) -> Option<f64> {
+/// The highest or lowest x in the box of x and y and the half planes, if anything is left: by adding the half planes
+/// one by one; where one cuts the optimum off, the new optimum is on its edge.
+fn extreme(half_planes: &[Half], x: (f64, f64), y: (f64, f64), highest: bool) -> Option<f64> {
     let (mut best_x, mut best_y) = (if highest { x.1 } else { x.0 }, y.1);
-    for (index, half) in circle_steps.iter().enumerate() {
+    for (index, half) in half_planes.iter().enumerate() {
         if half.here * best_x + half.next * best_y <= 1.0 + 1e-9 {
             continue;
         }
@@ -128,12 +128,12 @@ fn extreme(circle_steps: &[Half], x: (f64, f64), y: (f64, f64), highest: bool) -
         clip(-half.next, base_x - x.0);
         clip(-half.here, y.1 - base_y);
         clip(half.here, base_y - y.0);
-        for other in circle_steps.iter().take(index) {
+        for other in half_planes.iter().take(index) {
             let rate = other.here * half.next - other.next * half.here;
             clip(rate, 1.0 - other.here * base_x - other.next * base_y);
         }
         if low > high {
-            // Rounding may leave nothing of what is a single point.
+            // Rounding may leave nothing of a single point.
             if low - high > 1e-7 * (1.0 + low.abs() + high.abs()) {
                 return None;
             }

@@ -1,7 +1,7 @@
-//! Which limits may count.
+//! Selects the limits that may matter.
 //!
-//! At any place a few of the rows hold back all others. Leaving out the others makes the problem several times smaller;
-//! the solution is then reviewed against all of them. Ranges of rows are those between the ends of two places.
+//! At any place, a few of the rows are stricter than all others. Leaving out the others makes the problem several times
+//! smaller; the solution is then reviewed against all of them. Ranges of rows are those between the ends of two places.
 
 use crate::time_optimal::solver::warped_row::WarpedRow;
 
@@ -25,26 +25,26 @@ pub(crate) struct Screen {
 
 /// Shares of the highest x at which the limits are compared.
 const SHARES: [f64; 4] = [0.03, 0.3, 0.65, 1.0];
-/// The same of what x is about.
+/// Shares of the known approximate x at which the limits are compared.
 const SHARES_OF_KNOWN: [f64; 2] = [0.7, 1.0];
-/// How far from an even speed limits are looked at.
+/// The range of motions around an even speed for which limits are compared.
 const ANY: Doubt = Doubt { slopes: 1.0, rest: 0.7 };
 const ABOUT_EVEN: Doubt = Doubt { slopes: 0.3, rest: 0.9 };
-/// A limit that is left out may be exceeded by so much before it is added.
+/// The excess of a limit that was left out, as a factor, above which it is added.
 const EXCESS: f64 = 1.002;
 
-/// How little is known of the motion at a place.
+/// How uncertain the motion at a place is.
 #[derive(Clone, Copy)]
 struct Doubt {
-    /// Which part of the accelerations that are possible it may have.
+    /// The share of the possible accelerations that the motion may have.
     slopes: f64,
-    /// From which share of it on a limit on the jerk counts that is used without a bend.
+    /// The used share of a jerk limit without a bend from which the limit counts.
     rest: f64,
 }
 
 impl Screen {
-    /// With the rows, where those of each place begin, and the highest x that each place can have; or what x is about
-    /// everywhere, where that is known.
+    /// Creates a screen from the rows, the start of the rows of each place, and the highest possible x of each place;
+    /// or from the approximate x everywhere, where that is known.
     pub(crate) fn new(
         rows: Vec<WarpedRow>,
         ends: Vec<usize>,
@@ -58,7 +58,7 @@ impl Screen {
                 SHARES_OF_KNOWN.iter().for_each(|share| compare(rows, kept, share * known, ABOUT_EVEN));
                 continue;
             }
-            // Close to rest nothing else may limit x.
+            // Close to rest, nothing else may limit x.
             let by_jerk = highest_square(rows.iter().map(|row| row.jerk[2]));
             let most = if most.is_finite() { most } else { by_jerk.min(1e6) };
             for share in SHARES {
@@ -80,13 +80,14 @@ impl Screen {
         self.rows[range.clone()].iter().zip(&self.kept[range])
     }
 
-    /// The strictest speed limit of a place: where nothing has a speed, it may still not be higher than anywhere else.
+    /// The strictest speed limit of a place: where nothing has a speed limit, the speed is still not higher than
+    /// anywhere else.
     pub(crate) fn speed(&self, place: usize) -> f64 {
         self.rows[self.range(place)].iter().map(|row| row.vel).fold(self.least, f64::max)
     }
 
-    /// The share of its limits that a place takes up at most with x, the acceleration and the bend. Limits that are
-    /// exceeded and were left out are kept from now on, which is also told.
+    /// The largest share of its limits that a place uses with x, the acceleration and the bend. Limits that are
+    /// exceeded and were left out are kept from now on; the second value is whether there were any.
     pub(crate) fn review(&mut self, place: usize, square: f64, slope: f64, bend: f64) -> (f64, bool) {
         let (mut used, mut added) = (self.speed(place) * square, false);
         let root = square.max(0.0).sqrt();
@@ -107,13 +108,13 @@ impl Screen {
     }
 }
 
-/// The highest x at which no jerk is more than 1 at an even speed, with these shares of x in it.
+/// The highest x at which no jerk exceeds 1 at an even speed, with these factors of x.
 pub(crate) fn highest_square(jerks: impl Iterator<Item = f64>) -> f64 {
     let most = jerks.map(f64::abs).fold(0.0, f64::max);
     1.0 / (most * most).cbrt()
 }
 
-/// Keeps those limits that hold back the acceleration at x, and those that hold back the bend at some accelerations.
+/// Keeps the limits that bound the acceleration at x, and those that bound the bend at some accelerations.
 fn compare(rows: &[WarpedRow], kept: &mut [CountingLimits], square: f64, doubt: Doubt) {
     let (mut low, mut high) = ((f64::NEG_INFINITY, 0, 0), (f64::INFINITY, 0, 0));
     for (index, row) in rows.iter().enumerate() {
@@ -133,7 +134,7 @@ fn compare(rows: &[WarpedRow], kept: &mut [CountingLimits], square: f64, doubt: 
         for (index, row) in rows.iter().enumerate() {
             let rest = row.jerk[1] * slope + row.jerk[2] * square;
             narrow(row.jerk[0], rest, most, index, &mut low, &mut high);
-            // Where the bend hardly counts.
+            // Where the bend hardly matters.
             if rest.abs() > doubt.rest * most {
                 kept[index].jerk[usize::from(rest < 0.0)] = true;
             }
@@ -146,7 +147,7 @@ fn compare(rows: &[WarpedRow], kept: &mut [CountingLimits], square: f64, doubt: 
     }
 }
 
-/// A bound with the row and the sign that make it.
+/// A bound with the row and the sign that define it.
 type Bound = (f64, usize, usize);
 
 /// Narrows the bounds of y by |`rate` y + `rest`| <= `most`.

@@ -250,7 +250,7 @@ fn the_pace_behind_a_law_is_its_own_until_it_slows_down_for_its_end() {
     let warp = Warp::new(way.places()[0], 1.0, false, true);
     let warped: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
     let guess = guess::guess_speeds(&way, &warp, &warped, edges);
-    let pace = Pace::behind(&short, (way.places(), &warped), &warp, &guess).unwrap();
+    let pace = Pace::behind(&short, way.places(), &warped, &warp, &guess).unwrap();
     assert!(pace.times.windows(2).all(|pair| pair[1] > pair[0]));
     for (at, time) in way.places().iter().zip(&pace.times) {
         if *at < 0.24 {

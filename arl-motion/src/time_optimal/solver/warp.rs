@@ -1,17 +1,17 @@
 //! A parameter in which motion from and to rest is smooth.
 
-/// Which share of the path the warped part at an end at rest takes.
+/// Share of the path that the warped part at an end at rest takes.
 const SHARE: f64 = 0.25;
-/// The path parameter that a warped part of length 1 takes.
+/// Length in the path parameter of a warped part of length 1.
 const PART: f64 = 0.6;
 
 /// The path parameter as a function of the warped one: its cube close to an end at rest, then, joined with three
-/// continuous derivatives, the same but for an offset.
+/// continuous derivatives, equal to it except for an offset.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Warp {
     from: f64,
     to: f64,
-    /// Lengths of the warped parts at the start and the end; 0 where the motion does not rest there.
+    /// Lengths of the warped parts at the start and the end; 0 where the motion is not at rest there.
     first: f64,
     last: f64,
 }
@@ -26,13 +26,13 @@ pub(crate) struct WarpedPoint {
 }
 
 impl Warp {
-    /// The warp of the way `from`..`to`, with the ends at which the motion rests.
+    /// Creates the warp of the path `from`..`to`, with the ends at which the motion is at rest.
     pub(crate) fn new(from: f64, to: f64, rests_first: bool, rests_last: bool) -> Self {
         let part = SHARE * (to - from) / PART;
         Self { from, to, first: if rests_first { part } else { 0.0 }, last: if rests_last { part } else { 0.0 } }
     }
 
-    /// The warped parameter goes from 0 to this.
+    /// The end of the range of the warped parameter, which starts at 0.
     pub(crate) fn length(&self) -> f64 {
         self.to - self.from + (1.0 - PART) * (self.first + self.last)
     }
@@ -73,10 +73,10 @@ fn part(u: f64, length: f64) -> WarpedPoint {
     }
 }
 
-/// The share of a warped part of length 1 at which it has gone `way`.
+/// The share of a warped part of length 1 at which it has covered `way`.
 fn unpart(way: f64) -> f64 {
     let way = way.max(0.0);
-    // From above, where Newton's method comes down to the root of a convex function without passing it.
+    // From above, where Newton's method approaches the root of a convex function without passing it.
     let mut u = (way / PART).cbrt().min(1.0);
     for _ in 0..60 {
         let WarpedPoint { at, first, .. } = part(u, 1.0);

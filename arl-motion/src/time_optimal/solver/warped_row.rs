@@ -1,16 +1,16 @@
-//! What limits say at a place, over the warped parameter.
+//! The limits at a place, over the warped parameter.
 
 use crate::time_optimal::solver::warp::WarpedPoint;
 use crate::time_optimal::solver::way::Row;
 
-/// The rows of a place over the warped parameter, divided by their limits.
+/// A row of a place over the warped parameter, divided by its limits.
 #[derive(Clone, Copy, Default, Debug)]
 pub(crate) struct WarpedRow {
-    /// Of x by velocity.
+    /// Factor of x in the velocity limit.
     pub(crate) vel: f64,
-    /// Of the acceleration and x.
+    /// Factors of the acceleration and of x.
     pub(crate) acc: [f64; 2],
-    /// Of the bend, the acceleration and x.
+    /// Factors of the bend, of the acceleration and of x.
     pub(crate) jerk: [f64; 3],
 }
 
@@ -21,7 +21,7 @@ impl WarpedRow {
         let second = row.second * slope * slope + row.first * place.second;
         let third =
             row.third * slope * slope * slope + 3.0 * row.second * slope * place.second + row.first * place.third;
-        // An infinite limit leaves zeros.
+        // An infinite limit results in zeros.
         Self {
             vel: (first / row.vel) * (first / row.vel),
             acc: [first / row.acc, second / row.acc],
@@ -29,8 +29,8 @@ impl WarpedRow {
         }
     }
 
-    /// Over the squares of speed in units of `unit`, with limits that are so many times as strict: on the square of the
-    /// speed, and on acceleration and jerk.
+    /// Scales the row to squares of the speed in units of `unit`, with limits stricter by two factors: one for the
+    /// square of the speed, and one for acceleration and jerk.
     pub(crate) fn scale(&mut self, unit: f64, [speed, hold]: [f64; 2]) {
         let turn = unit * unit.sqrt() * hold;
         self.vel *= unit * speed;
@@ -38,7 +38,7 @@ impl WarpedRow {
         self.jerk.iter_mut().for_each(|value| *value *= turn);
     }
 
-    /// With a share of what the limits are used: of that on the square of the speed, and of the others.
+    /// Multiplies the used shares of the limits: that of the square of the speed by `speed`, the others by `factor`.
     pub(crate) fn ease(&mut self, speed: f64, factor: f64) {
         self.vel *= speed;
         self.acc.iter_mut().chain(&mut self.jerk).for_each(|value| *value *= factor);

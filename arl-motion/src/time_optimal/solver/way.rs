@@ -1,10 +1,11 @@
-//! What is to be timed: rows of limits at places along a path.
+//! The input of the solver: rows of limits at places along a path.
 
 use std::borrow::Cow;
 
 use crate::time_optimal::solver::{BoundaryState, Refusal};
 
-/// Beside rest an acceleration takes so many s to rise at least where jerk counts at all, and this counts for so long.
+/// The least time in s that an acceleration takes to rise near rest where jerk is limited at all, and how long this
+/// applies.
 const RISE_BESIDE_REST_S: f64 = 0.002;
 const BESIDE_REST_S: f64 = 0.006;
 
@@ -21,16 +22,16 @@ pub struct Row {
     pub second: f64,
     /// Third derivative.
     pub third: f64,
-    /// Highest speed either way, per s; finite.
+    /// Highest speed in both directions, per s; finite.
     pub vel: f64,
-    /// Highest acceleration either way, per s2; infinite where there is no limit.
+    /// Highest acceleration in both directions, per s2; infinite where there is no limit.
     pub acc: f64,
-    /// Highest jerk either way, per s3; infinite where there is no limit.
+    /// Highest jerk in both directions, per s3; infinite where there is no limit.
     pub jerk: f64,
 }
 
 impl Row {
-    /// Whether all figures can be worked with.
+    /// Whether all values are valid.
     fn is_sound(&self) -> bool {
         [self.first, self.second, self.third, self.vel].iter().all(|value| value.is_finite())
             && self.vel > 0.0
@@ -38,7 +39,7 @@ impl Row {
             && self.jerk > 0.0
     }
 
-    /// The same without limits but that of the speed.
+    /// The row with its speed limit only.
     pub(crate) fn of_speed(&self) -> Self {
         Self { acc: f64::INFINITY, jerk: f64::INFINITY, ..*self }
     }
@@ -51,24 +52,24 @@ impl Row {
 
 /// A path as places along its parameter, each with the rows that hold there.
 ///
-/// Where a derivative jumps, the place has the rows of both sides. Limits hold at the places; between them as far as
-/// the derivatives change evenly from place to place.
+/// Where a derivative jumps, the place has the rows of both sides. Limits hold at the places, and between them as far
+/// as the derivatives change linearly from place to place.
 #[derive(Clone, Default, Debug)]
 pub struct Way {
     at: Vec<f64>,
     rows: Vec<Row>,
     ends: Vec<usize>,
-    /// Where the rows end that hold before a place, and where those begin that hold behind it.
+    /// For each place, the end of the rows that hold before it, and the start of those that hold behind it.
     sides: Vec<[usize; 2]>,
 }
 
 impl Way {
-    /// A path without places.
+    /// Creates a path without places.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// How many rows it has, those of all places.
+    /// The number of rows of all places.
     pub(crate) fn row_count(&self) -> usize {
         self.rows.len()
     }
@@ -90,8 +91,8 @@ impl Way {
         self.sides.push([self.rows.len(), start]);
     }
 
-    /// Adds the next place, where derivatives jump: with the rows of the side before it, then of the one behind it, of
-    /// which the first has so many.
+    /// Adds the next place, where derivatives jump: with the rows of the side before it, `before` in number, followed
+    /// by those of the side behind it.
     pub fn push_jump(&mut self, at: f64, rows: impl IntoIterator<Item = Row>, before: usize) {
         let start = self.rows.len();
         self.push(at, rows);
@@ -100,14 +101,14 @@ impl Way {
         }
     }
 
-    /// The rows of the place `index` that hold up to it; none past the end.
+    /// The rows of the place `index` that hold before it; none past the end.
     pub fn rows_before(&self, index: usize) -> &[Row] {
         let start = if index == 0 { 0 } else { self.ends.get(index - 1).copied().unwrap_or(self.rows.len()) };
         let end = self.sides.get(index).map_or(start, |[end, _]| *end);
         self.rows.get(start..end).unwrap_or_default()
     }
 
-    /// The rows of the place `index` that hold from it on; none past the end.
+    /// The rows of the place `index` that hold behind it; none past the end.
     pub fn rows_behind(&self, index: usize) -> &[Row] {
         let (start, end) =
             self.sides.get(index).zip(self.ends.get(index)).map_or((0, 0), |([_, start], end)| (*start, *end));
@@ -119,7 +120,7 @@ impl Way {
         self.rows_before(index).len() < self.rows(index).len()
     }
 
-    /// Tells all that makes it what it is.
+    /// Passes all numbers that define it to `note`.
     pub(crate) fn numbers(&self, note: &mut impl FnMut(u64)) {
         let Self { at, rows, ends, sides } = self;
         note(at.len() as u64);
@@ -130,7 +131,7 @@ impl Way {
         }
     }
 
-    /// The places' path parameters.
+    /// The path parameters of the places.
     pub fn places(&self) -> &[f64] {
         &self.at
     }
@@ -142,7 +143,7 @@ impl Way {
         self.rows.get(start..end).unwrap_or_default()
     }
 
-    /// The way with acceleration and jerk limits that are `stop_scale` times as high.
+    /// The path with acceleration and jerk limits times `stop_scale`.
     #[must_use]
     pub fn hardened(&self, stop_scale: f64) -> Self {
         let mut way = self.clone();
@@ -152,9 +153,9 @@ impl Way {
         way
     }
 
-    /// Makes limits lower that a motion uses too much of: for the stretch from one parameter to another, with the share
-    /// that is used there, those at its places and at the places beside it, so that `most` of them would be used. The
-    /// first place stays: the state there is what it is.
+    /// Lowers limits that a motion uses too much of. `used` contains stretches from one parameter to another with the
+    /// share that is used there; the limits at their places and at the adjacent places are lowered so that `most` of
+    /// them would be used. The first place is not changed: the state there is given.
     pub fn lower(&mut self, used: &[([f64; 2], f64)], most: f64) {
         let mut factors = vec![1.0_f64; self.at.len()];
         for ([from, to], share) in used {
@@ -173,8 +174,8 @@ impl Way {
         }
     }
 
-    /// The way as it is timed with limits on the jerk: none of its accelerations rises at once beside rest. The square
-    /// of the warped parameter's speed would have a pole there.
+    /// The path as it is timed with jerk limits: none of its accelerations rises at once near rest. The square of the
+    /// warped parameter's speed would have a pole there.
     pub(crate) fn rising_beside_rest(&self, edges: [BoundaryState; 2]) -> Cow<'_, Self> {
         let mut way = Cow::Borrowed(self);
         let last = self.at.len().saturating_sub(1);
@@ -199,7 +200,7 @@ impl Way {
         way
     }
 
-    /// The way with those places only that are to be kept.
+    /// The path with only those places that are to be kept.
     pub(crate) fn only(&self, keep: &[bool]) -> Self {
         let mut kept = Self::new();
         for (index, (at, _)) in self.at.iter().zip(keep).enumerate().filter(|(_, (_, keep))| **keep) {
@@ -227,7 +228,7 @@ impl Way {
         self.rows.iter().any(|row| row.jerk.is_finite() && row.moves())
     }
 
-    /// Refuses what cannot be timed.
+    /// Refuses a path that cannot be timed.
     pub(crate) fn check(&self) -> Result<(), Refusal> {
         self.span()?;
         if let Some(place) = self.at.iter().position(|at| !at.is_finite()) {

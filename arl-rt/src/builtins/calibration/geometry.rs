@@ -6,17 +6,17 @@ use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3
 
 use arl_robot::kinematics::Frame;
 
-/// Points that are nearer to each other than this, mm, give no direction: teaching them a tenth of a millimetre wrong
-/// would turn it by several degrees.
+/// Points nearer to each other than this, mm, define no direction: a teaching error of a tenth of a millimetre would
+/// turn it by several degrees.
 const NEAREST: f64 = 1.0;
 
-/// A third point whose direction from the first is this near to that of the second, deg, gives no plane.
+/// A third point whose direction from the first is this near to that of the second, deg, defines no plane.
 const FLATTEST: f64 = 1.0;
 
-/// Below this sine of the angle between z and the world's x axis, x cannot be taken from the latter.
+/// Below this sine of the angle between z and the world's x axis, x cannot be derived from the latter.
 const ALONG_X: f64 = 1e-3;
 
-/// Why points give no frame. Points are counted from 1.
+/// The reason why points define no frame. Points are counted from 1.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Flaw {
     /// Two points are nearer to each other than [`NEAREST`].
@@ -47,7 +47,7 @@ impl fmt::Display for Flaw {
 /// side.
 ///
 /// # Errors
-/// The points are too near to each other, or in a line.
+/// The points are too close together, or in a line.
 pub(super) fn through([origin, on_x, beside]: [Point3<f64>; 3]) -> Result<Frame, Flaw> {
     let x = direction(&origin, &on_x, 2)?;
     let across = direction(&origin, &beside, 3)?;
@@ -73,8 +73,8 @@ pub(super) fn axes(x: Vector3<f64>, y: Vector3<f64>, z: Vector3<f64>) -> UnitQua
     UnitQuaternion::from_rotation_matrix(&matrix)
 }
 
-/// The orientation with this unit vector as z, and x as near to the world's x axis as can be; where z is along that, y
-/// is as near to the world's y axis as can be.
+/// The orientation with this unit vector as z, and x as near to the world's x axis as possible; if z is along that
+/// axis, y is as near to the world's y axis as possible.
 pub(super) fn around(z: Vector3<f64>) -> UnitQuaternion<f64> {
     let x = Vector3::x() - z * z.x;
     if x.norm() > ALONG_X {
@@ -85,22 +85,22 @@ pub(super) fn around(z: Vector3<f64>) -> UnitQuaternion<f64> {
     axes(y.cross(&z), y, z)
 }
 
-/// Which of the two triangles of points gives no frame.
+/// The triangle of points that defines no frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Triangle {
-    /// The points as they are known in the frame.
+    /// The points as known in the frame.
     Known,
-    /// The points as they were found in the world.
+    /// The points as found in the world.
     Found,
 }
 
-/// The frame in which points that were `found` have the coordinates `known`, and how far, in mm, the worst of them is
-/// from where it should be. What does not fit is spread over the points so that the sum of the squares is least.
+/// The frame in which points that were `found` have the coordinates `known`, and the largest distance, in mm, of a
+/// point from its expected position. The misfit is distributed over the points by least squares.
 ///
 /// # Errors
-/// Points of one of the triangles are too near to each other, or in a line.
+/// Points of one of the triangles are too close together, or in a line.
 pub(super) fn fitted(known: [Point3<f64>; 3], found: [Point3<f64>; 3]) -> Result<(Frame, f64), (Triangle, Flaw)> {
-    // Both triangles lie in planes, which then lie in each other. What is left is a problem in the plane.
+    // The planes of both triangles are made to coincide, which leaves a problem in the plane.
     let known_plane = through(known).map_err(|flaw| (Triangle::Known, flaw))?;
     let found_plane = through(found).map_err(|flaw| (Triangle::Found, flaw))?;
     let (from, from_middle) = in_plane(&known_plane, &known);
@@ -115,7 +115,7 @@ pub(super) fn fitted(known: [Point3<f64>; 3], found: [Point3<f64>; 3]) -> Result
     Ok((frame, off))
 }
 
-/// The points seen from a frame in whose xy plane they lie, and from their middle, which comes along.
+/// The points relative to their centre, in a frame in whose xy plane they lie; and that centre.
 fn in_plane(plane: &Frame, points: &[Point3<f64>; 3]) -> ([Vector3<f64>; 3], Vector3<f64>) {
     let seen = points.map(|point| plane.inverse_transform_point(&point).coords);
     let middle = seen.iter().sum::<Vector3<f64>>() / 3.0;
@@ -187,7 +187,7 @@ mod tests {
         let (frame, off) = fitted(known, found).unwrap();
         close(&frame, &Frame::translation(1.0, 1.0, 0.0));
         assert!((off - 5f64.sqrt()).abs() < 1e-9, "{off}");
-        // No frame a little beside is better.
+        // No slightly different frame is better.
         let cost = |frame: &Frame| known.iter().zip(&found).map(|(a, b)| (frame * a - b).norm_squared()).sum::<f64>();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for size in [1e-3, -1e-3] {

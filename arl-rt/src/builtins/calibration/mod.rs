@@ -1,7 +1,7 @@
-//! Frames of tools, workpieces and the base from places that were taught (manual 5.9).
+//! Frames of tools, workpieces and the base from taught positions (manual 5.9).
 //!
-//! A place is given by the axes that the robot had there. Places too near to each other, or in a line, give no frame,
-//! and neither does what is not set or no number: an alarm.
+//! A position is given by the robot's axes there. Positions that are too close together, in a line, not set or not
+//! numbers define no frame and raise an alarm.
 
 mod geometry;
 
@@ -15,28 +15,28 @@ use crate::values::{self, Joint, Pos, Tool, Wobj};
 use arl_robot::kinematics::{Frame, frame, frame_components};
 use geometry::{Flaw, Triangle};
 
-/// Points found farther than this, mm, from where their coordinates put them are warned of.
+/// The distance, mm, from the position given by its coordinates, above which a point causes a warning.
 const MAX_MISFIT_MM: f64 = 1.0;
 
-/// How many mechanical units a channel has.
+/// The number of mechanical units of a channel.
 const MECHANICAL_UNITS: i32 = 1;
 
-/// The workpiece frame with its origin at the first place of the tool, the second on its +x axis, and the third in its
-/// xy plane on the +y side.
+/// The workpiece frame with its origin at the first position of the tool, the second on its +x axis, and the third in
+/// its xy plane on the +y side.
 ///
 /// # Errors
-/// Axes are unset, the tool is stationary, or the places are too near to each other or in a line.
+/// Axes are unset, the tool is stationary, or the positions are too close together or in a line.
 pub fn getwobj_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: Tool) -> Result<Wobj, Fault> {
     let taught = Taught::new(cx, "getwobj_3p");
     let points = taught.touched([j1, j2, j3], &t)?;
     taught.through(points).map(|frame| workpiece(&frame))
 }
 
-/// The workpiece frame in which the three places of the tool have the coordinates `p1`, `p2`, `p3` (mm). Where the
-/// distances differ, the frame is the one that fits best, and a place more than 1 mm off is warned of.
+/// The workpiece frame in which the three positions of the tool have the coordinates `p1`, `p2`, `p3` (mm). If the
+/// distances differ, the frame is the best fit, and a deviation of more than 1 mm causes a warning.
 ///
 /// # Errors
-/// Axes or coordinates are unset, the tool is stationary, or points are too near to each other or in a line.
+/// Axes or coordinates are unset, the tool is stationary, or points are too close together or in a line.
 #[expect(clippy::too_many_arguments, reason = "the language's own")]
 pub fn getwobj_indi(
     cx: &Cx,
@@ -71,9 +71,9 @@ pub fn getwobj_indi(
     Ok(workpiece(&frame))
 }
 
-/// The frame with its origin at the first place of the tool (only the tool's x, y and z count), and its z along that of
-/// the flange at the second. With `xydefault` x is as near to the world's as can be, otherwise x and y are the flange's
-/// too.
+/// The frame with its origin at the first position of the tool (only the tool's x, y and z count), and its z along that
+/// of the flange at the second. With `xydefault` x is as near to the world's as possible, otherwise x and y are the
+/// flange's, too.
 ///
 /// # Errors
 /// Axes are unset, or the tool is stationary.
@@ -111,16 +111,16 @@ pub fn gettoolrot_world(cx: &Cx, j: Joint, t: &mut Tool) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Writes a, b and c of a tool whose x, y and z are right: at `j1` its TCP touched a point, at `j2` a place on its -x
-/// axis did, at `j3` one in its xy plane on the -y side.
+/// Writes a, b and c of a tool whose x, y and z are known: a point was touched at `j1` with the TCP, at `j2` with a
+/// place on its -x axis, and at `j3` with a place in its xy plane on the -y side.
 ///
 /// # Errors
-/// Axes are unset, the tool is stationary, or the places are too near to each other or in a line.
+/// Axes are unset, the tool is stationary, or the positions are too close together or in a line.
 pub fn gettoolrot_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: &mut Tool) -> Result<(), Fault> {
     let taught = Taught::new(cx, "gettoolrot_3p");
     let point = taught.tip_in_world(1, &j1, t)?;
     let tip = taught.tip(t)?;
-    // Seen from the TCP, the opposite of a place on -x is on +x, and that of one on the -y side is on the +y side.
+    // Mirrored at the TCP, a place on -x is on +x, and a place on the -y side is on the +y side.
     let opposite = |place: Point3<f64>| tip + (tip - place);
     let on_x = opposite(taught.seen_from_flange(2, &j2, &point)?);
     let beside = opposite(taught.seen_from_flange(3, &j3, &point)?);
@@ -129,11 +129,12 @@ pub fn gettoolrot_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: &mut Tool) -> 
     Ok(())
 }
 
-/// The frame of a tool, or of a workpiece that the robot holds, with three places that touched the point of the world
-/// that `w` gives (only its x, y and z count): its origin, one on its +x axis, and one in its xy plane on the +y side.
+/// The frame of a tool, or of a workpiece that the robot holds, from three places on it that touched the point of the
+/// world given by `w` (only its x, y and z count): its origin, one on its +x axis, and one in its xy plane on the +y
+/// side.
 ///
 /// # Errors
-/// Axes are unset, the robot holds `w`, or the places are too near to each other or in a line.
+/// Axes are unset, the robot holds `w`, or the places are too close together or in a line.
 pub fn gettool_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, w: &Wobj) -> Result<Tool, Fault> {
     let taught = Taught::new(cx, "gettool_3p");
     if w.robhold {
@@ -145,11 +146,11 @@ pub fn gettool_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, w: &Wobj) -> Result<
     Ok(Tool { t_frame: given(&frame), stationary: false })
 }
 
-/// Writes to `$BASE` where a mechanical unit's base (counted from 1) stands, from the places of the tool at the world's
-/// origin, on the world's +x axis, and in its xy plane on the +y side.
+/// Writes the position of a mechanical unit's base (counted from 1) to `$BASE`, from the positions of the tool at the
+/// world's origin, on the world's +x axis, and in its xy plane on the +y side.
 ///
 /// # Errors
-/// There is no such unit, axes are unset, the tool is stationary, or the places are too near to each other or in a
+/// The unit does not exist, axes are unset, the tool is stationary, or the positions are too close together or in a
 /// line.
 pub fn getbase_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: Tool, index: i32) -> Result<(), Fault> {
     let taught = Taught { base: Frame::identity(), ..Taught::new(cx, "getbase_3p") };
@@ -163,11 +164,11 @@ pub fn getbase_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: Tool, index: i32)
     Ok(())
 }
 
-/// What the functions ask of taught places.
+/// Computations with taught positions.
 struct Taught<'a> {
     cx: &'a Cx,
     function: &'static str,
-    /// Where the robot stands in the world.
+    /// The robot's base in the world.
     base: Frame,
 }
 
@@ -177,7 +178,7 @@ impl<'a> Taught<'a> {
         Self { cx, function, base: frame(base.components()) }
     }
 
-    /// Where the flange is in the world at a place with a number.
+    /// The flange in the world at the position with this number.
     fn flange(&self, number: u8, joint: &Joint) -> Result<Frame, Fault> {
         self.flange_named(&format!("j{number}"), joint)
     }
@@ -193,7 +194,7 @@ impl<'a> Taught<'a> {
         Ok(self.base * unit.robot().kinematics.forward(&axes))
     }
 
-    /// Where the TCP is in the world at a place.
+    /// The TCP in the world at a position.
     fn tip_in_world(&self, number: u8, joint: &Joint, tool: &Tool) -> Result<Point3<f64>, Fault> {
         if tool.stationary {
             let problem = "the tool is stationary, so the robot cannot touch points with it";
@@ -202,12 +203,12 @@ impl<'a> Taught<'a> {
         Ok(self.flange(number, joint)? * self.tip(tool)?)
     }
 
-    /// The TCP, seen from the flange.
+    /// The TCP relative to the flange.
     fn tip(&self, tool: &Tool) -> Result<Point3<f64>, Fault> {
         self.origin(&tool.t_frame, "the tool")
     }
 
-    /// The origin of a frame that is given.
+    /// The origin of a frame; an error if it is not set.
     fn origin(&self, frame: &values::Frame, what: &str) -> Result<Point3<f64>, Fault> {
         let [x, y, z, ..] = frame.components();
         match [x, y, z].into_iter().find(|component| is_open(*component)) {
@@ -216,13 +217,13 @@ impl<'a> Taught<'a> {
         }
     }
 
-    /// Where the TCP is in the world at three places.
+    /// The TCP in the world at three positions.
     fn touched(&self, [j1, j2, j3]: [Joint; 3], tool: &Tool) -> Result<[Point3<f64>; 3], Fault> {
         let touched = |number: u8, joint: &Joint| self.tip_in_world(number, joint, tool);
         Ok([touched(1, &j1)?, touched(2, &j2)?, touched(3, &j3)?])
     }
 
-    /// A point of the world, seen from the flange at a place.
+    /// A point of the world relative to the flange at a position.
     fn seen_from_flange(&self, number: u8, joint: &Joint, point: &Point3<f64>) -> Result<Point3<f64>, Fault> {
         Ok(self.flange(number, joint)?.inverse_transform_point(point))
     }
@@ -236,7 +237,7 @@ impl<'a> Taught<'a> {
     }
 }
 
-/// Gives a tool another orientation.
+/// Changes the orientation of a tool.
 fn turn(tool: &mut Tool, rotation: &UnitQuaternion<f64>) {
     let values::Frame { a, b, c, .. } = given(&Frame::from_parts(Default::default(), *rotation));
     let t_frame = values::Frame { a, b, c, ..tool.t_frame };

@@ -1,5 +1,5 @@
-//! A handle of a program holds a connection or nothing. The rules of opening, reading, sending and closing are here, as
-//! sockets and serial lines share them.
+//! A handle of a program is empty or holds a connection. This module has the rules of opening, reading, sending and
+//! closing that sockets and serial lines share.
 
 use std::cell::{Cell, RefCell};
 use std::time::{Duration, Instant};
@@ -14,38 +14,38 @@ use crate::fault::Fault;
 /// How long to wait after a failed attempt before the next one.
 const RETRY_PAUSE: Duration = Duration::from_millis(100);
 
-/// A handle: nothing, or a connection.
+/// A handle: empty, or a connection.
 #[derive(Default, Debug)]
 pub(super) struct ConnectionHandle {
     held: RefCell<Option<Held>>,
-    /// What the user was told last of failed attempts.
+    /// The last message about failed attempts.
     told: RefCell<String>,
 }
 
-/// A connection and what the program knows of it.
+/// A connection and what the program knows about it.
 #[derive(Debug)]
 struct Held {
     opening: Opening,
     link: Link,
     since: Instant,
-    /// The program was told that the connection stands.
+    /// A call has reported to the program that the connection is established.
     known_open: Cell<bool>,
-    /// The program found out that the connection is lost.
+    /// A call has reported to the program that the connection is lost.
     known_lost: Cell<bool>,
 }
 
-/// What a call found.
+/// The result of a call.
 pub(super) enum Found<T> {
-    /// What was asked for.
+    /// The requested data.
     This(T),
-    /// Not enough has come, or there is no room; or it could not be looked at just now.
+    /// Not enough has arrived, or there is no room; or the buffer was not accessible just now.
     NotYet,
     /// The connection is lost, for this reason.
     Lost(String),
 }
 
 impl<T> Found<T> {
-    /// Does something with what was asked for.
+    /// Applies a function to the requested data.
     pub(super) fn then<R>(self, then: impl FnOnce(T) -> R) -> Found<R> {
         match self {
             Found::This(it) => Found::This(then(it)),
@@ -56,7 +56,7 @@ impl<T> Found<T> {
 }
 
 impl ConnectionHandle {
-    /// How the connection is, for a debugger.
+    /// The state of the connection, for a debugger.
     pub(super) fn described(&self) -> String {
         let held = self.held.borrow();
         let Some(held) = held.as_ref().filter(|held| !held.link.is_closing()) else { return "closed".into() };
@@ -69,12 +69,12 @@ impl ConnectionHandle {
         format!("{state}, {}", held.opening)
     }
 
-    /// Tries to open the connection; true when it stands.
+    /// Tries to open the connection; true once it is established.
     pub(super) fn attempt(&self, cx: &Cx, function: &'static str, opening: Opening) -> Result<bool, Fault> {
         let mut held = self.held.borrow_mut();
         match held.as_ref().filter(|held| !held.link.is_closing()) {
             Some(now) if now.known_open.get() => match now.link.state() {
-                // An `&&` of several asks again for those that stand.
+                // An `&&` of several calls repeats those whose connections are established.
                 LinkState::Open if now.opening == opening => return Ok(true),
                 LinkState::Lost(_) if opening.is_free_of_closing() => {}
                 LinkState::Lost(_) => return Err(fault(function, "the connection is lost: close it first")),
@@ -87,7 +87,7 @@ impl ConnectionHandle {
             },
             Some(now) if now.opening == opening => match now.link.state() {
                 LinkState::Opening => return Ok(false),
-                // A client that came, sent and went away again in between has still been there.
+                // A client that connected, sent and disconnected in between still counts as connected.
                 LinkState::Open | LinkState::Lost(_) => {
                     now.known_open.set(true);
                     self.told.borrow_mut().clear();
@@ -110,14 +110,14 @@ impl ConnectionHandle {
         Ok(false)
     }
 
-    /// Opens the connection and waits for the answer; whether it stands.
+    /// Opens the connection and waits for the result; true if it is established.
     pub(super) async fn open(&self, cx: &Cx, function: &'static str, opening: Opening) -> Result<bool, Fault> {
         let state = |held: &Option<Held>| held.as_ref().filter(|it| !it.link.is_closing()).map(|it| it.link.state());
         if matches!(state(&self.held.borrow()), Some(LinkState::Opening | LinkState::Open)) {
             return Err(fault(function, "the connection is already open: close it first"));
         }
         self.close();
-        // What was closed just now may still hold the device.
+        // A connection closed just now may still hold the device.
         while !cx.connections().are_free() {
             cx.next_cycle().await;
         }
@@ -134,14 +134,14 @@ impl ConnectionHandle {
                     self.tell(cx, format!("{function} {opening}: {reason}"));
                     return Ok(false);
                 }
-                // It was closed meanwhile.
+                // The connection was closed meanwhile.
                 None => return Ok(false),
             }
             cx.next_cycle().await;
         }
     }
 
-    /// Begins to open the connection; nothing where the system cannot.
+    /// Begins to open the connection; `None` if the system cannot.
     fn begin(&self, cx: &Cx, function: &'static str, opening: Opening) -> Option<Held> {
         match Link::open(cx.connections(), &cx.shared().opener, opening.clone()) {
             Ok(link) => {
@@ -156,20 +156,20 @@ impl ConnectionHandle {
         }
     }
 
-    /// Closes the connection, if there is one.
+    /// Closes the connection if it exists.
     pub(super) fn close(&self) {
         self.held.take();
         self.told.borrow_mut().clear();
     }
 
-    /// Takes from what has come.
+    /// Takes data from the received bytes.
     pub(super) fn take<T>(
         &self,
         function: &'static str,
         take: impl FnOnce(&mut Inbox) -> Option<T>,
     ) -> Result<Found<T>, Fault> {
         self.with(function, |held| {
-            // In this order: what came before the connection was lost is there when that is known.
+            // In this order: data that arrived before the connection was lost is there once the loss is known.
             let state = held.link.state();
             let Some((taken, full)) = held.link.read(|inbox| (take(inbox), inbox.room() == 0)) else {
                 return Ok(Found::NotYet);
@@ -189,20 +189,20 @@ impl ConnectionHandle {
         })
     }
 
-    /// Sends bytes. Where the thread has the buffer, they are sent in the next cycle: many programs do not ask whether
-    /// a message has gone, and it is not lost for a thread that was interrupted.
+    /// Sends bytes. While the thread holds the buffer, they wait for the next cycle: many programs do not check whether
+    /// a message was sent, and an interrupted thread should not lose it.
     pub(super) async fn send(&self, cx: &Cx, function: &'static str, bytes: &[u8]) -> Result<Found<()>, Fault> {
         loop {
             match self.try_send(function, bytes)? {
                 Some(found) => return Ok(found),
-                // A condition is looked at now or never.
+                // A condition must be evaluated at once.
                 None if cx.level() == Level::LOOKING => return Ok(Found::NotYet),
                 None => cx.next_cycle().await,
             }
         }
     }
 
-    /// Sends bytes; nothing where the thread has the buffer just now.
+    /// Sends bytes; `None` if the thread holds the buffer just now.
     pub(super) fn try_send(&self, function: &'static str, bytes: &[u8]) -> Result<Option<Found<()>>, Fault> {
         if bytes.len() > CAPACITY {
             let text = format!("{} bytes are too many: at most {CAPACITY} at once", bytes.len());
@@ -217,7 +217,7 @@ impl ConnectionHandle {
         })
     }
 
-    /// Throws away what has come; whether the connection stands.
+    /// Discards the received bytes; true if the connection is established.
     pub(super) async fn clear(&self, cx: &Cx) -> bool {
         loop {
             let cleared =
@@ -225,14 +225,14 @@ impl ConnectionHandle {
             match cleared {
                 None => return false,
                 Some(Some(stands)) => return stands,
-                // A condition is looked at now or never.
+                // A condition must be evaluated at once.
                 Some(None) if cx.level() == Level::LOOKING => return false,
                 Some(None) => cx.next_cycle().await,
             }
         }
     }
 
-    /// Whether the connection is lost and nothing is left to be read, or the program knows of it.
+    /// Whether the connection is lost, and nothing is left to be read or the program knows of the loss.
     pub(super) fn is_lost(&self) -> bool {
         let is_lost = |held: &Held| {
             matches!(held.link.state(), LinkState::Lost(_))
@@ -241,18 +241,18 @@ impl ConnectionHandle {
         self.standing(is_lost) == Some(true)
     }
 
-    /// Works with the open connection.
+    /// Calls `work` with the open connection.
     fn with<T>(&self, function: &'static str, work: impl FnOnce(&Held) -> Result<T, Fault>) -> Result<T, Fault> {
         self.standing(work).unwrap_or_else(|| Err(fault(function, "the connection is not open")))
     }
 
-    /// Works with the connection that the program knows to be open; nothing where there is none.
+    /// Calls `work` with the connection that the program knows to be open; `None` without one.
     fn standing<T>(&self, work: impl FnOnce(&Held) -> T) -> Option<T> {
         let held = self.held.borrow();
         held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing()).map(work)
     }
 
-    /// Tells the user once.
+    /// Warns the user, once for each message.
     fn tell(&self, cx: &Cx, text: String) {
         let mut told = self.told.borrow_mut();
         if *told != text {

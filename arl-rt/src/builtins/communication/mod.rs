@@ -1,4 +1,4 @@
-//! What programs do with connections: sockets, serial lines, and the protocols on top of them.
+//! Connections of programs: sockets, serial lines, and the protocols on top of them.
 
 mod handle;
 mod network;
@@ -12,5 +12,5 @@ pub mod socket;
 #[cfg(feature = "fuzzing")]
 pub(crate) use melsec::answer_size as melsec_answer;
 
-/// How many different things a connection may tell the user, so that it never fills the memory.
+/// The most different messages of a connection, so that they never fill the memory.
 const MAX_TOLD_PROBLEMS: usize = 100;

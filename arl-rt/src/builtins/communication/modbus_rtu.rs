@@ -13,10 +13,10 @@ use crate::fault::Fault;
 use crate::fieldbus::modbus::{SIZE, SharedTables, Tables};
 use crate::values::{Parity, Stopbits, Str};
 
-/// The least period of [`setcycle`] in us.
+/// The shortest period of [`setcycle`] in us.
 const SHORTEST_CYCLE: i32 = 500_000;
 
-/// A Modbus slave. Its line is closed at first, and when the last that knows it is gone; its registers stay.
+/// A Modbus slave. Its line is closed at first, and again once its last copy is dropped; its registers stay.
 #[derive(Clone, Default, Debug)]
 pub struct ModbusDev {
     handle: Rc<ConnectionHandle>,
@@ -33,7 +33,7 @@ impl Shown for ModbusDev {
     }
 }
 
-/// Opens a line, by a name of the cell file or by the path of the device; true if it worked.
+/// Opens a line, by a name of the cell file or by the path of the device; true on success.
 ///
 /// # Errors
 /// A station outside 1 to 247, a speed or size that is not one of the manual's; the slave is open already.
@@ -81,13 +81,13 @@ pub async fn open_stopbits_first(
     open(cx, dev, devname, slave_id, baud_rate, parity, databits, stop_bits).await
 }
 
-/// Closes the line; nothing happens to one that is not open.
+/// Closes the line; does nothing if it is not open.
 pub async fn close(cx: &Cx, dev: &ModbusDev) {
     cx.motion_end().await;
     dev.handle.close();
 }
 
-/// Reads `len` bytes of the holding registers from byte `start` on, high bytes first. True: the text has them.
+/// Reads `len` bytes of the holding registers from byte `start` on, high bytes first. True if the text was set.
 ///
 /// # Errors
 /// Bytes that no register has; the line is not open, or lost.
@@ -96,7 +96,7 @@ pub async fn read_string(cx: &Cx, dev: &ModbusDev, data: &mut Str, start: i32, l
     Ok(found.map(|text| *data = text).is_some())
 }
 
-/// Reads `len` bytes of the holding registers from byte `start` on, high bytes first. True: the array has them.
+/// Reads `len` bytes of the holding registers from byte `start` on, high bytes first. True if the array was filled.
 ///
 /// # Errors
 /// Bytes that no register has, a length beyond the array; the line is not open, or lost.
@@ -106,8 +106,8 @@ pub async fn read_bytes(cx: &Cx, dev: &ModbusDev, data: &mut [u8], start: i32, l
     Ok(dev.with(cx, "read", start, len, room, take).await?.is_some())
 }
 
-/// Writes a text into the holding registers from byte `start` on, high bytes first. True: the master reads it from now
-/// on.
+/// Writes a text into the holding registers from byte `start` on, high bytes first. True if it was written: the master
+/// reads it from now on.
 ///
 /// # Errors
 /// Bytes that no register has; the line is not open, or lost.
@@ -116,8 +116,8 @@ pub async fn write_string(cx: &Cx, dev: &ModbusDev, data: &Str, start: i32) -> R
     write_bytes(cx, dev, data.as_bytes(), start, len).await
 }
 
-/// Writes `len` bytes into the holding registers from byte `start` on, high bytes first. True: the master reads them
-/// from now on.
+/// Writes `len` bytes into the holding registers from byte `start` on, high bytes first. True if they were written: the
+/// master reads them from now on.
 ///
 /// # Errors
 /// Bytes that no register has, a length beyond the array; the line is not open, or lost.
@@ -126,7 +126,7 @@ pub async fn write_bytes(cx: &Cx, dev: &ModbusDev, data: &[u8], start: i32, len:
     Ok(dev.with(cx, "write", start, len, data.len(), put).await?.is_some())
 }
 
-/// Sets all registers to 0; false where the line is not open.
+/// Sets all registers to 0; false if the line is not open.
 ///
 /// # Errors
 /// None.
@@ -139,8 +139,8 @@ pub async fn clearbuff(cx: &Cx, dev: &ModbusDev) -> Result<bool, Fault> {
     Ok(dev.with(cx, "clearbuff", 0, all, usize::MAX, |bytes| bytes.fill(0)).await?.is_some())
 }
 
-/// Sets how often registers and line are exchanged, at least: they are exchanged with each request of the master, so
-/// that nothing changes.
+/// Sets the longest period of the exchange between registers and line. It has no effect, as they are exchanged with
+/// each request of the master.
 ///
 /// # Errors
 /// A period below 500000 us; the line is not open, or lost.
@@ -161,7 +161,7 @@ impl ModbusDev {
         }
     }
 
-    /// Does something with bytes of the registers; nothing where that is not possible just now.
+    /// Calls `act` with bytes of the registers; `None` if that is not possible just now.
     async fn with<R>(
         &self,
         cx: &Cx,
@@ -185,7 +185,7 @@ impl ModbusDev {
         loop {
             match self.tables.try_lock() {
                 Some(mut tables) => return Ok(bytes(&mut tables, start, len).map(act)),
-                // A condition is looked at now or never.
+                // A condition must be evaluated at once.
                 None if cx.level() == Level::LOOKING => return Ok(None),
                 None => cx.next_cycle().await,
             }

@@ -12,14 +12,14 @@ use crate::storage::state::{KeptState, Saved};
 use crate::values::Str;
 use arl_robot::robot::Family;
 
-/// The name under which the settings are kept where there is no driver.
+/// The name under which the settings are kept without a driver.
 const KEPT: &str = "NETWORK";
 
-/// The network ports of a SCARA robot's cabinet. The others have the first one only.
+/// The network ports of a SCARA robot's cabinet. Other cabinets have only the first one.
 const PORTS: [&str; 3] = ["eth1", "eth2", "eth3"];
 
-/// Sets address, gateway and mask of a network port. False where one of them is not an address, the mask is none, or
-/// there is no such port.
+/// Sets address, gateway and mask of a network port. False if one of them is not an address, the mask is not a network
+/// mask, or the port does not exist.
 ///
 /// # Errors
 /// None.
@@ -33,7 +33,7 @@ pub async fn setip(cx: &Cx, ip: &Str, gate: &Str, mask: &Str, if_name: &Str) -> 
     Ok(told(cx, "setip", set).is_some())
 }
 
-/// Reads the address of a network port. False, and `ip` stays, where it is not set or there is no such port.
+/// Reads the address of a network port. False, and `ip` stays, if the address is not set or the port does not exist.
 ///
 /// # Errors
 /// None.
@@ -47,13 +47,13 @@ pub async fn getip(cx: &Cx, ip: &mut Str, if_name: &Str) -> Result<bool, Fault> 
     Ok(found.map(|settings| *ip = settings.address.to_string().into()).is_some())
 }
 
-/// What the driver makes of it, if there is one.
+/// Calls `ask` with the driver; `None` without a driver.
 fn with_driver<T>(cx: &Cx, ask: impl FnOnce(&mut dyn NetworkDriver) -> T) -> Option<T> {
     let mut driver = cx.shared().network_driver.borrow_mut();
     driver.as_mut().map(|driver| ask(&mut **driver))
 }
 
-/// The port of this name, where the robot's cabinet has it.
+/// The port of this name, if the robot's cabinet has it.
 fn port(cx: &Cx, name: &Str) -> Option<&'static str> {
     let count = match cx.family() {
         Family::SixAxis => 1,
@@ -81,7 +81,7 @@ fn kept(state: &mut KeptState) -> io::Result<Vec<(String, PortSettings)>> {
     Ok(text.lines().filter_map(read).collect())
 }
 
-/// Keeps the settings of a port beside those of the others.
+/// Stores the settings of a port together with those of the others.
 async fn keep(cx: &Cx, port: &str, settings: PortSettings) -> io::Result<()> {
     let saved = begin_to_keep(&mut cx.shared().state.borrow_mut(), &cx.shared().disk, port, settings)?;
     storing::saved(saved, cx).await.map_err(io::Error::other)
@@ -95,7 +95,7 @@ fn begin_to_keep(state: &mut KeptState, disk: &Disk, port: &str, settings: PortS
     Ok(state.save(KEPT, list.iter().map(line).collect(), disk))
 }
 
-/// The result, with a warning of what went wrong.
+/// The value of a result; an error becomes a warning.
 fn told<T>(cx: &Cx, function: &str, result: io::Result<T>) -> Option<T> {
     result.map_err(|error| cx.shared().warn(format!("{function}: {error}"))).ok()
 }

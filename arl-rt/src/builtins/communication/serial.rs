@@ -1,4 +1,4 @@
-//! Serial lines (manual 5.6.2). Each call tries once and says whether it is done.
+//! Serial lines (manual 5.6.2). Each call tries once and returns whether it is done.
 
 use std::rc::Rc;
 
@@ -14,7 +14,7 @@ use crate::values::{Parity, Stopbits, Str};
 /// The speeds that a line can have, bit/s.
 const BAUD_RATES: [i32; 10] = [300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115_200];
 
-/// A serial line. It is closed at first, and when the last that knows it is gone.
+/// A serial line. It is closed at first, and again once its last copy is dropped.
 #[derive(Clone, Default, Debug)]
 pub struct Iodev(Rc<ConnectionHandle>);
 
@@ -28,7 +28,7 @@ impl Shown for Iodev {
     }
 }
 
-/// Opens a serial line, by a name of the cell file or by the path of the device; true if it worked.
+/// Opens a serial line, by a name of the cell file or by the path of the device; true on success.
 ///
 /// # Errors
 /// A speed or size that is not one of the manual's; the handle is open already.
@@ -65,13 +65,13 @@ pub(super) fn settings(
     }
 }
 
-/// Closes a line; the system sends what was written.
+/// Closes a line; the system still sends the bytes that were written.
 pub async fn close(cx: &Cx, dev: &Iodev) {
     cx.motion_end().await;
     dev.0.close();
 }
 
-/// Sends a text; true when all of it is on its way.
+/// Sends a text; true if all of it was accepted for sending.
 ///
 /// # Errors
 /// The line is not open, or lost; the text is longer than 1 MiB.
@@ -80,7 +80,7 @@ pub async fn write_string(cx: &Cx, dev: &Iodev, data: &Str) -> Result<bool, Faul
     done(transfer::write(cx, &dev.0, data.as_bytes()).await?)
 }
 
-/// Sends the first `len` bytes; true when all of them are on their way.
+/// Sends the first `len` bytes; true if all of them were accepted for sending.
 ///
 /// # Errors
 /// The line is not open, or lost; a length below 0 or beyond the array.
@@ -89,7 +89,7 @@ pub async fn write_bytes(cx: &Cx, dev: &Iodev, data: &[u8], len: i32) -> Result<
     done(transfer::write_first(cx, &dev.0, data, len).await?)
 }
 
-/// Takes exactly `len` bytes when so many have come.
+/// Takes exactly `len` bytes once they have arrived.
 ///
 /// # Errors
 /// The line is not open, or lost; a length below 0 or above 1 MiB.
@@ -98,7 +98,7 @@ pub async fn read_string(cx: &Cx, dev: &Iodev, data: &mut Str, len: i32) -> Resu
     done(transfer::read_text(&dev.0, data, len)?)
 }
 
-/// Takes exactly `len` bytes when so many have come.
+/// Takes exactly `len` bytes once they have arrived.
 ///
 /// # Errors
 /// The line is not open, or lost; a length below 0 or beyond the array.
@@ -107,7 +107,7 @@ pub async fn read_bytes(cx: &Cx, dev: &Iodev, data: &mut [u8], len: i32) -> Resu
     done(transfer::read_bytes(&dev.0, data, len)?)
 }
 
-/// Takes the text before a mark when the mark has arrived; both leave the buffer.
+/// Takes the text before a mark once the mark has arrived; both are removed from the buffer.
 ///
 /// # Errors
 /// The line is not open, or lost; an empty mark; 1 MiB without it.
@@ -116,7 +116,7 @@ pub async fn readuntil(cx: &Cx, dev: &Iodev, data: &mut Str, cut: &Str) -> Resul
     done(transfer::read_until(&dev.0, data, cut)?)
 }
 
-/// Discards what has arrived but has not been read; false where the line is not open.
+/// Discards bytes that have arrived but have not been read; false if the line is not open.
 ///
 /// # Errors
 /// None.

@@ -1,4 +1,4 @@
-//! Sockets (manual 5.6.1). Each call tries once and says whether it is done.
+//! Sockets (manual 5.6.1). Each call tries once and returns whether it is done.
 
 use std::rc::Rc;
 
@@ -12,7 +12,7 @@ use crate::values::Str;
 
 pub use super::network::{getip, setip};
 
-/// A TCP connection. It is closed at first, and when the last that knows it is gone.
+/// A TCP connection. It is closed at first, and again once its last copy is dropped.
 #[derive(Clone, Default, Debug)]
 pub struct Socket(Rc<ConnectionHandle>);
 
@@ -26,7 +26,7 @@ impl Shown for Socket {
     }
 }
 
-/// Connects to a server; true when the connection is established.
+/// Connects to a server; true once the connection is established.
 ///
 /// # Errors
 /// A port outside 1 to 65535; the socket is open to something else.
@@ -36,7 +36,7 @@ pub async fn connect(cx: &Cx, s: &Socket, ip: &Str, port: i32) -> Result<bool, F
     s.0.attempt(cx, "connect", opening)
 }
 
-/// Listens for a client; true when one has connected.
+/// Listens for a client; true once one has connected.
 ///
 /// # Errors
 /// A port outside 1 to 65535; the socket is open, or was and has not been closed.
@@ -47,8 +47,8 @@ pub async fn accept(cx: &Cx, s: &Socket, ip: &Str, port: i32) -> Result<bool, Fa
     s.0.attempt(cx, "accept", Opening::Accept { host, port })
 }
 
-/// The error state: 0, or `$ERR_SOCKET_CLOSED` when the other side has closed the connection and nothing is left to be
-/// read, or a call has found out.
+/// The error state: 0, or `$ERR_SOCKET_CLOSED` once the other side has closed the connection and either nothing is left
+/// to be read or a call has noticed it.
 ///
 /// # Errors
 /// None.
@@ -57,59 +57,60 @@ pub async fn geterror(cx: &Cx, s: &Socket) -> Result<i32, Fault> {
     Ok(if s.0.is_lost() { cx.system().err_socket_closed.get() } else { 0 })
 }
 
-/// Closes a connection when what was sent has gone.
+/// Closes a connection as soon as the bytes to send have been sent.
 pub async fn close(cx: &Cx, s: &Socket) {
     cx.motion_end().await;
     s.0.close();
 }
 
-/// Sends a text; true when all of it is on its way.
+/// Sends a text; true if all of it was accepted for sending.
 ///
 /// # Errors
-/// The socket is not connected, or not any more; the text is longer than 1 MiB.
+/// The socket is not or no longer connected; the text is longer than 1 MiB.
 pub async fn write_string(cx: &Cx, s: &Socket, data: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
     done(cx, transfer::write(cx, &s.0, data.as_bytes()).await?)
 }
 
-/// Sends the first `len` bytes; true when all of them are on their way.
+/// Sends the first `len` bytes; true if all of them were accepted for sending.
 ///
 /// # Errors
-/// The socket is not connected, or not any more; a length below 0 or beyond the array.
+/// The socket is not or no longer connected; a length below 0 or beyond the array.
 pub async fn write_bytes(cx: &Cx, s: &Socket, data: &[u8], len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     done(cx, transfer::write_first(cx, &s.0, data, len).await?)
 }
 
-/// Takes exactly `len` bytes when so many have come.
+/// Takes exactly `len` bytes once they have arrived.
 ///
 /// # Errors
-/// The socket is not connected, or the other side has closed it before so many came; a length below 0 or above 1 MiB.
+/// The socket is not connected, or the other side has closed it before they arrived; a length below 0 or above 1 MiB.
 pub async fn read_string(cx: &Cx, s: &Socket, data: &mut Str, len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     done(cx, transfer::read_text(&s.0, data, len)?)
 }
 
-/// Takes exactly `len` bytes when so many have come.
+/// Takes exactly `len` bytes once they have arrived.
 ///
 /// # Errors
-/// The socket is not connected, or the other side has closed it before so many came; a length below 0 or beyond the
+/// The socket is not connected, or the other side has closed it before they arrived; a length below 0 or beyond the
 /// array.
 pub async fn read_bytes(cx: &Cx, s: &Socket, data: &mut [u8], len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     done(cx, transfer::read_bytes(&s.0, data, len)?)
 }
 
-/// Takes the text before a mark when the mark has arrived; both leave the buffer.
+/// Takes the text before a mark once the mark has arrived; both are removed from the buffer.
 ///
 /// # Errors
-/// The socket is not connected, or the other side has closed it before the mark came; an empty mark; 1 MiB without it.
+/// The socket is not connected, or the other side has closed it before the mark arrived; an empty mark; 1 MiB without
+/// it.
 pub async fn readuntil(cx: &Cx, s: &Socket, data: &mut Str, cut: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
     done(cx, transfer::read_until(&s.0, data, cut)?)
 }
 
-/// Discards what has arrived but has not been read; false where the socket is not connected.
+/// Discards bytes that have arrived but have not been read; false if the socket is not connected.
 ///
 /// # Errors
 /// None.
@@ -118,7 +119,7 @@ pub async fn clearbuff(cx: &Cx, s: &Socket) -> Result<bool, Fault> {
     Ok(s.0.clear(cx).await)
 }
 
-/// A lost connection is an alarm, unless the program looks for it itself.
+/// A lost connection is an alarm, unless the program checks for it itself.
 fn done(cx: &Cx, (function, found): (&'static str, Found<()>)) -> Result<bool, Fault> {
     match found {
         Found::This(()) => Ok(true),

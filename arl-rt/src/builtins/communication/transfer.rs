@@ -1,5 +1,5 @@
-//! `write`, `read` and `readuntil` work alike on sockets and serial lines. Each result goes with the name of the
-//! function, for whoever says what a lost connection means.
+//! `write`, `read` and `readuntil` work alike on sockets and serial lines. Each result is returned with the name of the
+//! function, for the caller, which decides what a lost connection means.
 
 use super::handle::{ConnectionHandle, Found, length};
 use crate::communication::inbox::CAPACITY;
@@ -20,21 +20,21 @@ pub(super) async fn write_first(cx: &Cx, handle: &ConnectionHandle, data: &[u8],
     write(cx, handle, data.get(..length).unwrap_or_default()).await
 }
 
-/// Takes so many bytes as a text.
+/// Takes `len` bytes as a text.
 pub(super) fn read_text(handle: &ConnectionHandle, data: &mut Str, len: i32) -> Transfer {
     let length = length("read", len, CAPACITY, "the size of the buffer")?;
     let found = handle.take("read", |inbox| inbox.take(length))?;
     Ok(("read", found.then(|bytes| *data = bytes.as_slice().into())))
 }
 
-/// Takes so many bytes into the front of an array.
+/// Takes `len` bytes into the start of an array.
 pub(super) fn read_bytes(handle: &ConnectionHandle, data: &mut [u8], len: i32) -> Transfer {
     let length = length("read", len, data.len(), "the size of the array")?;
     let found = handle.take("read", |inbox| inbox.take(length))?;
     Ok(("read", found.then(|bytes| data.iter_mut().zip(bytes).for_each(|(to, from)| *to = from))))
 }
 
-/// Takes what stands in front of a mark.
+/// Takes the text before a mark.
 pub(super) fn read_until(handle: &ConnectionHandle, data: &mut Str, cut: &Str) -> Transfer {
     const NAME: &str = "readuntil";
     if cut.is_empty() {

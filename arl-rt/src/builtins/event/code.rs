@@ -1,4 +1,4 @@
-//! Conditions and actions as the emitted code hands them over: async closures that are told the context.
+//! Conditions and actions as the emitted code passes them: async closures that take the context.
 
 use std::pin::{Pin, pin};
 use std::rc::Rc;
@@ -8,7 +8,7 @@ use crate::context::cx::Cx;
 use crate::context::events::{Act, Code};
 use crate::fault::Done;
 
-/// What makes the future of an action, and room for one of them.
+/// The function that creates the future of an action, and the memory for one such future.
 struct Room<M, F> {
     make: M,
     running: Pin<Box<Option<F>>>,
@@ -45,7 +45,7 @@ where
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
     fn holds(&self, cx: &Cx) -> Poll<Done<bool>> {
-        // On the stack: looking at a condition takes no memory.
+        // On the stack: the evaluation of a condition allocates nothing.
         pin!((self.when)(cx)).poll(&mut Context::from_waker(Waker::noop()))
     }
 

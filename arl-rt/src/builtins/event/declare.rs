@@ -1,4 +1,4 @@
-//! `interrupt`, `timer` and `trigger` declare events.
+//! `interrupt`, `timer` and `trigger`: declarations of events.
 
 use std::rc::Rc;
 
@@ -9,10 +9,10 @@ use crate::context::events::{Declaration, Source, Ticking, priority};
 use crate::fault::{Done, Fault};
 use crate::values::Str;
 
-/// The shortest interval of a timer that repeats, in s (manual 6.7).
+/// The shortest interval of a repeating timer, in s (manual 6.7).
 const SHORTEST_INTERVAL_S: f64 = 0.001;
 
-/// An event as it is declared: [`interrupt`], [`timer`] or [`trigger`].
+/// An event being declared: [`interrupt`], [`timer`] or [`trigger`].
 #[must_use = "an instruction does nothing until it is run"]
 pub struct EventDeclaration<W, A> {
     priority: i32,
@@ -20,23 +20,23 @@ pub struct EventDeclaration<W, A> {
     action: A,
 }
 
-/// What an interrupt waits for: its condition.
+/// The event of an interrupt: its condition.
 pub struct Holds<C> {
     name: Option<Str>,
     condition: C,
 }
 
-/// What a timer waits for: an interval in s, once or again and again.
+/// The event of a timer: an interval in s, once or repeatedly.
 pub struct Every {
     name: Option<Str>,
     interval: f64,
     repeats: bool,
 }
 
-/// What a trigger waits for: its condition, during the next motion.
+/// The event of a trigger: its condition, during the next motion.
 pub struct DuringMotion<C>(C);
 
-/// `interrupt`: when the condition becomes true, the action runs. Both get the context.
+/// `interrupt`: when the condition becomes true, the action runs. Both are passed the context.
 pub fn interrupt<C, A>(when: C, action: A) -> EventDeclaration<Holds<C>, A>
 where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
@@ -68,7 +68,7 @@ where
 }
 
 impl<W, A> EventDeclaration<W, A> {
-    /// 0 (first) to 255; without it 0, that of a trigger 10.
+    /// The priority, 0 (first) to 255; the default is 0, for a trigger 10.
     pub fn priority(mut self, priority: i32) -> Self {
         self.priority = priority;
         self
@@ -80,14 +80,14 @@ where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    /// A name of its own.
+    /// Sets the name.
     pub fn name(mut self, name: &Str) -> Self {
         self.when.name = Some(name.clone());
         self
     }
 
-    /// Watches the condition from the next cycle on, until the program ends or `delint`. One that holds now must first
-    /// be false.
+    /// Monitors the condition from the next cycle on, until the end of the program or `delint`. A condition that holds
+    /// now must first become false.
     ///
     /// # Errors
     /// The name is taken or empty, the priority is not within 0 to 255, there are too many events; the alarm of the
@@ -107,23 +107,23 @@ impl<A> EventDeclaration<Every, A>
 where
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    /// A name of its own.
+    /// Sets the name.
     pub fn name(mut self, name: &Str) -> Self {
         self.when.name = Some(name.clone());
         self
     }
 
-    /// Whether it runs again and again, not once.
+    /// Whether the timer repeats instead of running once.
     pub fn rmode(mut self, repeats: bool) -> Self {
         self.when.repeats = repeats;
         self
     }
 
-    /// Counts from now on.
+    /// Starts the timer.
     ///
     /// # Errors
-    /// The name is taken or empty, the priority is not within 0 to 255, the interval is below 0 s (below 0.001 s where
-    /// it repeats) or no number, there are too many events.
+    /// The name is taken or empty, the priority is not within 0 to 255, the interval is below 0 s (below 0.001 s if it
+    /// repeats) or not a number, there are too many events.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         const FUNCTION: &str = "timer";
         let priority = priority(self.priority, FUNCTION)?;
@@ -145,7 +145,7 @@ where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    /// Belongs to the motion that is planned next.
+    /// Attaches the trigger to the motion that is planned next.
     ///
     /// # Errors
     /// The priority is not within 0 to 255, or there are too many triggers for one motion.

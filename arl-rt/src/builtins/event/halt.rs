@@ -1,11 +1,11 @@
-//! `stopmove` and `startmove` suspend motion and go on with it.
+//! `stopmove` and `startmove`: suspend and resume motion.
 
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::motion::{Start, Stop};
 use crate::values::Stoptype;
 
-/// `stopmove`: brakes on the path, and keeps the motion that is planned for `startmove`.
+/// `stopmove`: brakes on the path, and keeps the planned motion for `startmove`.
 pub fn stopmove() -> StopMove {
     StopMove { stop: Stop::General }
 }
@@ -18,7 +18,7 @@ pub struct StopMove {
 }
 
 impl StopMove {
-    /// How it brakes: general without it.
+    /// The kind of braking; general by default.
     pub fn stop(mut self, kind: Stoptype) -> Self {
         self.stop = match kind {
             Stoptype::General => Stop::General,
@@ -27,8 +27,8 @@ impl StopMove {
         self
     }
 
-    /// Begins to brake, and does not wait for the end of it. Motions that what runs now, or what interrupts it, plans
-    /// from here on come before the stopped ones go on.
+    /// Begins to brake without waiting for standstill. Motions that the running code, or code that interrupts it, plans
+    /// from now on are executed before the stopped ones continue.
     ///
     /// # Errors
     /// The channel has no robot.
@@ -38,7 +38,7 @@ impl StopMove {
     }
 }
 
-/// How many motions `startmove` drops.
+/// The number of motions that `startmove` drops.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Skip(i32);
 
@@ -54,7 +54,7 @@ impl From<bool> for Skip {
     }
 }
 
-/// `startmove`: goes on with what the last `stopmove` stopped.
+/// `startmove`: resumes the motion that the last `stopmove` stopped.
 pub fn startmove() -> StartMove {
     StartMove { skip: Skip(0) }
 }
@@ -67,13 +67,14 @@ pub struct StartMove {
 }
 
 impl StartMove {
-    /// How many motions are dropped, from the stopped one on; 0 without it.
+    /// The number of motions to drop, from the stopped one on; 0 by default.
     pub fn skip(mut self, count: impl Into<Skip>) -> Self {
         self.skip = count.into();
         self
     }
 
-    /// Goes on as soon as the robot has come to rest and done what was planned since the stop; does not wait for that.
+    /// Resumes as soon as the robot has come to rest and executed the motions planned since the stop; does not wait for
+    /// this.
     ///
     /// # Errors
     /// `skip` is negative, no motion is stopped, or the channel has no robot.

@@ -1,6 +1,6 @@
-//! Interrupts, timers and triggers: what a program declares to be done when something happens (manual 6 and 7).
+//! Interrupts, timers and triggers: actions that a program declares for events (manual 6 and 7).
 //!
-//! Declarations go into one table per channel. Each cycle, before the program runs, `scan` looks at their conditions;
+//! Declarations go into one table per channel. Each cycle, before the program runs, `scan` evaluates their conditions;
 //! the channel runs the actions of those that have become true.
 
 mod code;

@@ -1,14 +1,13 @@
-//! The conditions of triggers: how far the motion has come that is being executed. Without a motion nothing has been
-//! reached.
+//! The conditions of triggers: the progress of the current motion. Without a motion they are false.
 
 use crate::context::cx::Cx;
 use crate::motion::Progress;
 
-/// How much less than asked for counts as reached: what rounding leaves of a line, in mm.
+/// The tolerance for reached distances, in mm: what rounding leaves of a line.
 const ROUNDING_MM: f64 = 1e-6;
-/// The same in s.
+/// The tolerance for reached times, in s.
 const ROUNDING_S: f64 = 1e-6;
-/// The same in percent.
+/// The tolerance for reached shares, in percent.
 const ROUNDING_PERCENT: f64 = 1e-6;
 
 /// `T`: whether the motion has run for `t` s, counted at an override of 100 %.
@@ -16,19 +15,19 @@ pub fn elapsed_time(cx: &Cx, t: f64) -> bool {
     t >= 0.0 && progress(cx).is_some_and(|progress| progress.elapsed_time >= t - ROUNDING_S)
 }
 
-/// `S`: whether the TCP has gone `s` mm of its line. Never on axis motions.
+/// `S`: whether the TCP has travelled `s` mm of its line. Never true on axis motions.
 pub fn elapsed_distance(cx: &Cx, s: f64) -> bool {
     s >= 0.0 && line(cx).is_some_and(|progress| progress.elapsed_distance >= s - ROUNDING_MM)
 }
 
-/// `StoEnd`: whether the TCP has at most `s` mm of its line left. Never on axis motions, and not where the line is
+/// `StoEnd`: whether the TCP has at most `s` mm of its line left. Never true on axis motions, nor if the whole line is
 /// shorter.
 pub fn left_distance(cx: &Cx, s: f64) -> bool {
     let within = |progress: &Progress| s <= progress.elapsed_distance + progress.left_distance + ROUNDING_MM;
     s >= 0.0 && line(cx).filter(within).is_some_and(|progress| progress.left_distance <= s + ROUNDING_MM)
 }
 
-/// `P`: whether `p` % of the motion are done.
+/// `P`: whether `p` % of the motion is done.
 pub fn elapsed_percent(cx: &Cx, p: f64) -> bool {
     p >= 0.0 && progress(cx).is_some_and(|progress| progress.share * 100.0 >= p - ROUNDING_PERCENT)
 }

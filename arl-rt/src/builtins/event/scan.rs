@@ -1,4 +1,4 @@
-//! The conditions of events are looked at once a cycle, before the program runs.
+//! Evaluates the conditions of events once a cycle, before the program runs.
 
 use std::rc::Rc;
 use std::task::Poll;
@@ -8,11 +8,11 @@ use crate::context::events::{Code, DeclaredEvent, EventTable, Source};
 use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::motion::Progress;
 
-/// Why it is not known whether a condition holds.
+/// The reason why it is unknown whether a condition holds.
 pub(super) enum Unknown {
-    /// An alarm in it.
+    /// An alarm in the condition.
     Alarm(Alarm),
-    /// It takes longer than a cycle, or ends the program.
+    /// The condition takes longer than a cycle, or ends the program.
     Unfit(&'static str),
 }
 
@@ -26,7 +26,7 @@ impl From<Stop> for Unknown {
 }
 
 impl Unknown {
-    /// What is wrong with the condition of `event`.
+    /// The fault of the condition of `event`.
     pub(super) fn fault(self, event: &str) -> Fault {
         match self {
             Unknown::Alarm(alarm) => Fault::Condition { event: event.into(), fault: Box::new(alarm.fault) },
@@ -43,8 +43,8 @@ impl Unknown {
     }
 }
 
-/// Whether a condition holds. It has the turns of loops of a whole cycle for itself, waits for no motion, and leaves
-/// the program pointer where it is.
+/// Evaluates whether a condition holds. It has the loop budget of a whole cycle for itself, waits for no motion, and
+/// leaves the program pointer unchanged.
 pub(super) fn evaluate(cx: &Cx, code: &dyn Code) -> Result<bool, Unknown> {
     let (pointer, level) = (cx.pointer(), cx.enter_level(Level::LOOKING));
     let budget = cx.renew_budget();
@@ -58,7 +58,7 @@ pub(super) fn evaluate(cx: &Cx, code: &dyn Code) -> Result<bool, Unknown> {
     }
 }
 
-/// Looks at all conditions and timers; notes the events of this cycle.
+/// Checks all conditions and timers; records the events of this cycle.
 ///
 /// # Errors
 /// The alarm of a condition.
@@ -96,15 +96,15 @@ fn scan_interrupts(cx: &Cx) -> Result<(), Alarm> {
     Ok(())
 }
 
-/// What a trigger's motion is doing.
+/// The stage of a trigger's motion.
 enum Stage {
-    /// It has not begun.
+    /// The motion has not begun.
     Ahead,
-    /// It may have begun, and others come in between.
+    /// The motion may have begun, and others come in between.
     Aside,
-    /// It is being executed.
+    /// The motion is being executed.
     Executed,
-    /// It is over, and had come so far; `None`: it was dropped, or that has been looked at.
+    /// The motion is over, with its last progress; `None` if it was dropped, or if that progress has been checked.
     Over(Option<Progress>),
 }
 
@@ -119,7 +119,7 @@ fn scan_triggers(cx: &Cx) -> Result<(), Alarm> {
         let (code, ordinal) = (Rc::clone(&event.code), event.number);
         drop(table);
         let holds = match stage {
-            // Those behind it belong to later motions.
+            // The following triggers belong to later motions.
             Stage::Ahead => break,
             Stage::Aside => continue,
             Stage::Executed => evaluate(cx, &*code),
@@ -142,7 +142,7 @@ fn stage(cx: &Cx, motion: u64) -> Stage {
     let Some(unit) = cx.channel_state().robot() else { return Stage::Over(None) };
     match unit.progress() {
         _ if unit.is_over(motion) => Stage::Over(unit.left(motion)),
-        // Those behind it may belong to motions that come in between.
+        // The following triggers may belong to motions that come in between.
         _ if unit.is_aside() && unit.progress().is_none_or(|progress| progress.motion != motion) => Stage::Aside,
         Some(progress) if progress.motion == motion => Stage::Executed,
         _ => Stage::Ahead,

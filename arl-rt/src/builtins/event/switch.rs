@@ -5,7 +5,7 @@ use crate::context::events::{EventTable, Which, priority};
 use crate::fault::Fault;
 use crate::values::Str;
 
-/// Declares an instruction that does something to interrupts and timers.
+/// Declares an instruction that acts on interrupts and timers.
 macro_rules! switch {
     (
         $(#[doc = $doc:literal])+
@@ -25,13 +25,13 @@ macro_rules! switch {
         }
 
         impl $builder {
-            /// The one with this name.
+            /// Selects the one with this name.
             pub fn name(mut self, name: &Str) -> Self {
                 self.name = Some(name.clone());
                 self
             }
 
-            /// All of this priority.
+            /// Selects all of this priority.
             pub fn priority(mut self, priority: i32) -> Self {
                 self.priority = Some(priority);
                 self
@@ -40,7 +40,7 @@ macro_rules! switch {
             /// Acts at once.
             ///
             /// # Errors
-            /// There is none with this name or of this priority.
+            /// Nothing has this name or priority.
             pub fn run(self, cx: &Cx) -> Result<(), Fault> {
                 const FUNCTION: &str = stringify!($name);
                 let which = which(FUNCTION, self.name, self.priority)?;
@@ -54,18 +54,18 @@ macro_rules! switch {
 }
 
 switch! {
-    /// `enableint`: enables interrupts and timers again. A timer that was disabled begins its interval anew.
+    /// `enableint`: enables interrupts and timers again. A timer that was disabled restarts its interval.
     enableint EnableInt |table, found, now| table.enable(&found, now)
 }
 
 switch! {
-    /// `disableint`: interrupts go on watching their conditions, but lose their events, also those that wait to be
+    /// `disableint`: interrupts still monitor their conditions, but drop their events, also those that wait to be
     /// handled.
     disableint DisableInt |table, found, _now| table.disable(&found)
 }
 
 switch! {
-    /// `delint`: deletes interrupts and timers. An action that runs goes on to its end.
+    /// `delint`: deletes interrupts and timers. A running action continues to its end.
     delint DelInt |table, found, _now| table.delete(&found)
 }
 

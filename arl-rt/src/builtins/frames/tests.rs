@@ -1,4 +1,4 @@
-//! Products and inverses of frames and poses against the matrices that they mean.
+//! Products and inverses of frames and poses, compared with their matrices.
 
 use super::*;
 use crate::values::text::{Print, Style};
@@ -11,7 +11,7 @@ fn pose(components: [f64; 6]) -> Pose {
     Pose::default().with_components(components)
 }
 
-/// Numbers from -1 to 1 by xorshift from a fixed seed.
+/// Pseudo-random numbers from -1 to 1 by xorshift with a fixed seed.
 struct Random(u64);
 
 impl Random {

@@ -1,4 +1,4 @@
-//! Analog inputs and outputs: values in V or mA, as the cell file gives the channels.
+//! Analog inputs and outputs: values in V or mA, depending on the channel's type in the cell file.
 
 use super::sent;
 use crate::context::cx::Cx;
@@ -8,7 +8,7 @@ use crate::io::OutputSignal;
 /// The value of an analog input in V or mA.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub async fn getai(cx: &Cx, chan: i32) -> Result<f64, Fault> {
     cx.motion_end().await;
     cx.shared().io.borrow().analog_input(chan)
@@ -17,17 +17,17 @@ pub async fn getai(cx: &Cx, chan: i32) -> Result<f64, Fault> {
 /// Sets an analog output, in V or mA.
 ///
 /// # Errors
-/// There is no such channel; a value outside -10 to 10 V or 4 to 20 mA.
+/// The channel does not exist; a value outside -10 to 10 V or 4 to 20 mA.
 pub async fn setao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
     cx.motion_end().await;
     cx.shared().io.borrow_mut().set_analog_output(chan, value)
 }
 
-/// Sets an analog output, in V or mA, and goes on when it has been sent: in the next cycle, or when the island that has
-/// it has taken it.
+/// Sets an analog output, in V or mA, and continues once it has been sent: in the next cycle, or as soon as the
+/// output's island has accepted it.
 ///
 /// # Errors
-/// There is no such channel; a value outside -10 to 10 V or 4 to 20 mA.
+/// The channel does not exist; a value outside -10 to 10 V or 4 to 20 mA.
 pub async fn syncao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
     setao(cx, chan, value).await?;
     sent(cx, std::iter::once(OutputSignal::Analog(chan.unsigned_abs() as usize))).await;
@@ -37,7 +37,7 @@ pub async fn syncao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
 /// The value of an analog output in V or mA.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub async fn getao(cx: &Cx, chan: i32) -> Result<f64, Fault> {
     cx.motion_end().await;
     cx.shared().io.borrow().analog_output(chan)

@@ -1,6 +1,6 @@
 //! Inputs and outputs, as programs use them.
 //!
-//! The functions that wait do so for the end of all planned motion; then they act in that cycle. Channels count from 1.
+//! Async functions wait for the end of all planned motion, then act in that cycle. Channels count from 1.
 
 mod analog;
 
@@ -14,13 +14,13 @@ use crate::io::{Digital, OutputSignal, Pwm};
 /// Sets a digital output.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub async fn setdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
     cx.motion_end().await;
     cx.shared().io.borrow_mut().set_digital(Digital::Do, chan, value)
 }
 
-/// Sets up to 32 neighbouring digital outputs; the lowest bit of `value` is the first one's level.
+/// Sets up to 32 adjacent digital outputs; the lowest bit of `value` is the level of the first.
 ///
 /// # Errors
 /// Channels that do not exist, a reversed range, more than 32 channels.
@@ -29,23 +29,23 @@ pub async fn setdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> R
     cx.shared().io.borrow_mut().set_digitals(Digital::Do, from_chan, to_chan, value)
 }
 
-/// Sets a digital output and goes on when it has been sent: in the next cycle, or when the island that has it has taken
-/// it.
+/// Sets a digital output and continues once it has been sent: in the next cycle, or as soon as the output's island has
+/// accepted it.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub async fn syncdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
     setdo(cx, chan, value).await?;
     sent(cx, digital_outputs(chan, chan)).await;
     Ok(())
 }
 
-/// Digital outputs from the one to the other, which are there.
+/// The digital outputs of a range of existing channels.
 fn digital_outputs(from: i32, to: i32) -> impl Iterator<Item = OutputSignal> + Clone {
     (from..=to).map(|channel| OutputSignal::Digital(channel.unsigned_abs() as usize))
 }
 
-/// Waits until outputs of this cycle have got to where they go, one cycle at least.
+/// Waits until outputs of this cycle have reached their destination, at least one cycle.
 async fn sent(cx: &Cx, outputs: impl Iterator<Item = OutputSignal> + Clone) {
     cx.shared().io.borrow_mut().await_outputs(outputs.clone(), cx.cycle());
     cx.next_cycle().await;
@@ -54,7 +54,7 @@ async fn sent(cx: &Cx, outputs: impl Iterator<Item = OutputSignal> + Clone) {
     }
 }
 
-/// Sets up to 32 neighbouring digital outputs and goes on when they have been sent, as [`syncdo`] does.
+/// Sets up to 32 adjacent digital outputs and continues once they have been sent, like [`syncdo`].
 ///
 /// # Errors
 /// Channels that do not exist, a reversed range, more than 32 channels.
@@ -64,14 +64,14 @@ pub async fn syncdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> 
     Ok(())
 }
 
-/// The shortest pulse that an output can give, in s.
+/// The shortest pulse of an output, in s.
 const SHORTEST_PULSE_S: f64 = 0.025;
 
-/// Puts a pulse on a digital output: the level for `width` seconds, but at least 25 ms, then the opposite level. The
-/// program goes on at once.
+/// Starts a pulse on a digital output: the level for `width` seconds, but at least 25 ms, then the opposite level. The
+/// program continues at once.
 ///
 /// # Errors
-/// There is no such channel; the width is negative or not a number.
+/// The channel does not exist; the width is negative or not a number.
 pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), Fault> {
     let rate = cx.shared().rate;
     let cycles = wait_cycles(rate, width, "pulsedo")?.max(rate.cycles(SHORTEST_PULSE_S));
@@ -82,13 +82,13 @@ pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), 
 /// The level of a digital output.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub async fn getdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     cx.shared().io.borrow().digital(Digital::Do, chan)
 }
 
-/// The levels of up to 32 neighbouring digital outputs, the first in the lowest bit.
+/// The levels of up to 32 adjacent digital outputs, the first in the lowest bit.
 ///
 /// # Errors
 /// Channels that do not exist, a reversed range, more than 32 channels.
@@ -100,13 +100,13 @@ pub async fn getdo_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, F
 /// The level of a digital input.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub async fn getdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     cx.shared().io.borrow().digital(Digital::Di, chan)
 }
 
-/// The levels of up to 32 neighbouring digital inputs, the first in the lowest bit.
+/// The levels of up to 32 adjacent digital inputs, the first in the lowest bit.
 ///
 /// # Errors
 /// Channels that do not exist, a reversed range, more than 32 channels.
@@ -118,7 +118,7 @@ pub async fn getdi_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, F
 /// The level of an internal output signal.
 ///
 /// # Errors
-/// There is no such signal.
+/// The signal does not exist.
 pub async fn getintdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     cx.shared().io.borrow().digital(Digital::InternalOut, chan)
@@ -127,24 +127,24 @@ pub async fn getintdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
 /// The level of an internal input signal.
 ///
 /// # Errors
-/// There is no such signal.
+/// The signal does not exist.
 pub async fn getintdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     cx.shared().io.borrow().digital(Digital::InternalIn, chan)
 }
 
-/// The level of a digital input now, while the robot may still be on its way.
+/// The level of a digital input now, even while the robot moves.
 ///
 /// # Errors
-/// There is no such channel.
+/// The channel does not exist.
 pub fn getnostopdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.shared().io.borrow().digital(Digital::Di, chan)
 }
 
-/// Sets frequency (Hz) and duty cycle (%) of a PWM output. True: it has been set.
+/// Sets frequency (Hz) and duty cycle (%) of a PWM output. Returns true.
 ///
 /// # Errors
-/// There is no such channel; a frequency outside 10 to 10000, a duty cycle outside 0 to 100.
+/// The channel does not exist; a frequency outside 10 to 10000, a duty cycle outside 0 to 100.
 pub async fn setpwm(cx: &Cx, channel: i32, freq: i32, ratio: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     let wrong = |problem: String| Fault::Domain { function: "setpwm", problem: problem.into() };
@@ -158,7 +158,7 @@ pub async fn setpwm(cx: &Cx, channel: i32, freq: i32, ratio: i32) -> Result<bool
     Ok(true)
 }
 
-/// `setdoimv`: sets a digital output when the motion before it has ended, without stopping the robot.
+/// `setdoimv`: sets a digital output as soon as the previous motion has ended, without stopping the robot.
 pub fn setdoimv(channel: i32, value: bool) -> SetDoInMotion {
     SetDoInMotion { channel, value }
 }
@@ -172,10 +172,10 @@ pub struct SetDoInMotion {
 }
 
 impl SetDoInMotion {
-    /// Leaves the order with the motion planned last; acts at once where none is under way.
+    /// Attaches the action to the motion planned last; acts at once if no motion is in progress.
     ///
     /// # Errors
-    /// There is no such channel.
+    /// The channel does not exist.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let channel_state = cx.channel_state();
         let mut io = cx.shared().io.borrow_mut();

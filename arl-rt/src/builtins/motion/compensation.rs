@@ -1,11 +1,11 @@
-//! `startcompen`, `compen` and `endcompen`: lines, circles and splines between them are shifted and turned.
+//! `startcompen`, `compen` and `endcompen`: shift and turn the lines, circles and splines between them.
 
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::motion::{Reference, is_unset};
 use crate::values::{CompenType, Compendata, Str};
 
-/// What may be turned in all, in deg about each axis of a frame.
+/// The largest total turn about each axis of a frame, in deg.
 const MAX_TURN_DEG: f64 = 90.0;
 
 /// `startcompen`: begins to compensate the motions that follow.
@@ -21,7 +21,7 @@ pub struct StartCompen {
 }
 
 impl StartCompen {
-    /// Holds from the next motion on. Within a compensation it changes the limits alone.
+    /// Applies from the next motion on. Within a compensation it only changes the limits.
     ///
     /// # Errors
     /// A limit is not above 0.
@@ -55,7 +55,7 @@ impl StartCompen {
 pub enum CompenFrame {
     /// A constant.
     Constant(CompenType),
-    /// Its name, in any case.
+    /// The name of the frame, in upper or lower case.
     Name(Str),
 }
 
@@ -99,7 +99,7 @@ impl CompenFrame {
     }
 }
 
-/// `compen`: adds to what the motions that follow are shifted and turned by, along and about the axes of a frame.
+/// `compen`: adds to the shift and turn of the motions that follow, along and about the axes of a frame.
 pub fn compen(frame: impl Into<CompenFrame>) -> Compen {
     Compen { frame: frame.into(), by: [0.0; 6] }
 }
@@ -112,7 +112,7 @@ pub struct Compen {
     by: [f64; 6],
 }
 
-/// Declares the labels, each with its place.
+/// Declares the labels, each with its index in `by`.
 macro_rules! labels {
     ($($(#[doc = $doc:literal])+ $label:ident $place:literal)+) => {
         $(
@@ -143,11 +143,11 @@ impl Compen {
         c 5
     }
 
-    /// Holds from the next motion on.
+    /// Applies from the next motion on.
     ///
     /// # Errors
-    /// No compensation has been started, the frame is unknown, a value is not a number, or more than 90 deg would be
-    /// turned in all.
+    /// No compensation has been started, the frame is unknown, a value is not a number, or the total turn would be more
+    /// than 90 deg.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let reference = self.frame.reference()?;
         if let Some(value) = self.by.iter().find(|value| !value.is_finite() || is_unset(value.abs())) {
@@ -181,7 +181,7 @@ pub fn endcompen() -> EndCompen {
 pub struct EndCompen;
 
 impl EndCompen {
-    /// Holds from the next motion on, which starts where the compensated one ends.
+    /// Applies from the next motion on, which starts where the compensated one ends.
     ///
     /// # Errors
     /// There is no compensation to end.

@@ -1,4 +1,4 @@
-//! `jump`: the robot rises, moves across and sinks; it can look at a condition before it sinks.
+//! `jump`: the robot rises, moves across and sinks; before it sinks, the program can check a condition.
 
 use super::modal::{GivenSpeed, Kind, Modal, Resolved};
 use super::resolve;
@@ -38,7 +38,7 @@ impl Jump {
         self
     }
 
-    /// The speed in % of the axes' own.
+    /// The speed in % of the axes' speeds.
     pub fn vp(mut self, percent: f64) -> Self {
         self.modal.pace = Some(GivenSpeed::Percent(percent));
         self
@@ -56,31 +56,31 @@ impl Jump {
         self
     }
 
-    /// How far it rises straight up, in mm.
+    /// The distance of the vertical rise, in mm.
     pub fn a(mut self, rise: f64) -> Self {
         self.form.rise = rise;
         self
     }
 
-    /// How far it sinks straight down, in mm.
+    /// The distance of the vertical descent, in mm.
     pub fn b(mut self, sink: f64) -> Self {
         self.form.sink = sink;
         self
     }
 
-    /// The height in the world that the TCP does not pass, in mm; 0: the robot's own limit.
+    /// The height in the world that the TCP does not exceed, in mm; 0: the robot's own limit.
     pub fn z(mut self, height: f64) -> Self {
         self.form.height = height;
         self
     }
 
-    /// How fast it rises and sinks; what is unset or 0 is as on the way over.
+    /// Speeds and accelerations of rise and descent; components that are unset or 0 are as for the motion across.
     pub fn ctr(mut self, control: Control) -> Self {
         self.form.control = control;
         self
     }
 
-    /// Whether it goes on to the next motion without reaching its target.
+    /// Whether the robot continues with the next motion without reaching the target.
     pub fn s(mut self, smooth: bool) -> Self {
         self.form.smooth = smooth;
         self
@@ -89,7 +89,7 @@ impl Jump {
     /// Plans the motion; waits only while the look-ahead is full.
     ///
     /// # Errors
-    /// The motion cannot be planned: the message says why.
+    /// The motion cannot be planned; the message has the reason.
     pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
         self.run_part(cx, GatePart::Whole).await
     }
@@ -99,10 +99,10 @@ impl Jump {
         resolve::plan(cx, &modal, target).await
     }
 
-    /// Goes above the target, and waits until the robot stands there.
+    /// Moves above the target, and waits until the robot is at rest there.
     ///
     /// # Errors
-    /// The motion cannot be planned: the message says why.
+    /// The motion cannot be planned; the message has the reason.
     pub async fn above(self, cx: &Cx) -> Result<Above, Fault> {
         self.clone().run_part(cx, GatePart::Above).await?;
         cx.motion_end().await;
@@ -143,7 +143,7 @@ fn is_unset(value: f64) -> bool {
     !is_set(value)
 }
 
-/// Percentages that are given; those of acceleration and deceleration hold for both, the lower one.
+/// The given percentages; the lower one of acceleration and deceleration applies to both.
 fn lift(vel: f64, acc: f64, dec: f64) -> Result<Lift, Fault> {
     let given = |percent: f64| is_set(percent) && percent != 0.0;
     for percent in [vel, acc, dec].into_iter().filter(|percent| given(*percent)) {
@@ -156,7 +156,7 @@ fn lift(vel: f64, acc: f64, dec: f64) -> Result<Lift, Fault> {
     Ok(Lift { vel: given(vel).then_some(vel), acc: lowest })
 }
 
-/// A `jump` whose robot stands above its target.
+/// A `jump` whose robot is at rest above the target.
 #[derive(Clone, Debug)]
 #[must_use = "the robot stays above the target until it sinks"]
 pub struct Above {
@@ -164,10 +164,10 @@ pub struct Above {
 }
 
 impl Above {
-    /// Goes down to the target.
+    /// Moves down to the target.
     ///
     /// # Errors
-    /// The motion cannot be planned: the message says why.
+    /// The motion cannot be planned; the message has the reason.
     pub async fn sink(self, cx: &Cx) -> Result<(), Fault> {
         self.jump.run_part(cx, GatePart::Rest).await
     }

@@ -6,10 +6,10 @@ use crate::fault::Fault;
 use crate::unit::dynamics::Load;
 use crate::values::{Str, ToolInertiaPara};
 
-/// The name of the one mechanical unit that there is.
+/// The name of the only mechanical unit.
 const UNIT: &str = "R1";
 
-/// `toolload`: says what the flange carries during the motions that follow.
+/// `toolload`: sets the load on the flange for the motions that follow.
 pub fn toolload(toolinertia: ToolInertiaPara) -> ToolLoad {
     ToolLoad { toolinertia }
 }
@@ -22,7 +22,7 @@ pub struct ToolLoad {
 }
 
 impl ToolLoad {
-    /// Holds from the next motion on, until another load is said or the program is reset.
+    /// Applies from the next motion on, until another load is set or the program is reset.
     ///
     /// # Errors
     /// The mass or a moment of inertia is below 0, or a component is not a number.
@@ -45,16 +45,17 @@ pub struct ToolSwitch {
 }
 
 impl ToolSwitch {
-    /// The mechanical unit; without it the channel's own.
+    /// The mechanical unit; by default the channel's own.
     pub fn mu(mut self, name: &Str) -> Self {
         self.mu = Some(name.clone());
         self
     }
 
-    /// Holds from the next motion on, until another load is said or the program is reset.
+    /// Applies from the next motion on, until another load is set or the program is reset.
     ///
     /// # Errors
-    /// There is no such element or unit, the mass or a moment of inertia is below 0, or a component is not a number.
+    /// The element or the unit does not exist, the mass or a moment of inertia is below 0, or a component is not a
+    /// number.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         unit("toolswitch", self.mu.as_ref())?;
         let load = cx.system().tool_inertia.with(|loads| {
@@ -95,7 +96,7 @@ fn carry(cx: &Cx, function: &'static str, load: &ToolInertiaPara) -> Result<(), 
     Ok(())
 }
 
-/// `startdetect`: looks for collisions during the motions that follow, under a condition of the cell file.
+/// `startdetect`: detects collisions during the motions that follow, with a condition of the cell file.
 pub fn startdetect(cid: i32) -> StartDetect {
     StartDetect { cid, mu: None }
 }
@@ -109,16 +110,16 @@ pub struct StartDetect {
 }
 
 impl StartDetect {
-    /// The mechanical unit; without it the channel's own.
+    /// The mechanical unit; by default the channel's own.
     pub fn mu(mut self, name: &Str) -> Self {
         self.mu = Some(name.clone());
         self
     }
 
-    /// Holds from the next motion on, until `enddetect` or until the program is reset.
+    /// Applies from the next motion on, until `enddetect` or until the program is reset.
     ///
     /// # Errors
-    /// The condition is not within 0 to 16, there is no such unit, or the robot file has no masses.
+    /// The condition is not within 0 to 16, the unit does not exist, or the robot file has no masses.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         const FUNCTION: &str = "startdetect";
         unit(FUNCTION, self.mu.as_ref())?;
@@ -136,7 +137,7 @@ impl StartDetect {
     }
 }
 
-/// `enddetect`: no longer looks for collisions during the motions that follow.
+/// `enddetect`: ends collision detection for the motions that follow.
 pub fn enddetect() -> EndDetect {
     EndDetect { mu: None }
 }
@@ -149,16 +150,16 @@ pub struct EndDetect {
 }
 
 impl EndDetect {
-    /// The mechanical unit; without it the channel's own.
+    /// The mechanical unit; by default the channel's own.
     pub fn mu(mut self, name: &Str) -> Self {
         self.mu = Some(name.clone());
         self
     }
 
-    /// Holds from the next motion on.
+    /// Applies from the next motion on.
     ///
     /// # Errors
-    /// There is no such unit.
+    /// The unit does not exist.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         unit("enddetect", self.mu.as_ref())?;
         cx.channel_state().unit_mut("enddetect")?.detect(None);
@@ -166,7 +167,7 @@ impl EndDetect {
     }
 }
 
-/// Whether the mechanical unit is there.
+/// Checks that the mechanical unit exists.
 fn unit(function: &'static str, mu: Option<&Str>) -> Result<(), Fault> {
     match mu.map(Str::to_text) {
         Some(name) if !name.eq_ignore_ascii_case(UNIT) => {

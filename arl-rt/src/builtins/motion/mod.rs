@@ -1,4 +1,5 @@
-//! The motion instructions: they resolve what a program says, and what it leaves out, to a command for the planner.
+//! The motion instructions: they turn what a program sets, and the defaults for what it leaves out, into a command for
+//! the planner.
 
 mod compensation;
 mod jump;
@@ -45,7 +46,7 @@ macro_rules! instruction {
             /// Plans the motion; waits only while the look-ahead is full.
             ///
             /// # Errors
-            /// The motion cannot be planned: the message says why.
+            /// The motion cannot be planned; the message has the reason.
             pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
                 let $self = self;
                 let $cx = cx;
@@ -62,7 +63,7 @@ macro_rules! instruction {
         }
     };
     (@label vp) => {
-        /// The speed in % of the robot's own.
+        /// The speed in % of the robot's speed.
         pub fn vp(mut self, percent: f64) -> Self {
             self.modal.pace = Some(GivenSpeed::Percent(percent));
             self
@@ -111,14 +112,14 @@ macro_rules! instruction {
         }
     };
     (@label ca) => {
-        /// How far to go along the circle, in deg, in place of going to the target.
+        /// The angle to travel along the circle, in deg, instead of to the target.
         pub fn ca(mut self, angle: f64) -> Self {
             self.modal.angle = Some(angle);
             self
         }
     };
     (@label dura) => {
-        /// How long the motion takes, in s; the speed is then ignored.
+        /// The duration of the motion, in s; the speed is then ignored.
         pub fn dura(mut self, seconds: f64) -> Self {
             self.modal.duration = Some(seconds);
             self
@@ -127,13 +128,13 @@ macro_rules! instruction {
 }
 
 instruction! {
-    /// `movej`: all axes to their positions, arriving together.
+    /// `movej`: moves all axes to their positions; they arrive together.
     movej MoveJ (j: Joint) Axes { v vp s sp sl t dura }
     -> |this, modal, cx| resolve::joints(cx, &this.j).map(Target::Joints)
 }
 
 instruction! {
-    /// `ptp`: the TCP to a pose, all axes arriving together; its path is not defined.
+    /// `ptp`: moves the TCP to a pose; all axes arrive together, and the path of the TCP is not defined.
     ptp Ptp (p: Pose) Axes { v vp s sl sp t w dura }
     -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, wanted, external)| Target::Pose {
         pose, wobj: modal.setting.workpiece(), wanted, external
@@ -141,7 +142,7 @@ instruction! {
 }
 
 instruction! {
-    /// `lin`: the TCP along a straight line, the tool turning evenly along with it.
+    /// `lin`: moves the TCP along a straight line; the tool turns uniformly along it.
     lin Lin (p: Pose) Line { v vl vp s sl sp t w dura }
     -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| Target::Line {
         pose, wobj: modal.setting.workpiece(), external
@@ -149,7 +150,7 @@ instruction! {
 }
 
 instruction! {
-    /// `cir`: the TCP along a circle through an auxiliary point, the tool turning evenly along with it or, with
+    /// `cir`: moves the TCP along a circle through a via point; the tool turns uniformly along it or, with
     /// `$ORI_REF_PATH`, with the path.
     cir Cir (m: Pose, p: Pose) Line { v vl vp s sl sp t w ca dura }
     -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).and_then(|(pose, _, external)| {
@@ -159,8 +160,8 @@ instruction! {
 }
 
 instruction! {
-    /// `ccir`: the TCP along the circle that consecutive ones make, the tool turning evenly along with it or, with
-    /// `$ORI_REF_PATH`, with the path.
+    /// `ccir`: moves the TCP along the circle that consecutive `ccir` define; the tool turns uniformly along it or,
+    /// with `$ORI_REF_PATH`, with the path.
     ccir Ccir (p: Pose) Line { v vl vp s sl sp t w }
     -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| Target::Circle {
         pose, wobj: modal.setting.workpiece(), follow: cx.system().ori_ref_path.get(), external
@@ -168,7 +169,8 @@ instruction! {
 }
 
 instruction! {
-    /// `spl`: the TCP, the tool's rotation and the external axes smoothly through the targets of consecutive ones.
+    /// `spl`: moves the TCP, the tool's rotation and the external axes smoothly through the targets of consecutive
+    /// `spl`.
     spl Spl (p: Pose) Line { v vl vp s sl sp t w }
     -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| Target::Spline {
         pose, wobj: modal.setting.workpiece(), external
@@ -190,7 +192,7 @@ pub struct VelSet {
 }
 
 impl VelSet {
-    /// Holds from the next motion on.
+    /// Applies from the next motion on.
     ///
     /// # Errors
     /// The percentage is not within 0 to 100, or the largest speed is below 0.
@@ -209,8 +211,8 @@ impl VelSet {
     }
 }
 
-/// `accset`: scales the accelerations and jerks of the motions that follow to `acc` and `ramp` percent. Below 20 counts
-/// as 20; above 100 nothing gets faster than the robot file allows.
+/// `accset`: scales the accelerations and jerks of the motions that follow to `acc` and `ramp` percent. Values below 20
+/// count as 20; values above 100 make nothing faster than the robot file allows.
 pub fn accset(acc: i32, ramp: i32) -> AccSet {
     AccSet { acc, ramp }
 }
@@ -224,7 +226,7 @@ pub struct AccSet {
 }
 
 impl AccSet {
-    /// Holds from the next motion on.
+    /// Applies from the next motion on.
     ///
     /// # Errors
     /// A percentage is not within 0 to 300.

@@ -1,4 +1,4 @@
-//! What a motion takes from the instruction, and what from the system variables.
+//! Parameters of a motion from the instruction, or else from the system variables.
 
 use crate::builtins::frames::Setting;
 use crate::context::cx::Cx;
@@ -8,7 +8,7 @@ use crate::motion;
 use crate::unit::{Inherited, Mounts};
 use crate::values::{Frame, Slip, SmallArray, Speed, Tool, Wobj, is_set};
 
-/// Which components of a speed a motion uses.
+/// The components of a speed that a motion uses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
     /// Percent of the axes' speeds.
@@ -21,7 +21,7 @@ pub(super) enum Kind {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum GivenSpeed {
     Speed(Speed),
-    /// % of the robot's own.
+    /// % of the robot's speed.
     Percent(f64),
     /// mm/s.
     Line(f64),
@@ -37,7 +37,7 @@ pub(super) enum Blend {
     Line(f64),
 }
 
-/// What an instruction says besides its target.
+/// The parameters of an instruction besides its target.
 #[derive(Clone, Debug)]
 pub(super) struct Modal {
     kind: Kind,
@@ -46,11 +46,11 @@ pub(super) struct Modal {
     pub(super) tool: Option<Tool>,
     pub(super) wobj: Option<Wobj>,
     pub(super) duration: Option<f64>,
-    /// How far to go along a circle, in deg.
+    /// The angle to travel along a circle, in deg.
     pub(super) angle: Option<f64>,
 }
 
-/// The same, with the system variables filled in.
+/// The parameters of an instruction, completed from the system variables.
 #[derive(Clone, Debug)]
 pub(super) struct Resolved {
     pub(super) kind: Kind,
@@ -59,7 +59,7 @@ pub(super) struct Resolved {
     pub(super) setting: Setting,
     pub(super) duration: Option<f64>,
     pub(super) zone: motion::Zone,
-    /// What holds of tool and workpiece though the instruction does not say it.
+    /// The tool and workpiece frames in effect that the instruction does not set.
     pub(super) mounts: Mounts,
 }
 
@@ -68,7 +68,7 @@ impl Modal {
         Self { kind, pace: None, blend: None, tool: None, wobj: None, duration: None, angle: None }
     }
 
-    /// Updates the modal system variables with what the instruction says, and takes from them what it does not.
+    /// Updates the modal system variables with the parameters of the instruction, and takes the missing ones from them.
     pub(super) fn apply(&self, cx: &Cx) -> Result<Resolved, Fault> {
         self.check()?;
         let system = cx.system();
@@ -98,7 +98,7 @@ impl Modal {
         })
     }
 
-    /// What holds of tool and workpiece though the instruction does not give it; `known`: where it may be from.
+    /// The tool and workpiece frames in effect that the instruction does not set; `known` has their possible origins.
     fn inherited(&self, system: &System, known: Mounts) -> Mounts {
         let held = |frame: [f64; 6], known: Option<Inherited>| {
             let known = known.filter(|known| known.frame == frame).and_then(|known| known.from);
@@ -109,7 +109,7 @@ impl Modal {
         Mounts { tool: self.tool.is_none().then(tool).flatten(), wobj: self.wobj.is_none().then(wobj).flatten() }
     }
 
-    /// A label that is given one number must be given one that is set.
+    /// Checks that labels with one number have a number that is set.
     fn check(&self) -> Result<(), Fault> {
         let speed = match self.pace {
             Some(GivenSpeed::Percent(value)) => Some(("vp", value)),
@@ -134,7 +134,7 @@ impl Modal {
         }
     }
 
-    /// `$DFSPEED` with the components that the instruction stands for.
+    /// `$DFSPEED` with the components that the instruction sets.
     fn speed(&self, cx: &Cx, pace: GivenSpeed, mut speed: Speed) -> Speed {
         match (pace, self.kind) {
             (GivenSpeed::Speed(new), _) => {
@@ -165,7 +165,7 @@ impl Modal {
     }
 }
 
-/// `$DFSLIP` with the components that the instruction stands for.
+/// `$DFSLIP` with the components that the instruction sets.
 fn slip(kind: Kind, blend: Blend, mut slip: Slip) -> Slip {
     match blend {
         Blend::Slip(new) => {
@@ -182,12 +182,12 @@ fn slip(kind: Kind, blend: Blend, mut slip: Slip) -> Slip {
                     *place = new;
                 }
             }
-            // An axis motion that shall not be rounded off is not by a distance of the TCP from before.
+            // An axis motion without blending must not be blended by an earlier distance of the TCP.
             if kind == Kind::Axes && is_set(new.jdis) && new.jdis <= 0.0 && !is_set(new.pdis) {
                 slip.pdis = new.jdis;
             }
         }
-        // What was left of other measures must not round off what shall be reached exactly.
+        // Earlier values of other measures must not blend a target that shall be reached exactly.
         Blend::Percent(percent) if percent < 0.0 => slip = NO_SLIP,
         Blend::Percent(percent) => slip.perdis = percent,
         Blend::Line(distance) => slip = Slip { pdis: distance, ..NO_SLIP },
@@ -195,7 +195,7 @@ fn slip(kind: Kind, blend: Blend, mut slip: Slip) -> Slip {
     slip
 }
 
-/// Nothing is rounded off.
+/// No blending.
 const NO_SLIP: Slip = Slip { perdis: -1.0, pdis: -1.0, odis: -1.0, ejdis: -1.0, eldis: -1.0, jdis: -1.0 };
 
 /// What carries `$DFTOOL` and `$DFWOBJ`, with the offsets of all tools and workpieces.
@@ -228,7 +228,7 @@ fn components(offset: &SmallArray<f64, 6>) -> [f64; 6] {
     components
 }
 
-/// The speed that `$DFSPEED` describes; what is unset is as in its default.
+/// The speed that `$DFSPEED` describes; unset components have their default.
 fn speed(speed: &Speed) -> motion::Speed {
     let or = |value: f64, default: f64| if is_set(value) { value } else { default };
     let Speed { per, tcp, ori, exj, exl } = system::DFSPEED;
@@ -241,7 +241,7 @@ fn speed(speed: &Speed) -> motion::Speed {
     }
 }
 
-/// The zone that `$DFSLIP` describes; what is unset stays so.
+/// The zone that `$DFSLIP` describes; unset components stay unset.
 fn zone(slip: &Slip) -> Result<motion::Zone, Fault> {
     let zone = motion::Zone {
         percent: slip.perdis,

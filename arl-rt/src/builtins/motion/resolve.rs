@@ -1,4 +1,4 @@
-//! Targets of motion instructions become commands for the planner.
+//! Turns targets of motion instructions into commands for the planner.
 
 use super::modal::{Kind, Resolved};
 use crate::context::cx::Cx;
@@ -10,16 +10,16 @@ use crate::values::{Joint, Pose, VelProfile, is_set};
 use arl_robot::kinematics::{CONFIGURATIONS, Wanted};
 use arl_robot::robot::{EXTERNAL_AXES, VelocityProfile};
 
-/// What a background channel cannot do.
+/// The name, in messages, of what a background channel cannot do.
 const MOTION: &str = "motion";
 
-/// What the first motion of a program must not leave open.
+/// The message for a first motion with unset components.
 const FIRST: &str = "the first motion of a program must set all components of its target";
 
-/// Beyond this, mm or deg, a component is what became of 9e+09 in a calculation.
+/// Above this, mm or deg, a component is the result of a calculation with 9e+09.
 const FARTHEST: f64 = 1e9;
 
-/// A motion that keeps less of its speed under a weave or a compensation is warned of.
+/// A motion that keeps a smaller share of its speed under a weave or a compensation causes a warning.
 const SLOWED: f64 = 0.98;
 
 /// The axes of a target.
@@ -33,7 +33,7 @@ pub(super) fn joints(cx: &Cx, target: &Joint) -> Result<Joints, Fault> {
     Ok(joints)
 }
 
-/// The pose of a target, which solution of it is wanted, and its external axes.
+/// The pose of a target, the wanted solution, and its external axes.
 pub(super) fn pose(
     cx: &Cx,
     target: &Pose,
@@ -50,19 +50,19 @@ pub(super) fn pose(
         let [x, y, z, ..] = pose;
         pose = [x, y, z, UNSET, UNSET, UNSET];
     }
-    // Lines keep the configuration of their start, whatever their target says.
+    // Lines keep the configuration of their start, whatever that of their target is.
     let as_taught = system.config_check.get() && modal.kind == Kind::Axes;
     Ok((pose, wanted(target, as_taught)?, external))
 }
 
-/// The place of a point that a circle leads through.
+/// The position of the via point of a circle.
 pub(super) fn via(point: &Pose) -> Result<[f64; 3], Fault> {
     let [x, y, z, ..] = point.components();
     sensible(&[x, y, z])?;
     Ok([x, y, z])
 }
 
-/// Which solution of a pose is wanted: the one it was taught in, or the nearest.
+/// The wanted solution of a pose: the taught one, or the nearest.
 pub(crate) fn wanted(target: &Pose, as_taught: bool) -> Result<Wanted, Fault> {
     if !as_taught {
         return Ok(Wanted { cfg: None, turn: -1 });
@@ -75,7 +75,7 @@ pub(crate) fn wanted(target: &Pose, as_taught: bool) -> Result<Wanted, Fault> {
     }
 }
 
-/// The first motion of a program knows no start to take unset components from.
+/// Checks that all components are set in the first motion of a program, which has no start to take unset ones from.
 fn first(cx: &Cx, unit: &Unit, own: &[f64], external: &[f64]) -> Result<(), Fault> {
     if cx.has_moved() {
         return Ok(());
@@ -88,8 +88,8 @@ fn there<'a>(unit: &Unit, external: &'a [f64]) -> &'a [f64] {
     external.get(..unit.robot().external_axes().len()).unwrap_or_default()
 }
 
-/// A component that is not set stays as it is, but nothing can be calculated with it: a sum of it would be left out of
-/// the target in silence, a difference would turn the tool to wherever it leads.
+/// Checks that no component results from calculating with one that is not set: a sum would silently be left out of the
+/// target, and a difference would turn the tool to an arbitrary angle.
 fn sensible(components: &[f64]) -> Result<(), Fault> {
     let calculated = |value: &f64| is_set(*value) && value.is_finite() && value.abs() > FARTHEST;
     match components.iter().copied().find(calculated) {
@@ -103,13 +103,13 @@ fn sensible(components: &[f64]) -> Result<(), Fault> {
     }
 }
 
-/// Hands a motion to the planner when there is room.
+/// Passes a motion to the planner as soon as there is room.
 pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<(), Fault> {
     let channel_state = cx.channel_state();
     if cx.spend() {
         cx.next_cycle().await;
     }
-    // Motions that make one way are one step.
+    // Motions that form one path are one step.
     let kind = match target {
         Target::Circle { .. } => 1,
         Target::Spline { .. } => 2,
@@ -122,7 +122,7 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     while !channel_state.unit(MOTION)?.takes(cx.level().number) {
         cx.wait_for(WaitsFor::Motion).await;
     }
-    // The return to the path: the first motion goes at manual speed, and stops.
+    // Return to the path: the first motion runs at manual speed and stops at its end.
     let returns = channel_state.system.rpp_enable.get() && !cx.has_moved();
     let target = match target {
         Target::Spline { pose, wobj, external } if returns => Target::Line { pose, wobj, external },
@@ -164,7 +164,7 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     Ok(())
 }
 
-/// Adds a motion to those that are planned.
+/// Adds a motion to the planned ones.
 async fn add(cx: &Cx, command: &Command, settings: &Settings, mounts: Mounts) -> Result<(), Fault> {
     let channel_state = cx.channel_state();
     let (file, line) = cx.place();
@@ -193,7 +193,7 @@ async fn add(cx: &Cx, command: &Command, settings: &Settings, mounts: Mounts) ->
     Ok(())
 }
 
-/// Whether a component of a position was set: what the start value is not.
+/// Whether all components were set.
 fn all_set(components: &[f64]) -> bool {
     !components.iter().any(|component| is_unset(*component))
 }

@@ -1,4 +1,4 @@
-//! `startweave` and `endweave`: a figure that is laid over the lines, circles and splines between them.
+//! `startweave` and `endweave`: a figure that is superimposed on the lines, circles and splines between them.
 
 use nalgebra::Vector3;
 
@@ -7,7 +7,7 @@ use crate::fault::Fault;
 use crate::motion::{Weave, WeaveShape, is_unset};
 use crate::values::{Weavedata, Weaverotaxis, Weaveshape};
 
-/// `startweave`: lays a weave over the lines, circles and splines that follow.
+/// `startweave`: superimposes a weave on the lines, circles and splines that follow.
 pub fn startweave(weave: Weavedata) -> StartWeave {
     StartWeave { weave }
 }
@@ -20,10 +20,10 @@ pub struct StartWeave {
 }
 
 impl StartWeave {
-    /// Holds from the next motion on, in place of a weave that holds already.
+    /// Applies from the next motion on, and replaces the current weave.
     ///
     /// # Errors
-    /// A component is out of its range, or asks for what there is not: weld tracking, vibration, a weave of a SCARA
+    /// A component is out of its range, or requests something unsupported: weld tracking, vibration, a weave of a SCARA
     /// robot.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let weave = figure(&self.weave)?;
@@ -43,7 +43,7 @@ pub fn endweave() -> EndWeave {
 pub struct EndWeave;
 
 impl EndWeave {
-    /// Holds from the next motion on.
+    /// Applies from the next motion on.
     ///
     /// # Errors
     /// There is no weave to end.

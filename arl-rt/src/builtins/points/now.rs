@@ -13,8 +13,8 @@ use crate::storage::data::{DataFile, DataVar};
 use crate::values::{Joint, Pose, Str};
 
 /// Writes a pose to a point of the program that a foreground channel runs, in its data file and in the program itself,
-/// where it counts as soon as it is in the file; true if it worked. It does not wait for motion, and the robot goes on
-/// meanwhile.
+/// where it takes effect as soon as it is in the file; true on success. It does not wait for motion, and the robot
+/// continues meanwhile.
 ///
 /// # Errors
 /// The channel is not within 1 to 6.
@@ -23,8 +23,8 @@ pub async fn saveposenow(cx: &Cx, channel: u32, file_name: &Str, pose_name: &Str
 }
 
 /// Writes a joint to a point of the program that a foreground channel runs, in its data file and in the program itself,
-/// where it counts as soon as it is in the file; true if it worked. It does not wait for motion, and the robot goes on
-/// meanwhile.
+/// where it takes effect as soon as it is in the file; true on success. It does not wait for motion, and the robot
+/// continues meanwhile.
 ///
 /// # Errors
 /// The channel is not within 1 to 6.
@@ -73,7 +73,7 @@ async fn save(
     Ok(point.find(program, |_, var| teach(var, &value)).flatten().is_some())
 }
 
-/// What a program calls a point.
+/// A point as named by a program.
 struct Point {
     file: String,
     ty: &'static str,
@@ -81,7 +81,7 @@ struct Point {
 }
 
 impl Point {
-    /// What is to be said of the variable of a program that is meant, and its file; `None` where there is none.
+    /// Calls `say` with the data file and the variable of a program that is this point; `None` if it does not exist.
     fn find<T>(&self, program: &dyn Program, say: impl FnOnce(&DataFile<'_>, &DataVar<'_>) -> T) -> Option<T> {
         let files = program.data();
         let data = files.iter().find(|data| is_meant(&self.file, data.file))?;
@@ -100,8 +100,7 @@ fn teach(var: &DataVar<'_>, value: &str) -> Option<()> {
     var.slot.teach(&parsed.expr, &names).ok()
 }
 
-/// Whether a data file is meant by a name: its own, or that of the program that it belongs to; with its folders, or
-/// without.
+/// Whether a name refers to a data file: its own name, or that of its program; with or without folders.
 fn is_meant(name: &str, data: &str) -> bool {
     let plain = |name: &str| name.replace('\\', "/").to_ascii_lowercase();
     let (name, data) = (plain(name), plain(data));

@@ -1,4 +1,4 @@
-//! What a debugger asks for: functions that run, variables, signals, robots.
+//! Answers to a debugger: running functions, variables, signals, robots.
 
 use std::rc::Rc;
 
@@ -15,7 +15,7 @@ use crate::values::{Onto, Teach, teach_text};
 /// The fields of the answer to a request.
 ///
 /// # Errors
-/// What cannot be, and why.
+/// The request cannot be carried out; the reason.
 pub(super) fn answer(request: &DebugRequest, contexts: &[Rc<Cx>]) -> Result<String, String> {
     let first = || contexts.first().ok_or("there is no channel");
     let cx = || {
@@ -42,7 +42,7 @@ pub(super) fn answer(request: &DebugRequest, contexts: &[Rc<Cx>]) -> Result<Stri
     }
 }
 
-/// Whether a request changes something of the run.
+/// Whether a request changes something in the run.
 pub(super) fn changes(request: &DebugRequest) -> bool {
     matches!(request.word.as_str(), "pointer" | "set" | "set-global" | "set-system" | "set-signal")
 }
@@ -60,7 +60,7 @@ pub(super) fn motion(cx: &Cx) -> u64 {
     cx.channel_state().robot().map_or(0, |unit| unit.executing().1)
 }
 
-/// The motion that is executed, and the fields that say so.
+/// The motion that is being executed, and the fields that report it.
 pub(super) fn motion_pointer(cx: &Cx) -> (u64, String) {
     let place = cx.channel_state().robot().and_then(|unit| unit.motion_pointer());
     let number = motion(cx);
@@ -68,7 +68,7 @@ pub(super) fn motion_pointer(cx: &Cx) -> (u64, String) {
     (number, format!("\"motion\":{number},{},\"file\":{},\"line\":{line}", program(cx), quoted(file.name())))
 }
 
-/// The functions that run, the one that was entered last in front.
+/// The running functions, the one entered last at the front.
 fn stack(cx: &Cx, frames: &[Record]) -> String {
     let shown = array(frames.iter().rev(), |frame| {
         format!(
@@ -84,7 +84,7 @@ fn stack(cx: &Cx, frames: &[Record]) -> String {
     format!("{program},\"frames\":{shown}")
 }
 
-/// Functions, locals of the innermost one, and global variables of a channel, for somebody who only looks.
+/// Functions, locals of the innermost one, and global variables of a channel, for a client that only observes.
 pub(super) fn inside(cx: &Cx) -> String {
     let frames = cx.frames().innermost(BRIEF_LISTED);
     let top = frames.iter().rev().find(|frame| !frame.is_action);
@@ -92,23 +92,23 @@ pub(super) fn inside(cx: &Cx) -> String {
     format!("{},{locals},{}", stack(cx, &frames), globals(cx, Detail::Brief))
 }
 
-/// The fields that say which program a channel runs: its main file, and the folder of its files, counted from the
-/// script directory.
+/// The fields with the program of a channel: its main file, and the folder of its files, relative to the script
+/// directory.
 fn program(cx: &Cx) -> String {
     let folder = cx.program_itself().folder().display().to_string();
     format!("\"program\":{},\"folder\":{}", quoted(cx.program().name()), quoted(&folder))
 }
 
-/// How much of a value is told.
+/// How much of a value is reported.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Detail {
     Whole,
-    /// Long arrays and the ends of long lists are left out: no cycle is to wait for them.
+    /// Long arrays and the ends of long lists are left out: no cycle should wait for them.
     Brief,
 }
 
 impl Detail {
-    /// How many of a list are told.
+    /// How many elements of a list are reported.
     fn most(self) -> usize {
         match self {
             Self::Whole => usize::MAX,
@@ -117,10 +117,10 @@ impl Detail {
     }
 }
 
-/// The most functions, variables and files that are told in brief.
+/// The most functions, variables and files that are reported in brief.
 const BRIEF_LISTED: usize = 100;
 
-/// The most elements of an array that is told in brief.
+/// The most elements of an array that is reported in brief.
 const BRIEF_ELEMENTS: usize = 64;
 
 fn shown(name: &str, sizes: &[usize], variable: &dyn Teach, detail: Detail) -> String {
@@ -137,13 +137,13 @@ fn told(name: &str, ty: String, detail: Detail, value: impl FnOnce() -> String) 
     format!("{{\"name\":{},\"type\":{},\"value\":{}}}", quoted(name), quoted(&ty), quoted(&value))
 }
 
-/// Whether a value of this type is too much.
+/// Whether a value of this type is too long.
 fn is_left_out(ty: &str, detail: Detail) -> bool {
     let sizes = ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse::<usize>().ok());
     detail == Detail::Brief && sizes.product::<usize>() > BRIEF_ELEMENTS
 }
 
-/// `int[2][3]`: a variable knows its elements in a row only.
+/// The type with all dimensions, like `int[2][3]`: a variable knows its elements as one row only.
 fn type_name(sizes: &[usize], flat: String) -> String {
     match flat.split_once('[') {
         Some((base, _)) if !sizes.is_empty() => {
@@ -153,7 +153,7 @@ fn type_name(sizes: &[usize], flat: String) -> String {
     }
 }
 
-/// A function that runs.
+/// A running function.
 fn record(cx: &Cx, frame: u64) -> Result<Record, String> {
     cx.frames().all().into_iter().find(|record| record.id == frame).ok_or_else(|| "the function has ended".into())
 }
@@ -197,7 +197,7 @@ fn signals(cx: &Cx) -> String {
     )
 }
 
-/// Axes in deg (mm), the TCP in mm and deg, the motion that is executed; nothing for a background channel.
+/// Axes in deg (mm), the TCP in mm and deg, the motion that is executed; empty for a background channel.
 fn robot(cx: &Cx) -> String {
     let (_, pointer) = motion_pointer(cx);
     let Some(unit) = cx.channel_state().robot() else { return format!("\"axes\":[],\"tcp\":[],{pointer}") };
@@ -217,7 +217,7 @@ fn teach(variable: &dyn Teach, sizes: &[usize], literal: &str) -> Result<String,
     Ok(format!("\"value\":{}", quoted(&variable.written())))
 }
 
-/// Sets the program pointer to a line of a function that runs: it goes on there.
+/// Sets the program pointer to a line of a running function: it goes on there.
 fn set_pointer(cx: &Cx, frame: u64, line: u64) -> Result<String, String> {
     if cx.level().number == Level::LOOKING.number {
         return Err("the condition of an event is being checked: step out of it first".into());

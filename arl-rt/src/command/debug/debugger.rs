@@ -1,4 +1,4 @@
-//! What stands between a debugger and the programs: it halts them, and answers while they stand.
+//! The mediator between a debugger and the programs: it halts them, and answers while they are halted.
 
 use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
@@ -12,13 +12,13 @@ use crate::context::cx::{Cx, Level};
 use crate::context::watcher::{Go, Watcher};
 use crate::fault::Alarm;
 
-/// Motion pointers go out no more often than this while programs run.
+/// The least time between two reports of motion pointers while programs run.
 const POINTER_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Halts programs, and answers a debugger.
 pub(super) struct Debugger {
     link: DebugLink,
-    /// Whether time is the world's: then cycles go on while programs are halted.
+    /// Whether cycles run in real time: then they go on while programs are halted.
     real: bool,
     contexts: RefCell<Vec<Weak<Cx>>>,
     plan: RefCell<HaltPlan>,
@@ -26,22 +26,22 @@ pub(super) struct Debugger {
     before: Cell<Way>,
     /// How many statements were about to run so far.
     statements: Cell<u64>,
-    /// The channel of which a statement is halted, on the virtual clock.
+    /// The channel with a halted statement, on the virtual clock.
     stands_in: Cell<Option<usize>>,
     /// The channel whose program pointer was set, until its program has arrived there.
     arriving: Cell<Option<usize>>,
-    /// How often something was set by hand.
+    /// How often something was changed by hand.
     changes: Cell<u64>,
     /// Whether programs are halted while cycles go on.
     halted: Cell<bool>,
-    /// The alarm that came up last, and its cycle: it is heard of again when the program ends.
+    /// The alarm that was raised last, and its cycle: it is reported again when the program ends.
     alarm: RefCell<Option<(Alarm, u64)>>,
-    /// The motion of each channel that the debugger knows of, and when it was told.
+    /// The motion of each channel that was last reported to the debugger, and when that was.
     motions: RefCell<Vec<u64>>,
     told: Cell<Option<Instant>>,
 }
 
-/// What the debugger is told of a halt.
+/// A report of a halt to the debugger.
 struct Halt {
     why: Why,
     /// Another reason, should the debugger let the program pass a breakpoint.
@@ -83,7 +83,7 @@ impl Debugger {
         }
     }
 
-    /// Waits for the debugger to say where to halt, and to let programs run.
+    /// Waits until the debugger has set where to halt, and lets programs run.
     pub(super) fn begin(&self, contexts: Vec<Rc<Cx>>) {
         self.know(&contexts);
         let channels = answers::channels(&contexts);
@@ -91,13 +91,13 @@ impl Debugger {
         self.stand();
     }
 
-    /// Says that no robot executes a motion any more.
+    /// Reports that no robot executes a motion any more.
     pub(super) fn end(&self, contexts: Vec<Rc<Cx>>) {
         self.know(&contexts);
         self.tell_pointers();
     }
 
-    /// Does what is to be done between two cycles.
+    /// To be called between two cycles.
     pub(super) fn cycle_begins(&self, contexts: Vec<Rc<Cx>>) {
         self.know(&contexts);
         self.obey();
@@ -118,11 +118,12 @@ impl Debugger {
         }
     }
 
-    /// Halts the run, which could not go on. Whether something was changed by then.
+    /// Halts a run that could not go on. Returns whether something was changed by then.
     pub(super) fn nothing_can_change(&self, contexts: Vec<Rc<Cx>>, waiting: &str) -> bool {
         self.know(&contexts);
         let changes = self.changes.get();
-        // A way back knows what was changed here: it comes by again, and on.
+        // When the run is repeated up to an earlier point, the changes made here are known: it passes this place again,
+        // and goes on.
         let way = self.plan.borrow().way();
         if let Way::Until(point) | Way::Search(point) = way {
             return point.cycle != u64::MAX;
@@ -143,7 +144,7 @@ impl Debugger {
         self.link.is_gone()
     }
 
-    /// An alarm has come up.
+    /// An alarm was raised.
     pub(super) fn alarm_came_up(&self, alarm: &Alarm) {
         let Some(first) = self.context(0) else { return };
         let now = first.cycle();
@@ -154,12 +155,12 @@ impl Debugger {
             return;
         }
         *self.alarm.borrow_mut() = Some((alarm.clone(), now));
-        // Where cycles go on nothing can wait here: the alarm ends the program, and the robot stops on its path.
+        // Where cycles go on this must not wait: the alarm ends the program, and the robot stops on its path.
         let passes = matches!(self.plan.borrow().way(), Way::Until(_));
         if self.plan.borrow().alarms && !self.real && !passes {
             let place = |cx: &Rc<Cx>| cx.frames().all().last().map(|frame| (frame.file, frame.line));
             let all = self.all();
-            // Where statements raise an alarm, it does not know its channel yet.
+            // An alarm raised by a statement does not have its channel yet.
             let at = all.iter().position(|cx| place(cx) == Some((alarm.file, alarm.line)));
             let at = at.or_else(|| all.iter().position(|cx| cx.channel_state().id == alarm.channel));
             self.halt(&Halt { why: "alarm", text: alarm.to_string(), ..Halt::new(at.unwrap_or(0)) });
@@ -183,7 +184,7 @@ impl Debugger {
         self.before.set(self.plan.borrow().way());
         self.plan.borrow_mut().go(Way::On);
         self.tell_pointers();
-        // What was printed so far comes before the halt.
+        // What was printed so far is output before the halt.
         self.context(0).into_iter().for_each(|cx| cx.shared().flush());
         let time = self.context(0).map_or(0.0, |cx| cx.time());
         let Halt { why, also, channel, between, text } = halt;
@@ -215,7 +216,7 @@ impl Debugger {
         }
     }
 
-    /// Answers what has come.
+    /// Answers the requests that have arrived.
     fn obey(&self) {
         while let Some(request) = self.link.take() {
             if let Reply::Go = self.answer(&request) {
@@ -238,7 +239,7 @@ impl Debugger {
             "go" => Some(Way::On),
             "again" => Some(self.before.get()),
             "pause" => {
-                // Also where a breakpoint is just being judged, and passed then.
+                // Also where a breakpoint is just being evaluated, and then passed.
                 self.before.set(Way::Pause);
                 self.plan.borrow_mut().go(Way::Pause);
                 None
@@ -259,8 +260,8 @@ impl Debugger {
                     }
                     Err(why) => format!("\"error\":{}", quoted(&why)),
                 };
-                // A program that is halted at a statement goes there at once: its variables are those of the place
-                // then.
+                // A program that is halted at a statement goes there at once: its variables are then those of the new
+                // place.
                 let arrives =
                     request.word == "pointer" && self.is_moved(channel) && self.stands_in.get() == Some(channel);
                 self.arriving.set(Some(channel).filter(|_| arrives));
@@ -278,17 +279,17 @@ impl Debugger {
         }
     }
 
-    /// Whether the program pointer of a channel was set, and its program is not there yet.
+    /// Whether the program pointer of a channel was set, and its program has not arrived there yet.
     fn is_moved(&self, channel: usize) -> bool {
         self.context(channel).is_some_and(|cx| cx.frames().is_any_moved())
     }
 
-    /// How deep a channel is in functions, not counting what looks at conditions.
+    /// How many nested functions a channel is in, not counting code that evaluates conditions.
     fn depth(&self, channel: usize) -> usize {
         self.context(channel).map_or(0, |cx| cx.frames().all().len())
     }
 
-    /// Says which motions are executed, where that has changed.
+    /// Reports which motions are executed, where that has changed.
     fn tell_pointers(&self) {
         let mut known = self.motions.borrow_mut();
         for (at, cx) in self.all().iter().enumerate() {
@@ -310,7 +311,7 @@ impl Watcher for Debugger {
         let number = self.statements.get() + 1;
         self.statements.set(number);
         let is_condition = cx.level().number == Level::LOOKING.number;
-        // Conditions are looked at while programs are halted, too, and cannot wait. Nobody is shown how they are.
+        // Conditions are evaluated while programs are halted, too, and cannot wait. They are not shown.
         if self.real && is_condition {
             return Go::On;
         }

@@ -1,4 +1,4 @@
-//! What expressions may call while the program stands: functions that change nothing and wait for nothing.
+//! Functions that expressions may call while the program is halted: they change nothing and do not wait.
 
 use crate::builtins::{bits, convert, math, pose, strings};
 use crate::context::cx::Cx;
@@ -8,17 +8,17 @@ use crate::values::{Joint, Literal, NumBase, Pos, Pose, Str, Tool, Wobj};
 use arl_lang::catalog;
 use arl_lang::symbol::Interner;
 
-/// What a call gives: the type and the value, both as text. Nothing where the arguments are not of the parameters'
+/// The result of a call: the type and the value, both as text. `None` where the arguments are not of the parameters'
 /// types.
 type Called = Option<Result<(String, String), Fault>>;
 
-/// A function for arguments that are literals.
+/// A function whose arguments are literals.
 type Function = fn(&Cx, &[String]) -> Called;
 
 /// Calls a function with arguments that are literals.
 ///
 /// # Errors
-/// There is no such function here, it does not take these arguments, or they are outside what it takes.
+/// There is no such function here, it does not take these arguments, or they are outside its domain.
 pub(super) fn call(cx: &Cx, name: &str, arguments: &[String]) -> Result<(String, String), String> {
     let named = || FUNCTIONS.iter().filter(|(known, _)| known.eq_ignore_ascii_case(name));
     if named().next().is_none() {
@@ -32,7 +32,7 @@ pub(super) fn call(cx: &Cx, name: &str, arguments: &[String]) -> Result<(String,
     called.ok_or_else(wrong)?.map_err(|fault| fault.to_string())
 }
 
-/// A value that is there in any case, or a fault.
+/// A value that always exists, or a fault.
 trait Outcome {
     fn outcome(self) -> Result<(String, String), Fault>;
 }
@@ -57,7 +57,8 @@ macro_rules! outcomes {
 
 outcomes! { i32 u8 f64 bool Str Pose Joint }
 
-/// An argument, behind its type and a colon; nothing where it is of another type. Numbers become wider by themselves.
+/// Reads an argument, which is preceded by its type and a colon; `None` where it is of another type. Numbers are
+/// widened.
 fn read<T: Literal + Default>(argument: &str) -> Option<T> {
     let (ty, literal) = argument.split_once(':')?;
     let wanted = T::default().type_name();
@@ -66,7 +67,7 @@ fn read<T: Literal + Default>(argument: &str) -> Option<T> {
         "int" => ty == "byte",
         _ => false,
     };
-    // Braces are of the type that is wanted.
+    // Braces take the type of the parameter.
     if !(ty.is_empty() || ty == wanted || widens) {
         return None;
     }
@@ -87,7 +88,7 @@ macro_rules! functions {
     };
 }
 
-/// The functions by their names. Of one with several forms the first counts that takes the arguments.
+/// The functions by their names. Of several forms of one name the first that takes the arguments is called.
 static FUNCTIONS: &[(&str, Function)] = functions! {
     "abs"(x: i32) = math::abs_int(x);
     "abs"(x: f64) = math::abs_double(x);

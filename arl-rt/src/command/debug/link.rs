@@ -1,4 +1,4 @@
-//! The connection to a debugger: lines come in and go out on threads of their own, so that no cycle waits for them.
+//! The connection to a debugger: lines are received and sent on threads of their own, so that no cycle waits for them.
 
 use std::io::{BufRead, BufReader, Result, Write};
 use std::net::{Shutdown, TcpStream};
@@ -11,7 +11,7 @@ use arl_motion::beside;
 
 use crate::command::connection;
 
-/// What a debugger wants: a number, a word, and what the word takes.
+/// A request of a debugger: a number, a word, and the arguments of the word.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct DebugRequest {
     /// The answer has the same number.
@@ -26,12 +26,12 @@ impl DebugRequest {
         Some(Self { number: parts.next()?.parse().ok()?, word: parts.next()?, values: parts.collect() })
     }
 
-    /// A value by its place; empty where there is none.
+    /// An argument by its index; empty where it is missing.
     pub(super) fn value(&self, at: usize) -> &str {
         self.values.get(at).map_or("", String::as_str)
     }
 
-    /// A value that is a number; 0 where it is none.
+    /// An argument that is a number; 0 where it is not one.
     pub(super) fn whole(&self, at: usize) -> u64 {
         self.value(at).parse().unwrap_or(0)
     }
@@ -40,15 +40,15 @@ impl DebugRequest {
 /// The connection.
 pub(crate) struct DebugLink {
     requests: Receiver<DebugRequest>,
-    /// How many wait, so that asking costs nothing.
+    /// How many requests wait, so that checking costs nothing.
     waiting: Arc<AtomicUsize>,
-    /// None at the end.
+    /// `None` at the end.
     lines: Option<Sender<String>>,
     writer: Option<JoinHandle<()>>,
     stream: TcpStream,
 }
 
-/// What the number of waiting requests is beyond which nobody sends any more.
+/// The number of waiting requests from which on the debugger is gone.
 const GONE: usize = usize::MAX / 2;
 
 impl DebugLink {
@@ -82,7 +82,7 @@ impl DebugLink {
         Ok(Self { requests, waiting, lines: Some(lines), writer: Some(writer), stream })
     }
 
-    /// A request that has come, if there is one.
+    /// A request that has arrived, if any.
     #[inline]
     pub(super) fn take(&self) -> Option<DebugRequest> {
         if self.waiting.load(Ordering::Acquire) == 0 {
@@ -93,21 +93,21 @@ impl DebugLink {
         Some(request)
     }
 
-    /// The next request, once it comes; nothing where nobody sends any more.
+    /// The next request, once it arrives; `None` where the debugger is gone.
     pub(super) fn wait(&self) -> Option<DebugRequest> {
         let request = self.requests.recv().ok()?;
         self.waiting.fetch_sub(1, Ordering::Release);
         Some(request)
     }
 
-    /// Whether nobody sends any more.
+    /// Whether the debugger is gone.
     pub(super) fn is_gone(&self) -> bool {
         self.waiting.load(Ordering::Acquire) >= GONE
     }
 
-    /// Sends an object, whose fields these are.
+    /// Sends an object with these fields.
     pub(super) fn say(&self, fields: &str) {
-        // Nobody may read any more: then the requests end, too.
+        // The debugger may be gone: then the requests end, too.
         let _ = self.lines.as_ref().map(|lines| lines.send(format!("{{{fields}}}\n")));
     }
 }

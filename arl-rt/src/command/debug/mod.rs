@@ -1,12 +1,12 @@
-//! A run that a debugger halts and looks into: what `--debug ADDRESS` of a program is that was emitted for it.
+//! A run that a debugger halts and inspects: the option `--debug ADDRESS` of a program that was emitted for this.
 //!
-//! The program connects to the debugger, which listens. Requests come in, a line each: a number, a word and what the
-//! word takes, with tabs in between. Answers and events go out as JSON objects, a line each: `{"answer":7,..}`,
-//! `{"event":..}`.
+//! The program connects to the debugger, which listens. Requests come in, one per line: a number, a word and the
+//! arguments of the word, separated by tabs. Answers and events go out as JSON objects, one per line:
+//! `{"answer":7,..}`, `{"event":..}`.
 //!
-//! On the virtual clock everything stands still while the program is halted, time, too: the run is the same as without
-//! a debugger, to the last bit. In real time the robot stops on its path, as with the pendant's pause button, and
-//! cycles go on.
+//! On the virtual clock everything stands still while the program is halted, including time: the run is the same as
+//! without a debugger, to the last bit. In real time the robot stops on its path, as with the pendant's pause button,
+//! and cycles go on.
 
 mod answers;
 mod debugger;
@@ -24,10 +24,10 @@ use crate::io::Pendant;
 use debugger::Debugger;
 use link::DebugLink;
 
-/// What looks after the debugger between the cycles of a run.
+/// Serves the debugger between the cycles of a run.
 struct Session {
     debugger: Rc<Debugger>,
-    /// Whether the programs are paused for it.
+    /// Whether it has paused the programs.
     pauses: bool,
 }
 
@@ -44,8 +44,8 @@ pub(crate) fn connect(controller: &Controller, address: &str) -> Result<Box<dyn 
     Ok(Box::new(Session { debugger, pauses: false }))
 }
 
-/// What goes on inside the program of a channel: the fields of an object with its functions and variables. Nothing
-/// where there is no such channel.
+/// The inside of the program of a channel: the fields of an object with its functions and variables. `None` where there
+/// is no such channel.
 pub(crate) fn inside(controller: &Controller, channel: usize) -> Option<String> {
     controller.contexts().get(channel).map(|cx| answers::inside(cx))
 }

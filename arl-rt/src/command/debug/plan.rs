@@ -1,30 +1,30 @@
-//! Where a program shall halt next.
+//! Where a program halts next.
 
 use std::collections::HashSet;
 use std::path::Path;
 
 use super::link::DebugRequest;
 
-/// How far it shall go.
+/// How far a program goes until it halts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Way {
-    /// To what always halts it.
+    /// Until a reason that always halts it.
     On,
     /// To the next statement or cycle.
     Pause,
     /// To the channel's next statement, in whichever function.
     Into(usize),
-    /// To the channel's next statement that is at most so deep in functions.
+    /// To the channel's next statement that is at most this deep in functions.
     Over(usize, usize),
     /// To the next motion of the channel's robot: another one than that with this number.
     Motion(usize, u64),
     /// To a point, whatever comes before.
     Until(Point),
-    /// To a point, or to what always halts it before.
+    /// To a point, or to an earlier reason that always halts it.
     Search(Point),
 }
 
-/// How far a run is to go: to a statement, or to a cycle, whichever comes first.
+/// The end of a run: a statement or a cycle, whichever comes first.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Point {
     /// The number of the statement.
@@ -36,9 +36,9 @@ pub(super) struct Point {
 /// A statement that is about to run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Statement<'a> {
-    /// How many were about to run so far, this one included.
+    /// How many statements were about to run so far, this one included.
     pub(super) number: u64,
-    /// The place of its channel.
+    /// The index of its channel.
     pub(super) channel: usize,
     /// How deep it is in functions.
     pub(super) depth: usize,
@@ -47,16 +47,16 @@ pub(super) struct Statement<'a> {
     pub(super) program: &'a str,
     pub(super) file: &'a str,
     pub(super) line: u32,
-    /// Whether it is the action of an event that begins.
+    /// Whether the action of an event begins with it.
     pub(super) begins_action: bool,
-    /// Whether the condition of an event is looked at.
+    /// Whether it belongs to the condition of an event.
     pub(super) is_condition: bool,
 }
 
-/// Why a program halts.
+/// The reason why a program halts.
 pub(super) type Why = &'static str;
 
-/// The lines of a program's file that it halts at.
+/// The lines of a program's file at which it halts.
 #[derive(Debug)]
 struct Lines {
     folder: String,
@@ -81,13 +81,13 @@ pub(super) struct HaltPlan {
     events: bool,
     /// Whether it halts at alarms.
     pub(super) alarms: bool,
-    /// How far it goes; nothing: on.
+    /// How far it goes; `None`: until a reason that always halts it.
     way: Option<Way>,
 }
 
 impl HaltPlan {
-    /// Halts at these lines of a file, and no others of it: the folder and the main file of its program, its name,
-    /// lines.
+    /// Sets the lines of a file to halt at, and no others of it. The request has the folder and the main file of the
+    /// program, the name of the file, and the lines.
     pub(super) fn set_lines(&mut self, request: &DebugRequest) {
         let lines = request.values.iter().skip(3).filter_map(|line| line.parse().ok()).collect();
         let [folder, program, file] = [0, 1, 2].map(|at| request.value(at).to_owned());
@@ -95,7 +95,7 @@ impl HaltPlan {
         self.lines.push(Lines { folder, program, file, lines });
     }
 
-    /// What of `alarms` and `events` it halts at.
+    /// Sets which of `alarms` and `events` it halts at.
     pub(super) fn set_kinds(&mut self, request: &DebugRequest) {
         let has = |word: &str| request.values.iter().any(|value| value == word);
         (self.alarms, self.events) = (has("alarms"), has("events"));
@@ -110,8 +110,8 @@ impl HaltPlan {
         self.way.unwrap_or(Way::On)
     }
 
-    /// Whether it halts before a statement, and why. A debugger may let it pass a breakpoint: then the second reason
-    /// counts.
+    /// Whether it halts before a statement, and the reason. A debugger may let it pass a breakpoint: then the second
+    /// reason counts.
     pub(super) fn halts_at(&self, statement: &Statement<'_>) -> Option<(Why, Option<Why>)> {
         let Statement { number, channel, depth, .. } = *statement;
         let arrived = match self.way() {
@@ -128,8 +128,8 @@ impl HaltPlan {
         if breaks() { Some(("breakpoint", other)) } else { other.map(|why| (why, None)) }
     }
 
-    /// Whether it halts before a cycle, behind so many statements, where the robot of the channel executes this motion.
-    /// A pause before the first statement halts there: before it there is no place to show.
+    /// Whether it halts before a cycle, after this many statements, where the robot of the channel executes this
+    /// motion. A pause before the first statement halts at that statement: before it there is no place to show.
     pub(super) fn halts_between(&self, cycle: u64, statements: u64, motion_of: impl Fn(usize) -> u64) -> Option<Why> {
         match self.way() {
             Way::Pause => (statements > 0).then_some("pause"),

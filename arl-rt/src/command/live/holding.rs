@@ -1,9 +1,9 @@
-//! Buttons that move a robot as long as they are held: `hold = "j1+"`, again and again while it is so.
+//! Buttons that move a robot as long as they are held: `hold = "j1+"`, sent again and again meanwhile.
 //!
 //! `hold.2` is the robot of channel 2. A direction is `j1+`, `x-` (in the world), `tool z+`, `rx+` (about x), `frame 0
-//! 0 90 x+` (in a frame turned by a, b, c in deg), or `to 0 -90 90 0 90 0` for all axes; nothing lets go. Where the
-//! order does not come again in time, the button counts as let go: a page that is lost, or a process, stops the robot
-//! on its path.
+//! 0 90 x+` (in a frame turned by a, b, c in deg), or `to 0 -90 90 0 90 0` for all axes; an empty one releases the
+//! button. Where the order does not come again in time, the button counts as released: the loss of a page or a process
+//! stops the robot on its path.
 
 use arl_robot::kinematics::frame;
 use nalgebra::Vector3;
@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 use crate::controller::Controller;
 use crate::unit::hold::{HeldButton, PressOutcome, Seen};
 
-/// So long a button counts as held after an order, in s.
+/// How long a button counts as held after an order, in s.
 const HELD_S: f64 = 0.25;
 
 /// The button that is held.
@@ -25,22 +25,22 @@ struct Button {
     words: String,
     held: HeldButton,
     stage: Stage,
-    /// The cycle in which it counts as let go.
+    /// The cycle in which it counts as released.
     until: u64,
 }
 
-/// What a button does.
+/// The state of a button.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Stage {
     /// The robot comes to rest first.
     Waits,
     Moves,
-    /// Something has stopped the robot, or it could not begin: nothing moves before the button is pressed anew.
+    /// Something has stopped the robot, or it could not begin: nothing moves before the button is pressed again.
     Spent,
 }
 
 impl Holding {
-    /// What an order says of a button, where it says something: the channel and the words.
+    /// The channel and the direction of an order for a button, where it is such an order.
     pub(super) fn asked(order: &str) -> Option<(u8, &str)> {
         let (key, value) = order.split_once('=')?;
         let rest = key.trim().strip_prefix("hold")?;
@@ -48,8 +48,8 @@ impl Holding {
         Some((channel, value.trim().trim_matches('"').trim()))
     }
 
-    /// A button is held, or let go.
-    pub(super) fn hold(&mut self, controller: &mut Controller, (channel, words): (u8, &str)) -> Result<(), String> {
+    /// Holds a button, or releases it.
+    pub(super) fn hold(&mut self, controller: &mut Controller, channel: u8, words: &str) -> Result<(), String> {
         let until = controller.cycle() + controller.cycles(HELD_S);
         if let Some(button) = &mut self.held {
             if button.channel == channel && button.words == words {
@@ -68,7 +68,8 @@ impl Holding {
         pressed.map(drop)
     }
 
-    /// A cycle has ended: a button that is still held goes on where an end was reached.
+    /// To be called after each cycle: a button that is still held moves the robot on where the planned distance has
+    /// been covered.
     pub(super) fn cycle_ended(&mut self, controller: &mut Controller) {
         let Some(button) = &mut self.held else { return };
         if controller.cycle() >= button.until {
@@ -82,7 +83,7 @@ impl Holding {
         };
     }
 
-    /// Nobody holds anything any more.
+    /// Releases the button.
     pub(super) fn let_go(&mut self, controller: &mut Controller) {
         if let Some(button) = self.held.take() {
             controller.let_go(button.channel);
@@ -97,7 +98,7 @@ fn stage(pressed: PressOutcome) -> Stage {
     }
 }
 
-/// What words say is to be moved.
+/// Reads a direction, or a target for all axes.
 fn parse(words: &str) -> Result<HeldButton, String> {
     let wrong = || {
         format!(
@@ -122,7 +123,7 @@ fn parse(words: &str) -> Result<HeldButton, String> {
     held.ok_or_else(wrong)
 }
 
-/// `j1+`; external axes are counted on behind the robot's own: `j7-` is the first one of a robot with six.
+/// Reads `j1+`; external axes follow the robot's own: `j7-` is the first external one of a robot with six axes.
 fn axis(direction: &str) -> Option<HeldButton> {
     let (name, up) = sign(direction)?;
     let axis = name.strip_prefix('j')?.parse().ok()?;
@@ -199,12 +200,12 @@ mod tests {
         controller
     }
 
-    /// Holds a button for so many cycles, and then no more.
+    /// Holds a button for this many cycles, and then no more.
     fn hold(controller: &mut Controller, words: &str, cycles: u64) -> Holding {
         let mut holding = Holding::default();
         for cycle in 0..cycles {
             if cycle.is_multiple_of(100) {
-                holding.hold(controller, (1, words)).unwrap();
+                holding.hold(controller, 1, words).unwrap();
             }
             controller.step();
             holding.cycle_ended(controller);
@@ -226,7 +227,7 @@ mod tests {
         // While it is held no program goes on.
         controller.press(crate::io::Pendant::Start);
         assert!(controller.take_warnings().iter().any(|warning| warning.contains("a button moves the robot")));
-        // A lost page says nothing more.
+        // A lost page sends nothing more.
         let mut last = controller.joints().axes;
         for _ in 0..1500 {
             controller.step();
@@ -253,7 +254,7 @@ mod tests {
         for at in [0, 1] {
             assert!((lower[at] - start[at]).abs() < 1e-3, "{start:?} {lower:?}");
         }
-        // Axes are moved with the tool, too: behind them it is the same TCP.
+        // Jogging axes keeps the tool, too: afterwards the TCP is the same.
         hold(&mut controller, "j1-", 600).let_go(&mut controller);
         controller.run_for(1.0);
         let lower = tcp(&controller);
@@ -271,19 +272,19 @@ mod tests {
         assert_eq!(controller.joints().axes, [10.0, -80.0, 80.0, 0.0, 30.0, 5.0]);
         holding.let_go(&mut controller);
         controller.run_for(1.0);
-        assert!(holding.hold(&mut controller, (1, "j9+")).unwrap_err().contains("axes 1 to 6"));
-        assert!(holding.hold(&mut controller, (4, "j1+")).unwrap_err().contains("no channel 4"));
-        assert!(holding.hold(&mut controller, (1, "to 1000")).is_err(), "beyond its range");
+        assert!(holding.hold(&mut controller, 1, "j9+").unwrap_err().contains("axes 1 to 6"));
+        assert!(holding.hold(&mut controller, 4, "j1+").unwrap_err().contains("no channel 4"));
+        assert!(holding.hold(&mut controller, 1, "to 1000").is_err(), "beyond its range");
     }
 
     #[test]
     fn what_a_button_did_not_add_is_not_dropped() {
         let mut controller = paused();
-        // There is nothing to do, and there is no such way: the program's own motion stays.
+        // There is nothing to do, and then no path: the program's own motion stays.
         let here: Vec<String> = controller.joints().axes.iter().map(f64::to_string).collect();
         hold(&mut controller, &format!("to {}", here.join(" ")), 50);
         let mut holding = Holding::default();
-        assert!(holding.hold(&mut controller, (1, "to 1000")).is_err());
+        assert!(holding.hold(&mut controller, 1, "to 1000").is_err());
         holding.let_go(&mut controller);
         controller.run_for(0.1);
         controller.press(crate::io::Pendant::Start);
@@ -317,13 +318,13 @@ mod tests {
         let stopped = controller.joints().axes;
         for cycle in 0..1000_u32 {
             if cycle.is_multiple_of(100) {
-                holding.hold(&mut controller, (1, "j1-")).unwrap();
+                holding.hold(&mut controller, 1, "j1-").unwrap();
             }
             controller.step();
             holding.cycle_ended(&mut controller);
         }
         assert_eq!(controller.joints().axes, stopped);
-        holding.hold(&mut controller, (1, "")).unwrap();
+        holding.hold(&mut controller, 1, "").unwrap();
         hold(&mut controller, "j1-", 600);
         assert!(controller.joints().axes[0] < stopped[0] - 0.5);
     }

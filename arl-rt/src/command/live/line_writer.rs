@@ -1,4 +1,4 @@
-//! States, messages, warnings and alarms go out on a stream, a JSON object a line.
+//! Sends states, messages, warnings and alarms on a stream, one JSON object per line.
 
 use std::cell::Cell;
 use std::fmt::Write as _;
@@ -16,28 +16,28 @@ use crate::fault::Alarm;
 use arl_robot::kinematics::{Frame, Kinematics, LinkJoint};
 use arl_robot::robot::{Axis, Limb};
 
-/// How many lines may wait to be written. Then states are left out, and everything else waits.
+/// How many lines may wait to be written. Beyond that states are left out, and everything else waits.
 const MAX_WAITING_LINES: usize = 1024;
 
-/// A stream, written by a thread of its own, so that no cycle waits for it as long as somebody reads.
+/// A stream, written by a thread of its own, so that no cycle waits for it as long as it is read.
 pub(crate) struct LineWriter {
     lines: Lines,
     writer: Option<JoinHandle<()>>,
 }
 
-/// What waits to be written.
+/// Lines that wait to be written.
 #[derive(Clone)]
 struct Lines {
-    /// The last thing sent is nothing: the end.
+    /// `None`, sent last, is the end.
     waiting: SyncSender<Option<String>>,
     if_full: Rc<Cell<IfFull>>,
-    /// How often something was left out where that counts.
+    /// How often something was left out and counted.
     lost: Rc<Cell<u64>>,
-    /// Whether nobody reads any more.
+    /// Whether the reader is gone.
     gone: Rc<Cell<bool>>,
 }
 
-/// What becomes of a line where nobody reads as fast.
+/// What happens to a line where the reader is too slow.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum IfFull {
     /// A state is left out; everything else waits.
@@ -49,12 +49,12 @@ pub(crate) enum IfFull {
 }
 
 impl Lines {
-    /// Something that is said once.
+    /// Sends a line that is not repeated.
     fn say(&self, line: String) {
         self.send(line, self.if_full.get() == IfFull::IsLost);
     }
 
-    /// How something stands, which is said again and again.
+    /// Sends a state, which is repeated again and again.
     fn state(&self, line: String) {
         self.send(line, self.if_full.get() != IfFull::Waits);
     }
@@ -75,12 +75,12 @@ impl Lines {
 }
 
 impl LineWriter {
-    /// The standard output.
+    /// A writer to the standard output.
     pub(crate) fn standard() -> Self {
         Self::to(stdout(), IfFull::StatesAreLost)
     }
 
-    /// A stream.
+    /// A writer to a stream.
     pub(crate) fn to(stream: impl Write + Send + 'static, if_full: IfFull) -> Self {
         let (lines, waiting) = sync_channel::<Option<String>>(MAX_WAITING_LINES);
         let thread = std::thread::Builder::new().name("said".into());
@@ -93,7 +93,7 @@ impl LineWriter {
                     written = out.write_all(line.as_bytes());
                     next = waiting.try_recv();
                 }
-                // Nobody may read the other end any more: then the orders end, too.
+                // The reader may be gone: then the orders end, too.
                 if written.and_then(|()| out.flush()).is_err() || next == Ok(None) {
                     return;
                 }
@@ -103,27 +103,27 @@ impl LineWriter {
         Self { lines: Lines { waiting: lines, if_full, lost: Rc::default(), gone: Rc::default() }, writer: writer.ok() }
     }
 
-    /// Says what becomes of lines from now on where nobody reads as fast.
+    /// Sets what happens from now on to lines where the reader is too slow.
     pub(super) fn if_full(&self, if_full: IfFull) {
         self.lines.if_full.set(if_full);
     }
 
-    /// How often something was left out because no cycle was to wait.
+    /// How often something was left out as no cycle was to wait.
     pub(super) fn lost(&self) -> u64 {
         self.lines.lost.get()
     }
 
-    /// Whether nobody reads any more.
+    /// Whether the reader is gone.
     pub(super) fn is_gone(&self) -> bool {
         self.lines.gone.get()
     }
 
-    /// Takes the messages of a program.
+    /// An output that sends the messages of a program.
     pub(crate) fn messages(&self) -> Messages {
         Messages(self.lines.clone())
     }
 
-    /// What runs on which robots.
+    /// Sends the programs and robots.
     pub(super) fn hello(&self, controller: &Controller) {
         let channels = array(&controller.status().channels, runs);
         let name = |(signal, name): (_, &str)| format!("\"{signal}\":{}", quoted(name));
@@ -132,63 +132,63 @@ impl LineWriter {
         self.lines.say(format!("{{\"hello\":{{\"channels\":{channels},\"names\":{{{names}}}}}}}\n"));
     }
 
-    /// Where the robots are.
+    /// Sends the positions of the robots.
     pub(super) fn cycle(&self, controller: &Controller) {
         let mut line = String::new();
         push_cycle(&mut line, controller);
         self.lines.state(line);
     }
 
-    /// How everything stands.
+    /// Sends the state of the controller.
     pub(super) fn state(&self, controller: &Controller) {
         let mut line = String::with_capacity(1024);
         push_state(&mut line, controller, controller.last_time());
         self.lines.state(line);
     }
 
-    /// Lines that say how everything stands, and where the robots are.
+    /// Sends lines with states, and with positions of the robots.
     pub(super) fn states(&self, lines: String) {
         self.lines.state(lines);
     }
 
-    /// What is inside the program of a channel. It is left out where nobody reads as fast.
+    /// Sends the inside of the program of a channel. It is left out where the reader is too slow.
     pub(super) fn inside(&self, channel: usize, fields: &str) {
         self.lines.state(format!("{{\"inside\":{{\"channel\":{channel},{fields}}}}}\n"));
     }
 
-    /// Warnings and alarms since the last call.
+    /// Sends the warnings and alarms since the last call.
     pub(super) fn news(&self, controller: &mut Controller) {
         for text in controller.take_warnings() {
             self.warning(&text);
         }
         for alarm in controller.take_alarms() {
-            // It belongs to this moment.
+            // The alarm belongs to this state.
             self.state(controller);
             self.alarm(&alarm);
         }
     }
 
-    /// A warning.
+    /// Sends a warning.
     pub(crate) fn warning(&self, text: &str) {
         self.lines.say(warning_line(text));
     }
 
-    /// An alarm.
+    /// Sends an alarm.
     pub(crate) fn alarm(&self, alarm: &Alarm) {
         self.lines.say(alarm_line(alarm));
     }
 
-    /// What a motion did, or a channel: an object of the report.
+    /// Sends an object of the report, about a motion or a channel.
     pub(super) fn report(&self, object: &str) {
         self.lines.say(format!("{{\"report\":{object}}}\n"));
     }
 
-    /// Nothing more comes; so often something was left out.
+    /// Sends the end, with how often something was left out.
     pub(super) fn ended(&self) {
         self.lines.say(format!("{{\"ended\":{}}}\n", self.lost()));
     }
 
-    /// An order that could not be carried out.
+    /// Reports an order that could not be carried out.
     pub(super) fn refused(&self, order: &str, why: &str) {
         self.lines.say(format!("{{\"refused\":{{\"order\":{},\"why\":{}}}}}\n", quoted(order), quoted(why)));
     }
@@ -209,7 +209,7 @@ fn axis(axis: &Axis) -> String {
     format!("{{\"name\":{},\"unit\":\"{unit}\",\"min\":{},\"max\":{}}}", quoted(name), number(*min), number(*max))
 }
 
-/// What a channel runs on which robot; in the background there is none.
+/// The program and the robot of a channel; a background channel has no robot.
 fn runs(status: &ChannelStatus) -> String {
     let program = quoted(status.program.name());
     let robot = status.robot.as_ref().map(|status| &*status.robot);
@@ -227,9 +227,9 @@ fn shape(limb: &Limb) -> String {
     format!("{{\"name\":{name},\"link\":{},\"ends\":{ends},\"radius\":{}}}", limb.link, number(limb.radius))
 }
 
-/// The chain of the robot's links: where the frame of each is in that of the one before while its axis is at 0, and
-/// what it turns about or moves along; and the flange in the last one. A frame is x, y, z in mm and a quaternion x, y,
-/// z, w.
+/// The chain of the robot's links: the frame of each in that of the link before while its axis is at 0, and the
+/// direction that it turns about or moves along; and the flange in the last link. A frame is x, y, z in mm and a
+/// quaternion x, y, z, w.
 fn links(kinematics: &Kinematics) -> String {
     let (joints, flange) = kinematics.links();
     let frame = |frame: &Frame| {
@@ -243,7 +243,7 @@ fn links(kinematics: &Kinematics) -> String {
     format!(",\"links\":{},\"flange\":{}", array(&joints, joint), frame(&flange))
 }
 
-/// The axes that there are, in deg (mm).
+/// The positions of the axes of the robot, in deg (mm).
 fn axes(status: &RobotStatus) -> Vec<f64> {
     let RobotStatus { robot, joints, .. } = status;
     let own = joints.axes.iter().take(robot.own_axes().len());
@@ -272,7 +272,7 @@ pub(crate) fn alarm_line(alarm: &Alarm) -> String {
     format!("{{\"alarm\":{{\"number\":{number},\"text\":{text},\"file\":{file},\"line\":{line}}}}}\n")
 }
 
-/// Adds a line that says how everything stands at a time.
+/// Adds a line with the state of the controller at a time.
 pub(crate) fn push_state(out: &mut String, controller: &Controller, time: f64) {
     let status = controller.status();
     out.push_str("{\"state\":{\"time\":");
@@ -292,8 +292,8 @@ pub(crate) fn push_state(out: &mut String, controller: &Controller, time: f64) {
     out.push_str("}}\n");
 }
 
-/// Adds a line that says where the robots are: of each channel the place of its motion, the base and the axes; with the
-/// inputs and outputs, as these say which bodies are there.
+/// Adds a line with the positions of the robots: of each channel the place of its motion, the base and the axes; with
+/// the inputs and outputs, as these determine which bodies exist.
 pub(super) fn push_cycle(out: &mut String, controller: &Controller) {
     out.push_str("{\"cycle\":{\"time\":");
     push_number(out, controller.last_time());
@@ -318,7 +318,7 @@ pub(super) fn push_cycle(out: &mut String, controller: &Controller) {
     out.push_str("\"}}\n");
 }
 
-/// Adds levels in a row.
+/// Adds levels as a row of digits.
 fn push_levels(out: &mut String, levels: &[bool]) {
     out.extend(levels.iter().map(|on| if *on { '1' } else { '0' }));
 }
@@ -345,7 +345,7 @@ fn push_channel(out: &mut String, status: &ChannelStatus) {
     out.push('}');
 }
 
-/// One word for what a channel does.
+/// One word for the state of a channel.
 fn word(status: &ChannelStatus) -> &'static str {
     match (status.state, &status.outcome) {
         (_, Some(Outcome::Ended)) => "ended",
@@ -357,7 +357,7 @@ fn word(status: &ChannelStatus) -> &'static str {
     }
 }
 
-/// Takes the messages of a program.
+/// An output that sends the messages of a program.
 pub(crate) struct Messages(Lines);
 
 impl Output for Messages {

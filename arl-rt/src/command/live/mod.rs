@@ -1,23 +1,24 @@
-//! A run that another program drives: orders come in, a line each, and what happens goes out, a JSON object a line.
+//! A run that another program drives: orders come in, one per line, and events go out, one JSON object per line.
 //!
-//! This is what `--live` of a compiled program is, and what `arl2rs run --pendant` sits on. Orders are what an event of
-//! an io scenario does, in the same words: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`. When the
+//! This is the option `--live` of a compiled program, on which `arl2rs run --pendant` is built. Orders are the same
+//! words as an event of an io scenario: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`. When the
 //! orders end, the robot stops on its path and the program with it.
 //!
-//! `inside = 1` lets lines with the functions and variables of channel 1 go out, where the program was made for a
+//! `inside = 1` has lines with the functions and variables of channel 1 sent, where the program was made for a
 //! debugger; `inside = 0` ends that.
 //!
-//! `hold = "j1+"`, said again and again, moves an axis or the TCP as long as it is said (`holding.rs`).
+//! `hold = "j1+"`, sent again and again, moves an axis or the TCP as long as it is sent (`holding.rs`).
 //!
-//! The first line that goes out is `{"hello":...}`: the channels with their programs, robots, axes and links, and the
-//! names of signals. Then come `state` (20 times a second), `inside` (4 times a second), `message`, `warning`, `alarm`,
-//! and `refused` for an order that could not be carried out.
+//! The first line sent is `{"hello":...}`: the channels with their programs, robots, axes and links, and the names of
+//! signals. Then come `state` (20 times a second), `inside` (4 times a second), `message`, `warning`, `alarm`, and
+//! `refused` for an order that could not be carried out.
 //!
-//! `--state-interval S` has states come more often. With `--each-cycle`, `cycle` says in each cycle where the robots
-//! are, and the levels of inputs and outputs; with `--each-motion`, `report` says what a motion did, once it has ended.
+//! `--state-interval S` sets the interval of states. With `--each-cycle`, `cycle` reports in each cycle where the
+//! robots are, and the levels of inputs and outputs; with `--each-motion`, `report` reports what a motion did, once it
+//! has ended.
 //!
-//! Who only listens (`--listener`) hears the same, reports at the end, and at last `ended` with how often something was
-//! left out.
+//! A mere listener (`--listener`) gets the same lines, reports at the end, and finally `ended` with how often something
+//! was left out.
 
 mod holding;
 mod line_writer;
@@ -35,29 +36,30 @@ use orders::{Next, Orders};
 pub(crate) use line_writer::{LineWriter, alarm_line, message_line, push_state, warning_line};
 pub(crate) use recording::{Recording, Wishes};
 
-/// How often a state goes out where nobody asks for another interval, in s.
+/// How often a state is sent by default, in s.
 pub(crate) const STATE_INTERVAL_S: f64 = 0.05;
-/// How often it goes out what is inside a program, in s.
+/// How often the inside of a program is sent, in s.
 const INSIDE_INTERVAL_S: f64 = 0.25;
 
-/// Looks into the program of a channel, counted from 0: the fields of an object.
+/// Shows the inside of the program of a channel, counted from 0: the fields of an object.
 pub(crate) type Inside = fn(&Controller, usize) -> Option<String>;
 
-/// Why a run is over before its program is.
+/// The reason why a run is over before its program is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Cut {
-    /// The orders ended, or somebody pressed Ctrl-C.
+    /// The orders ended, or Ctrl-C was pressed.
     Interrupted,
-    /// The time is over.
+    /// The time limit was reached.
     MaxTime,
 }
 
-/// Steps while orders may come: also after the end of the program, which an order may start again. Says how the program
-/// ended last, or why it was stopped.
+/// Steps while orders may come: also after the end of the program, which an order may start again. Returns how the
+/// program ended last, or why it was stopped.
 pub(crate) fn drive(
     controller: &mut Controller,
-    voice: &LineWriter,
-    (inside, wishes): (Option<Inside>, Wishes),
+    writer: &LineWriter,
+    inside: Option<Inside>,
+    wishes: Wishes,
     max_time: Option<f64>,
     interrupted: &AtomicBool,
 ) -> Result<Option<Outcome>, Cut> {
@@ -69,9 +71,9 @@ pub(crate) fn drive(
     let mut ended_motions = EndedMotions::default();
     let mut holding = Holding::default();
     let mut cut = None;
-    voice.hello(controller);
+    writer.hello(controller);
     loop {
-        let gone = cut.is_none() && !obey(controller, voice, &orders, (&mut look, &mut holding))
+        let gone = cut.is_none() && !obey(controller, writer, &orders, &mut look, &mut holding)
             || interrupted.load(Ordering::Relaxed);
         let over = cut.is_some() || gone || controller.cycle() >= last;
         if over {
@@ -86,35 +88,35 @@ pub(crate) fn drive(
         }
         controller.step();
         holding.cycle_ended(controller);
-        voice.news(controller);
+        writer.news(controller);
         if wishes.each_cycle {
-            voice.cycle(controller);
+            writer.cycle(controller);
         }
         if controller.is_turn(every) {
-            voice.state(controller);
-            ended_motions.say(controller, voice);
+            writer.state(controller);
+            ended_motions.say(controller, writer);
         }
         if controller.is_turn(every_inside) {
-            look.say(controller, voice);
+            look.say(controller, writer);
         }
     }
     controller.close_robots();
     controller.settle_state();
-    voice.news(controller);
-    voice.state(controller);
-    ended_motions.say(controller, voice);
+    writer.news(controller);
+    writer.state(controller);
+    ended_motions.say(controller, writer);
     cut.map_or_else(|| Ok(controller.outcome().cloned()), Err)
 }
 
-/// Somebody who looks into a program.
+/// The inspection of a program.
 struct Look {
     inside: Option<Inside>,
-    /// The channel that is looked into, from 0.
+    /// The channel that is inspected, from 0.
     channel: Option<usize>,
 }
 
 impl Look {
-    /// The number of the channel that an order asks to look into, where it is such an order; 0: none.
+    /// The number of the channel that an order asks to inspect, where it is such an order; 0: none.
     fn asked(order: &str) -> Option<&str> {
         let (word, value) = order.split_once('=')?;
         (word.trim() == "inside").then_some(value.trim())
@@ -131,31 +133,32 @@ impl Look {
         Ok(())
     }
 
-    fn say(&self, controller: &Controller, voice: &LineWriter) {
+    fn say(&self, controller: &Controller, writer: &LineWriter) {
         let fields = self.inside.zip(self.channel).and_then(|(inside, channel)| inside(controller, channel));
         if let (Some(fields), Some(channel)) = (fields, self.channel) {
-            voice.inside(channel + 1, &fields);
+            writer.inside(channel + 1, &fields);
         }
     }
 }
 
-/// Carries out what has come; whether more may come.
+/// Carries out the orders that have arrived; returns whether more may come.
 fn obey(
     controller: &mut Controller,
-    voice: &LineWriter,
+    writer: &LineWriter,
     orders: &Orders,
-    (look, holding): (&mut Look, &mut Holding),
+    look: &mut Look,
+    holding: &mut Holding,
 ) -> bool {
     loop {
         match orders.next() {
             Next::Order(order) => {
                 let done = match (Look::asked(&order), Holding::asked(&order)) {
-                    (Some(value), _) => look.set(controller, value).map(|()| look.say(controller, voice)),
-                    (None, Some(button)) => holding.hold(controller, button),
+                    (Some(value), _) => look.set(controller, value).map(|()| look.say(controller, writer)),
+                    (None, Some((channel, words))) => holding.hold(controller, channel, words),
                     (None, None) => controller.order(&order).map_err(|error| error.to_string()),
                 };
                 if let Err(why) = done {
-                    voice.refused(&order, &why);
+                    writer.refused(&order, &why);
                 }
             }
             Next::None => return true,

@@ -1,31 +1,31 @@
-//! What motions did, said once each has ended.
+//! Reports of motions, sent once each has ended.
 
 use super::line_writer::LineWriter;
 use crate::command::report;
 use crate::controller::Controller;
 
-/// What was said of the motions of each robot. Where none are recorded, there is nothing to say.
+/// The state of the reports for each robot. Where no motions are recorded, nothing is reported.
 #[derive(Default)]
 pub(super) struct EndedMotions(Vec<OfRobot>);
 
 #[derive(Default)]
 struct OfRobot {
-    /// How many records were looked at.
+    /// How many records have been seen.
     seen: usize,
-    /// Those that were not said: some of them may never be executed.
+    /// Those not reported yet: some of them may never be executed.
     unsaid: Vec<usize>,
-    /// Those that were said last, and how long each had taken then: it may have gone on since.
+    /// Those reported last, and how long each had taken then: they may have gone on since.
     last: Vec<(usize, f64)>,
 }
 
-/// So many of those that were said last are looked at again.
+/// How many of those reported last are checked again.
 const LOOKED_AT: usize = 8;
-/// So many motions that were never executed are kept in mind.
+/// How many motions that were never executed are remembered.
 const MOST_UNSAID: usize = 4096;
 
 impl EndedMotions {
-    /// Says those that have ended since.
-    pub(super) fn say(&mut self, controller: &Controller, voice: &LineWriter) {
+    /// Reports the motions that have ended since the last call.
+    pub(super) fn say(&mut self, controller: &Controller, writer: &LineWriter) {
         let mut channel = 0;
         controller.each_unit(|unit| {
             let (records, moves) = (unit.records(), unit.executing().1 != 0);
@@ -36,7 +36,7 @@ impl EndedMotions {
             for at in of_robot.ended(records.len(), begin, moves) {
                 if let Some((record, file)) = records.get(at).and_then(|it| Some((it, unit.recorded_file(it.number)?)))
                 {
-                    voice.report(report::motion_json(channel, (file, record), unit.robot()).trim_end());
+                    writer.report(report::motion_json(channel, file, record, unit.robot()).trim_end());
                 }
             }
         });
@@ -44,8 +44,8 @@ impl EndedMotions {
 }
 
 impl OfRobot {
-    /// The motions that have ended and were not said, or have gone on since they were. There are `count`; `of` says
-    /// when one began, if it has, and how long it has taken so far.
+    /// The motions that have ended and were not reported, or have gone on since they were. There are `count`; `of`
+    /// returns when a motion began, if it has, and how long it has taken so far.
     fn ended(&mut self, count: usize, of: impl Fn(usize) -> (Option<f64>, f64), moves: bool) -> Vec<usize> {
         if count < self.seen {
             *self = Self::default();
@@ -57,7 +57,7 @@ impl OfRobot {
             let begun = all.filter(|at| of(*at).0.is_some());
             begun.max_by(|one, other| began(*one).total_cmp(&began(*other)))
         };
-        // The one that began last goes on while the robot moves.
+        // The motion that began last goes on while the robot moves.
         let last = self.last.iter().map(|(at, _)| *at);
         let running = latest(&mut self.unsaid.iter().copied().chain(last)).filter(|_| moves);
         let mut ended = Vec::new();
@@ -86,7 +86,7 @@ impl OfRobot {
 mod tests {
     use super::*;
 
-    /// What is said of motions, by when each began and how long it has taken.
+    /// The reported motions, by when each began and how long it has taken.
     fn ended(said: &mut OfRobot, motions: &[(Option<f64>, f64)], moves: bool) -> Vec<usize> {
         said.ended(motions.len(), |at| motions[at], moves)
     }
@@ -102,15 +102,15 @@ mod tests {
         motions.push((Some(1.0), 0.3));
         assert_eq!(ended(&mut said, &motions, true), []);
         assert_eq!(ended(&mut said, &motions, false), [2]);
-        // Then the first one goes on, which was said before its end, and the second one, which was there before the
-        // jogging.
+        // Then the first one goes on, which was reported before its end, and then the second one, which was planned
+        // before the jogging.
         motions[0].1 = 0.6;
         assert_eq!(ended(&mut said, &motions, true), []);
         motions[1] = (Some(2.0), 0.4);
         assert_eq!(ended(&mut said, &motions, true), []);
         assert_eq!(ended(&mut said, &motions, false), [0, 1]);
         assert_eq!(ended(&mut said, &motions, false), []);
-        // Records that begin anew are said anew.
+        // When records begin again, motions are reported again.
         assert_eq!(ended(&mut said, &[(Some(0.0), 0.1)], false), [0]);
     }
 }

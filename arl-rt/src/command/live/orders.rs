@@ -1,16 +1,16 @@
-//! Orders are read from the standard input, a line each, on a thread of their own.
+//! Reads orders from the standard input, one per line, on a thread of its own.
 
 use std::io::{BufRead, Read, stdin};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 
 use arl_motion::beside;
 
-/// How many orders may wait for their cycle; whoever sends more waits.
+/// How many orders may wait for their cycle; a sender of more has to wait.
 const MAX_WAITING_ORDERS: usize = 256;
-/// The longest line in bytes; what is longer falls apart into several.
+/// The longest line in bytes; a longer one is split into several.
 const MAX_ORDER_BYTES: u64 = 1 << 16;
 
-/// What has come.
+/// The next order, if any.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum Next {
     /// An order.
@@ -21,7 +21,7 @@ pub(super) enum Next {
     End,
 }
 
-/// The orders, as they come.
+/// The orders, as they arrive.
 pub(super) struct Orders(Receiver<String>);
 
 impl Orders {
@@ -29,7 +29,7 @@ impl Orders {
     pub(super) fn from_standard_input() -> Self {
         let (sender, orders) = sync_channel(MAX_WAITING_ORDERS);
         let thread = std::thread::Builder::new().name("orders".into());
-        // Without a thread there are no orders, as where they end.
+        // Without a thread there are no orders, as after their end.
         let _ = beside::spawn(thread, move || {
             let mut input = stdin().lock();
             let mut line = Vec::new();

@@ -1,10 +1,9 @@
-//! A run that somebody listens to: what `--live` says goes out to an address, in virtual time, too, and nothing comes
-//! in.
+//! A run with a listener: the lines of `--live` are sent to an address, in virtual time, too, and nothing is received.
 //!
-//! A state goes out every 4 ms of controller time. Who asks for it hears in each cycle where the robots are, and at the
-//! end what the motions did. On the virtual clock the run waits where the listener is slower, so that nothing is lost;
-//! in real time no cycle waits, and what is not taken in time is left out and counted. When the listener is gone, the
-//! robot stops on its path.
+//! A state is sent every 4 ms of controller time. On request the positions of the robots are sent in each cycle, and at
+//! the end what the motions did. On the virtual clock the run waits where the listener is slower, so that nothing is
+//! lost; in real time no cycle waits, and lines that are not taken in time are left out and counted. When the listener
+//! is gone, the robot stops on its path.
 
 use std::cell::RefCell;
 use std::io;
@@ -15,17 +14,17 @@ use crate::context::output::{Message, Output};
 use crate::controller::Controller;
 use crate::fault::Alarm;
 
-/// How often a state goes out, in s.
+/// How often a state is sent, in s.
 const STATE_INTERVAL_S: f64 = 0.004;
-/// So many bytes go out at once on the virtual clock: a thread is woken less often then.
+/// How many bytes are sent at once on the virtual clock: so a thread is woken less often.
 const WAITING_BYTES: usize = 1 << 15;
 
-/// What who listens wants to hear beside messages, warnings and alarms.
+/// What a listener wants to receive besides messages, warnings and alarms.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Wishes {
-    /// How often a state, in s, where orders are taken.
+    /// The interval of states, in s, where orders are taken.
     pub(crate) state_interval: f64,
-    /// In each cycle, where the robots are.
+    /// The positions of the robots in each cycle.
     pub(crate) each_cycle: bool,
     /// What each motion did: at the end, or as they end where orders are taken.
     pub(crate) each_motion: bool,
@@ -39,9 +38,9 @@ impl Default for Wishes {
 
 /// The connection to a listener.
 pub(crate) struct Recording {
-    voice: LineWriter,
+    writer: LineWriter,
     wishes: Wishes,
-    /// What has not gone out yet.
+    /// Lines that have not been sent yet.
     waiting: RefCell<String>,
 }
 
@@ -49,53 +48,53 @@ impl Recording {
     /// Connects to the listener at an address.
     pub(crate) fn connect(address: &str, wishes: Wishes) -> io::Result<Self> {
         let stream = connection::connect(address)?;
-        Ok(Self { voice: LineWriter::to(stream, IfFull::Waits), wishes, waiting: RefCell::default() })
+        Ok(Self { writer: LineWriter::to(stream, IfFull::Waits), wishes, waiting: RefCell::default() })
     }
 
-    /// An output, and the recording beside it.
+    /// An output that passes on its messages to the recording as well.
     pub(crate) fn beside<O: Output>(&self, output: O) -> impl Output + use<O> {
-        Both { output, recorded: self.voice.messages() }
+        Both { output, recorded: self.writer.messages() }
     }
 
-    /// Whether nobody listens any more.
+    /// Whether the listener is gone.
     pub(crate) fn is_gone(&self) -> bool {
-        self.voice.is_gone()
+        self.writer.is_gone()
     }
 
-    /// A warning.
+    /// Sends a warning.
     pub(crate) fn warning(&self, controller: &Controller, text: &str) {
         self.catch_up(controller);
-        self.voice.warning(text);
+        self.writer.warning(text);
     }
 
-    /// An alarm.
+    /// Sends an alarm.
     pub(crate) fn alarm(&self, controller: &Controller, alarm: &Alarm) {
         self.catch_up(controller);
-        self.voice.alarm(alarm);
+        self.writer.alarm(alarm);
     }
 
-    /// Says how everything stands now: what comes next belongs to this moment.
+    /// Sends the current state: the following line belongs to this moment.
     fn catch_up(&self, controller: &Controller) {
         self.flush();
         if controller.cycle() > 0 {
-            self.voice.state(controller);
+            self.writer.state(controller);
         }
     }
 
-    /// What waits goes out.
+    /// Sends the waiting lines.
     fn flush(&self) {
         let waiting = self.waiting.take();
         if !waiting.is_empty() {
-            self.voice.states(waiting);
+            self.writer.states(waiting);
         }
     }
 
-    /// What runs on which robots, before the first cycle.
+    /// Sends the programs and robots, before the first cycle.
     pub(crate) fn begin(&self, controller: &Controller) {
-        self.voice.hello(controller);
+        self.writer.hello(controller);
     }
 
-    /// A cycle has ended.
+    /// To be called after each cycle.
     pub(crate) fn cycle_ended(&self, controller: &Controller) {
         let every = controller.cycles(STATE_INTERVAL_S);
         let mut waiting = self.waiting.borrow_mut();
@@ -105,38 +104,39 @@ impl Recording {
         if self.wishes.each_cycle {
             push_cycle(&mut waiting, controller);
         }
-        // A connection makes virtual time real.
+        // A connection opened by a program makes virtual time real.
         let in_real_time = controller.is_real();
-        self.voice.if_full(if in_real_time { IfFull::IsLost } else { IfFull::Waits });
+        self.writer.if_full(if in_real_time { IfFull::IsLost } else { IfFull::Waits });
         if waiting.len() > if in_real_time { 0 } else { WAITING_BYTES } {
             let full = std::mem::replace(&mut *waiting, String::with_capacity(WAITING_BYTES + WAITING_BYTES / 8));
-            self.voice.states(full);
+            self.writer.states(full);
         }
     }
 
-    /// The run has ended: how everything stands, and what the motions did. Returns how often something was left out.
+    /// Sends the final state, and what the motions did, at the end of the run. Returns how often something was left
+    /// out.
     pub(crate) fn run_ended(&self, controller: &Controller) -> u64 {
-        // There is no cycle any more that could be late.
-        self.voice.if_full(IfFull::Waits);
+        // No further cycle could be late.
+        self.writer.if_full(IfFull::Waits);
         self.flush();
-        self.voice.state(controller);
+        self.writer.state(controller);
         if self.wishes.each_motion {
             let report = report::all_json(&controller.recorded());
-            report.lines().for_each(|object| self.voice.report(object));
+            report.lines().for_each(|object| self.writer.report(object));
         }
-        self.voice.ended();
-        self.voice.lost()
+        self.writer.ended();
+        self.writer.lost()
     }
 }
 
 impl Drop for Recording {
-    /// Who ends a run before its end tells what happened until then.
+    /// A run that is dropped before its end has sent what happened until then.
     fn drop(&mut self) {
         self.flush();
     }
 }
 
-/// Two takers of messages.
+/// An output and the recording.
 struct Both<O> {
     output: O,
     recorded: Messages,
@@ -210,7 +210,7 @@ mod tests {
             let time: f64 = time.parse().unwrap();
             let row = rows.iter().find(|row| row[0] == time).unwrap_or_else(|| panic!("no row of {time} s"));
             let axes: Vec<f64> = axes.split(',').map(|axis| axis.parse().unwrap()).collect();
-            // Numbers have six places.
+            // Numbers have six decimals.
             assert!(axes.iter().zip(&row[3..9]).all(|(said, axis)| (said - axis).abs() < 1e-6), "{row:?}: {line}");
         }
         assert_eq!((cycles, states), (101, 26), "each cycle, and every fourth one from the first one on");

@@ -60,7 +60,7 @@ Exit codes: 0 ended, 2 usage, 3 alarm, 4 the time was up or nothing could change
 any more, 130 interrupted.
 ";
 
-/// What the command line says.
+/// The options of the command line.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Options {
     pub(super) robot: Option<String>,
@@ -90,7 +90,7 @@ pub(super) struct Options {
 }
 
 impl Options {
-    /// The first option that only a program has that runs by itself.
+    /// The first option given that only a program running on its own supports.
     pub(super) fn needs_a_process(&self) -> Option<&'static str> {
         let asked = [
             (self.live, "--live"),
@@ -115,7 +115,7 @@ pub(super) enum ClockKind {
     Real,
 }
 
-/// Where to say what the motions did.
+/// Where to report what the motions did.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Report {
     /// As a table on the standard error.
@@ -124,7 +124,7 @@ pub(super) enum Report {
     File(PathBuf),
 }
 
-/// What only programs can do that were made for a debugger.
+/// Requests that only programs made for a debugger support.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub(super) struct Asked {
     pub(super) debug: Option<String>,
@@ -132,7 +132,7 @@ pub(super) struct Asked {
 }
 
 impl Asked {
-    /// Which option asks for it, and which command makes programs that can.
+    /// The option that makes the request, and the command that makes programs that support it.
     pub(super) fn needs(&self) -> Option<(&'static str, &'static str)> {
         match self {
             Self { debug: Some(_), .. } => Some(("--debug", "arl2rs dap")),
@@ -143,7 +143,7 @@ impl Asked {
 }
 
 impl Options {
-    /// What holds without any option.
+    /// The default options.
     fn new(script_dir: &str) -> Self {
         Self {
             robot: None,
@@ -173,7 +173,7 @@ impl Options {
         }
     }
 
-    /// Whether the options fit each other; what one of them asks for of another.
+    /// Checks that the options fit each other; sets what one of them implies for another.
     fn agree(&mut self) -> Result<(), lexopt::Error> {
         if self.realtime.is_some() {
             if self.clock == Some(ClockKind::Virtual) {
@@ -196,7 +196,7 @@ impl Options {
     }
 }
 
-/// Reads the command line; nothing where help was asked for.
+/// Reads the command line; `None` where help was requested.
 pub(super) fn parse(
     arguments: impl IntoIterator<Item = OsString> + 'static,
     script_dir: &str,
@@ -265,7 +265,7 @@ pub(super) fn parse(
     Ok(Some(options))
 }
 
-/// One of a few words.
+/// Reads one of a few words.
 fn word<T: Copy>(parser: &mut lexopt::Parser, option: &str, words: &[(&str, T)]) -> Result<T, lexopt::Error> {
     use lexopt::ValueExt;
     let found = parser.value()?.string()?;
@@ -276,7 +276,7 @@ fn word<T: Copy>(parser: &mut lexopt::Parser, option: &str, words: &[(&str, T)])
     })
 }
 
-/// A number from 0 up.
+/// Reads a number from 0 up.
 fn number(parser: &mut lexopt::Parser, option: &str, what: &str, most: f64) -> Result<f64, lexopt::Error> {
     use lexopt::ValueExt;
     let found = parser.value()?.string()?;

@@ -1,4 +1,4 @@
-//! Each of several robots has its own trace file.
+//! Trace files for several robots, one for each.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::SetupFailure;
 use crate::controller::Builder;
 
-/// Gives each foreground channel beyond the first a trace beside that of the first one.
+/// Gives each foreground channel beyond the first a trace file next to that of the first one.
 pub(super) fn trace(mut builder: Builder, first: Option<&Path>) -> Result<Builder, SetupFailure> {
     let Some(first) = first else { return Ok(builder) };
     for number in 2..=builder.foreground_count() {

@@ -1,4 +1,4 @@
-//! A builder's parts put together: what was kept, robots, buses, channels, the controller.
+//! Puts a builder's parts together: stored data, robots, buses, channels, the controller.
 
 use std::cell::RefCell;
 use std::mem;
@@ -39,14 +39,14 @@ use arl_robot::cell::fit;
 use arl_robot::kinematics::frame;
 use arl_robot::robot::{Family, Robot, RobotError};
 
-/// So many cycles may be lost within a second where robots are driven, and nobody says otherwise.
+/// How many cycles may be lost within a second by default where robots are driven.
 const LATE_LIMIT: u32 = 20;
 
 impl Builder {
-    /// The controller, with its programs at the start of the first cycle; this one runs in the first channel.
+    /// Builds the controller, with its programs before their first cycle; `program` runs in the first channel.
     ///
     /// # Errors
-    /// The parts do not fit each other, or what was kept is damaged.
+    /// The parts do not fit each other, or stored data is damaged.
     pub fn build(self, program: impl Program) -> Result<Controller, SetupError> {
         self.build_boxed(Box::new(program))
     }
@@ -99,7 +99,7 @@ impl Builder {
             unit,
             clock: self.clock,
             late_limit: LateLimit::new(late_limit, rate.cycles(1.0)),
-            // The first cycle begins when somebody steps.
+            // The first cycle begins when the controller is stepped.
             had_ended: true,
             islands,
             io: self.io,
@@ -116,7 +116,7 @@ impl Builder {
         })
     }
 
-    /// Gives drivers to the robots that are driven. Whether one of them needs real time.
+    /// Gives drivers to the robots that are driven. Returns whether one of them needs real time.
     fn connect_robots(&mut self) -> Result<bool, SetupError> {
         self.body.settings = self.cell.driver.take();
         let Some(connect) = self.connect else { return Ok(false) };
@@ -124,14 +124,14 @@ impl Builder {
         drive(bodies, connect, &mut self.clock)
     }
 
-    /// Whether there is room for the programs, and whether they have the global variables that are put in; what they
-    /// use beside the cycle.
+    /// Checks that there is room for the programs, and that they have the global variables that are to be set. Returns
+    /// what they use beside the cycle.
     fn check_programs(&mut self, program: &dyn Program) -> Result<Beside, SetupError> {
         check_channels(1 + self.foreground.len(), self.background.len())?;
         let others = self.foreground.iter().map(|it| &it.program).chain(&self.background);
         let all: Vec<&dyn Program> = std::iter::once(program).chain(others.map(|program| &**program)).collect();
         all.iter().for_each(|program| atomic_file::remove_leftovers(&self.script_dir.join(program.folder())));
-        // What does not fit is told now; what is put in comes once more when the variables have their first values.
+        // Errors are reported now; the values are set again when the variables have their first values.
         let named = mem::take(&mut self.named);
         named.iter().try_for_each(|named| named.put(&all)).map_err(SetupError::Global)?;
         self.initialised.push(Box::new(move |program| {
@@ -140,20 +140,20 @@ impl Builder {
         Ok(all.iter().map(|program| program.beside()).fold(self.programs.beside(), Beside::bitor))
     }
 
-    /// Reads what the controller kept while it was off.
+    /// Loads what was stored when the controller was last on.
     fn load_kept(&mut self) -> Result<Kept, SetupError> {
         let common = Rc::new(Common::new());
         let mut state = KeptState::new(mem::replace(&mut self.storage, Box::new(Memory::default())));
         system::load(&common.kept_own(), &mut state)?;
         let pointers = load_pointers(&mut state)?;
         let beside = state.another();
-        // What the cell wires is so, whatever a program has saved.
+        // The wiring of the cell holds, whatever a program has saved.
         wiring::apply(&self.cell.external, &common);
         common.ctl_mode.set(self.mode);
         Ok(Kept { common, state, pointers, beside })
     }
 
-    /// The robots of the first channel and of the others; they fit programs, cell and scenario.
+    /// The robots of the first channel and of the others, checked to fit programs, cell and scenario.
     fn robots(&mut self, program: &dyn Program) -> Result<(Robot, Vec<Robot>), SetupError> {
         let cell = &self.cell;
         self.body.homes = cell.homes.clone();
@@ -198,20 +198,20 @@ impl Builder {
     }
 }
 
-/// What the controller kept while it was off.
+/// What was stored when the controller was last on.
 struct Kept {
     common: Rc<Common>,
     state: KeptState,
     pointers: PointerTable,
-    /// The same storage, for a thread that writes beside the cycle; `None`: it is in memory.
+    /// The same storage, for a thread that writes beside the cycle; `None`: the storage is in memory.
     beside: Option<Box<dyn Storage + Send>>,
 }
 
-/// What exchanges signals with the world.
+/// What exchanges signals with the outside world.
 struct Outside {
     buses: Buses,
     islands: Islands,
-    /// What the user should know of how they started.
+    /// A note for the user on how they started.
     note: Option<String>,
 }
 
@@ -236,7 +236,7 @@ fn load_pointers(state: &mut KeptState) -> Result<PointerTable, SetupError> {
 }
 
 /// Starts the threads that open connections and write files, before a cycle needs them. Where the system has no thread
-/// for it now, whoever opens the first connection, or writes the first file, tries again.
+/// for it now, the first connection to be opened, or the first file to be written, tries again.
 fn start_threads(shared: &SharedState, opens_connections: bool, writes_files: bool) {
     if opens_connections {
         let _ = shared.opener.start();
@@ -246,17 +246,17 @@ fn start_threads(shared: &SharedState, opens_connections: bool, writes_files: bo
     }
 }
 
-/// Starts the thread that keeps where the programs stand.
+/// Starts the thread that stores where the programs stand.
 fn start_pointer_store(storage: Box<dyn Storage + Send>, pointers: PointerTable) -> Result<PointerStore, SetupError> {
     PointerStore::start(storage, pointers).map_err(|error| {
         SetupError::Outside(format!("the thread that saves the program pointers cannot be started: {error}"))
     })
 }
 
-/// How near to a home point is at home where nobody says it, in deg (mm).
+/// How near to a home point counts as at home by default, in deg (mm).
 const HOME_TOLERANCE: f64 = 0.1;
 
-/// What channels are set up with.
+/// What channels are set up from.
 struct Site {
     shared: Rc<SharedState>,
     common: Rc<Common>,
@@ -266,7 +266,7 @@ struct Site {
     trace_more: More,
     stack: usize,
     pointers: PointerTable,
-    /// The programs of the controller, as each of them sees the others.
+    /// The programs of the controller, as each program sees the others.
     programs: Rc<Programs>,
 }
 
@@ -337,7 +337,7 @@ impl Site {
 
     fn channel(&self, channel_state: ChannelState, program: Box<dyn Program>, trace: Option<Trace>) -> Channel {
         channel_state.reset_system();
-        // What it tells of the robot holds from the first statement on.
+        // The system variables about the robot hold from the first statement on.
         if let Some(unit) = channel_state.robot() {
             channel_state.update_system(&unit);
         }
@@ -345,7 +345,7 @@ impl Site {
     }
 }
 
-/// The robot of a program, which fits it and what belongs to it.
+/// The robot for a program, checked to fit the program and the robot's own settings.
 fn robot_of(body: &Body, program: &dyn Program) -> Result<Robot, SetupError> {
     let family = program.family();
     let robot = match &body.robot {

@@ -33,8 +33,8 @@ use arl_robot::robot::Robot;
 
 pub use setup_error::SetupError;
 
-/// What a controller can be given before it starts. Without anything it has the default robot, simulated, the default
-/// cell, and the virtual clock; messages go to the standard output, system variables are kept in memory only.
+/// What a controller can be given before it starts. By default it has the default robot, simulated, the default cell,
+/// and the virtual clock; messages go to the standard output, system variables are kept in memory only.
 pub struct Builder {
     /// The first channel's robot.
     body: Body,
@@ -63,7 +63,7 @@ pub struct Builder {
     seed: u64,
     start_date: i64,
     stack: usize,
-    /// Whether somebody outside may change something: drivers that are not ours, beside those of robots.
+    /// Whether code outside may change something: drivers that are not ours, apart from those of robots.
     has_outside: bool,
 }
 
@@ -101,8 +101,8 @@ impl Default for Builder {
 }
 
 impl Builder {
-    /// Adds the next foreground channel, 2 to 6, with its own program and robot. The first one is the program that
-    /// [`Builder::build`] gets.
+    /// Adds the next foreground channel, 2 to 6, with its own program and robot. The first channel runs the program
+    /// that is passed to [`Builder::build`].
     pub fn foreground(mut self, channel: Foreground) -> Self {
         self.foreground.push(channel);
         self
@@ -114,15 +114,15 @@ impl Builder {
         self
     }
 
-    /// A program that `switcharl` can load into a foreground channel, by the name of its file.
+    /// Adds a program that `switcharl` can load into a foreground channel, by the name of its file.
     pub fn loadable(mut self, name: impl Into<String>, make: impl Fn() -> Box<dyn Program> + 'static) -> Self {
         self.programs.add(name.into(), Box::new(make));
         self
     }
 
-    /// What sets global variables: it is called each time that a program with globals of this type has given them their
-    /// first values and those of its data files, at its start and after a reset, before `main` runs. It runs within a
-    /// cycle and must be quick.
+    /// A function that sets global variables. It is called each time that a program with globals of this type has given
+    /// them their first values and those of its data files, at its start and after a reset, before `main` runs. It runs
+    /// within a cycle and must be quick.
     ///
     /// `docs/embedding.md` has an example.
     pub fn on_init<G: 'static>(mut self, set: impl Fn(&G) + 'static) -> Self {
@@ -131,80 +131,80 @@ impl Builder {
     }
 
     /// Gives a global variable another first value, by its name in any case and as a literal of ARL: `("pitch",
-    /// "80.5")`, `("feeder", "{z 120}")`. Components that the literal leaves out keep theirs. It comes when
-    /// [`Builder::on_init`] does, and only to programs that were compiled with the names of their variables. A name
-    /// that several files have is written `FILE::NAME`.
+    /// "80.5")`, `("feeder", "{z 120}")`. Components that the literal leaves out keep their values. The value is set
+    /// when the function of [`Builder::on_init`] is called, and only in programs that were compiled with the names of
+    /// their variables. A name that several files have is written `FILE::NAME`.
     pub fn global(mut self, name: impl Into<String>, literal: impl Into<String>) -> Self {
         self.named.push(Named::new(name.into(), literal.into()));
         self
     }
 
-    /// The robot of the first channel; without it the default robot of the program's family.
+    /// The robot of the first channel; by default the default robot of the program's family.
     pub fn robot(mut self, robot: Robot) -> Self {
         self.body.robot = Some(robot);
         self
     }
 
-    /// What stands around the robot.
+    /// The cell: what stands around the robot.
     pub fn cell(mut self, cell: Cell) -> Self {
         self.cell = cell;
         self
     }
 
-    /// Where the time comes from.
+    /// The clock, which gives the time of the cycles.
     pub fn clock(mut self, clock: impl Clock + 'static) -> Self {
         self.clock = Box::new(clock);
         self
     }
 
-    /// What moves the robot of the first channel.
+    /// The driver of the first channel's robot.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
         self.body.drive(driver);
         self
     }
 
-    /// Drives the robots that the cell has a `[driver]` for, with what this makes of it: `arl_drivers::connect`.
-    /// Without it the cell's drivers do not count, and its robots are simulated. A [driver](Builder::robot_driver) of
-    /// one's own goes before that of the cell.
+    /// Drives the robots that have a `[driver]` in the cell, with the drivers that `connect` makes from their settings:
+    /// `arl_drivers::connect`. By default the cell's drivers are ignored, and its robots are simulated. A
+    /// [driver](Builder::robot_driver) that was given takes precedence over that of the cell.
     pub fn drivers(mut self, connect: Connect) -> Self {
         self.connect = Some(connect);
         self
     }
 
-    /// What exchanges inputs and outputs, beside the islands of the cell.
+    /// The driver of inputs and outputs, in addition to the islands of the cell.
     pub fn io_driver(mut self, driver: impl IoDriver + 'static) -> Self {
         self.io = Box::new(driver);
         self.has_outside = true;
         self
     }
 
-    /// The DeviceNet bus; without it a simulated one, of the size that the cell gives.
+    /// The DeviceNet bus; by default a simulated one, of the size that the cell gives.
     pub fn devicenet(mut self, bus: impl DeviceNet + 'static) -> Self {
         self.devicenet = Some(Box::new(bus));
         self.has_outside = true;
         self
     }
 
-    /// What sets up the network ports of the host (`setip`); without it nothing does.
+    /// The driver that sets up the network ports of the host (`setip`); by default nothing sets them up.
     pub fn network_driver(mut self, driver: impl NetworkDriver + 'static) -> Self {
         self.network = Some(Box::new(driver));
         self
     }
 
-    /// What plays the outside.
+    /// The scenario, which plays the outside world.
     pub fn scenario(mut self, scenario: Scenario) -> Self {
         self.scenario = scenario;
         self
     }
 
-    /// What takes the messages of `print`.
+    /// The output for the messages of `print`.
     pub fn output(mut self, output: impl Output + 'static) -> Self {
         self.output = Some(Box::new(output));
         self
     }
 
-    /// What is told every alarm, of all channels, in the cycle in which it comes up. It runs within that cycle and must
-    /// be quick. [`Controller::take_alarms`](crate::Controller::take_alarms) gives them as well.
+    /// A listener that is called with every alarm, of all channels, in the cycle in which it is raised. It runs within
+    /// that cycle and must be quick. [`Controller::take_alarms`](crate::Controller::take_alarms) returns them as well.
     ///
     /// ```
     /// use arl_rt::emit::*;
@@ -231,10 +231,10 @@ impl Builder {
     /// }
     ///
     /// let (alarms, messages) = (std::rc::Rc::default(), Captured::new());
-    /// let heard: std::rc::Rc<std::cell::RefCell<Vec<(ChannelId, u32)>>> = std::rc::Rc::clone(&alarms);
+    /// let received: std::rc::Rc<std::cell::RefCell<Vec<(ChannelId, u32)>>> = std::rc::Rc::clone(&alarms);
     /// let mut controller = Controller::builder()
     ///     .output(messages.clone())
-    ///     .on_alarm(move |alarm| heard.borrow_mut().push((alarm.channel, alarm.line)))
+    ///     .on_alarm(move |alarm| received.borrow_mut().push((alarm.channel, alarm.line)))
     ///     .foreground(Foreground::new(Box::new(Divide(0))))
     ///     .build(Box::new(Divide(3)))?;
     /// controller.run_for(0.4);
@@ -252,40 +252,41 @@ impl Builder {
         self
     }
 
-    /// Where all that happens goes, for other threads, from the very start: messages, warnings, alarms, and each change
-    /// of the state. They wait in the channel until somebody takes them.
+    /// A channel that receives all events, for other threads, from the very start: messages, warnings, alarms, and each
+    /// change of the state. They wait in the channel until they are received.
     pub fn events(mut self, tell: Sender<Event>) -> Self {
         self.subscribers.push(tell);
         self
     }
 
-    /// What is told every warning when it comes up: what is not an alarm but worth a word, such as a button that cannot
-    /// act now. [`Controller::take_warnings`](crate::Controller::take_warnings) gives them as well.
+    /// A listener that is called with every warning when it is raised: what is not an alarm but worth reporting, such
+    /// as a button that cannot act now. [`Controller::take_warnings`](crate::Controller::take_warnings) returns them as
+    /// well.
     pub fn on_warning(mut self, listener: impl FnMut(&str) + 'static) -> Self {
         self.listeners.warning = Some(Box::new(listener));
         self
     }
 
-    /// Where system variables are kept.
+    /// The storage for system variables.
     pub fn storage(mut self, storage: impl Storage + 'static) -> Self {
         self.storage = Box::new(storage);
         self
     }
 
-    /// The directory of the program's files; without it the current one.
+    /// The directory of the program's files; by default the current one.
     pub fn script_dir(mut self, path: impl Into<PathBuf>) -> Self {
         self.script_dir = path.into();
         self
     }
 
-    /// Where the trace of the first channel's robot goes, as CSV.
+    /// The writer for the trace of the first channel's robot, as CSV.
     pub fn trace(mut self, writer: impl Write + 'static) -> Self {
         self.body.trace = Some(Box::new(writer));
         self
     }
 
-    /// The traces of all robots have a column `file` behind the others: the file that the line of the motion is of,
-    /// empty where none is executed.
+    /// Appends a column `file` to the traces of all robots: the file that the motion's line belongs to, empty where no
+    /// motion is executed.
     pub fn trace_files(mut self) -> Self {
         self.trace_more.file = true;
         self
@@ -297,32 +298,32 @@ impl Builder {
         self
     }
 
-    /// The operating mode; without it automatic.
+    /// The operating mode; by default automatic.
     pub fn mode(mut self, mode: Controlmode) -> Self {
         self.mode = mode;
         self
     }
 
-    /// The speed override at the start; without it 100 %.
+    /// The speed override at the start; by default 100 %.
     pub fn speed_override(mut self, speed: Override) -> Self {
         self.speed_override = speed;
         self
     }
 
-    /// What `rand` starts from.
+    /// The seed of `rand`.
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
     }
 
-    /// The date at which the controller starts, in s since 1970-01-01 00:00:00; without it 2000-01-01.
+    /// The date at which the controller starts, in s since 1970-01-01 00:00:00; by default 2000-01-01.
     pub fn start_date(mut self, seconds: i64) -> Self {
         self.start_date = seconds;
         self
     }
 
-    /// How many bytes of stack the program's functions may fill. The thread must have some 256 KiB more: that of
-    /// [`Controller::spawn`](crate::Controller::spawn) has room for 1 MiB, which is what holds without this.
+    /// How many bytes of stack the program's functions may use; by default 1 MiB. The thread must have some 256 KiB
+    /// more: that of [`Controller::spawn`](crate::Controller::spawn) has enough for the default.
     pub fn stack(mut self, bytes: usize) -> Self {
         self.stack = bytes;
         self

@@ -1,4 +1,4 @@
-//! Why a controller cannot be set up.
+//! The reason why a controller cannot be set up.
 
 use std::fmt;
 
@@ -8,43 +8,43 @@ use crate::storage::state::StateError;
 use arl_robot::cell::SettingsError;
 use arl_robot::robot::{Family, RobotError};
 
-/// Why a controller cannot be set up.
+/// The reason why a controller cannot be set up.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum SetupError {
-    /// The robot is wrong.
+    /// The robot has an error.
     Robot(RobotError),
-    /// The program was checked for another build of robot.
+    /// The program was checked for another family of robot.
     Family {
-        /// The build that the program was checked for.
+        /// The family that the program was checked for.
         program: Family,
         /// The robot's name.
         robot: String,
-        /// The robot's build.
+        /// The robot's family.
         family: Family,
     },
-    /// There are too many channels, or programs for them are not there.
+    /// There are too many channels, or programs for them are missing.
     Channels(String),
     /// The cell or the scenario does not fit.
     Cell(String),
-    /// What the cell has of the outside cannot be had.
+    /// A bus or island that the cell has, or a thread, cannot be started.
     Outside(String),
-    /// What was kept is damaged.
+    /// Stored data is damaged.
     State(StateError),
     /// The trace cannot be written.
     Trace(String),
-    /// The robot of a channel cannot be had.
+    /// The robot of a channel cannot be started.
     Driver {
         /// The number of the channel, from 1.
         channel: u8,
-        /// What its driver says.
+        /// The error of its driver.
         problem: DriverError,
     },
-    /// The inputs and outputs of an io driver cannot be had; what it says.
+    /// The io driver cannot be started; its error.
     Io(DriverError),
-    /// A global variable is not there, or does not take its value.
+    /// A global variable does not exist, or does not take its value.
     Global(GlobalError),
-    /// Whoever sets it up says why not.
+    /// Any other reason, in words.
     Other(String),
 }
 

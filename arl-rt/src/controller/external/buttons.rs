@@ -1,31 +1,31 @@
-//! The inputs with which a PLC works the controller like somebody at the pendant.
+//! The inputs by which a PLC presses the buttons of the pendant.
 
 use super::edge_detector::{EdgeDetector, InputSnapshot, InputState};
 use crate::context::system::System;
 use crate::io::Pendant;
 
-/// How long a pulse must be that switches the servos, in s.
+/// How long a pulse must be to switch the servos, in s.
 pub(in crate::controller) const SERVO_PULSE_S: f64 = 0.03;
 
-/// What of an input counts.
+/// What makes an input press its button.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Means {
-    /// That it goes on.
+    /// It goes on.
     Edge,
-    /// That it goes on, and that it still is when the programs pause.
+    /// It goes on, or it is still on when the programs pause.
     Level,
-    /// That it has been on for [`SERVO_PULSE_S`].
+    /// It has been on for [`SERVO_PULSE_S`].
     Pulse,
 }
 
-/// An input that works a button.
+/// An input that presses a button.
 struct Button {
     channel: fn(&System) -> i32,
     means: Means,
     button: Pendant,
 }
 
-/// In the order in which they act within a cycle: what stops comes last, so that it wins.
+/// The buttons in the order in which they act within a cycle: those that stop come last, so that they win.
 const BUTTONS: [Button; 6] = [
     Button { channel: |system| system.clear_alarm_di.get(), means: Means::Edge, button: Pendant::Clear },
     Button { channel: |system| system.reset_prog_di.get(), means: Means::Level, button: Pendant::Reset },
@@ -38,12 +38,12 @@ const BUTTONS: [Button; 6] = [
 /// The buttons that are pressed in a cycle, in the order in which they act.
 pub(in crate::controller) type Pressed = [Option<Pendant>; BUTTONS.len()];
 
-/// The inputs that work buttons.
+/// The inputs that press buttons.
 #[derive(Debug, Default)]
 pub(super) struct Buttons([EdgeDetector; BUTTONS.len()]);
 
 impl Buttons {
-    /// What the inputs of this cycle press.
+    /// The buttons that the inputs of this cycle press.
     pub(super) fn listen(&mut self, now: &InputSnapshot<'_>, active: bool) -> Pressed {
         let InputSnapshot { io, system, cycle, rate, paused } = *now;
         let pulse = rate.cycles(SERVO_PULSE_S);

@@ -1,38 +1,38 @@
-//! Edges and pulses of an input, found by looking at it once a cycle.
+//! Edges and pulses of an input, found by reading it once a cycle.
 
 use crate::context::system::System;
 use crate::io::Image;
 use arl_robot::cell::Rate;
 
-/// What is looked at in a cycle.
+/// The state that is evaluated in a cycle.
 pub(in crate::controller) struct InputSnapshot<'a> {
     /// The inputs.
     pub(in crate::controller) io: &'a Image,
-    /// What says which of them mean what.
+    /// The system variables that assign functions to inputs.
     pub(in crate::controller) system: &'a System,
     /// The running number of the cycle.
     pub(in crate::controller) cycle: u64,
-    /// How long cycles are.
+    /// The length of the cycles.
     pub(in crate::controller) rate: Rate,
     /// Whether the programs are paused.
     pub(in crate::controller) paused: bool,
 }
 
-/// What an input does in this cycle.
+/// The state of an input in this cycle.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(super) struct InputState {
-    /// It is on.
+    /// Whether it is on.
     pub(super) on: bool,
-    /// It has just gone on.
+    /// Whether it has just gone on.
     pub(super) rises: bool,
-    /// For how many cycles it has been on now, this one included; 0 where nobody saw it go on.
+    /// For how many cycles it has been on, this one included; 0 where its rising edge was not seen.
     pub(super) cycles: u64,
 }
 
 /// Follows the input that a system variable names.
 #[derive(Clone, Copy, Default, Debug)]
 pub(super) struct EdgeDetector {
-    /// The input that was looked at last; 0 before the first look.
+    /// The input that was read last; 0 before the first reading.
     channel: i32,
     level: bool,
     /// The cycle in which it went on, if it is still on.
@@ -40,7 +40,7 @@ pub(super) struct EdgeDetector {
 }
 
 impl EdgeDetector {
-    /// Looks at the input. Edges count while `active` only, and only after a look at the same input: one that is on
+    /// Reads the input. Edges count while `active` only, and only after a reading of the same input: one that is on
     /// when it begins to count must go off first.
     pub(super) fn look(&mut self, io: &Image, channel: i32, cycle: u64, active: bool) -> InputState {
         let Some(on) = io.input(channel) else {
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
     use crate::io::{Channels, Digital};
 
-    /// What a watch tells of levels in a row, each with whether it counts.
+    /// What the detector reports for successive levels, each with its channel and whether edges count.
     fn rises(levels: &[(i32, bool, bool)]) -> Vec<(bool, u64)> {
         let (mut io, mut watch) = (Image::new(&Channels::default()), EdgeDetector::default());
         let mut cycle = 0;

@@ -1,7 +1,7 @@
-//! External auto control (chapter 9): a PLC that works the controller through inputs and outputs.
+//! External auto control (chapter 9): a PLC controls the controller through inputs and outputs.
 //!
-//! System variables say which channels mean what. Inputs are looked at when they have been read, outputs follow before
-//! they are written; in between lies the cycle.
+//! System variables assign functions to channels. Inputs are evaluated after they have been read, outputs are set
+//! before they are written; the cycle lies in between.
 
 mod buttons;
 mod edge_detector;
@@ -23,7 +23,7 @@ use status_outputs::StatusOutputs;
 /// The side of the controller that a PLC sees.
 #[derive(Debug)]
 pub(super) struct External {
-    /// Whether the cell has it at all.
+    /// Whether the cell enables external control.
     enabled: bool,
     buttons: Buttons,
     number: ProgramNumber,
@@ -37,11 +37,11 @@ impl External {
         Self { enabled, buttons, number, status_outputs }
     }
 
-    /// Looks at the inputs of this cycle: takes over the program number that the PLC gives; returns the buttons that it
-    /// presses, in the order in which they act.
+    /// Evaluates the inputs of this cycle: takes over the program number that the PLC gives, and returns the buttons
+    /// that it presses, in the order in which they act.
     ///
     /// # Errors
-    /// It gives no program number, though it says so.
+    /// The PLC signals a program number, but gives no valid one.
     pub(super) fn listen(&mut self, now: &InputSnapshot<'_>) -> Result<Pressed, Fault> {
         let InputSnapshot { io, system, cycle, .. } = *now;
         let active = self.enabled && is_activated(io, system);
@@ -64,7 +64,7 @@ impl External {
         self.enabled && system.start_prog_di.get() > 0 && system.ctl_mode.get() == Controlmode::Auto
     }
 
-    /// Brings the outputs up to date that tell the PLC what the controller does.
+    /// Updates the outputs that report the controller's state to the PLC.
     pub(super) fn show(&mut self, io: &mut Image, system: &System, state: State, servo_on: bool) {
         if self.enabled {
             self.status_outputs.show(io, system, state, servo_on, self.number.taken());
@@ -72,8 +72,8 @@ impl External {
     }
 }
 
-/// Whether the PLC may work the controller: in automatic mode, while its activation input is on, or where none is
-/// wired.
+/// Whether the PLC may control the controller: in automatic mode, while its activation input is on, or where no such
+/// input is wired.
 fn is_activated(io: &Image, system: &System) -> bool {
     let asked = match system.ext_ctl_act_di.get() {
         0 => true,

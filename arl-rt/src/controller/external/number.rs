@@ -1,9 +1,9 @@
-//! How a row of inputs is read as a program number.
+//! Decodes a row of inputs as a program number.
 
-/// The number that `bits` are in this coding (`$PGNO_TYPE`); the lowest bit is the first input's.
+/// The number that `bits` stand for in this coding (`$PGNO_TYPE`); the lowest bit is the first input's.
 ///
 /// # Errors
-/// They are none: what is wrong, as a sentence part.
+/// The bits are not a number; the error, as a part of a sentence.
 pub(super) fn decode(coding: i32, bits: u32, length: u32) -> Result<i32, String> {
     match coding {
         1 => bcd(bits, length),
@@ -12,7 +12,7 @@ pub(super) fn decode(coding: i32, bits: u32, length: u32) -> Result<i32, String>
     }
 }
 
-/// Four inputs a digit.
+/// Decodes BCD: four inputs per digit.
 fn bcd(bits: u32, length: u32) -> Result<i32, String> {
     if !length.is_multiple_of(4) {
         return Err(format!("$PGNO_LENGTH is {length}, but for BCD it must be 4, 8, 12 or 16"));
@@ -27,7 +27,7 @@ fn bcd(bits: u32, length: u32) -> Result<i32, String> {
     Ok(number)
 }
 
-/// One input each.
+/// Decodes one input per number.
 fn one_out_of(bits: u32, length: u32) -> Result<i32, String> {
     match bits.count_ones() {
         1 => Ok(bits.trailing_zeros().cast_signed()),
@@ -35,7 +35,7 @@ fn one_out_of(bits: u32, length: u32) -> Result<i32, String> {
     }
 }
 
-/// Whether the number of inputs that are on, the parity input among them, is odd or even as it should be.
+/// Whether the number of inputs that are on, including the parity input, is odd or even as it should be.
 pub(super) fn parity_fits(bits: u32, parity: bool, odd: bool) -> bool {
     (bits.count_ones() + u32::from(parity)) % 2 == u32::from(odd)
 }

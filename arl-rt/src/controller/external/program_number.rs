@@ -6,22 +6,22 @@ use crate::context::system::System;
 use crate::fault::Fault;
 use crate::io::Image;
 
-/// `$PGNO_TYPE` of one input for each number, which has no parity.
+/// The `$PGNO_TYPE` with one input per number, which has no parity.
 const ONE_OUT_OF: i32 = 2;
 
 /// The program number that a PLC gives.
 #[derive(Debug, Default)]
 pub(super) struct ProgramNumber {
     valid: EdgeDetector,
-    /// The inputs of the number that was taken last, lowest bit first.
+    /// The inputs of the number that was taken over last, lowest bit first.
     taken: u32,
 }
 
 impl ProgramNumber {
-    /// Takes the number over when the PLC says that it is there.
+    /// Takes the number over when the PLC signals that it is valid.
     ///
     /// # Errors
-    /// It is none. `$PGNO` keeps its value then.
+    /// The inputs are not a valid number. `$PGNO` keeps its value then.
     pub(super) fn listen(&mut self, io: &Image, system: &System, cycle: u64, active: bool) -> Result<(), Fault> {
         if !self.valid.look(io, system.pgno_valid_di.get(), cycle, active).rises {
             return Ok(());
@@ -33,13 +33,13 @@ impl ProgramNumber {
         Ok(())
     }
 
-    /// The inputs of the number that was taken, as the outputs of the acknowledgement repeat them.
+    /// The inputs of the number that was taken over, as the acknowledgement outputs repeat them.
     pub(super) fn taken(&self) -> u32 {
         self.taken
     }
 }
 
-/// The inputs of the number, and what they mean.
+/// Reads the inputs of the number, and decodes them.
 fn read(io: &Image, system: &System) -> Result<(u32, i32), String> {
     let (first, length) = (system.pgno_fbit_di.get(), system.pgno_length.get());
     let last = first.saturating_add(length - 1);

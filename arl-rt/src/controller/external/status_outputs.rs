@@ -1,16 +1,16 @@
-//! The outputs that tell a PLC what the controller does.
+//! The outputs that report the controller's state to a PLC.
 
 use crate::context::system::System;
 use crate::controller::State;
 use crate::io::Image;
 use crate::values::Controlmode;
 
-/// The longest program number.
+/// The longest program number, in bits.
 const NUMBER_BITS: usize = 16;
-/// As many as [`StatusOutputs::show`] shows.
+/// The number of outputs that [`StatusOutputs::show`] drives.
 const STATUS_OUTPUTS: usize = 6 + 5 + 2 + NUMBER_BITS;
 
-/// The outputs that the controller drives, in the order in which it shows them; 0: none.
+/// The outputs that the controller drives, in the order in which it drives them; 0: none.
 #[derive(Debug)]
 pub(super) struct StatusOutputs([i32; STATUS_OUTPUTS]);
 
@@ -21,7 +21,7 @@ impl Default for StatusOutputs {
 }
 
 impl StatusOutputs {
-    /// Drives all outputs that are wired. One that does not exist means that the cell does without.
+    /// Drives all outputs that are wired. An output that does not exist means that the cell does not use it.
     pub(super) fn show(&mut self, io: &mut Image, system: &System, state: State, servo_on: bool, number: u32) {
         let mode = system.ctl_mode.get();
         let mut board = Board { io, driven: self.0.iter_mut() };
@@ -46,7 +46,7 @@ impl StatusOutputs {
     }
 }
 
-/// What `$CHAN_STATE_DO` and the output behind it show.
+/// The levels of `$CHAN_STATE_DO` and the output behind it.
 fn channel_state(state: State) -> (bool, bool) {
     match state {
         State::Running => (true, false),
@@ -62,7 +62,7 @@ struct Board<'a> {
 }
 
 impl Board<'_> {
-    /// Drives an output. The one that showed this before, where it was another, goes off.
+    /// Drives an output. Where another output was used for this before, that one goes off.
     fn show(&mut self, channel: i32, on: bool) {
         let Some(driven) = self.driven.next() else { return };
         if *driven != channel {
@@ -72,7 +72,7 @@ impl Board<'_> {
         self.io.drive_output(channel, on);
     }
 
-    /// Drives outputs that lie in a row, if all of them are there.
+    /// Drives successive outputs, if all of them exist.
     fn show_row(&mut self, first: i32, levels: impl ExactSizeIterator<Item = bool>) {
         let last = i64::from(first) + levels.len() as i64 - 1;
         let fits = first > 0 && last <= self.io.outputs().len() as i64;
@@ -81,7 +81,7 @@ impl Board<'_> {
         }
     }
 
-    /// What is left shows nothing.
+    /// Switches off the outputs that are no longer used.
     fn end(mut self) {
         while self.driven.len() > 0 {
             self.show(0, false);

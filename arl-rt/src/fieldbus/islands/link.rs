@@ -19,10 +19,10 @@ pub(super) struct IslandLink {
 }
 
 impl IslandLink {
-    /// Connects.
+    /// Connects to an island.
     ///
     /// # Errors
-    /// Why that is not possible, as a part of a message.
+    /// The reason why that is not possible, as a part of a message.
     pub(super) fn open(address: SocketAddr, unit: u8, timeout: Duration) -> Result<Self, String> {
         let open = || {
             let stream = TcpStream::connect_timeout(&address, timeout)?;
@@ -38,7 +38,7 @@ impl IslandLink {
     /// Sends a request and waits for the answer.
     ///
     /// # Errors
-    /// There is none, as a part of a message; the connection is of no use any more.
+    /// The reason why there is no answer, as a part of a message; the connection is no longer usable.
     pub(super) fn ask(&mut self, request: &[u8]) -> Result<&[u8], String> {
         self.transaction = self.transaction.wrapping_add(1);
         self.frame.clear();
@@ -49,7 +49,7 @@ impl IslandLink {
         loop {
             match mbap::first(self.buffer.get(..filled).unwrap_or_default()) {
                 Received::Part => {}
-                // What comes before it is asked for, or answers another request, is not an answer to this one.
+                // An unrequested frame, or the answer to another request, is not an answer to this one.
                 Received::Frame(frame, len)
                     if len == filled && frame.transaction == self.transaction && frame.unit == self.unit =>
                 {
@@ -75,7 +75,7 @@ impl IslandLink {
         Ok(self.buffer.get(HEAD..filled).unwrap_or_default())
     }
 
-    /// Why a frame is not the answer to the last request.
+    /// The reason why a frame is not the answer to the last request.
     fn difference(&self, frame: ModbusFrame<'_>) -> String {
         match frame {
             ModbusFrame { unit, .. } if unit != self.unit => {

@@ -1,5 +1,5 @@
-//! Io islands: servers of Modbus TCP that have inputs and outputs of the cell. A thread for each exchanges them; the
-//! cycle copies images.
+//! I/O islands: Modbus TCP servers with inputs and outputs of the cell. A thread for each island exchanges them; the
+//! cycle only copies images.
 
 mod link;
 mod plan;
@@ -18,8 +18,7 @@ use self::poller::Poller;
 use self::shared::SharedImages;
 use crate::io::{Inputs, IoDriver, OutputSignal, Outputs};
 
-/// The islands of a cell. Their outputs are written a last time when this is dropped, which takes as long as a request
-/// may.
+/// The islands of a cell. Their outputs are written a last time on drop, which takes up to the timeout of a request.
 #[derive(Default)]
 pub(crate) struct Islands {
     ports: Vec<Port>,
@@ -33,24 +32,24 @@ struct Port {
     inputs: Signals,
     /// The last cycle whose outputs the island has taken.
     written: Option<u64>,
-    /// How often the island was found or lost when the cycle last looked.
+    /// How often the island had been found or lost at the last check by the cycle.
     turns: u64,
     lost: Option<Arc<str>>,
-    /// What the user should know.
+    /// A message for the user.
     news: Option<String>,
 }
 
 impl Islands {
-    /// Starts to exchange with islands; returns when each has answered once, or is known to be lost.
+    /// Starts the exchange with islands; returns once each has answered or is known to be lost.
     ///
     /// # Errors
-    /// An island without which no robot may move is lost: which, and why.
+    /// An island without which no robot may move is lost; the message has its name and the reason.
     pub(crate) fn start(islands: &[Island]) -> Result<Self, String> {
         let mut ports = Vec::with_capacity(islands.len());
         for island in islands {
             ports.push(Port::start(island)?);
         }
-        // Whoever is lost ends all of them again.
+        // A lost island ends all of them again, as `islands` is dropped.
         let islands = Self { ports };
         for port in &islands.ports {
             if let Some(why) = port.shared.first_turn().filter(|_| port.island.lost == Lost::Alarm) {
@@ -64,7 +63,7 @@ impl Islands {
         Ok(islands)
     }
 
-    /// Whether there is any.
+    /// Whether the cell has no islands.
     pub(crate) fn is_empty(&self) -> bool {
         self.ports.is_empty()
     }
@@ -100,7 +99,7 @@ impl Drop for Islands {
             port.thread.iter().for_each(|thread| thread.thread().unpark());
         }
         for port in &mut self.ports {
-            // It has nothing to tell that nobody knows.
+            // The result of the thread has no new information.
             port.thread.take().into_iter().for_each(|thread| drop(thread.join()));
         }
     }
@@ -159,7 +158,7 @@ impl Port {
     }
 
     fn write(&self, outputs: Outputs<'_>) {
-        // Whoever copies them just now gets these in the next cycle.
+        // If the thread copies them just now, it gets these in the next cycle.
         let Some(mut state) = self.shared.try_lock() else { return };
         let points = &self.island.points;
         for (bit, level) in points.dout.iter().zip(&mut state.outputs.bits) {
@@ -172,7 +171,8 @@ impl Port {
     }
 }
 
-/// What the user should know when an island is found or lost; of one that stops the robots the alarm tells the loss.
+/// The message for the user when an island is found or lost; an alarm reports the loss of an island that stops the
+/// robots.
 fn news(island: &Island, lost: Option<&str>, first: bool) -> Option<String> {
     match (lost, island.lost) {
         (None, _) if first => None,
@@ -186,7 +186,7 @@ fn news(island: &Island, lost: Option<&str>, first: bool) -> Option<String> {
     }
 }
 
-/// An island in a message.
+/// The name of an island in messages.
 fn title(island: &Island) -> String {
     let address = island.address.to_string();
     if island.name == address {

@@ -1,4 +1,4 @@
-//! Which requests bring an island's inputs and take its outputs: as few as the protocol and the addresses allow.
+//! The requests that read an island's inputs and write its outputs: as few as the protocol and the addresses allow.
 
 use arl_robot::islands::{Analog, Bit, Points, Scale, Table};
 
@@ -11,7 +11,7 @@ pub(super) struct ExchangePlan {
     pub(super) writes: Vec<SignalRange>,
 }
 
-/// Neighbouring coils or registers, as many as fit into one request.
+/// Adjacent coils or registers, as many as fit into one request.
 #[derive(PartialEq, Debug)]
 pub(super) struct SignalRange {
     pub(super) table: Table,
@@ -20,18 +20,18 @@ pub(super) struct SignalRange {
     points: Vec<Point>,
 }
 
-/// What a coil or register of a run means.
+/// The signal of a coil or register in a range.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Point {
-    /// Counted from the run's first.
+    /// Counted from the first of the range.
     offset: usize,
     signal: Signal,
 }
 
-/// A signal, by its place among the island's digital or analog ones of its direction.
+/// A signal, by its index among the island's digital or analog signals of its direction.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Signal {
-    /// One bit, of a register where the table has registers.
+    /// One bit; the bit of a register if the table has registers.
     Bit { place: usize, bit: u8 },
     /// A whole register.
     Value { place: usize, scale: Scale },
@@ -46,12 +46,12 @@ pub(super) struct Signals {
 }
 
 impl Signals {
-    /// So many signals, off and at these values.
+    /// `bits` digital signals that are off, and analog signals with these values.
     pub(super) fn at_rest(bits: usize, values: &[f64]) -> Self {
         Self { bits: vec![false; bits], values: values.to_vec() }
     }
 
-    /// Takes over the signals of an image of the same size.
+    /// Copies the signals of an image of the same size.
     pub(super) fn copy_from(&mut self, other: &Signals) {
         self.bits.clone_from_slice(&other.bits);
         self.values.clone_from_slice(&other.values);
@@ -65,7 +65,7 @@ impl ExchangePlan {
     }
 }
 
-/// Puts neighbours together.
+/// Groups adjacent signals.
 fn runs(bits: &[Bit], analogs: &[Analog], most: fn(Table) -> usize) -> Vec<SignalRange> {
     let bits = bits.iter().enumerate().map(|(place, bit)| {
         let signal = Signal::Bit { place, bit: bit.bit };
@@ -83,7 +83,7 @@ fn runs(bits: &[Bit], analogs: &[Analog], most: fn(Table) -> usize) -> Vec<Signa
             let offset = usize::from(address - run.start);
             run.table == table && offset <= run.count.into() && offset < most(table)
         };
-        // In the order of addresses, so that what comes next is the last one's neighbour or nobody's.
+        // In the order of addresses, so that only the last range can contain the next signal.
         let last = runs.last_mut().filter(|run| run.table == table);
         match last.filter(fits) {
             Some(run) => {
@@ -101,7 +101,7 @@ fn runs(bits: &[Bit], analogs: &[Analog], most: fn(Table) -> usize) -> Vec<Signa
 }
 
 impl SignalRange {
-    /// Takes the signals out of the bytes of an answer.
+    /// Extracts the signals from the bytes of an answer.
     pub(super) fn take(&self, data: &[u8], into: &mut Signals) {
         for point in &self.points {
             match point.signal {
@@ -145,7 +145,7 @@ impl SignalRange {
         }
     }
 
-    /// What it is, for messages.
+    /// A description for messages.
     pub(super) fn describe(&self) -> String {
         let (start, last) = (self.start, u32::from(self.start) + u32::from(self.count) - 1);
         match self.count {

@@ -1,4 +1,4 @@
-//! The thread of an island: it exchanges inputs and outputs, and comes back when the island is lost.
+//! The thread of an island: it exchanges inputs and outputs, and reconnects after the island is lost.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -11,40 +11,40 @@ use super::shared::SharedImages;
 use crate::cycle::catch_panic::catch_panic;
 use crate::fieldbus::modbus::client::{self, Refusal};
 
-/// How long the thread waits before it connects again: first, and at most. Each time is twice the one before.
+/// The first and the longest pause of the thread before it reconnects. Each pause is twice the previous one.
 const FIRST_RECONNECT_PAUSE: Duration = Duration::from_millis(100);
 const MAX_RECONNECT_PAUSE: Duration = Duration::from_secs(5);
 
-/// What the thread works with.
+/// The data of the thread.
 pub(super) struct Poller {
     island: Island,
     plan: ExchangePlan,
     shared: Arc<SharedImages>,
     inputs: Signals,
     outputs: Signals,
-    /// Without signal.
+    /// Signals at rest.
     resting: [Signals; 2],
     request: Vec<u8>,
 }
 
 impl Poller {
-    /// For an island, whose signals are at rest so far: inputs, outputs.
+    /// A poller for an island; `resting` are the inputs and outputs at rest, with which it starts.
     pub(super) fn new(island: Island, shared: Arc<SharedImages>, resting: [Signals; 2]) -> Self {
         let (plan, [inputs, outputs]) = (ExchangePlan::new(&island.points), resting.clone());
         Self { island, plan, shared, inputs, outputs, resting, request: Vec::with_capacity(256) }
     }
 
-    /// Exchanges until it is told to stop.
+    /// Exchanges until the thread is to stop.
     pub(super) fn run(mut self) {
         let mut pause = FIRST_RECONNECT_PAUSE;
         while !self.shared.stops() {
             let begin = Instant::now();
-            // Inputs that nobody exchanges any more are lost, whatever the reason: robots must not go by them.
+            // Inputs that are no longer exchanged are lost, for whatever reason: robots must not rely on them.
             let visited = catch_panic(|| self.visit()).unwrap_or_else(|| Err("its thread has panicked".to_owned()));
             let Err(why) = visited else { return };
             let resting = (self.island.inputs == Rest::Zero).then_some(&self.resting[0]);
             self.shared.lose(why, resting);
-            // One that comes and goes is not met more often than one that is gone.
+            // An island that comes and goes is not contacted more often than one that is gone.
             if begin.elapsed() > MAX_RECONNECT_PAUSE {
                 pause = FIRST_RECONNECT_PAUSE;
             }
@@ -53,7 +53,7 @@ impl Poller {
         }
     }
 
-    /// Connects, and exchanges until it is told to stop.
+    /// Connects, and exchanges until the thread is to stop.
     fn visit(&mut self) -> Result<(), String> {
         let mut link = IslandLink::open(self.island.address, self.island.unit, self.island.timeout)?;
         let mut next = Instant::now();
@@ -70,7 +70,7 @@ impl Poller {
                 run.take(data.map_err(|refusal| refused(run, refusal))?, &mut self.inputs);
             }
             self.shared.bring_inputs(&self.inputs);
-            // What took longer than it should does not make the next ones come closer together.
+            // A delayed exchange does not make the next ones follow faster.
             next = (next + self.island.poll).max(Instant::now());
             self.sleep_until(next);
         }
@@ -93,7 +93,7 @@ impl Poller {
         Ok(())
     }
 
-    /// Sleeps, unless it is told to stop.
+    /// Sleeps, unless the thread is to stop.
     fn sleep_until(&self, end: Instant) {
         while !self.shared.stops()
             && let Some(left) = end.checked_duration_since(Instant::now()).filter(|left| !left.is_zero())

@@ -1,4 +1,4 @@
-//! Islands that behave, that go, that refuse, and that talk nonsense.
+//! Islands that work, that disappear, that refuse requests, and that send invalid data.
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
@@ -27,7 +27,7 @@ fn server(address: &str) -> (Server, SharedTables) {
     (Server::start(address.parse().unwrap(), 4, tables.clone()).unwrap(), tables)
 }
 
-/// A run: islands, and an image that goes through cycles.
+/// A run: islands, and an image that is updated in cycles.
 struct Run {
     islands: Islands,
     image: Image,
@@ -48,7 +48,7 @@ impl Run {
         self.cycle += 1;
     }
 
-    /// Runs cycles until something is so.
+    /// Runs cycles until a condition holds.
     fn until(&mut self, what: &str, mut so: impl FnMut(&Self) -> bool) {
         let start = Instant::now();
         while !so(self) {
@@ -69,7 +69,7 @@ fn set_inputs(tables: &SharedTables, bits: u8, register: [u8; 2]) {
     tables.registers_mut(10, 1).unwrap().copy_from_slice(&register);
 }
 
-/// The outputs that the island has: bits, register.
+/// The outputs in the island: bits, register.
 fn outputs(tables: &SharedTables) -> (u8, [u8; 2]) {
     let tables = tables.wait();
     let mut bits = [0];
@@ -129,7 +129,7 @@ fn what_is_lost_is_told_and_comes_back() {
         assert!(words.contains(&format!("the island valves ({address}) is lost: ")), "{words}");
         assert!(words.contains(told.unwrap_or_default()) && run.warnings.is_empty() == told.is_none(), "{words}");
         assert_eq!((run.inputs().0, run.inputs().1.round()), rest);
-        // Another one, whose outputs are off.
+        // Another island, whose outputs are off.
         run.image.set_digitals(Digital::Do, 1, 3, 0b001).unwrap();
         let (_again, tables) = server(&address.to_string());
         set_inputs(&tables, 0b100, [0x40, 0x00]);
@@ -147,12 +147,12 @@ fn at_the_end_outputs_go_to_0_or_stay() {
         let mut run = Run::start(server.address(), more);
         run.image.set_digitals(Digital::Do, 1, 3, 0b101).unwrap();
         run.image.set_analog_output(2, 10.0).unwrap();
-        // The last thing that a cycle gave is written, whatever the thread was doing.
+        // The last outputs of a cycle are written, whatever the thread was doing.
         run.until("the images", |run| run.islands.ports[0].shared.wait().outputs.bits[0]);
         drop(run);
         assert_eq!(outputs(&tables), end);
     }
-    // Without a cycle nobody has said what they shall be.
+    // Without a cycle the outputs have not been set.
     let (server, tables) = server("127.0.0.1:0");
     tables.wait().write_coils(200, 3, &[0b111]).unwrap();
     drop(Run::start(server.address(), ""));
@@ -172,7 +172,7 @@ fn an_island_that_is_not_there_is_told_at_the_start() {
 #[test]
 fn a_refusal_names_what_is_refused() {
     let (server, _) = server("127.0.0.1:0");
-    // A server of ours has no discrete inputs.
+    // The runtime's own server has no discrete inputs.
     let mut islands = settings(server.address(), "");
     islands[0].points.di[0].table = arl_robot::islands::Table::DiscreteInput;
     let error = Islands::start(&islands).err().unwrap();
@@ -182,7 +182,7 @@ fn a_refusal_names_what_is_refused() {
     );
 }
 
-/// An island that does what it wants with each request.
+/// An island that answers each request with `answer`.
 fn stranger(answer: fn(&[u8]) -> Vec<u8>) -> SocketAddr {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap();
@@ -212,7 +212,7 @@ fn whoever_talks_nonsense_is_lost() {
     let strangers: [(Answer, &str); 6] = [
         (|_| Vec::new(), "it has not answered for 300 ms (it was asked for coils 100 to 102)"),
         (|_| b"HTTP/1.1 400 Bad Request\r\n\r\n".to_vec(), "is not a Modbus TCP response"),
-        // Another transaction, another unit, too many coils, another one's answer behind it.
+        // Another transaction, another unit, too many coils, a further answer after it.
         (
             |request| [&[9, 9], &request[2..5], &[4, request[6], 1, 1, 0]].concat(),
             "is not a Modbus TCP response to this request: it answers request number 2313 instead of 1",

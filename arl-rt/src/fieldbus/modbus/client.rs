@@ -1,5 +1,5 @@
-//! Modbus requests that the controller sends as a client, and what it makes of the answers: bytes without the frame
-//! around them, Modbus Application Protocol 1.1b3.
+//! Modbus requests that the controller sends as a client, and the evaluation of the answers: bytes without the frame,
+//! Modbus Application Protocol 1.1b3.
 
 use arl_robot::islands::Table;
 
@@ -13,21 +13,21 @@ pub(crate) const fn most_written(table: Table) -> usize {
     if table.has_bits() { super::pdu::MOST_WRITTEN_COILS } else { super::pdu::MOST_WRITTEN_REGISTERS }
 }
 
-/// Why there is nothing in an answer.
+/// The reason why an answer has no data.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Refusal {
-    /// The other side says so, with this code.
+    /// The server has answered with this exception code.
     Exception(u8),
-    /// It is not an answer to this request.
+    /// The bytes are not an answer to this request.
     Garbage,
 }
 
-/// How many bytes so many coils or registers take.
+/// The size in bytes of `count` coils or registers.
 pub(crate) const fn size(table: Table, count: usize) -> usize {
     if table.has_bits() { count.div_ceil(8) } else { 2 * count }
 }
 
-/// Makes a request for `count` coils or registers from `start` on.
+/// Builds a request to read `count` coils or registers from `start` on.
 pub(crate) fn read_request(out: &mut Vec<u8>, table: Table, start: u16, count: u16) {
     let function = match table {
         Table::Coil => 1,
@@ -41,7 +41,7 @@ pub(crate) fn read_request(out: &mut Vec<u8>, table: Table, start: u16, count: u
     out.extend_from_slice(&count.to_be_bytes());
 }
 
-/// Makes a request that sets `count` coils or registers from `start` on; returns where their bytes go, all 0.
+/// Builds a request to set `count` coils or registers from `start` on; returns the place for their bytes, all 0.
 pub(crate) fn write_request(out: &mut Vec<u8>, table: Table, start: u16, count: u16) -> &mut [u8] {
     let bytes = size(table, count.into());
     out.clear();
@@ -54,10 +54,10 @@ pub(crate) fn write_request(out: &mut Vec<u8>, table: Table, start: u16, count: 
     out.get_mut(head..).unwrap_or_default()
 }
 
-/// The bytes that an answer has for a request to read.
+/// The data bytes of the answer to a read request.
 ///
 /// # Errors
-/// It has none.
+/// The answer has none.
 pub(crate) fn read_answer(table: Table, function: u8, count: usize, answer: &[u8]) -> Result<&[u8], Refusal> {
     match answer {
         [code, bytes, data @ ..]
@@ -69,10 +69,10 @@ pub(crate) fn read_answer(table: Table, function: u8, count: usize, answer: &[u8
     }
 }
 
-/// Looks whether a request to write was done: the answer repeats its function, start and count.
+/// Checks whether a write request was carried out: the answer repeats its function, start and count.
 ///
 /// # Errors
-/// It was not.
+/// The request was not carried out.
 pub(crate) fn write_answer(request: &[u8], answer: &[u8]) -> Result<(), Refusal> {
     match (request.get(..5), request.first()) {
         (Some(head), _) if head == answer => Ok(()),
@@ -87,7 +87,7 @@ fn refusal(function: u8, answer: &[u8]) -> Refusal {
     }
 }
 
-/// What an exception means, as a part of a message.
+/// The meaning of an exception code, as a part of a message.
 pub(crate) const fn exception(code: u8) -> &'static str {
     match code {
         1 => "it does not have this function",
@@ -124,7 +124,7 @@ mod tests {
         ] {
             let data = write_request(&mut request, table, start, count);
             data.iter_mut().enumerate().for_each(|(at, byte)| *byte = at as u8 | 1);
-            // Bits left over are not there to be read.
+            // Surplus bits cannot be read.
             if table == Table::Coil && count % 8 != 0 {
                 data.iter_mut().last().into_iter().for_each(|byte| *byte &= (1 << (count % 8)) - 1);
             }

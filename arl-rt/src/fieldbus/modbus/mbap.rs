@@ -2,37 +2,37 @@
 
 use super::pdu::LONGEST;
 
-/// The bytes in front: transaction, protocol, length, unit.
+/// The size of the header: transaction, protocol, length, unit.
 pub(crate) const HEAD: usize = 7;
 
 /// The most bytes of a frame.
 pub(crate) const LONGEST_FRAME: usize = HEAD + LONGEST;
 
-/// What a frame carries, and in what it is sent.
+/// The content and the header of a frame.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct ModbusFrame<'a> {
-    /// By which the answer is told from others.
+    /// The number that identifies the answer.
     pub(crate) transaction: u16,
-    /// The unit behind the address.
+    /// The unit at the address.
     pub(crate) unit: u8,
-    /// The request or answer, one byte at least.
+    /// The request or answer, at least one byte.
     pub(crate) pdu: &'a [u8],
 }
 
-/// What stands at the start of what has come.
+/// The start of the received bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Received<'a> {
-    /// A frame, and how many bytes it takes.
+    /// A frame, and its size in bytes.
     Frame(ModbusFrame<'a>, usize),
     /// The beginning of a frame.
     Part,
-    /// No Modbus: what follows cannot be told apart any more.
+    /// Not Modbus: the bytes that follow can no longer be separated into frames.
     Garbage,
 }
 
-/// The frame at the start of what has come.
+/// The frame at the start of the received bytes.
 pub(crate) fn first(bytes: &[u8]) -> Received<'_> {
-    // As soon as it can be told: protocol and length may be wrong before the whole frame is there.
+    // Checked as early as possible: protocol and length may be wrong before the whole frame has arrived.
     let protocol = bytes.get(2..4.min(bytes.len())).unwrap_or_default();
     if protocol.iter().any(|byte| *byte != 0) {
         return Received::Garbage;

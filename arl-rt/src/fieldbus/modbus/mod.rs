@@ -1,4 +1,4 @@
-//! Modbus: registers and coils that others read and write.
+//! Modbus: registers and coils that other devices read and write.
 
 pub(crate) mod client;
 pub(crate) mod mbap;
@@ -31,13 +31,13 @@ impl std::fmt::Debug for SharedTables {
 pub(crate) struct SharedTables(Arc<Mutex<Tables>>);
 
 impl SharedTables {
-    /// The tables, as soon as nobody else has them: for threads beside the cycle.
+    /// Waits for the lock on the tables: for threads outside the cycle.
     pub(crate) fn wait(&self) -> MutexGuard<'_, Tables> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The tables, unless somebody else has them for longer than it takes to copy what one request may ask for: its
-    /// thread was interrupted just then. The cycle does not wait for that.
+    /// The tables, unless another thread holds them for longer than it takes to copy the data of one request because it
+    /// was interrupted just then. The cycle does not wait for that.
     pub(crate) fn try_lock(&self) -> Option<MutexGuard<'_, Tables>> {
         try_lock(&self.0)
     }

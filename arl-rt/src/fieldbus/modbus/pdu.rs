@@ -1,4 +1,4 @@
-//! Modbus requests and their answers, as bytes without the frame around them: Modbus Application Protocol 1.1b3.
+//! Modbus requests and their answers, as bytes without the frame: Modbus Application Protocol 1.1b3.
 //!
 //! Own code: of the crates that answer requests without a runtime of their own, rmodbus 0.13 drops requests of more
 //! than 250 bytes and answers unknown functions whatever their checksum, and modbus-core 0.2 trusts the counts of the
@@ -9,14 +9,14 @@ use super::tables::Tables;
 /// The most bytes of a request or an answer.
 pub(crate) const LONGEST: usize = 253;
 
-/// The most that one request may ask for or bring, by the specification.
+/// The most that one request may read or write, by the specification.
 pub(crate) const MOST_READ_COILS: usize = 2000;
 pub(crate) const MOST_WRITTEN_COILS: usize = 1968;
 pub(crate) const MOST_READ_REGISTERS: usize = 125;
 pub(crate) const MOST_WRITTEN_REGISTERS: usize = 123;
 const MOST_EXCHANGED_REGISTERS: usize = 121;
 
-/// The functions that a server of ours knows, by their numbers.
+/// The functions of this server, by their numbers.
 mod function {
     pub(super) const READ_COILS: u8 = 1;
     pub(super) const READ_REGISTERS: u8 = 3;
@@ -28,18 +28,18 @@ mod function {
     pub(super) const EXCHANGE_REGISTERS: u8 = 23;
 }
 
-/// Why a request is refused; the numbers are those of the protocol.
+/// The reason why a request is refused; the numbers are those of the protocol.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Exception {
     /// A function that the server does not have.
     Function = 1,
-    /// Registers or coils that are not there.
+    /// Registers or coils that do not exist.
     Address = 2,
     /// A count or a value that is not allowed, or a request of the wrong length.
     Value = 3,
 }
 
-/// An answer: as many bytes as it takes.
+/// An answer of variable length.
 #[derive(Clone, Debug)]
 pub(crate) struct Answer {
     bytes: [u8; LONGEST],
@@ -67,7 +67,7 @@ impl Answer {
         }
     }
 
-    /// Function, number of bytes, and room for these.
+    /// Writes the function and the number of bytes; returns the room for these.
     fn data(&mut self, function: u8, count: usize) -> Option<&mut [u8]> {
         self.len = 2 + count;
         let place = self.bytes.get_mut(..self.len)?;
@@ -77,7 +77,8 @@ impl Answer {
     }
 }
 
-/// Does what a request asks for, all or nothing; `answer` gets what is to be sent back. An empty request has none.
+/// Carries out a request, completely or not at all; `answer` is set to the bytes to send back. An empty request has no
+/// answer.
 pub(crate) fn serve(request: &[u8], tables: &mut Tables, answer: &mut Answer) {
     let Some(function) = request.first().copied() else {
         answer.set(&[]);
@@ -159,7 +160,7 @@ fn execute(request: &[u8], tables: &mut Tables, answer: &mut Answer) -> Result<(
     }
 }
 
-/// How many a request asks for: 1 to `most`.
+/// The count of a request: 1 to `most`.
 fn count(asked: u16, most: usize) -> Result<usize, Exception> {
     match usize::from(asked) {
         count if (1..=most).contains(&count) => Ok(count),
@@ -167,7 +168,7 @@ fn count(asked: u16, most: usize) -> Result<usize, Exception> {
     }
 }
 
-/// What a coil is set to.
+/// The level to which a coil is set.
 fn level(high: u8, low: u8) -> Result<u8, Exception> {
     match word(high, low) {
         0xff00 => Ok(1),
@@ -182,7 +183,7 @@ fn mask(register: &mut [u8], and: [u8; 2], or: [u8; 2]) {
     }
 }
 
-/// Writes registers from `to` on, then reads so many from `from` on.
+/// Writes registers from `to` on, then reads `read` registers from `from` on.
 fn exchange_registers(
     from: usize,
     read: usize,
@@ -192,7 +193,7 @@ fn exchange_registers(
     answer: &mut Answer,
 ) -> Result<(), Exception> {
     use Exception::{Address, Value};
-    // Nothing is written where nothing can be read.
+    // Nothing is written if the registers to read do not exist.
     tables.registers(from, read).ok_or(Address)?;
     tables.registers_mut(to, data.len() / 2).ok_or(Address)?.copy_from_slice(data);
     let from = tables.registers(from, read).ok_or(Address)?;
@@ -219,7 +220,7 @@ mod tests {
         answer.bytes().to_vec()
     }
 
-    /// The exchanges that the specification gives as examples, with its addresses.
+    /// The example exchanges of the specification, with its addresses.
     #[test]
     fn the_specifications_examples() {
         let mut tables = Tables::default();

@@ -1,19 +1,19 @@
-//! The frame of Modbus RTU around a request or an answer: unit in front, checksum behind; requests in what a line
-//! carries.
+//! The frame of Modbus RTU around a request or an answer: unit before, checksum after it; and requests in the bytes of
+//! a line.
 
 use super::pdu::LONGEST;
 
 /// The most bytes of a frame.
 pub(crate) const LONGEST_FRAME: usize = LONGEST + 3;
 
-/// What stands at the start of what came over the line.
+/// The start of the bytes received over the line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Start<'a> {
-    /// A request with the right checksum: the unit that it is for, what it asks, and how many bytes it takes.
+    /// A request with the right checksum: the addressed unit, the request itself, and the size in bytes.
     Request(u8, &'a [u8], usize),
-    /// What may become a request.
+    /// The possible beginning of a request.
     Part,
-    /// No request: damaged, or the answer of somebody else.
+    /// Not a request: damaged, or the answer of another slave.
     Noise,
 }
 
@@ -24,13 +24,13 @@ pub(crate) struct Request {
     pub(crate) pdu: Vec<u8>,
 }
 
-/// What came over the line and is not done with. The line carries the answers of other slaves, too, whose length a
-/// request does not have: what comes after a silence may be a new request though the bytes before it are still waiting
-/// for their rest.
+/// Bytes received over the line that have not been processed. The line also carries the answers of other slaves, whose
+/// length is not that of a request: bytes after a silence may be a new request although the bytes before are still
+/// incomplete.
 #[derive(Default, Debug)]
 pub(crate) struct ReceiveBuffer {
     bytes: Vec<u8>,
-    /// Where the bytes stand that came after a silence, but the first; ascending.
+    /// The positions of bytes that came after a silence, except the first byte; ascending.
     starts: Vec<usize>,
 }
 
@@ -39,8 +39,8 @@ impl ReceiveBuffer {
         self.bytes.is_empty()
     }
 
-    /// Adds what came. As much as a frame and still no request is a flood: it goes.
-    pub(crate) fn hear(&mut self, piece: &[u8], after_silence: bool) {
+    /// Adds received bytes. If the bytes so far are as long as a frame without a request, they are discarded.
+    pub(crate) fn receive(&mut self, piece: &[u8], after_silence: bool) {
         if self.bytes.len() >= LONGEST_FRAME {
             self.clear();
         }
@@ -50,7 +50,7 @@ impl ReceiveBuffer {
         self.bytes.extend_from_slice(piece);
     }
 
-    /// Takes the next request that is whole, and throws away what stands before it and what cannot become one.
+    /// Takes the next complete request, and discards the bytes before it and bytes that cannot become a request.
     pub(crate) fn take(&mut self) -> Option<Request> {
         let whole = std::iter::once(0).chain(self.starts.iter().copied()).find_map(|start| {
             match first(self.bytes.get(start..)?) {
@@ -68,7 +68,7 @@ impl ReceiveBuffer {
         None
     }
 
-    /// Throws everything away.
+    /// Discards all bytes.
     pub(crate) fn clear(&mut self) {
         self.bytes.clear();
         self.starts.clear();
@@ -81,10 +81,10 @@ impl ReceiveBuffer {
     }
 }
 
-/// The request at the start of what came.
+/// The request at the start of the bytes.
 fn first(bytes: &[u8]) -> Start<'_> {
     let Some(length) = request_length(bytes) else {
-        // Of functions that are not known, the length is not either: the whole must be one.
+        // The length of unknown functions is unknown, too: all bytes must be one request.
         return match split(bytes) {
             Some((unit, pdu)) => Start::Request(unit, pdu, bytes.len()),
             None if bytes.len() < 4 => Start::Part,
@@ -98,12 +98,12 @@ fn first(bytes: &[u8]) -> Start<'_> {
     }
 }
 
-/// How long a request is, as soon as that can be told.
+/// The length of a request, as soon as it is known.
 fn request_length(bytes: &[u8]) -> Option<usize> {
     let counted = |at: usize| bytes.get(at).map(|count| at + 1 + usize::from(*count) + 2);
     match bytes.get(1)? {
         1..=6 => Some(8),
-        // Until the count has come, at least what comes up to it.
+        // Until the count has arrived, at least the bytes up to it.
         15 | 16 => Some(counted(6).unwrap_or(9)),
         22 => Some(10),
         23 => Some(counted(10).unwrap_or(13)),
@@ -162,16 +162,17 @@ mod tests {
     fn a_request_is_found_behind_what_others_say() {
         let request = frame(17, &[3, 0, 0, 0, 1]);
         let wanted = Some(Request { unit: 17, pdu: vec![3, 0, 0, 0, 1] });
-        // Another slave's answers, whole or cut: too short for a request to write registers, and not one to read them.
+        // Answers of another slave, complete or cut: too short for a request to write registers, and not a request to
+        // read them.
         for other in [frame(5, &[16, 0, 0, 0, 2]), frame(5, &[3, 4, 1, 2, 3, 4]), frame(5, &[16, 0, 0])] {
-            let mut heard = ReceiveBuffer::default();
-            heard.hear(&other, true);
-            assert_eq!(heard.take(), None);
-            heard.hear(&request[..3], true);
-            assert_eq!(heard.take(), None);
-            heard.hear(&request[3..], false);
-            assert_eq!(heard.take(), wanted, "{other:?}");
-            assert!(heard.is_empty() && heard.starts.is_empty());
+            let mut received = ReceiveBuffer::default();
+            received.receive(&other, true);
+            assert_eq!(received.take(), None);
+            received.receive(&request[..3], true);
+            assert_eq!(received.take(), None);
+            received.receive(&request[3..], false);
+            assert_eq!(received.take(), wanted, "{other:?}");
+            assert!(received.is_empty() && received.starts.is_empty());
         }
     }
 
@@ -179,29 +180,30 @@ mod tests {
     fn a_request_may_come_in_pieces_and_be_followed_by_the_next() {
         let write = frame(17, &[16, 0, 1, 0, 2, 4, 0, 10, 1, 2]);
         let read = frame(17, &[3, 0, 0, 0, 1]);
-        let mut heard = ReceiveBuffer::default();
+        let mut received = ReceiveBuffer::default();
         for piece in write.chunks(1) {
-            assert_eq!(heard.take(), None);
-            heard.hear(piece, true);
+            assert_eq!(received.take(), None);
+            received.receive(piece, true);
         }
-        heard.hear(&read, false);
-        assert_eq!(heard.take().map(|request| request.pdu[0]), Some(16));
-        assert_eq!(heard.take().map(|request| request.pdu[0]), Some(3));
-        assert_eq!(heard.take(), None);
-        assert!(heard.is_empty());
+        received.receive(&read, false);
+        assert_eq!(received.take().map(|request| request.pdu[0]), Some(16));
+        assert_eq!(received.take().map(|request| request.pdu[0]), Some(3));
+        assert_eq!(received.take(), None);
+        assert!(received.is_empty());
     }
 
     #[test]
     fn noise_does_not_grow() {
         let mut noise = Noise::new(6);
-        let mut heard = ReceiveBuffer::default();
+        let mut received = ReceiveBuffer::default();
         for at in 0..20_000 {
-            heard.hear(&noise.bytes(LONGEST_FRAME), at % 3 == 0);
+            received.receive(&noise.bytes(LONGEST_FRAME), at % 3 == 0);
             if at % 2 == 0 {
-                while heard.take().is_some() {}
+                while received.take().is_some() {}
             }
             assert!(
-                heard.bytes.len() < 2 * LONGEST_FRAME && heard.starts.iter().all(|start| *start < heard.bytes.len())
+                received.bytes.len() < 2 * LONGEST_FRAME
+                    && received.starts.iter().all(|start| *start < received.bytes.len())
             );
         }
     }

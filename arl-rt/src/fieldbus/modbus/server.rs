@@ -1,7 +1,7 @@
 //! A Modbus TCP server: a thread that accepts clients, and one for each of them.
 //!
-//! Who waits for one connection only needs one system call to hear of a request and one to answer it, and the system
-//! wakes it sooner than one that waits for any of several.
+//! A thread that waits for only one connection needs one system call to receive a request and one to answer it, and the
+//! system wakes it sooner than a thread that waits for several connections.
 
 mod connection;
 
@@ -21,13 +21,13 @@ use super::SharedTables;
 use crate::cycle::catch_panic::catch_panic;
 use connection::Connection;
 
-/// A connection that has been silent for so long makes room for a new one.
+/// The silence after which a connection makes room for a new one.
 const IDLE_TIMEOUT: Duration = Duration::from_secs(60);
 
-/// One that has never asked for anything does so earlier.
+/// The same for a connection that has never sent a request.
 const FIRST_REQUEST: Duration = Duration::from_secs(5);
 
-/// How long nobody is accepted after the system refused to.
+/// The pause without accepting clients after the system has refused to.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 
 /// The stack of a connection's thread.
@@ -48,15 +48,15 @@ pub(crate) struct Server {
 }
 
 impl Server {
-    /// Listens at an address and serves the tables, on at most so many connections at once.
+    /// Listens at an address and serves the tables, on at most `connections` connections at once.
     ///
     /// # Errors
-    /// The system has no such address or port, or it is taken or not allowed; no thread can be started.
+    /// The address or port does not exist, is in use or is not allowed; or no thread can be started.
     pub(crate) fn start(address: SocketAddr, connections: usize, tables: SharedTables) -> std::io::Result<Self> {
         Self::with_patience(IDLE_TIMEOUT, address, connections, tables)
     }
 
-    /// A server where a connection that has been silent for so long makes room.
+    /// A server in which a connection that has been silent for `patience` makes room.
     fn with_patience(
         patience: Duration,
         address: SocketAddr,
@@ -83,7 +83,7 @@ impl Server {
         Ok(Self { address, stop, waker, thread: Some(thread) })
     }
 
-    /// Where it listens.
+    /// The address on which the server listens.
     pub(crate) fn address(&self) -> SocketAddr {
         self.address
     }
@@ -92,7 +92,7 @@ impl Server {
 impl Drop for Server {
     fn drop(&mut self) {
         self.stop.store(true, Ordering::Release);
-        // A thread that could not be woken is left to itself: better than to wait for it for ever.
+        // A thread that could not be woken is not joined, as that could wait for ever.
         if self.waker.wake().is_ok()
             && let Some(thread) = self.thread.take()
         {
@@ -101,13 +101,13 @@ impl Drop for Server {
     }
 }
 
-/// What the thread that accepts clients works with.
+/// The data of the thread that accepts clients.
 struct Door {
     poll: Poll,
     listener: TcpListener,
-    /// The system has refused to accept somebody who waits.
+    /// The system has refused to accept a waiting client.
     refused: bool,
-    /// How many clients are served at once.
+    /// The most clients that are served at once.
     most: usize,
     patience: Duration,
     clients: Vec<Client>,
@@ -115,9 +115,9 @@ struct Door {
     stop: Arc<AtomicBool>,
 }
 
-/// A client that is served.
+/// A client being served.
 struct Client {
-    /// The thread has it, and closes it at its end.
+    /// The thread owns the connection, and closes it at its end.
     connection: Weak<Connection>,
     thread: JoinHandle<()>,
 }
@@ -127,7 +127,7 @@ impl Door {
         let mut events = Events::with_capacity(4);
         while !self.stop.load(Ordering::Acquire) {
             match self.poll.poll(&mut events, self.refused.then_some(ACCEPT_PAUSE)) {
-                // Whoever it was about is sent away; the others can still come.
+                // After a panic, the client concerned is rejected; others can still connect.
                 Ok(()) => drop(catch_panic(|| self.accept())),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(_) => break,
@@ -139,7 +139,7 @@ impl Door {
         }
     }
 
-    /// Accepts all who wait.
+    /// Accepts all waiting clients.
     fn accept(&mut self) {
         self.refused = false;
         loop {
@@ -147,7 +147,7 @@ impl Door {
                 Ok((stream, _)) => self.admit(stream),
                 Err(error) if error.kind() == ErrorKind::WouldBlock => return,
                 Err(error) if matches!(error.kind(), ErrorKind::Interrupted | ErrorKind::ConnectionAborted) => {}
-                // No descriptors are left, for example: whoever waits is asked again later.
+                // No descriptors are left, for example: waiting clients are accepted later.
                 Err(_) => {
                     self.refused = true;
                     return;
@@ -156,7 +156,7 @@ impl Door {
         }
     }
 
-    /// Serves a client, if there is room; otherwise, and where the system has no thread for it, it is sent away.
+    /// Serves a client if there is room; otherwise, or if the system has no thread for it, rejects it.
     fn admit(&mut self, stream: TcpStream) {
         self.clients.retain(|client| !client.thread.is_finished());
         if !self.has_room() {
@@ -170,7 +170,7 @@ impl Door {
         self.clients.extend(thread.map(|thread| Client { connection: known, thread }));
     }
 
-    /// Whether one more can be served, maybe in the place of one that has been silent for long.
+    /// Whether one more client can be served, possibly in place of one that has been silent for long.
     fn has_room(&mut self) -> bool {
         if self.clients.len() < self.most {
             return true;
@@ -184,8 +184,7 @@ impl Door {
 }
 
 impl Client {
-    /// How long no request has come from it, where that is too long; one that is about to be over says nothing any
-    /// more.
+    /// How long the client has sent no request, if that is too long; `Duration::MAX` if its connection is about to end.
     fn too_silent(&self, patience: Duration) -> Option<Duration> {
         let Some(connection) = self.connection.upgrade() else { return Some(Duration::MAX) };
         let patience = if connection.has_asked() { patience } else { patience.min(FIRST_REQUEST) };

@@ -1,9 +1,9 @@
 //! The registers and coils that a Modbus server offers.
 
-/// How many registers, and how many coils: all that the protocol can name.
+/// The number of registers, and of coils: all that the protocol can address.
 pub(crate) const SIZE: usize = 1 << 16;
 
-/// Holding registers and coils. Both are kept as they go over the wire: registers with their high byte first, coils
+/// Holding registers and coils. Both are kept as transmitted on the wire: registers with their high byte first, coils
 /// with the lowest bit of a byte first.
 pub(crate) struct Tables {
     registers: Box<[u8]>,
@@ -17,18 +17,17 @@ impl Default for Tables {
 }
 
 impl Tables {
-    /// The bytes of `count` registers from `start` on; nothing where they are not all there.
+    /// The bytes of `count` registers from `start` on; `None` unless all of them exist.
     pub(crate) fn registers(&self, start: usize, count: usize) -> Option<&[u8]> {
         self.registers.get(start.checked_mul(2)?..start.checked_add(count)?.checked_mul(2)?)
     }
 
-    /// The bytes of `count` registers from `start` on, to be written; nothing where they are not all there.
+    /// The bytes of `count` registers from `start` on, for writing; `None` unless all of them exist.
     pub(crate) fn registers_mut(&mut self, start: usize, count: usize) -> Option<&mut [u8]> {
         self.registers.get_mut(start.checked_mul(2)?..start.checked_add(count)?.checked_mul(2)?)
     }
 
-    /// Packs `count` coils from `start` on into bytes, the bits left over 0. None where they are not all there, or do
-    /// not fit.
+    /// Packs `count` coils from `start` on into bytes, the surplus bits 0. `None` unless all of them exist and fit.
     #[must_use]
     pub(crate) fn read_coils(&self, start: usize, count: usize, into: &mut [u8]) -> Option<()> {
         let end = start.checked_add(count).filter(|end| *end <= SIZE)?;
@@ -41,8 +40,8 @@ impl Tables {
         Some(())
     }
 
-    /// Sets `count` coils from `start` on to the bits of `from`. None, and nothing set, where they are not all there,
-    /// or `from` has fewer bits.
+    /// Sets `count` coils from `start` on to the bits of `from`. `None`, and nothing is set, unless all of them exist
+    /// and `from` has enough bits.
     #[must_use]
     pub(crate) fn write_coils(&mut self, start: usize, count: usize, from: &[u8]) -> Option<()> {
         let end = start.checked_add(count).filter(|end| *end <= SIZE)?;

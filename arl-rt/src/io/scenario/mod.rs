@@ -1,4 +1,4 @@
-//! The io scenario: what the world around the robot does, and when.
+//! The I/O scenario: what the surroundings of the robot do, and when.
 //!
 //! ```toml
 //! [[event]]
@@ -25,7 +25,7 @@
 //! after = 0.4         # seconds later
 //! ```
 //!
-//! In place of `di.5`, in keys and texts, may stand what the cell file calls the signal: `part_present = true`.
+//! Instead of `di.5`, keys and texts may use the signal's name from the cell file: `part_present = true`.
 
 mod playing;
 mod read;
@@ -45,17 +45,18 @@ use arl_robot::robot::Robot;
 use arl_robot::settings::SettingsError;
 pub(crate) use playing::Playing;
 
-/// A word of the teach pendant.
+/// An action at the teach pendant.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum Pendant {
-    /// The start button: a paused program goes on, the robot back on its path first.
+    /// The start button: a paused program continues; the robot first returns to its path.
     Start,
-    /// The pause button: the robot stops on its path at once, and the program with it.
+    /// The pause button: the robot stops on its path at once, and so does the program.
     Pause,
-    /// Goes on for one instruction that moves, waits or touches the outside; from then on step by step, until start.
+    /// Continues for one instruction that moves, waits or accesses the outside; from then on single-step mode, until
+    /// start.
     Step,
-    /// Ends a program that is paused; one that has ended begins again.
+    /// Ends a program that is paused; restarts a program that has ended.
     Reset,
     /// Acknowledges an alarm.
     Clear,
@@ -63,14 +64,14 @@ pub enum Pendant {
     ServoOn,
     /// Stops the robot on its path and switches the motors off.
     ServoOff,
-    /// Switches the motors off at once, whatever the robot does.
+    /// Switches the motors off at once, even while the robot moves.
     EmergencyStop,
     /// The speed override.
     Override(Override),
 }
 
 impl Pendant {
-    /// Whether programs that wait for their start begin by it.
+    /// Whether the action starts programs that wait for their start.
     pub(crate) fn lets_begin(self) -> bool {
         matches!(self, Pendant::Start | Pendant::Step)
     }
@@ -79,36 +80,36 @@ impl Pendant {
 /// What an event does besides setting inputs.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Effect {
-    /// Somebody uses the pendant.
+    /// The pendant is used.
     Pendant(Pendant),
-    /// Somebody touches the robot of a foreground channel, counted from 1.
+    /// The robot of a foreground channel, counted from 1, is pushed or moved.
     Robot(u8, RobotEffect),
 }
 
-/// What is done to a robot.
+/// An action on a robot.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum RobotEffect {
-    /// A force pushes the TCP: in the world, N.
+    /// A force on the TCP, in world coordinates, N.
     Force([f64; 3]),
-    /// A torque (Nm; N of a linear axis) turns an axis, counted from 0.
+    /// A torque (Nm; N on a linear axis) on an axis, counted from 0.
     Torque(usize, f64),
-    /// Somebody jogs an axis by so many deg (mm).
+    /// An axis is jogged by a distance in deg (mm).
     Jog(AxisName, f64),
-    /// Somebody moves an axis by hand, by so many deg (mm).
+    /// An axis is moved by hand by a distance in deg (mm).
     Hand(AxisName, f64),
 }
 
 /// An axis by its name.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum AxisName {
-    /// One of the robot's own, counted from 0: `j1`.
+    /// One of the robot's own axes, counted from 0: `j1` is 0.
     Own(usize),
-    /// An external one, counted from 0: `ej1`.
+    /// An external axis, counted from 0: `ej1` is 0.
     External(usize),
 }
 
 impl AxisName {
-    /// Its place among all axes of a robot, counted from 0, where that has it.
+    /// The index of the axis among all axes of a robot, counted from 0; `None` if the robot does not have it.
     pub(crate) fn place(self, robot: &Robot) -> Option<usize> {
         let own = robot.own_axes().len();
         match self {
@@ -136,7 +137,7 @@ enum Action {
 }
 
 impl Action {
-    /// Whether the channel or axis exists, and the masses that it needs.
+    /// Checks that the channel or axis exists, and the masses that the action needs.
     fn check(&self, image: &Image, robots: &[&Robot]) -> Result<(), String> {
         let found = match *self {
             Action::Digital(what, channel, _) => image.digital(what, channel).map(drop),
@@ -147,7 +148,7 @@ impl Action {
         found.map_err(|fault| format!("cannot set an input: {fault}"))
     }
 
-    /// Does what was checked; hands everything but inputs to `do_it`.
+    /// Carries out a checked action; passes everything except inputs to `do_it`.
     fn play(&self, image: &mut Image, do_it: &mut impl FnMut(Effect)) {
         let _ = match *self {
             Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
@@ -160,7 +161,7 @@ impl Action {
     }
 }
 
-/// What somebody outside does now: the part of an event that is not its cause.
+/// Actions from outside, carried out now: an event without its cause.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Order {
     actions: Vec<Action>,
@@ -172,7 +173,7 @@ impl Order {
         Ok(Self { actions: read::order(text, names)? })
     }
 
-    /// Sets inputs; hands everything else to `do_it`. Nothing of an order is done that cannot be done in full.
+    /// Sets inputs; passes everything else to `do_it`. An order that cannot be carried out in full has no effect.
     pub(crate) fn carry_out(
         &self,
         image: &mut Image,
@@ -187,14 +188,14 @@ impl Order {
     }
 }
 
-/// What sets an event off.
+/// The cause of an event.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Cause {
     /// A point in time, in s.
     At(f64),
-    /// An edge of a signal: input or output, channel from 0, level after the edge.
+    /// An edge of a signal: input or output, channel counted from 0, level after the edge.
     Edge { output: bool, channel: usize, level: bool },
-    /// Another frequency or duty cycle of a PWM output, from 0.
+    /// A change of the frequency or duty cycle of a PWM output, counted from 0.
     Pwm(usize),
 }
 
@@ -208,10 +209,10 @@ struct Event {
     line: u32,
 }
 
-/// What the world around the robot does, and when.
+/// A sequence of events: what the surroundings of the robot do, and when.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Scenario {
-    /// What it is called in messages.
+    /// The file name in messages.
     file: String,
     events: Vec<Event>,
 }
@@ -220,23 +221,23 @@ impl Scenario {
     /// Reads a scenario file.
     ///
     /// # Errors
-    /// The file cannot be read, or what it says is not a scenario.
+    /// The file cannot be read, or its content is not a scenario.
     pub fn load(path: &Path) -> Result<Scenario, SettingsError> {
         Scenario::load_with(path, &Names::default())
     }
 
-    /// Reads a scenario file that may call signals by the names that the cell has for them.
+    /// Reads a scenario file that may use the cell's names of signals.
     ///
     /// # Errors
-    /// The file cannot be read, or what it says is not a scenario.
+    /// The file cannot be read, or its content is not a scenario.
     pub fn load_with(path: &Path, names: &Names) -> Result<Scenario, SettingsError> {
         Scenario::load_changed(path, names, &Changes::default())
     }
 
-    /// The same with other values at some places.
+    /// Like `load_with`, with changed values at some places.
     ///
     /// # Errors
-    /// As for [`load_with`](Self::load_with), or the file has no such place.
+    /// As for [`load_with`](Self::load_with); or the file does not have one of the places.
     pub(crate) fn load_changed(path: &Path, names: &Names, changes: &Changes) -> Result<Scenario, SettingsError> {
         let name = path.display().to_string();
         let text = regular_file::read_text(path)
@@ -252,7 +253,7 @@ impl Scenario {
         Scenario::parse_with(file, text, &Names::default())
     }
 
-    /// The same, where the cell has names for signals.
+    /// Like `parse`, for a cell that has names for signals.
     ///
     /// ```
     /// use arl_rt::cell::Cell;
@@ -270,8 +271,8 @@ impl Scenario {
         Ok(Scenario { file: file.to_owned(), events: read::scenario(file, text, names)? })
     }
 
-    /// Whether all channels and axes that the scenario names exist, and the masses that it needs; `robots` are those of
-    /// the foreground channels.
+    /// Checks that all channels and axes that the scenario names exist, and the masses that it needs; `robots` are
+    /// those of the foreground channels.
     pub(crate) fn check(&self, channels: &Channels, robots: &[&Robot]) -> Result<(), String> {
         let image = Image::new(channels);
         for event in &self.events {
@@ -295,7 +296,7 @@ impl Scenario {
     }
 }
 
-/// Whether something can be done to the robot of a channel.
+/// Checks whether an action is possible on the robot of a channel.
 fn moves(robots: &[&Robot], channel: u8, robot_effect: RobotEffect) -> Result<(), String> {
     let Some(robot) = robots.get(usize::from(channel).wrapping_sub(1)) else {
         let count = robots.len();

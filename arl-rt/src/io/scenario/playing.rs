@@ -1,4 +1,4 @@
-//! A scenario while it plays: which events are due, and what sets them off.
+//! A scenario while it plays: which events are due, and what triggers them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -13,18 +13,18 @@ use arl_robot::cell::Rate;
 #[derive(Debug)]
 pub(crate) struct Playing {
     events: Vec<Event>,
-    /// The places of those events that wait for an edge.
+    /// The indices of the events that wait for an edge.
     watching: Vec<usize>,
-    /// The places of those that come at a time, with that in cycles.
+    /// The indices of the events that happen at a time, with that time in cycles.
     timed: Vec<(usize, u64)>,
-    /// What those set, as it was at first.
+    /// The initial state of everything that timed events set.
     at_first: Vec<Action>,
-    /// The cycle from which on time counts.
+    /// The cycle from which time counts.
     began: u64,
-    /// Whether time does not count yet: the programs wait for their start.
+    /// Whether time does not count yet because the programs wait for their start.
     waits: bool,
     resets: bool,
-    /// Whether it lets programs begin at the pendant.
+    /// Whether the scenario starts programs at the pendant.
     begins: bool,
     rate: Rate,
     due: Due,
@@ -70,24 +70,24 @@ impl Playing {
         playing
     }
 
-    /// The cycle from which on time counts, or counted last.
+    /// The cycle from which time counts, or counted last.
     pub(crate) fn began(&self) -> u64 {
         self.began
     }
 
-    /// Whether its time does not count yet.
+    /// Whether the time of the scenario does not count yet.
     pub(crate) fn waits(&self) -> bool {
         self.waits
     }
 
-    /// Lets time stand until [`begin`](Self::begin): somebody is to start the programs. Edges are still answered.
+    /// Stops time until [`begin`](Self::begin), while the programs wait for their start. Edges still trigger events.
     pub(crate) fn wait(&mut self) {
         self.waits = true;
         let timed = &self.timed;
         self.due.retain(|event| timed.binary_search_by_key(&event, |(at, _)| *at).is_err());
     }
 
-    /// Time counts from the start of this cycle on.
+    /// Lets time count from the start of this cycle.
     pub(crate) fn begin(&mut self, cycle: u64) {
         self.wait();
         self.waits = false;
@@ -97,26 +97,26 @@ impl Playing {
         }
     }
 
-    /// The same once more: what events at a time have set is as it was at first.
+    /// Begins again: restores the initial state of everything that timed events set.
     pub(crate) fn begin_again(&mut self, cycle: u64, image: &mut Image, mut do_it: impl FnMut(Effect)) {
         self.at_first.iter().for_each(|action| action.play(image, &mut do_it));
         self.begin(cycle);
     }
 
-    /// Whether it starts programs itself: at the pendant, or by a digital input.
+    /// Whether the scenario itself starts programs: at the pendant, or by a digital input.
     pub(crate) fn starts(&self, input: Option<i32>) -> bool {
         let sets =
             |action: &Action| matches!(action, Action::Digital(Digital::Di, channel, _) if Some(*channel) == input);
         self.begins || input.is_some() && self.events.iter().any(|event| event.actions.iter().any(sets))
     }
 
-    /// How many effects a cycle may have at most, if no event comes twice in it.
+    /// The most effects of a cycle, if no event happens twice in it.
     pub(crate) fn max_effects(&self) -> usize {
         let actions = self.events.iter().flat_map(|event| &event.actions);
         actions.filter(|action| matches!(action, Action::Effect(_))).count()
     }
 
-    /// Sets what is due at the start of `cycle`; hands everything but inputs to `do_it`.
+    /// Sets the inputs that are due at the start of `cycle`; passes all other actions to `do_it`.
     pub(crate) fn play(&mut self, cycle: u64, image: &mut Image, mut do_it: impl FnMut(Effect)) {
         if self.events.is_empty() {
             return;
@@ -130,34 +130,34 @@ impl Playing {
         }
     }
 
-    /// Whether somebody at the pendant makes programs begin again that have ended.
+    /// Whether the scenario restarts programs that have ended, at the pendant.
     pub(crate) fn resets(&self) -> bool {
         self.resets
     }
 
-    /// Whether an event is on its way, or will be in the next cycle by what has changed in this one.
+    /// Whether an event is pending, or will be in the next cycle because of a change in this one.
     pub(crate) fn goes_on(&self, image: &Image) -> bool {
         !self.due.is_empty() || self.watched().any(|(_, event)| self.has_edge(event, image))
     }
 
-    /// The cycle of the last event that has happened.
+    /// The cycle of the last event.
     pub(crate) fn played(&self) -> u64 {
         self.played
     }
 
-    /// The cycle before which nothing happens by itself; `None`: something that has changed in this cycle sets an event
-    /// off in the next one.
+    /// The cycle before which nothing happens by itself; `None` if a change in this cycle triggers an event in the next
+    /// one.
     pub(crate) fn quiet_until(&self, image: &Image) -> Option<u64> {
         let is_set_off = self.watched().any(|(_, event)| self.has_edge(event, image));
         (!is_set_off).then(|| self.due.next().unwrap_or(u64::MAX))
     }
 
-    /// The events that wait for an edge, with their places.
+    /// The events that wait for an edge, with their indices.
     fn watched(&self) -> impl Iterator<Item = (usize, &Event)> {
         self.watching.iter().filter_map(|at| Some((*at, self.events.get(*at)?)))
     }
 
-    /// Whether an event is set off by what has changed since the last cycle.
+    /// Whether a change since the last cycle triggers an event.
     fn has_edge(&self, event: &Event, image: &Image) -> bool {
         match event.cause {
             Cause::At(_) => false,
@@ -173,7 +173,7 @@ impl Playing {
     fn find_edges(&mut self, cycle: u64, image: &Image) {
         let mut due = std::mem::take(&mut self.due);
         for (at, event) in self.watched().filter(|(_, event)| self.has_edge(event, image)) {
-            // The outside has seen the edge at the end of the cycle before.
+            // The outside has seen the edge at the end of the previous cycle.
             due.add(cycle.saturating_sub(1) + self.rate.cycles(event.after), at);
         }
         self.due = due;
@@ -183,14 +183,14 @@ impl Playing {
     }
 }
 
-/// Whether a button is pressed.
+/// Whether an event presses one of the given buttons.
 fn presses(events: &[Event], is_meant: impl Fn(Pendant) -> bool) -> bool {
     let mut actions = events.iter().flat_map(|event| &event.actions);
     actions.any(|action| matches!(action, Action::Effect(Effect::Pendant(button)) if is_meant(*button)))
 }
 
 impl Action {
-    /// What brings back what this changes, where it lasts.
+    /// The action that restores the current state, if the change is a lasting one.
     fn undone(&self, image: &Image) -> Option<Self> {
         match *self {
             Self::Digital(what, channel, _) => Some(Self::Digital(what, channel, image.digital(what, channel).ok()?)),
@@ -206,10 +206,10 @@ impl Action {
     }
 }
 
-/// Events on their way: the earliest comes first, and those of one cycle in the order in which they were set off.
+/// Pending events: the earliest first, those of one cycle in the order in which they were triggered.
 #[derive(Default, Debug)]
 struct Due {
-    /// Cycle, how many were set off before, and the event.
+    /// The cycle, the number of events triggered before, and the event.
     waiting: BinaryHeap<Reverse<(u64, u64, usize)>>,
     added: u64,
 }
@@ -224,7 +224,7 @@ impl Due {
         self.added += 1;
     }
 
-    /// The next event that is due in a cycle or was due before.
+    /// Takes the next event that is due in a cycle or before.
     fn take(&mut self, cycle: u64) -> Option<usize> {
         let Reverse((when, ..)) = self.waiting.peek()?;
         if *when > cycle {
@@ -238,7 +238,7 @@ impl Due {
         self.waiting.peek().map(|Reverse((when, ..))| *when)
     }
 
-    /// Drops all but these events.
+    /// Keeps only these events.
     fn retain(&mut self, stays: impl Fn(usize) -> bool) {
         self.waiting.retain(|Reverse((_, _, event))| stays(*event));
     }

@@ -1,4 +1,4 @@
-//! Reads scenarios and orders: what their TOML may say, and what is wrong with it.
+//! Reads scenarios and orders from TOML, and reports errors in them.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -10,7 +10,7 @@ use arl_motion::Override;
 use arl_robot::cell::{Names, Signal, SignalKind};
 use arl_robot::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
 
-/// The keys of an event; an order has those behind the first three.
+/// The keys of an event; an order has all but the first three.
 const EVENT: &[&str] = &[
     "at",
     "when",
@@ -28,7 +28,7 @@ const EVENT: &[&str] = &[
     "channel",
 ];
 
-/// The keys with channels that are on or off.
+/// The keys of digital channels.
 const SIGNALS: [(&str, Digital); 3] =
     [("di", Digital::Di), ("internal", Digital::InternalIn), ("internal_do", Digital::InternalOut)];
 
@@ -36,7 +36,7 @@ const SIGNALS: [(&str, Digital); 3] =
 const CHANGES: &str = "`di.N`, `ai.N`, `internal.N`, `internal_do.N`, `pendant`, `override`, `force`, `torque.jN`, `jog.jN` \
                        or `hand.jN`";
 
-/// The words that a scenario may use.
+/// The pendant actions that a scenario may use.
 const WORDS: [(&str, Pendant); 8] = [
     ("start", Pendant::Start),
     ("pause", Pendant::Pause),
@@ -48,10 +48,10 @@ const WORDS: [(&str, Pendant); 8] = [
     ("emergency_stop", Pendant::EmergencyStop),
 ];
 
-/// The keys of a follower.
+/// The keys of a `follow` table.
 const FOLLOW: &[&str] = &["signal", "of", "after"];
 
-/// What the cell calls its signals, and the keys of an event with these names.
+/// The cell's names of signals, and the keys of an event including these names.
 struct Words<'a> {
     names: &'a Names,
     event: Vec<&'a str>,
@@ -62,7 +62,7 @@ impl<'a> Words<'a> {
         Self { names, event: EVENT.iter().copied().chain(names.iter().map(|(_, name)| name)).collect() }
     }
 
-    /// The signal that is written so, by its name or as `di.5`.
+    /// The signal with this name or notation, such as `di.5`.
     fn signal(&self, text: &str) -> Option<Signal> {
         self.names.signal(text).or_else(|| Signal::parse(text))
     }
@@ -72,7 +72,7 @@ impl<'a> Words<'a> {
 pub(super) fn order(text: &str, names: &Names) -> Result<Vec<Action>, SettingsError> {
     let source = Source { file: "order", text };
     let root = source.parse().map_err(|error| {
-        // Who types an order need not know how files are written.
+        // A user who types an order need not know the file format.
         let text =
             format!("this is not an order, such as `di.5 = true`, `ai.2 = 4.2` or `override = 50`: {}", error.message);
         SettingsError { message: text.replace(": this is not TOML", ""), ..error }
@@ -89,15 +89,15 @@ pub(super) fn order(text: &str, names: &Names) -> Result<Vec<Action>, SettingsEr
 /// The events of a scenario.
 pub(super) fn scenario(file: &str, text: &str, names: &Names) -> Result<Vec<Event>, SettingsError> {
     let words = Words::new(names);
-    // As a whole, a long text takes many times its size, so it is read table by table. Only the whole tells where
-    // mistakes are, and whether the parts would mean something else together.
+    // Parsing a long text as a whole takes many times its size in memory, so it is read table by table. Only the whole
+    // shows where mistakes are, and whether the parts together would mean something else.
     match by_tables(file, text, &words) {
         Some(events) => Ok(events),
         None => events(Source { file, text }, 1, &words, &mut Followers::new()),
     }
 }
 
-/// The events, where nothing stands in front of the first table, no text has several lines, and there is no mistake.
+/// The events, if nothing precedes the first table, no string has several lines, and there is no mistake.
 fn by_tables(file: &str, text: &str, words: &Words<'_>) -> Option<Vec<Event>> {
     if text.contains("\"\"\"") || text.contains("'''") {
         return None;
@@ -120,13 +120,13 @@ fn count_lines(text: &str) -> u32 {
     text.bytes().filter(|byte| *byte == b'\n').count() as u32
 }
 
-/// A text in parts: what is in front of the first line that begins a table, then table by table.
+/// Splits a text into parts: the text before the first line that begins a table, then each table.
 fn tables_of(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     let mut is_first = true;
     std::iter::from_fn(move || {
         let text = rest?;
-        // The line that begins a table is its own, not the next one's.
+        // The line that begins a table belongs to it, not to the next one.
         let own = if std::mem::take(&mut is_first) { 0 } else { text.find('\n').map_or(text.len(), |end| end + 1) };
         let begins = |line: &str| TABLES.iter().any(|table| line.trim_start().starts_with(table));
         let mut at = own;
@@ -144,13 +144,13 @@ fn tables_of(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// How tables begin.
+/// The first lines of tables.
 const TABLES: [&str; 2] = ["[[event]]", "[[follow]]"];
 
-/// The inputs that follow other signals, with the lines that say so.
+/// The inputs that follow other signals, with the lines of their tables.
 type Followers = Vec<((Digital, i32), u32)>;
 
-/// The events of a text that begins in this line of its file; followers are events, too.
+/// The events of a text that begins at this line of its file; followers become events, too.
 fn events(
     source: Source<'_>,
     first_line: u32,
@@ -167,18 +167,18 @@ fn events(
     for value in array(&top, "follow", "tables that begin with [[follow]]")? {
         all.extend(follow(source, value, line(value), words, followers)?);
     }
-    // Of two things at the same time the one that stands further down comes last.
+    // Of two events at the same time the one further down in the file comes last.
     all.sort_by_key(|event| event.line);
     Ok(all)
 }
 
-/// The items of a list of tables; none where it is not there.
+/// The items of a list of tables; empty if it is missing.
 fn array<'a>(top: &Section<'a>, key: &str, what: &str) -> Result<&'a [Value<'a>], SettingsError> {
     let Some(found) = top.find(key) else { return Ok(&[]) };
     found.get_ref().as_array().map(|array| &array[..]).ok_or_else(|| top.wrong(key, found, what))
 }
 
-/// The events that let an input have the level of another signal, some time later.
+/// The events that make an input follow the level of another signal, after a delay.
 fn follow(
     source: Source<'_>,
     value: &Value<'_>,
@@ -218,7 +218,7 @@ fn follow(
         Event { cause, after, actions, line }
     };
     let edge = |level| Cause::Edge { output, channel: followed, level };
-    // Before the program all outputs are off.
+    // Before the program starts, all outputs are off.
     Ok([event(Cause::At(0.0), 0.0, !same), event(edge(true), after, same), event(edge(false), after, !same)])
 }
 
@@ -233,7 +233,7 @@ fn digital_input(kind: SignalKind, channel: u32) -> Option<(Digital, i32)> {
     Some((what, i32::try_from(channel).ok()?))
 }
 
-/// What an edge is told of: whether it is an output, and its channel from 0.
+/// The signal of an edge: whether it is an output, and its channel, from 0.
 fn digital_edge(signal: Signal) -> Option<(bool, usize)> {
     let output = match signal.kind {
         SignalKind::DigitalOutput => true,
@@ -266,15 +266,15 @@ fn event(source: Source<'_>, value: &Value<'_>, line: u32, words: &Words<'_>) ->
     Ok(Event { cause, after: after.unwrap_or(0.0), actions, line })
 }
 
-/// The axes that a torque can turn, and those that can be moved.
+/// The axes that a torque can act on; below, those that can be moved.
 const OWN_AXES: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6"];
 const ALL_AXES: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
-/// No force or torque is larger, in N and Nm, and nobody moves an axis farther, in deg or mm.
+/// The largest force or torque, in N and Nm, and the largest distance of an axis, in deg or mm.
 const MOST: f64 = 1e6;
-/// By how much an axis is moved.
+/// The unit of the distance by which an axis is moved.
 const LENGTH: &str = "deg, or mm of a linear axis";
 
-/// What an event changes.
+/// The actions of an event.
 fn actions(source: Source<'_>, event: &Section<'_>, words: &Words<'_>) -> Result<Vec<Action>, SettingsError> {
     let mut actions = Vec::new();
     let most = MOST_FOREGROUND as u32;
@@ -298,7 +298,7 @@ fn actions(source: Source<'_>, event: &Section<'_>, words: &Words<'_>) -> Result
             }
             "force" => actions.push(Action::Effect(Effect::Robot(channel, force(event, value)?))),
             "torque" => {
-                for (key, torque) in axes(source, (key, "a torque in Nm"), value, OWN_AXES)? {
+                for (key, torque) in axes(source, key, "a torque in Nm", value, OWN_AXES)? {
                     if let AxisName::Own(axis) = axis_name(key) {
                         actions.push(Action::Effect(Effect::Robot(channel, RobotEffect::Torque(axis, torque))));
                     }
@@ -306,14 +306,14 @@ fn actions(source: Source<'_>, event: &Section<'_>, words: &Words<'_>) -> Result
             }
             "jog" | "hand" => {
                 let robot_effect = if key == "jog" { RobotEffect::Jog } else { RobotEffect::Hand };
-                let moved = axes(source, (key, LENGTH), value, ALL_AXES)?.into_iter();
+                let moved = axes(source, key, LENGTH, value, ALL_AXES)?.into_iter();
                 actions.extend(
                     moved.map(|(key, by)| Action::Effect(Effect::Robot(channel, robot_effect(axis_name(key), by)))),
                 );
             }
             _ => {
                 if let Some((_, what)) = SIGNALS.iter().find(|(name, _)| *name == key) {
-                    signals(source, (key, *what), value, &mut actions)?;
+                    signals(source, key, *what, value, &mut actions)?;
                 } else if let Some(signal) = words.names.signal(key) {
                     actions.push(named(source, key, signal, value)?);
                 }
@@ -323,7 +323,7 @@ fn actions(source: Source<'_>, event: &Section<'_>, words: &Words<'_>) -> Result
     Ok(actions)
 }
 
-/// What is done to a signal that the cell has a name for.
+/// The action on a signal that has a name in the cell.
 fn named(source: Source<'_>, name: &str, signal: Signal, value: &Value<'_>) -> Result<Action, SettingsError> {
     let found = || kind(value.get_ref());
     let wrong = |text: String| source.error(value.span(), text);
@@ -343,7 +343,7 @@ fn named(source: Source<'_>, name: &str, signal: Signal, value: &Value<'_>) -> R
     Ok(Action::Digital(what, channel, level))
 }
 
-/// What `when` waits for.
+/// The cause in `when`.
 fn edge(event: &Section<'_>, words: &Words<'_>) -> Result<Cause, SettingsError> {
     const WHAT: &str = "\"do.3\" (goes on) or \"!do.3\" (goes off), or di, or \"pwm.1\" (changes)";
     let word = event.text("when", WHAT)?.unwrap_or_default();
@@ -382,10 +382,11 @@ fn channels<'a>(
     channels.into_iter().map(read).collect()
 }
 
-/// The channels of a key that are on or off.
+/// Reads the digital channels of a key.
 fn signals(
     source: Source<'_>,
-    (key, what): (&str, Digital),
+    key: &str,
+    what: Digital,
     value: &Value<'_>,
     actions: &mut Vec<Action>,
 ) -> Result<(), SettingsError> {
@@ -399,7 +400,7 @@ fn signals(
     Ok(())
 }
 
-/// The levels of analog inputs.
+/// Reads the values of analog inputs.
 fn analogs(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> Result<(), SettingsError> {
     for (channel, value) in channels(source, "ai", value)? {
         let level = number(value.get_ref()).ok_or_else(|| {
@@ -411,7 +412,7 @@ fn analogs(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> 
     Ok(())
 }
 
-/// A force on the TCP.
+/// Reads a force on the TCP.
 fn force(event: &Section<'_>, value: &Value<'_>) -> Result<RobotEffect, SettingsError> {
     let wrong = || event.wrong("force", value, "three components in N, like [0, 0, 80], none above 1e6");
     let components = value.get_ref().as_array().ok_or_else(wrong)?;
@@ -421,10 +422,11 @@ fn force(event: &Section<'_>, value: &Value<'_>) -> Result<RobotEffect, Settings
     force.map(RobotEffect::Force).ok_or_else(wrong)
 }
 
-/// What is done to axes.
+/// Reads the axes of a key, with their numbers.
 fn axes<'a>(
     source: Source<'a>,
-    (name, what): (&'a str, &str),
+    name: &'a str,
+    what: &str,
     value: &'a Value<'a>,
     known: &'static [&'static str],
 ) -> Result<Vec<(&'a str, f64)>, SettingsError> {
@@ -440,7 +442,7 @@ fn axes<'a>(
     axes.entries().into_iter().map(read).collect()
 }
 
-/// The axis of one of the names above.
+/// The axis with one of the names above.
 fn axis_name(key: &str) -> AxisName {
     let number = |digits: &str| digits.parse::<usize>().unwrap_or(1).saturating_sub(1);
     match key.strip_prefix("ej") {

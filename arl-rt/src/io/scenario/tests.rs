@@ -1,4 +1,4 @@
-//! What scenarios and orders say, do, and get wrong.
+//! Scenarios and orders: reading, effects and errors.
 
 use super::*;
 use arl_robot::cell::Rate;
@@ -125,7 +125,7 @@ fn a_scenario_goes_on_until_nothing_is_on_its_way() {
             playing.goes_on(&image)
         })
         .collect();
-    // In cycle 2 the input goes on, in 3 that is seen, and 3 ms behind cycle 2 the button is pressed.
+    // In cycle 2 the input goes on, in cycle 3 this is seen, and 3 ms after cycle 2 the button is pressed.
     assert_eq!(on_its_way, [true, true, true, true, true, false, false, false]);
 }
 

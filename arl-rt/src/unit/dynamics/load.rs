@@ -16,7 +16,7 @@ pub struct Load {
 }
 
 impl Load {
-    /// Nothing.
+    /// No load.
     pub fn none() -> Self {
         Self::new(0.0, [0.0; 3], [0.0; 6])
     }
@@ -39,7 +39,7 @@ impl Load {
 }
 
 impl From<&ToolInertiaPara> for Load {
-    /// What a program says of a tool: g, mm in the flange's frame, and g mm2 about the centre of mass.
+    /// Converts the data of a tool in a program: g, mm in the flange's frame, and g mm2 about the centre of mass.
     fn from(tool: &ToolInertiaPara) -> Self {
         let (c, i) = (&tool.centroidpos, &tool.inertiatensor);
         let kilogram = |g: f64| g / 1e3;

@@ -37,7 +37,7 @@ impl Wrench {
     }
 }
 
-/// What a joint does.
+/// The motion of a joint.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Moves {
     AboutZ,
@@ -49,7 +49,7 @@ enum Moves {
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Part {
     moves: Moves,
-    /// From the origin of the link before, in that link's frame, m.
+    /// The origin in the frame of the link before, m.
     place: Vector3<f64>,
     /// kg.
     mass: f64,
@@ -69,7 +69,7 @@ pub struct Dynamics {
     bare: Part,
     /// From the last link's origin to the flange, in that link's frame, m.
     flange: Vector3<f64>,
-    /// Motor torque for one of the axis, by what a motor gives for one ampere.
+    /// The torque of the motor per torque of the axis, divided by the torque of the motor per ampere.
     amperes: [f64; 6],
     /// Minus the acceleration of free fall, in the base.
     up: Vector3<f64>,
@@ -81,7 +81,7 @@ struct Moving {
     turning: Vector3<f64>,
     turning1: Vector3<f64>,
     acceleration: Vector3<f64>,
-    /// What makes the acceleration of a place, seen from the origin, out of that place.
+    /// The matrix that gives the acceleration of a point, relative to the origin, from its position.
     spread: Matrix3<f64>,
 }
 
@@ -133,7 +133,7 @@ impl Dynamics {
         Some(Self { kinematics: robot.kinematics.clone(), parts, count, bare, flange, amperes, up })
     }
 
-    /// Says what the flange carries from now on, instead of what it carried.
+    /// Sets the load that the flange carries from now on, in place of the one before.
     pub fn set_load(&mut self, load: &Load) {
         let loaded = self.bare.with(load, &self.flange);
         if let Some(last) = self.count.checked_sub(1).and_then(|last| self.parts.get_mut(last)) {
@@ -141,14 +141,14 @@ impl Dynamics {
         }
     }
 
-    /// Says how the robot's base stands in the world, whose z points up.
+    /// Sets the orientation of the robot's base in the world, whose z points up.
     pub fn set_base(&mut self, base: &Frame) {
         self.up = base.rotation.inverse() * Vector3::new(0.0, 0.0, GRAVITY);
     }
 
-    /// The torques (Nm; N of a linear axis) that the motors give, at the axes, when these stand at `axes` (deg, mm),
-    /// move with `rates` (deg/s, mm/s) and `accelerations` (deg/s2, mm/s2), while `outside` acts on the flange, at its
-    /// origin. Zero for axes that a SCARA has not.
+    /// The torques (Nm; N of a linear axis) that the motors give, at the axes, when these are at `axes` (deg, mm), move
+    /// with `rates` (deg/s, mm/s) and `accelerations` (deg/s2, mm/s2), while `outside` acts on the flange, at its
+    /// origin. Zero for axes that a SCARA does not have.
     pub fn torques(&self, axes: &Axes, rates: &Axes, accelerations: &Axes, outside: &Wrench) -> Axes {
         let (inner, signs) = self.inner(axes);
         let mut angles = inner;
@@ -180,7 +180,7 @@ impl Dynamics {
         }
 
         let mut torques = [0.0; 6];
-        // What the last link has to hold against, and then, from link to link, what the next one asks of it.
+        // What the last link has to hold against, and then, from link to link, what the next one needs from it.
         let (mut force, mut torque) = (-turned_force, -turned_torque - self.flange.cross(&turned_force));
         let back = self.parts.iter().zip(forces).zip(joints).zip(slides).zip(signs).zip(&mut torques).take(self.count);
         for (((((part, (own, own_torque)), turn), slide), sign), result) in back.rev() {
@@ -213,9 +213,10 @@ impl Dynamics {
         (-(metres.transpose() * Vector6::new(t.x, t.y, t.z, f.x, f.y, f.z))).into()
     }
 
-    /// The force and torque at `point` (mm, in the base) with which the robot presses on the outside when its axes give
-    /// `surplus` (Nm, N) more than [`Dynamics::torques`] asks for without anything outside. `None` at a singular point,
-    /// where it cannot be told. Of a SCARA, which cannot turn about x and y, those torques are zero.
+    /// The force and torque at `point` (mm, in the base) with which the robot presses on its surroundings when its axes
+    /// give `surplus` (Nm, N) beyond the result of [`Dynamics::torques`] without external forces. `None` at a singular
+    /// point, where they cannot be determined. Of a SCARA, which cannot turn about x and y, the torques about these
+    /// axes are zero.
     pub fn pressing(&self, axes: &Axes, surplus: &Axes, point: &Vector3<f64>) -> Option<Wrench> {
         if self.kinematics.clearance(axes) < SINGULAR {
             return None;
@@ -225,8 +226,8 @@ impl Dynamics {
         Some(Wrench::of(found))
     }
 
-    /// As [`Dynamics::pressing`], at singular points too: the smallest force and torque that the axes would feel so.
-    /// What they cannot feel there is zero.
+    /// As [`Dynamics::pressing`], but also at singular points: the smallest force and torque that would act on the axes
+    /// in this way. Components that do not act on the axes there are zero.
     pub fn felt(&self, axes: &Axes, surplus: &Axes, point: &Vector3<f64>) -> Wrench {
         let matrix = self.levers(axes, point);
         let squares = matrix.transpose() * matrix + Matrix6::identity() * DAMPING;
@@ -234,17 +235,17 @@ impl Dynamics {
         solved.map_or_else(Wrench::default, |solved| Wrench::of((matrix * solved).into()))
     }
 
-    /// How far the point turns and moves (rad, m) with each axis (rad, m).
+    /// How far the point turns and moves (rad, m) per axis motion (rad, m).
     fn levers(&self, axes: &Axes, point: &Vector3<f64>) -> Matrix6<f64> {
         let mut matrix = self.metres(self.kinematics.jacobian(axes, point));
         if let Kinematics::Scara(_) = self.kinematics {
-            // Two axes that are not there would turn about x and y.
+            // Two axes that do not exist would turn about x and y.
             (matrix[(0, 4)], matrix[(1, 5)]) = (1.0, 1.0);
         }
         matrix
     }
 
-    /// Velocities of the point in m; linear axes per m.
+    /// Converts a Jacobian to velocities of the point in m; for linear axes per m.
     fn metres(&self, mut jacobian: Matrix6<f64>) -> Matrix6<f64> {
         jacobian.fixed_view_mut::<3, 6>(3, 0).scale_mut(1e-3);
         for (column, part) in self.parts.iter().enumerate() {
@@ -255,7 +256,7 @@ impl Dynamics {
         jacobian
     }
 
-    /// The joints' own angles in deg (mm), and the sense of the axes.
+    /// The joints' own angles in deg (mm), and the signs of the axes.
     fn inner(&self, axes: &Axes) -> (Axes, [f64; 6]) {
         match &self.kinematics {
             Kinematics::SixAxis(opw) => (opw.inner(axes), opw.parameters().signs),
@@ -265,13 +266,13 @@ impl Dynamics {
 }
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
-/// Nearer to a singular point than this (see [`Kinematics::clearance`]) forces cannot be told from torques.
+/// Nearer to a singular point than this (see [`Kinematics::clearance`]) forces cannot be determined from torques.
 const SINGULAR: f64 = 1e-6;
-/// What keeps the forces finite that the axes hardly feel, in squares of levers (m).
+/// Keeps forces finite that hardly act on the axes, in squares of levers (m).
 const DAMPING: f64 = 1e-9;
 
 impl Moves {
-    /// A vector of the link before, in the frame of the link that is turned by `turn`, sine and cosine.
+    /// Transforms a vector from the link before into the frame of the link that is turned by `turn`, sine and cosine.
     #[inline(always)]
     fn into_link(self, (sin, cos): (f64, f64), v: &Vector3<f64>) -> Vector3<f64> {
         self.out_of_link((-sin, cos), v)
@@ -288,7 +289,7 @@ impl Moves {
 }
 
 impl Part {
-    /// The part with another mass fixed to it; `at` is where that one's frame has its origin, m.
+    /// The part with another mass fixed to it; `at` is the origin of that mass's frame, m.
     fn with(self, load: &Load, at: &Vector3<f64>) -> Self {
         let centre = at + load.centre;
         let squares = Matrix3::identity() * centre.norm_squared() - centre * centre.transpose();
@@ -304,7 +305,7 @@ impl Part {
         self.place + Vector3::new(0.0, 0.0, slide)
     }
 
-    /// How the link moves whose joint is carried by `by`.
+    /// The motion of the link whose joint is carried by `by`.
     #[inline(always)]
     fn carry(&self, by: &Moving, turn: (f64, f64), rate: f64, acceleration: f64, slide: f64) -> Moving {
         let moved = by.acceleration + by.spread * self.place_at(slide);
@@ -325,7 +326,7 @@ impl Part {
         }
     }
 
-    /// The force, and the torque about the frame's origin, that make the link move so.
+    /// The force, and the torque about the frame's origin, that cause this motion of the link.
     #[inline(always)]
     fn force(&self, body: &Moving) -> (Vector3<f64>, Vector3<f64>) {
         let Moving { turning: w, turning1: w1, acceleration: a, spread } = body;
@@ -335,7 +336,7 @@ impl Part {
     }
 }
 
-/// What the joints do, and where each link's frame has its origin in that of the link before, m.
+/// The motions of the joints, and the origin of each link's frame in that of the link before, m.
 fn chain(kinematics: &Kinematics) -> [(Moves, Vector3<f64>); 6] {
     let at = |x: f64, y: f64, z: f64| Vector3::new(x, y, z) / 1000.0;
     match kinematics {

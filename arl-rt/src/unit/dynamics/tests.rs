@@ -1,4 +1,4 @@
-//! Torques against those of another implementation, and against energy.
+//! Torques compared with those of another implementation, and forces with those determined from torques.
 
 use nalgebra::{Translation3, UnitQuaternion};
 
@@ -7,7 +7,7 @@ use crate::values::{CentroidPos, InertiaTensor, ToolInertiaPara};
 use arl_robot::kinematics::random::Random;
 use arl_robot::robot::Description;
 
-/// Torques that Pinocchio has computed: see `scripts/newton-euler.py`.
+/// Torques computed by Pinocchio: see `scripts/newton-euler.py`.
 const CASES: &str = include_str!("../../../tests/data/newton-euler.txt");
 
 fn numbers<const N: usize>(text: &str) -> [f64; N] {
@@ -80,7 +80,7 @@ fn a_force_from_outside_is_held_and_told_again() {
             let torque = if robot.links.len() == 4 { Vector3::new(0.0, 0.0, turn.z) } else { turn };
             let outside = Wrench { force, torque };
             let flange = robot.kinematics.forward(&axes).translation.vector;
-            // Two ways to the same torques.
+            // Two ways to compute the same torques.
             let rest = [0.0; 6];
             let bare = dynamics.torques(&axes, &rest, &rest, &Wrench::default());
             let pushed = dynamics.torques(&axes, &rest, &rest, &outside);
@@ -88,7 +88,7 @@ fn a_force_from_outside_is_held_and_told_again() {
             for ((pushed, bare), holding) in pushed.iter().zip(bare).zip(holding) {
                 assert!((pushed - bare - holding).abs() < 1e-9 * (1.0 + pushed.abs()), "{name} {axes:?}");
             }
-            // What the robot gives more than its model asks for presses back.
+            // The torques beyond those of the model press back.
             let point = flange + vector(100.0);
             let told = dynamics.pressing(&axes, &dynamics.holding(&axes, &outside, &point), &point).unwrap();
             assert!((told.force + force).norm() < 1e-7 && (told.torque + torque).norm() < 1e-7, "{name} {told:?}");
@@ -97,7 +97,7 @@ fn a_force_from_outside_is_held_and_told_again() {
     let dynamics = Dynamics::new(&Robot::builtin("kr10-r1420").unwrap()).unwrap();
     let singular = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0];
     assert_eq!(dynamics.pressing(&singular, &[1.0; 6], &Vector3::zeros()), None);
-    // What is told there makes the axes feel the same.
+    // The force and torque found there act on the axes in the same way.
     let (outside, point) =
         (Wrench { force: Vector3::new(10.0, -20.0, 30.0), torque: Vector3::zeros() }, Vector3::new(800.0, 50.0, 900.0));
     let felt = dynamics.holding(&singular, &outside, &point);

@@ -213,7 +213,7 @@ fn constants_keep_their_value() {
     assert_eq!(slot.type_name(), "string");
 }
 
-/// What a value is written as, which is read back as the same value.
+/// The text of a value, which is read back as the same value.
 fn rewritten<T: Literal + Default + Clone + PartialEq>(value: T) -> String {
     let slot = Shared::new(value.clone());
     let text = slot.written();

@@ -3,7 +3,7 @@
 use super::number::{push_double, push_hex, push_int};
 use crate::values::{Array, NumBase, Store, Str};
 
-/// What a `print` has been told about numbers so far.
+/// The number format that a `print` has chosen so far.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Style {
     /// The significant digits of doubles.
@@ -29,7 +29,7 @@ pub trait Typed {
     const NAME: &'static str;
 }
 
-/// Values that can be printed: whatever `print`, `tostr` and `typeof` take.
+/// Values that can be printed: everything that `print`, `tostr` and `typeof` take.
 pub trait Print {
     /// Appends the value as text.
     fn print(&self, out: &mut Str, style: &Style);
@@ -37,7 +37,7 @@ pub trait Print {
     /// The type's name in the manual's spelling; arrays with their sizes: `int[3]`.
     fn type_name(&self) -> String;
 
-    /// The value as text of its own.
+    /// The value as a new text.
     fn printed(&self, style: &Style) -> Str {
         let mut out = Str::new();
         self.print(&mut out, style);
@@ -126,7 +126,7 @@ impl<T: Print + Typed, const N: usize, S: Store<T, N>> Print for Array<T, N, S> 
     }
 }
 
-/// An array of several dimensions, as it is printed: braces around each row.
+/// An array of several dimensions, for printing: braces around each row.
 #[derive(Clone, Copy, Debug)]
 pub struct Nested<'a, T> {
     elements: &'a [T],

@@ -1,14 +1,14 @@
-//! Numbers become text and are read from it.
+//! Numbers as text: printing and reading.
 
 use crate::values::Str;
 use std::fmt::Write;
 
-/// More significant digits than this add nothing: no double has them.
+/// More significant digits than this have no effect: no double has them.
 const MOST_DIGITS: u32 = 800;
 
-/// Appends a double with this many significant digits, without trailing zeros: fixed where the decimal exponent is
-/// from -4 to `precision - 1`, else with an exponent of at least two digits. Ties of the exact binary value go to the
-/// even digit; minus zero is `0`.
+/// Appends a double with `precision` significant digits, without trailing zeros: fixed-point if the decimal exponent is
+/// from -4 to `precision - 1`, otherwise with an exponent of at least two digits. Ties of the exact binary value go to
+/// the even digit; minus zero is `0`.
 pub(crate) fn push_double(out: &mut Str, value: f64, precision: u32) {
     let precision = precision.clamp(1, MOST_DIGITS);
     if value.abs() < 10f64.powi(precision.min(15) as i32) {
@@ -34,7 +34,7 @@ pub(crate) fn push_double(out: &mut Str, value: f64, precision: u32) {
     }
 }
 
-/// Lays out a number that was rounded to `d.ddde-x`.
+/// Appends a number that was already rounded and has the form `d.ddde-x`.
 fn push_rounded(out: &mut Str, text: &[u8], precision: u32) {
     let mut halves = text.split(|byte| *byte == b'e');
     let mantissa = halves.next().unwrap_or_default();

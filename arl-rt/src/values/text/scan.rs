@@ -8,28 +8,28 @@ pub trait Scanned: Sized {
     /// The type's name.
     const WANTED: &'static str;
 
-    /// The value that a field holds; `None` where the text is not of the type.
+    /// The value of a field; `None` if the text is not of this type.
     fn scan(field: &[u8]) -> Option<Self>;
 }
 
-/// The fields of a text, taken one by one.
+/// Reads the fields of a text one by one.
 #[must_use = "a scan reports its fault in `run`"]
 #[derive(Debug)]
 pub struct Scan<'a> {
-    /// What has not been read; `None` behind the last field.
+    /// The text not yet read; `None` after the last field.
     rest: Option<&'a [u8]>,
     delimiter: &'a [u8],
     fault: Option<Fault>,
 }
 
-/// Reads the fields of `from`, which `delimiter` stands between. An empty delimiter divides nothing.
+/// Reads the fields of `from`, separated by `delimiter`. An empty delimiter separates nothing.
 pub fn scan<'a>(from: &'a Str, delimiter: &'a Str) -> Scan<'a> {
     let rest = if from.is_empty() { None } else { Some(from.as_bytes()) };
     Scan { rest, delimiter: delimiter.as_bytes(), fault: None }
 }
 
 impl Scan<'_> {
-    /// Reads the next field into a variable; it stays as it was where no field is left, and after a fault.
+    /// Reads the next field into a variable; the variable keeps its value if no field is left, and after a fault.
     pub fn argtosave<T: Scanned>(mut self, place: &mut T) -> Self {
         if self.fault.is_none()
             && let Some(field) = self.next_field()
@@ -99,8 +99,8 @@ scans! {
     Str, "string": |field| Some(Str::from(field));
 }
 
-/// An integer as ARL writes it: decimal, binary with `b` or hexadecimal with `h` behind it, the latter two being bit
-/// patterns. A hexadecimal one begins with a digit, so that no word is a number.
+/// An integer as written in ARL: decimal, binary with a final `b` or hexadecimal with a final `h`; the latter two are
+/// bit patterns. A hexadecimal number begins with a digit, so that no word is a number.
 fn integer(field: &[u8]) -> Option<(i64, bool)> {
     let (negative, digits) = signed(field.trim_ascii());
     if !digits.first()?.is_ascii_digit() {
@@ -147,7 +147,7 @@ fn magnitude(digits: &[u8], radix: u32) -> Option<i64> {
     size
 }
 
-/// A decimal number with or without point and exponent.
+/// A decimal number with or without a decimal point and an exponent.
 fn double(field: &[u8]) -> Option<f64> {
     let text = str::from_utf8(field.trim_ascii()).ok()?;
     // Words like `inf` are numbers for Rust, but not for ARL.

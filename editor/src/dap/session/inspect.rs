@@ -1,4 +1,4 @@
-//! Frames, scopes, variables and expressions of a program that stands.
+//! Frames, scopes, variables and expressions of a halted program.
 
 use super::seen::{Seen, Told, told, variable};
 use super::{Answer, Session};
@@ -13,7 +13,7 @@ impl Session {
         Ok(self.frames(channel)?.into_iter().next())
     }
 
-    /// The frames of a channel, the one that was entered last in front.
+    /// The frames of a channel, the one that was entered last first.
     pub(super) fn frames(&mut self, channel: usize) -> Result<Vec<Frame>, String> {
         let answer = self.ask("stack", &[&channel.to_string()])?;
         let frames = answer.get("frames").and_then(Value::as_array).cloned().unwrap_or_default();
@@ -128,7 +128,7 @@ impl Session {
         Ok(json!({"variables": shown}))
     }
 
-    /// The files of a program that have global variables; of one alone its variables.
+    /// The files of a program that have global variables.
     fn global_variables(&mut self, frame: usize) -> Result<Vec<Value>, String> {
         let files = self.source(frame)?.files()?;
         let mut shown = Vec::new();
@@ -181,7 +181,7 @@ impl Session {
         Ok(shown)
     }
 
-    /// What expressions see from a frame.
+    /// What expressions can refer to from a frame.
     pub(super) fn source(&mut self, frame: usize) -> Result<Seen<'_>, String> {
         let frame = match self.shown.frame_of(frame) {
             Some(frame) => frame.clone(),
@@ -213,7 +213,7 @@ impl Session {
         let is_console = arguments.get("context").and_then(Value::as_str).is_none_or(|context| context == "repl");
         let input = evaluate(&text, &mut self.source(frame)?)?;
         let (value, target) = match input {
-            // What an editor asks for again and again, or where somebody only points at, changes nothing.
+            // What an editor evaluates again and again, or where the user only points at something, changes nothing.
             Input::Assignment(..) if !is_console => {
                 return Err("this is an assignment; `==` compares. Variables are set in the debug console".into());
             }
@@ -284,7 +284,7 @@ impl Session {
         }))
     }
 
-    /// What an expression names.
+    /// The variable that an expression names.
     fn target(&mut self, frame: usize, root: &Root) -> Result<Target, String> {
         let seen = self.source(frame)?;
         let locals: Vec<String> = seen.locals.iter().map(|(name, _)| name.clone()).collect();
@@ -298,7 +298,7 @@ impl Session {
         Ok(Found::of(&value.ty, &value.value))
     }
 
-    /// Sets a part of a variable; the part as it is then.
+    /// Sets a part of a variable; returns the part as it is then.
     fn put(&mut self, frame: usize, target: &Target, path: &[Part], value: Literal) -> Result<Variable, String> {
         let mut seen = self.source(frame)?;
         let (channel, id) = (seen.frame.channel.to_string(), seen.frame.id.to_string());
@@ -320,7 +320,7 @@ impl Session {
         Ok(Variable { ty, value })
     }
 
-    /// Changes something of the program that stands, and remembers it for a way back.
+    /// Changes something of the halted program, and remembers it for stepping back.
     pub(super) fn edit(&mut self, word: &str, values: &[&str]) -> Answer {
         let point = self.halt.as_ref().map(|halt| halt.point);
         let answer = self.change(word, values)?;
@@ -330,7 +330,7 @@ impl Session {
         Ok(answer)
     }
 
-    /// Changes something of the program that stands. Where its pointer is set it goes there, and stands there.
+    /// Changes something of the halted program. If its pointer is set, the program goes there and halts.
     pub(super) fn change(&mut self, word: &str, values: &[&str]) -> Answer {
         let answer = self.ask(word, values)?;
         if answer.get("arrives").and_then(Value::as_bool) == Some(true) {

@@ -6,10 +6,10 @@ use crate::dap::variables::Frame;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// What the program is asked for that.
+/// The request to the program for that.
 pub(super) const REQUEST: &str = "pointer";
 
-/// The lines that the editor asked for, each by its number.
+/// The lines that the editor requested, each by its number.
 #[derive(Default, Debug)]
 pub(super) struct Targets(Vec<(PathBuf, u32)>);
 
@@ -41,7 +41,7 @@ impl Session {
         Ok(json!({"targets": Vec::from_iter(targets)}))
     }
 
-    /// Sets the pointer of a channel. The program stands; it goes on there.
+    /// Sets the pointer of a channel. The program is halted, and continues there.
     pub(super) fn set_pointer(&mut self, arguments: &Value) -> Answer {
         let number = arguments.get("targetId").and_then(Value::as_u64).unwrap_or(u64::MAX) as usize;
         let (path, line) = self.targets.of(number).ok_or("there is no such target")?;
@@ -59,13 +59,13 @@ impl Session {
         Ok(Value::Null)
     }
 
-    /// Where the programs stand.
+    /// Where the programs are halted.
     pub(super) fn standing(&self) -> Result<&Halt, String> {
         let why = if self.process.is_some() { "the program is running: pause it first" } else { "no program runs" };
         self.halt.as_ref().ok_or_else(|| why.into())
     }
 
-    /// The function that runs, has a line, and nothing but functions it has called on top.
+    /// The running function that has a line, with nothing but functions that it has called on top.
     fn frame_with(&mut self, channel: usize, path: &Path, line: u32) -> Result<Frame, String> {
         for frame in self.frames(channel)? {
             if frame.is_action {

@@ -1,5 +1,5 @@
-//! Backwards: another run from the start, to an earlier statement. On the virtual clock a run repeats itself; what was
-//! set by hand on the way is set again at the same statements.
+//! Stepping back: another run from the start, to an earlier statement. On the virtual clock a run repeats itself; what
+//! was set by hand in between is set again at the same statements.
 
 use super::{Answer, Session};
 use arl_project::options::Clock;
@@ -21,7 +21,7 @@ impl Point {
         Self { statement, cycle: None }
     }
 
-    /// What a program that shall run up to here is told.
+    /// The values that make a program run up to here.
     fn values(self) -> [String; 2] {
         let statement = if self.cycle.is_some() { u64::MAX } else { self.statement };
         [statement, self.cycle.unwrap_or(u64::MAX)].map(|number| number.to_string())
@@ -36,13 +36,13 @@ type Edit = (Point, String, Vec<String>);
 pub(super) struct Record {
     /// What was set by hand.
     edits: Vec<Edit>,
-    /// How many lines were shown of each output, and how many of the run that goes on have come.
+    /// How many lines of each output were shown, and how many the present run has printed.
     shown: [usize; 2],
     come: [usize; 2],
 }
 
 impl Record {
-    /// Another run begins.
+    /// Begins another run.
     pub(super) fn begin(&mut self) {
         self.come = [0; 2];
     }
@@ -52,7 +52,7 @@ impl Record {
         *self = Self::default();
     }
 
-    /// Whether a line was not shown before, when the run had not gone back yet.
+    /// Whether a line is new, that is, was not shown before the run went back.
     pub(super) fn is_new(&mut self, category: &str) -> bool {
         let at = usize::from(category == "stderr");
         let (Some(shown), Some(come)) = (self.shown.get_mut(at), self.come.get_mut(at)) else { return true };
@@ -88,7 +88,7 @@ impl Session {
         self.go_to(Point::before(target))
     }
 
-    /// Goes back to the breakpoint that was met last, or to the beginning.
+    /// Goes back to the breakpoint that was passed last, or to the beginning.
     pub(super) fn reverse_continue(&mut self) -> Answer {
         let halt = self.standing()?.clone();
         self.check_repeats()?;
@@ -111,7 +111,7 @@ impl Session {
                 let [statement, cycle] = bound.values();
                 self.go("search", &[&statement, &cycle])?;
                 loop {
-                    // A program that has ended is behind all breakpoints.
+                    // A program that has ended is past all breakpoints.
                     let Ok(stopped) = self.wait_for("stopped") else { return Ok(last) };
                     if self.arrive(&stopped) {
                         break;
@@ -136,7 +136,7 @@ impl Session {
     fn go_to(&mut self, point: Point) -> Answer {
         self.check_repeats()?;
         self.begin()?;
-        // What was set behind it is undone.
+        // What was set after it is undone.
         self.replay.edits.retain(|(at, ..)| *at <= point);
         self.breakpoints.go_back_to(point.statement);
         let edits = self.replay.edits.clone();

@@ -1,4 +1,5 @@
-//! What expressions see from a frame: the variables of its function and of its program, system variables, signals.
+//! What expressions can refer to from a frame: the variables of its function and of its program, system variables,
+//! signals.
 
 use crate::dap::evaluate::{Source, Value as Found, Variable};
 use crate::dap::literal::Literal;
@@ -9,14 +10,14 @@ use arl_lang::catalog::Family;
 use arl2rs::hir::Program;
 use serde_json::{Value, json};
 
-/// A variable as the program tells it.
+/// A variable as the program reports it.
 pub(super) struct Told {
     pub(super) name: String,
     pub(super) ty: String,
     pub(super) value: String,
 }
 
-/// What expressions are evaluated with.
+/// The context in which expressions are evaluated.
 pub(super) struct Seen<'a> {
     pub(super) process: &'a mut Process,
     pub(super) program: &'a Program,
@@ -34,13 +35,13 @@ impl Told {
         json!({"name": name, "value": value, "type": ty, "variablesReference": 0, "evaluateName": name})
     }
 
-    /// As an expression sees it: words that are not literals.
+    /// As a variable for expressions: words that are not literals.
     fn as_variable(&self) -> Variable {
         Variable { ty: self.ty.clone(), value: Literal::Plain(self.value.clone()) }
     }
 }
 
-/// The variables of an answer, or its clocks and connections: what it lists under this name.
+/// The variables of an answer, or its clocks and connections: the list with this name.
 pub(super) fn told(answer: &Value, list: &str) -> Vec<Told> {
     let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
     let all = answer.get(list).and_then(Value::as_array).cloned().unwrap_or_default();
@@ -49,14 +50,14 @@ pub(super) fn told(answer: &Value, list: &str) -> Vec<Told> {
         .collect()
 }
 
-/// A variable with its name. An array of several dimensions, which is told flat, is in rows.
+/// A variable with its name. An array of several dimensions, which is reported flat, is in rows.
 pub(super) fn variable(told: Told) -> (String, Variable) {
     let sizes = told.ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse().ok());
     let value = Literal::parse(&told.value).in_rows(&sizes.collect::<Vec<usize>>());
     (told.name, Variable { ty: told.ty, value })
 }
 
-/// The global variables of a file, as the program tells them: the file, variables, clocks and connections.
+/// The global variables of a file, as the program reports them: the file, variables, clocks and connections.
 type ToldFile = (String, Vec<Told>, Vec<Told>);
 
 /// Variables by their names.

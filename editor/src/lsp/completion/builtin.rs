@@ -1,4 +1,4 @@
-//! What the language has.
+//! Completions from the language itself.
 
 use super::Fits;
 use super::item::{Items, Rank};
@@ -12,18 +12,18 @@ use arl2rs::hir::Type;
 use arl2rs::index::Callee;
 use gen_lsp_types::CompletionItemKind;
 
-/// The words that begin something outside of functions.
+/// The words that begin something outside functions.
 const OUTSIDE: [&str; 3] = ["const", "func", "import"];
 
 /// The control words that begin no statement.
 const NO_STATEMENT: [&str; 5] = ["endl", "false", "func", "import", "true"];
 
-/// The words that begin something outside of functions.
+/// The words that begin something outside functions.
 pub(super) fn words_outside(items: &mut Items) {
     keywords(&OUTSIDE, items);
 }
 
-/// The words that begin, divide or end something inside of functions.
+/// The words that begin, divide or end something inside functions.
 pub(super) fn words_inside(items: &mut Items) {
     let words: Vec<&str> = control_words().filter(|word| !NO_STATEMENT.contains(word)).collect();
     keywords(&words, items);
@@ -67,7 +67,7 @@ pub(super) fn instructions(family: Family, items: &mut Items) {
 /// The functions whose result fits.
 pub(super) fn functions(fits: &Fits, family: Family, items: &mut Items) {
     let fitting = |entry: &&Entry| match fits {
-        // What only computes does nothing as a statement.
+        // A function that only computes has no effect as a statement.
         Fits::Statement | Fits::Call => entry.effect != catalog::Effect::Pure,
         _ => entry.result != Base::Void && fits.takes(Type::scalar(entry.result)),
     };
@@ -140,7 +140,7 @@ pub(super) fn system_variables(fits: &Fits, items: &mut Items) {
     }
 }
 
-/// The components of a structure that are not there yet.
+/// The components of a structure that are not given yet.
 pub(super) fn components(id: Struct, family: Family, taken: &[bool], items: &mut Items) {
     for (at, component) in id.def(family).components.iter().enumerate() {
         if !taken.get(at).copied().unwrap_or(false) {

@@ -6,7 +6,7 @@ use crate::lsp::typing::Typing;
 use arl_lang::catalog::{Entry, Param, reference};
 use gen_lsp_types::*;
 
-/// How near an item is to what is meant; nearer ones are shown first.
+/// How near an item is to what is probably meant; nearer ones are shown first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Rank {
     Label,
@@ -16,13 +16,13 @@ pub(super) enum Rank {
     Constant,
     BuiltIn,
     Keyword,
-    /// What will do with an index or a component behind it only.
+    /// What fits only with an index or a component after it.
     Part,
 }
 
 /// Items, collected.
 pub(super) struct Items {
-    /// What an item takes the place of.
+    /// The range that an item replaces.
     range: Range,
     snippets: bool,
     format: Format,
@@ -42,7 +42,7 @@ impl Items {
         self.is_begun
     }
 
-    /// Takes the place of what begins at another byte than the name before the cursor.
+    /// Replaces a range that begins at another byte than the name before the cursor.
     pub(super) fn replace(&mut self, range: Range) {
         self.range = range;
     }
@@ -104,7 +104,7 @@ impl Items {
         });
     }
 
-    /// The items, each name once: what is nearer hides what is further away.
+    /// The items, each name once: a nearer item hides one that is farther away.
     pub(super) fn finish(mut self) -> Vec<CompletionItem> {
         self.all.sort_by(|one, other| one.sort_text.cmp(&other.sort_text));
         let mut seen = std::collections::HashSet::new();

@@ -29,18 +29,18 @@ pub(super) fn completion(server: &Server, params: CompletionParams) -> Result<Op
         Surroundings::Type => builtin::types(server.family(&typing.path), &mut items),
         Surroundings::Statement | Surroundings::Code => at_name(server, &typing, &mut items),
     }
-    // With the first letter of a name there is more that fits.
+    // Once the first letter of a name is typed, more items fit.
     let is_incomplete = !items.is_begun();
     let list = CompletionList { is_incomplete, items: items.finish(), ..CompletionList::default() };
     Ok(Some(CompletionResponse::CompletionList(list)))
 }
 
-/// What may stand where a name may begin.
+/// What is possible where a name may begin.
 fn at_name(server: &Server, typing: &Typing<'_>, items: &mut Items) {
     let family = server.family(&typing.path);
     let is_statement = typing.surroundings == Surroundings::Statement;
     let Some((expected, program)) = typing.expectation(server) else {
-        // What cannot be read tells nothing; outside of functions the checker is not asked.
+        // A text that cannot be read gives no expectation; outside functions the checker has none.
         if is_statement && is_outside(server, typing) {
             builtin::words_outside(items);
             builtin::types(family, items);
@@ -76,7 +76,7 @@ fn at_name(server: &Server, typing: &Typing<'_>, items: &mut Items) {
     }
 }
 
-/// Whether the cursor is outside of all functions.
+/// Whether the cursor is outside all functions.
 fn is_outside(server: &Server, typing: &Typing<'_>) -> bool {
     let inside = |file: File| file.index().function_at(file.id, typing.offset).is_some();
     !server.file(&typing.path).is_some_and(inside)
@@ -124,7 +124,7 @@ fn count(list: &ArgumentList, parameter: usize) -> usize {
     list.taken.get(parameter).copied().unwrap_or(0)
 }
 
-/// Whether a parameter takes an argument more, for robots of a family.
+/// Whether a parameter takes one more argument, for robots of a family.
 fn is_free(list: &ArgumentList, entry: &Entry, at: usize, family: Family) -> bool {
     let param = entry.params.get(at).filter(|param| param.is_of(family));
     let most = match param.map(|param| param.presence) {
@@ -136,14 +136,14 @@ fn is_free(list: &ArgumentList, entry: &Entry, at: usize, family: Family) -> boo
     count(list, at) < most
 }
 
-/// What a value has to be.
+/// The requirement on a value.
 #[derive(Clone, PartialEq, Debug)]
 enum Fits {
     /// It begins a statement: anything that can be assigned or called.
     Statement,
     /// Any value.
     Any,
-    /// A call: what is done at an event.
+    /// A call: the action of an event.
     Call,
     /// A value that one of these takes.
     OneOf(Vec<ParamType>),
@@ -187,7 +187,7 @@ impl Fits {
         Self::OneOf(bare.map(|(_, param)| param.ty).collect())
     }
 
-    /// Whether a value of this type will do.
+    /// Whether a value of this type fits.
     fn takes(&self, ty: Type) -> bool {
         match self {
             Self::Statement | Self::Any => true,
@@ -197,7 +197,7 @@ impl Fits {
         }
     }
 
-    /// Whether a variable of this type will do: by itself, by an element, or, where its name is begun, by a component.
+    /// Whether a variable of this type fits: by itself, by an element, or, once its name is begun, by a component.
     /// Almost every point has a number somewhere: without a name those would be too many.
     fn takes_part_of(&self, ty: Type, family: Family, is_begun: bool) -> bool {
         let by_component = match (self, ty.base) {

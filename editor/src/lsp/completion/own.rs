@@ -77,7 +77,7 @@ fn variable(
         Meaning::Global(id) => program.index().global(id).is_some_and(|global| global.constant),
         _ => false,
     };
-    // A constant is not a beginning of a statement.
+    // A constant does not begin a statement.
     if constant && *fits == Fits::Statement {
         return;
     }
@@ -100,7 +100,7 @@ fn function(program: &Program, id: FuncId, fits: &Fits, family: Family, items: &
     items.function(&function.name, !function.params.is_empty(), Rank::Function, detail, doc);
 }
 
-/// What stands behind `module::`.
+/// The names after `module::`.
 pub(super) fn members(program: &Program, module: ModuleId, fits: &Fits, family: Family, items: &mut Items) {
     let index: &Index = program.index();
     for (id, global) in (0..).map(GlobalId).zip(&index.globals).filter(|(_, global)| global.module == module) {
@@ -118,7 +118,7 @@ pub(super) fn labels(labels: &[String], items: &mut Items) {
     }
 }
 
-/// The programs that an `import` can name, and folders on the way to them.
+/// The programs that an `import` can name, and the folders that lead to them.
 pub(super) fn files(server: &Server, typing: &Typing<'_>, start: u32, items: &mut Items) {
     let typed = Span::new(start, typing.offset).text(typing.text.text);
     let Some(folder) = typing.path.parent() else { return };
@@ -142,7 +142,7 @@ pub(super) fn files(server: &Server, typing: &Typing<'_>, start: u32, items: &mu
     }
 }
 
-/// Whether a file is one that programs import: a data file is read without.
+/// Whether a file is one that programs import: a data file is read without an import.
 fn is_module(path: &Path) -> bool {
     crate::lsp::workspace::is_program(path) && !is_data(path)
 }

@@ -88,7 +88,7 @@ fn bytes_are_read_whatever_their_header_says() {
     assert_eq!(bytes.len(), HEADER + COUNT + 2 * TRIANGLE);
     let mut named = bytes.clone();
     named[..9].copy_from_slice(b"solid abc");
-    // What stands behind the last triangle is of no matter, and viewers get none of it.
+    // What follows the last triangle does not matter, and viewers get none of it.
     for odd in [&bytes, &named, &[&bytes[..], b"more"].concat()] {
         let all = read(odd).unwrap();
         assert_eq!((all.triangles.len(), all.corners.len()), (2, 6));

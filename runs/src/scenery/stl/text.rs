@@ -5,12 +5,12 @@ use super::Corners;
 /// What some programs write first.
 const MARK: &[u8] = b"\xef\xbb\xbf";
 const SOLID: &[u8] = b"solid";
-/// Where bytes, in the other form, have the number of triangles; no text has a byte 0 there.
+/// Where the binary form has the number of triangles; no text has a byte 0 there.
 const COUNT_OF_BYTES: std::ops::Range<usize> = 80..84;
-/// So much of a word is told.
+/// How much of a word is shown.
 const TOLD: usize = 40;
 
-/// Whether it is text: bytes, too, may begin with the word.
+/// Whether it is text: the binary form, too, may begin with the word.
 pub(super) fn is_text(bytes: &[u8]) -> bool {
     begins(bytes) && !bytes.get(COUNT_OF_BYTES).is_some_and(|count| count.contains(&0))
 }
@@ -21,13 +21,13 @@ pub(super) fn begins(bytes: &[u8]) -> bool {
     begins.get(..SOLID.len()).is_some_and(|word| word.eq_ignore_ascii_case(SOLID))
 }
 
-/// Shows the triangles of all its solids.
+/// Passes on the triangles of all its solids.
 pub(super) fn each(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), String>) -> Result<(), String> {
     let mut words = Words::of(bytes.strip_prefix(MARK).unwrap_or(bytes));
     let mut is_in_solid = false;
     while let Some(word) = words.next() {
         if word.is("solid") {
-            // The rest of the line is its name. Where the one before has no end, this begins all the same.
+            // The rest of the line is its name. If the solid before has no end, this one begins all the same.
             words.skip_line();
             is_in_solid = true;
         } else if is_in_solid && word.is("facet") {
@@ -43,7 +43,7 @@ pub(super) fn each(bytes: &[u8], mut take: impl FnMut(Corners) -> Result<(), Str
     Ok(())
 }
 
-/// The corners of a triangle, behind its `facet`.
+/// The corners of a triangle, after its `facet`.
 fn facet(words: &mut Words<'_>) -> Result<Corners, String> {
     let mut word = words.need("`outer loop`")?;
     if word.is("normal") {
@@ -108,7 +108,7 @@ impl<'a> Words<'a> {
         Self { rest: text, line: 1 }
     }
 
-    /// Goes over a line's end, if one is next.
+    /// Skips a line's end, if one is next.
     fn line_end(&mut self) -> bool {
         let size = match self.rest {
             [b'\r', b'\n', ..] => 2,
@@ -137,7 +137,7 @@ impl<'a> Words<'a> {
         Some(Word { text, line: self.line })
     }
 
-    /// Goes to the end of the line.
+    /// Skips to the end of the line.
     fn skip_line(&mut self) {
         let end = self.rest.iter().position(|byte| matches!(byte, b'\r' | b'\n')).unwrap_or(self.rest.len());
         self.rest = self.rest.get(end..).unwrap_or_default();

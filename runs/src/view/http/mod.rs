@@ -1,5 +1,5 @@
 //! An HTTP server for one page and few visitors, which clients that send slowly, or nothing, cannot block: each request
-//! has a time limit, and whoever is slowest leaves where there are too many.
+//! has a time limit, and where there are too many connections, the least important one is closed.
 
 mod places;
 mod request;
@@ -20,12 +20,12 @@ pub(super) use request::Request;
 use request::Requests;
 pub(super) use response::{Response, Status};
 
-/// How long visitors may take.
+/// The time limits of visitors.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// A request is there so long after its first byte, and an answer is taken so long after its own.
+    /// A request must be complete this long after its first byte, and an answer must be taken this long after its own.
     exchange: Duration,
-    /// A connection on which nothing comes is closed.
+    /// A connection on which nothing arrives for this long is closed.
     idle: Duration,
 }
 
@@ -33,23 +33,23 @@ impl Limits {
     pub(super) const USUAL: Self = Self { exchange: Duration::from_secs(10), idle: Duration::from_secs(120) };
 }
 
-/// So long it is waited for the rest of what is not a request.
+/// How long to wait for the rest of what is not a request.
 const PARTING: Duration = Duration::from_millis(500);
 /// Stack of a connection's thread, in bytes.
 const STACK: usize = 1 << 20;
-/// How long nobody is let in after that has failed: files or threads may have run out.
+/// How long no visitor is let in after that has failed: files or threads may have run out.
 const BREATHER: Duration = Duration::from_millis(5);
 
-/// Answers requests; the rank says who may stay where there are too many.
+/// Answers requests; the rank determines which connections may stay where there are too many.
 pub(super) trait Answers: Send + Sync + 'static {
     /// The answer to a request.
     fn answer(&self, request: &Request) -> (Rank, Response);
 }
 
-/// Serves on a port of this computer, any free one for 0; the address, and the thread that lets visitors in.
+/// Serves on a port of this computer, any free one for 0; returns the address, and the thread that lets visitors in.
 ///
 /// # Errors
-/// The port cannot be had.
+/// The port is not available.
 pub(super) fn serve<A: Answers>(
     port: u16,
     limits: Limits,
@@ -62,7 +62,7 @@ pub(super) fn serve<A: Answers>(
     Ok((address, door.spawn(move || let_in(&listener, limits, &answers))?))
 }
 
-/// Lets visitors in, for ever: each has a thread.
+/// Lets visitors in, forever: each has a thread.
 fn let_in<A: Answers>(listener: &TcpListener, limits: Limits, answers: &Arc<A>) {
     let places = Arc::new(Places::default());
     loop {
@@ -76,7 +76,7 @@ fn let_in<A: Answers>(listener: &TcpListener, limits: Limits, answers: &Arc<A>) 
         let thread = std::thread::Builder::new().name("http-visitor".into()).stack_size(STACK);
         let visit = move || {
             let visited = visit(&stream, limits, &*answers, |rank| place.rises_to(rank));
-            // Whoever goes in the middle of it has nobody to tell.
+            // If the visitor leaves in the middle, there is nobody to report the error to.
             drop(visited);
         };
         if thread.spawn(visit).is_err() {
@@ -109,7 +109,7 @@ fn visit(stream: &TcpStream, limits: Limits, answers: &impl Answers, rises_to: i
     Ok(())
 }
 
-/// Takes what is still being sent, for a moment: a connection that is closed before it is read loses the answer.
+/// Reads what is still being sent, for a moment: a connection that is closed before it is read loses the answer.
 fn part(mut stream: &TcpStream) -> io::Result<()> {
     stream.shutdown(Shutdown::Write)?;
     stream.set_read_timeout(Some(PARTING))?;
@@ -119,7 +119,7 @@ fn part(mut stream: &TcpStream) -> io::Result<()> {
     Ok(())
 }
 
-/// What is said where a port cannot be had.
+/// The error for a port that is not available.
 pub(super) fn refusal(port: u16, error: &io::Error) -> Failure {
     Failure::Usage(match error.kind() {
         io::ErrorKind::AddrInUse => format!(

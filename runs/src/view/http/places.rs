@@ -1,16 +1,16 @@
-//! The places of connections: so many may be there at once, and who has asked for something sensible goes last.
+//! The places of connections: their number is limited, and those that have made sensible requests are closed last.
 
 use std::collections::BTreeMap;
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// A page keeps a few connections, several pages some more; nobody else has any.
+/// A page keeps a few connections, several pages some more; there are no other clients.
 const MOST: usize = 128;
 
-/// Who has a place: the lowest leaves first, and among them whose last request is longest ago.
+/// The rank of a connection: the lowest is closed first, and among equals the one whose last request is longest ago.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Debug)]
 pub(in super::super) enum Rank {
-    /// It has not asked for anything yet that was answered.
+    /// It has not yet made a request that was answered.
     #[default]
     Unknown,
     /// It reads.
@@ -32,7 +32,7 @@ struct Taken {
 
 struct Visitor {
     rank: Rank,
-    /// When it asked for something, or came, by that count.
+    /// When it made its last request, or came, by that count.
     asked: u64,
     stream: Arc<TcpStream>,
 }
@@ -44,7 +44,7 @@ pub(super) struct Slot {
 }
 
 impl Places {
-    /// Gives a connection a place; where there are too many, another one loses its own.
+    /// Gives a connection a place; where there are too many, another connection loses its own.
     pub(super) fn take(self: &Arc<Self>, stream: TcpStream) -> (Slot, Arc<TcpStream>) {
         let stream = Arc::new(stream);
         let mut taken = self.taken();
@@ -56,7 +56,7 @@ impl Places {
         (Slot { number, of: Arc::clone(self) }, stream)
     }
 
-    /// Ends the connection that is missed least.
+    /// Ends the connection that matters least.
     pub(super) fn free_one(&self) {
         self.taken().free_one();
     }
@@ -83,7 +83,7 @@ impl Taken {
 }
 
 impl Slot {
-    /// Notes what the visitor has asked for; it keeps the highest rank that it had.
+    /// Notes a request of the visitor, who keeps the highest rank so far.
     pub(super) fn rises_to(&self, rank: Rank) {
         let mut taken = self.of.taken();
         let now = taken.count();

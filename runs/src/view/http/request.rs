@@ -1,4 +1,4 @@
-//! Requests are read from a connection, one after the other, each within a time limit.
+//! Reads requests from a connection, one after the other, each within a time limit.
 
 use std::io::Read;
 use std::net::TcpStream;
@@ -14,23 +14,23 @@ const LONGEST_BODY: usize = 1 << 16;
 /// A browser sends about 20 headers.
 const MOST_HEADERS: usize = 64;
 
-/// What somebody asks for.
+/// A request.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(in super::super) struct Request {
     pub(in super::super) method: String,
     pub(in super::super) path: String,
-    /// What stands behind the `?`.
+    /// What follows the `?`.
     pub(in super::super) query: String,
-    /// The host that is meant; empty: none is named.
+    /// The host that is requested; empty: none is named.
     pub(in super::super) host: String,
-    /// The page that asks.
+    /// The page that makes the request.
     pub(in super::super) origin: Option<String>,
     pub(in super::super) body: Vec<u8>,
     /// Whether more requests may come.
     pub(super) keeps_open: bool,
 }
 
-/// Why a request is none.
+/// Why a request is not valid.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Problem {
     pub(super) status: Status,
@@ -46,11 +46,11 @@ const NO_LENGTH: Problem = Problem { status: Status::BadRequest, why: "a body ne
 pub(super) struct Requests<'a> {
     stream: &'a TcpStream,
     limits: Limits,
-    /// What has come and was not taken yet.
+    /// What has arrived and was not taken yet.
     buffer: Vec<u8>,
 }
 
-/// What was read.
+/// The result of reading.
 enum Came {
     Something,
     /// The other side has closed, or nothing came in time.
@@ -62,7 +62,7 @@ impl<'a> Requests<'a> {
         Self { stream, limits, buffer: Vec::new() }
     }
 
-    /// The next one; nothing where none comes any more.
+    /// The next request; `None` once no more come.
     pub(super) fn next(&mut self) -> Option<Result<Request, Problem>> {
         if self.buffer.is_empty() && matches!(self.read(self.limits.idle), Came::Nothing) {
             return None;
@@ -100,7 +100,7 @@ impl<'a> Requests<'a> {
 
     fn read(&mut self, limit: Duration) -> Came {
         let mut chunk = [0; 4096];
-        // A limit of 0 would be none.
+        // A limit of 0 would mean no limit.
         if limit.is_zero() || self.stream.set_read_timeout(Some(limit)).is_err() {
             return Came::Nothing;
         }
@@ -114,7 +114,7 @@ impl<'a> Requests<'a> {
     }
 }
 
-/// A request without its body, how long its head is, and its body; nothing where more has to come.
+/// A request without its body, the length of its head, and that of its body; `None` where more has to arrive.
 fn head(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Problem> {
     let mut headers = [httparse::EMPTY_HEADER; MOST_HEADERS];
     let mut parsed = httparse::Request::new(&mut headers);
@@ -138,7 +138,7 @@ fn head(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Problem> {
         method: parsed.method.unwrap_or_default().to_owned(),
         path: path.to_owned(),
         query: query.to_owned(),
-        // Who names several means none.
+        // Several hosts count as none.
         host: match &all("host")[..] {
             [host] => (*host).to_owned(),
             _ => String::new(),

@@ -4,13 +4,13 @@ use std::io::{self, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-/// The page may load nothing but what this server has.
+/// The page may load only what this server has.
 const POLICY: &str = "default-src 'self'; img-src 'self' data:; style-src 'self'; frame-ancestors 'none'";
 const TEXT: &str = "text/plain; charset=utf-8";
-/// So much is written at once.
+/// How much is written at once.
 const PIECE: usize = 1 << 16;
 
-/// How a request went.
+/// The outcome of a request.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(in super::super) enum Status {
     Ok,
@@ -24,7 +24,7 @@ pub(in super::super) enum Status {
 }
 
 impl Status {
-    /// Its number and its words.
+    /// Its number and its text.
     fn line(self) -> &'static str {
         match self {
             Self::Ok => "200 OK",
@@ -39,7 +39,7 @@ impl Status {
     }
 }
 
-/// What is answered.
+/// A response.
 #[derive(Debug)]
 pub(in super::super) struct Response {
     status: Status,
@@ -58,7 +58,7 @@ impl Response {
         Self::new(status, TEXT, text.as_bytes().to_vec())
     }
 
-    /// Writes it, to somebody who has to take all of it within a time.
+    /// Writes it to a client that has to take all of it within a time.
     pub(super) fn write(&self, mut stream: &TcpStream, keeps_open: bool, limit: Duration) -> io::Result<()> {
         let Self { status, kind, body } = self;
         let connection = if keeps_open { "keep-alive" } else { "close" };
@@ -76,7 +76,7 @@ impl Response {
                 if left.is_zero() {
                     return Err(io::ErrorKind::TimedOut.into());
                 }
-                // For each write: `write_all` would begin anew with every byte that is taken.
+                // Set for each write: `write_all` would start the time again with every byte that is taken.
                 stream.set_write_timeout(Some(left))?;
                 match stream.write(piece) {
                     Ok(0) => return Err(io::ErrorKind::WriteZero.into()),

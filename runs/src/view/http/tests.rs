@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::{Answers, Limits, Rank, Request, Response, Status, serve};
 
-/// Gives back what was asked.
+/// Returns the request.
 struct Echo;
 
 impl Answers for Echo {
@@ -42,7 +42,7 @@ fn answer(reader: &mut BufReader<&TcpStream>) -> (String, String) {
     (lines[0].trim().to_owned(), String::from_utf8(body).unwrap())
 }
 
-/// What a text is answered with, alone on its connection.
+/// The answer to a text, alone on its connection.
 fn asked(address: SocketAddr, text: &str) -> (String, String) {
     let stream = visitor(address);
     (&stream).write_all(text.as_bytes()).unwrap();

@@ -1,6 +1,6 @@
-//! Teaching: the points of a program's data files, where the robot would stand at them, and writing them.
+//! Teaching: the points of a program's data files, how the robot would reach them, and writing them.
 //!
-//! Nothing is written but data files of the program that is shown, by the code of `savefilepose`.
+//! Only data files of the program that is shown are written, by the code of `savefilepose`.
 
 pub(super) mod place;
 pub(super) mod points;
@@ -17,7 +17,7 @@ use super::serve::Answer;
 use place::{AskedPose, Map};
 use points::{Change, Files};
 
-/// Who teaches.
+/// Teaches the points of a program.
 pub(super) struct Teacher {
     /// By channels, from 1.
     robots: Vec<Robot>,
@@ -36,7 +36,7 @@ impl Teacher {
         robot.ok_or_else(|| format!("channel {channel} has no robot"))
     }
 
-    /// What the page asks for; `order` is what it sends.
+    /// Answers a request of the page; `order` is what the page sends.
     pub(super) fn answer(&self, path: &[&str], order: Option<&str>) -> Answer {
         let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         let answer = match (path, order) {

@@ -1,4 +1,4 @@
-//! Where a robot would stand at a place: in each configuration, how near to a limit or a singularity, or why not.
+//! How a robot would reach a place: in each configuration, how near to a limit or a singularity, or why not.
 
 use arl_robot::Robot;
 use arl_robot::frames::{Mount, Setting};
@@ -8,17 +8,17 @@ use serde::{Deserialize, Serialize};
 use super::points::expect_sensible;
 use arl_wire::{Placed, placed, written};
 
-/// Below that clearance of a singular point, people are told.
+/// Below this clearance of a singular point, the user is warned.
 const NEAR_SINGULAR: f64 = 0.08;
-/// A map has at most so many places.
+/// The most places of a map.
 const MOST_PLACES: usize = 40_000;
 
-/// A place that is asked for, in one of three ways: as components in the workpiece frame, as the TCP in the world, as
+/// A place that is requested in one of three ways: as components in the workpiece frame, as the TCP in the world, as
 /// axes.
 #[derive(Clone, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AskedPose {
-    /// Whose robot, from 1.
+    /// The channel of the robot, from 1.
     pub(super) channel: usize,
     #[serde(default)]
     components: Option<[f64; 6]>,
@@ -27,10 +27,9 @@ pub(super) struct AskedPose {
     #[serde(default)]
     axes: Option<Vec<f64>>,
     setting: Where,
-    /// The axes of which a solution is to be near.
+    /// The axes that a solution should be near.
     near: Vec<f64>,
-    /// Components that people have before them: of the two ways to write an orientation the one that is nearer to
-    /// theirs is told.
+    /// The components that the user sees: of the two ways to write an orientation, the one nearer to these is returned.
     #[serde(default)]
     before: Option<[f64; 6]>,
 }
@@ -44,16 +43,16 @@ pub(super) struct Where {
     base: Placed,
 }
 
-/// What is there.
+/// How a place is reached.
 #[derive(Clone, PartialEq, Serialize, Debug)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(in crate::view) struct TaughtPose {
     /// The TCP in the workpiece frame: x, y, z, a, b, c.
     components: [f64; 6],
-    /// And in the world.
+    /// The TCP in the world.
     placed: Placed,
     solutions: Vec<Solution>,
-    /// The one that is nearest, of those that there are.
+    /// The nearest of the solutions that exist.
     nearest: Option<usize>,
 }
 
@@ -66,20 +65,20 @@ pub(in crate::view) struct Solution {
     why: Option<String>,
     /// 0 at a singular point, up to 1.
     clearance: f64,
-    /// Which one is near, if one is.
+    /// Which kind of singular point is near, if one is.
     near: Option<&'static str>,
 }
 
-/// A plane whose places are asked for: that of x and y through a place in the workpiece frame, with its orientation.
+/// A plane whose places are requested: that of x and y through a place in the workpiece frame, with its orientation.
 #[derive(Clone, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Map {
-    /// Whose robot, from 1.
+    /// The channel of the robot, from 1.
     pub(super) channel: usize,
     components: [f64; 6],
     setting: Where,
     near: Vec<f64>,
-    /// How far it goes to each side of the robot, and from place to place, in mm.
+    /// How far it extends to each side of the robot, and the distance from place to place, in mm.
     half: f64,
     step: f64,
 }
@@ -109,7 +108,7 @@ impl Where {
     }
 }
 
-/// That a place is turned by a quaternion that says how.
+/// Checks that the quaternion of a place is a rotation.
 fn expect_turned([.., i, j, k, w]: &Placed) -> Result<(), String> {
     let length = [i, j, k, w].iter().map(|part| part.powi(2)).sum::<f64>();
     if length > 0.0 { Ok(()) } else { Err("the quaternion of a pose must not be 0".to_owned()) }
@@ -148,7 +147,7 @@ pub(super) fn place(robot: &Robot, asked: &AskedPose) -> Result<TaughtPose, Stri
     Ok(TaughtPose { components: shown, placed: written(&(setting.workpiece() * pose)), solutions, nearest })
 }
 
-/// The components of a pose: angles have another form, too, a and c turned half around and b beyond the quarter.
+/// The components of a pose: the angles have a second form, with a and c turned half around and b beyond the quarter.
 fn components(pose: &Frame, before: Option<&[f64; 6]>) -> [f64; 6] {
     let first = frame_components(pose);
     let Some(before) = before else { return first };

@@ -1,4 +1,4 @@
-//! The points of data files: read for the page, and written where they stand.
+//! The points of data files: read for the page, and written where they are.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -16,23 +16,23 @@ use serde::{Deserialize, Serialize};
 use crate::texts::file_name;
 use arl_wire::{Placed, written};
 
-/// How the names of data files end.
+/// The end of data files' names.
 const DATA: &str = "_data.arl";
 /// The components of points, in the order in which literals without names have them.
 const POSE: &[&str] = &["x", "y", "z", "a", "b", "c", "cfg", "turn", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
 const JOINT_SCARA: &[&str] = &["j1", "j2", "j3", "j4", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
 const JOINT: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
-/// Those that are whole numbers, and their ranges.
+/// The components that are whole numbers, and their ranges.
 const WHOLE: &[(&str, [f64; 2])] = &[("cfg", [0.0, 7.0]), ("turn", [-1.0, 63.0])];
-/// So many steps can be taken back.
+/// The most steps that can be undone.
 const UNDONE: usize = 200;
 
 /// The data files of a program, and what was written into them.
 pub(super) struct Files {
     paths: Vec<PathBuf>,
-    /// What axes the joints have.
+    /// Determines which axes the joints have.
     family: Family,
-    /// Each step: what was in which file before, and what after.
+    /// Each step: the content of the files before and after.
     steps: Vec<Vec<Step>>,
 }
 
@@ -42,7 +42,7 @@ struct Step {
     after: Vec<u8>,
 }
 
-/// A point that is to have other values.
+/// A point that gets other values.
 #[derive(Clone, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Change {
@@ -52,7 +52,7 @@ pub(super) struct Change {
     pub(super) name: String,
     /// By the names of the components, in mm and deg.
     pub(super) values: BTreeMap<String, f64>,
-    /// What the point had before, as far as who changes it knows.
+    /// The point's previous values, as far as the client knows them.
     pub(super) before: BTreeMap<String, f64>,
 }
 
@@ -73,7 +73,7 @@ impl Files {
                 None => by_file.push((path, vec![change])),
             }
         }
-        // What cannot be is told before anything is written.
+        // Errors are reported before anything is written.
         for (path, changes) in &by_file {
             changed(&read(path)?, changes, self.family)?;
         }
@@ -89,7 +89,7 @@ impl Files {
         Ok(())
     }
 
-    /// Takes the last step back, where nobody else has written since.
+    /// Undoes the last step, unless its files have been written since.
     pub(super) fn undo(&mut self) -> Result<(), String> {
         let step = self.steps.last().ok_or("there is nothing to undo")?;
         for one in step {
@@ -105,7 +105,7 @@ impl Files {
         found.cloned().ok_or_else(|| format!("{name} is not a data file of this program"))
     }
 
-    /// What a file is called: its name alone, where no other one has that.
+    /// The name of a file: without folders, if no other file has that name.
     fn name(&self, path: &Path) -> String {
         let of = |path: &Path| file_name(&path.to_string_lossy()).to_owned();
         let name = of(path);
@@ -115,12 +115,12 @@ impl Files {
 }
 
 impl Step {
-    /// Puts back what was there before.
+    /// Restores the previous content.
     fn take_back(&self) -> Result<Step, String> {
         replace(&self.path, |now| self.expect_written(now).map(|()| self.before.clone()))
     }
 
-    /// That a file still holds what was written.
+    /// Checks that a file still holds what was written.
     fn expect_written(&self, now: &[u8]) -> Result<(), String> {
         let name = self.path.display();
         if now == self.after {
@@ -131,7 +131,7 @@ impl Step {
     }
 }
 
-/// Writes files one after the other; where one cannot be, what was written is taken back.
+/// Writes files one after the other; if one cannot be written, those written before are restored.
 fn all_or_none(steps: impl Iterator<Item = Result<Step, String>>) -> Result<Vec<Step>, String> {
     let mut written: Vec<Step> = Vec::new();
     for step in steps {
@@ -148,8 +148,8 @@ fn all_or_none(steps: impl Iterator<Item = Result<Step, String>>) -> Result<Vec<
     Ok(written)
 }
 
-/// Replaces the content of a file by what `change` makes of it, whoever else writes it meanwhile; what was there, and
-/// what is now.
+/// Replaces the content of a file by the result of `change`, even if others write the file meanwhile; returns the
+/// content before and after.
 fn replace(path: &Path, mut change: impl FnMut(&[u8]) -> Result<Vec<u8>, String>) -> Result<Step, String> {
     let mut step = Step { path: path.to_owned(), before: Vec::new(), after: Vec::new() };
     let changed = atomic_file::change(path, |now| {
@@ -178,9 +178,9 @@ fn changed(now: &[u8], changes: &[&Change], family: Family) -> Result<Vec<u8>, S
     })
 }
 
-/// What a program computes is not replaced by numbers, nor what somebody else has changed since it was looked at.
+/// Checks that neither what a program computes is replaced by numbers, nor what others have changed since it was read.
 fn expect_known(bytes: &[u8], change: &Change, family: Family) -> Result<(), String> {
-    // Whoever replaces the value tells of texts that cannot be read.
+    // Texts that cannot be read are reported where the value is replaced.
     let Ok(text) = arl_lang::text::decode(bytes) else { return Ok(()) };
     let (name, file) = (&change.name, &change.file);
     let mut told = Points::default();
@@ -226,7 +226,7 @@ fn literal(change: &Change, family: Family) -> Result<String, String> {
     Ok(format!("{{{}}}", written.join(", ")))
 }
 
-/// That a component has a value that a cell may have.
+/// Checks that a component has a value that a cell may have.
 fn expect_component(name: &str, value: f64) -> Result<(), String> {
     match WHOLE.iter().find(|(whole, _)| *whole == name) {
         Some((_, [least, most])) if value.fract() != 0.0 || !(*least..=*most).contains(&value) => {
@@ -237,7 +237,7 @@ fn expect_component(name: &str, value: f64) -> Result<(), String> {
     }
 }
 
-/// That a number of mm or deg is such as a cell has.
+/// Checks that a number of mm or deg is one that a cell may have.
 pub(super) fn expect_sensible(number: f64) -> Result<(), String> {
     if number.abs() <= LARGEST_MM {
         Ok(())
@@ -246,15 +246,15 @@ pub(super) fn expect_sensible(number: f64) -> Result<(), String> {
     }
 }
 
-/// What data files hold, for the page.
+/// The content of data files, for the page.
 #[derive(Default, Serialize, Debug)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(in crate::view) struct Points {
     points: Vec<Point>,
     frames: Vec<Mounted>,
-    /// How many steps can be taken back.
+    /// How many steps can be undone.
     undo: usize,
-    /// What cannot be read, and why.
+    /// What cannot be read, and the reason.
     troubles: Vec<String>,
 }
 
@@ -266,7 +266,7 @@ pub(in crate::view) struct Point {
     r#type: String,
     name: String,
     values: BTreeMap<&'static str, f64>,
-    /// Whether it has no others.
+    /// Whether it has no other components.
     plain: bool,
 }
 
@@ -280,7 +280,7 @@ pub(in crate::view) struct Mounted {
     /// a, b, c in deg.
     angles: [f64; 3],
     placed: Placed,
-    /// Whether it is where such usually are not: a tool that stands, a workpiece that is held.
+    /// Whether it is mounted in the less usual way: a stationary tool, a workpiece that the robot holds.
     other: bool,
 }
 
@@ -328,7 +328,7 @@ fn is_braced(var: &Var) -> bool {
     var.init.as_ref().is_some_and(|init| matches!(init.kind, ExprKind::Brace(_)))
 }
 
-/// What stands between the braces of a variable's value.
+/// The items between the braces of a variable's value.
 fn braced(var: &Var) -> &[BraceItem] {
     match var.init.as_ref().map(|init| &init.kind) {
         Some(ExprKind::Brace(items)) => items,
@@ -357,12 +357,12 @@ fn number(expr: &Expr) -> Option<f64> {
     }
 }
 
-/// The angles of a tool or workpiece, its frame, and whether it is where such usually are not.
+/// The angles of a tool or workpiece, its frame, and whether it is mounted in the less usual way.
 fn mount(items: &[BraceItem], names: &Interner) -> Option<([f64; 3], Placed, bool)> {
     let ExprKind::Brace(inner) = &items.first()?.value.kind else { return None };
     let found = values(inner, POSE.get(..6)?, names);
     if found.len() < inner.len() {
-        // What is computed is not known here.
+        // Computed values are not known here.
         return None;
     }
     let component = |name: &str| found.get(name).copied().unwrap_or_default();

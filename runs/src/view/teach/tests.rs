@@ -1,4 +1,4 @@
-//! Points are written where they stand; places have their solutions.
+//! Points are written where they are; places have their solutions.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ const NONE: [f64; 7] = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
 const POINTS: &str = "// points\r\njoint home = {0, -90, 90, 0, 90, 0}\r\npose feeder = {x 900, y -500, z 400, a 0, b 180, c 0} // of the belt\r\n\
                       pose later\r\ntool grip = {{0, 0, 120, 0, 0, 0}, false}\r\nwobj held = {{1, 2, 3, 0, 0, 0}, true}\r\nint n = 3\r\n";
 
-/// A folder with data files, gone with it.
+/// A folder with data files, removed with this value.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -92,7 +92,7 @@ fn a_point_is_written_where_it_stands_and_taken_back() {
                       {"file": "p_data.arl", "type": "pose", "name": "none", "before": {}, "values": {"x": 1}}]);
     assert!(ask(&teacher, "save", &both).unwrap_err().contains("has no pose none"));
     assert_eq!(folder.text(), POINTS);
-    // What somebody else has written since is not taken back.
+    // What others have written since is not undone.
     assert!(
         ask(&teacher, "save", &change("feeder", json!({}), json!({"x": 1}))).unwrap_err().contains("somebody else")
     );
@@ -121,7 +121,7 @@ fn nothing_else_is_written() {
     }
     assert!(refused("p_data.arl", "pose", "feeder", json!({})).contains("no components"));
     assert!(ask(&teacher, "save", &json!({"x": 1})).unwrap_err().contains("cannot be read"));
-    // Nor what is computed.
+    // Nor are computed values replaced.
     std::fs::write(
         folder.0.join("p_data.arl"),
         "double high = 5\npose feeder = {x 1, z high + 2}\npose copy = feeder\n",
@@ -201,7 +201,7 @@ fn a_place_has_all_its_solutions_and_each_leads_to_it() {
             assert!((one - other).abs() < 1e-6, "{one} {other}");
         }
     }
-    // Dragged, it is written as people have it before them.
+    // Dragged, it is written as users see it.
     assert_eq!(place["components"], json!([890.0, -520.0, 400.0, 0.0, 180.0, 0.0]));
     let asked = json!({"placed": place["placed"], "channel": 1, "setting": setting, "near": near, "before": place["components"]});
     let dragged = ask(&teacher, "place", &asked).unwrap();

@@ -1,4 +1,4 @@
-//! Channels that a certain cell does not have, of io and those of programs, as far as they are constant.
+//! I/O channels and program channels that the cell does not have, as far as their numbers are constant.
 
 use super::{addressed, constant, constant_int, related};
 use crate::diagnostics::channels::ChannelProblem;
@@ -7,10 +7,11 @@ use arl_lang::catalog::{Relation, Space};
 use arl_lang::span::Span;
 use arl_robot::channels::Channels;
 
-/// The most channels that one call may name.
+/// The maximum number of channels that one call may name.
 const MOST_AT_ONCE: i64 = 32;
 
-/// What messages call the channels of a space, and how many of them a cell has; `None` for what is not a channel of io.
+/// The name of the channels of a space in messages, and how many of them a cell has; `None` for anything but I/O
+/// channels.
 fn io(space: Space, cell: &Channels) -> Option<(&'static str, usize)> {
     match space {
         Space::DigitalInput => Some(("DI", cell.di as usize)),
@@ -28,7 +29,7 @@ fn io(space: Space, cell: &Channels) -> Option<(&'static str, usize)> {
     }
 }
 
-/// A foreground channel of a call that a cell with so many does not have, and where.
+/// A foreground channel in a call that does not exist in a cell with `count` of them, and its position.
 pub(super) fn no_foreground(builtin: &Builtin, count: u32) -> Option<(Span, ChannelProblem)> {
     let (_, expr) = addressed(builtin).find(|(space, _)| *space == Space::ForegroundChannel)?;
     let (channel, span) = constant_int(expr)?;
@@ -36,7 +37,7 @@ pub(super) fn no_foreground(builtin: &Builtin, count: u32) -> Option<(Span, Chan
     (!exists).then_some((span, ChannelProblem::NoForeground { channel, count }))
 }
 
-/// What is wrong with the channels of io of a call, and where.
+/// The problem with the I/O channels of a call, and its position.
 pub(super) fn problem(builtin: &Builtin, cell: &Channels) -> Option<(Span, ChannelProblem)> {
     let space = builtin.entry.space()?;
     let (kind, count) = io(space, cell)?;

@@ -7,20 +7,20 @@ use arl_lang::catalog::{Relation, Space};
 use arl_lang::span::Span;
 use arl_robot::outline::Outline;
 
-/// Registers, coils or bytes that calls name by the first one and how many.
+/// Registers, coils or bytes that calls address by the first one and a count.
 struct Stretch {
-    /// What they are called.
+    /// Their name.
     unit: NamedUnits,
-    /// How many there are.
+    /// Their total number.
     size: i64,
-    /// What becomes of a call that names others.
+    /// The consequence for a call that names others.
     result: &'static str,
 }
 
 const ALARM: &str = "the call would end in an alarm";
 const FALSE: &str = "the call would give false";
 
-/// The stretch that a space is in a cell; `None` for what is named one by one.
+/// The range of a space in a cell; `None` for a space that is addressed one by one.
 fn stretch_of(space: Space, cell: &Outline) -> Option<Stretch> {
     let (one, many, size, result) = match space {
         Space::ModbusRegister => ("register", "registers", 1 << 16, FALSE),
@@ -42,7 +42,7 @@ fn stretch_of(space: Space, cell: &Outline) -> Option<Stretch> {
     Some(Stretch { unit: NamedUnits { one, many }, size, result })
 }
 
-/// What is wrong with a call, and where.
+/// The problem with a call, and its position.
 pub(super) fn problem(builtin: &Builtin, cell: &Outline) -> Option<(Span, ConnectionProblem)> {
     parameter(builtin).or_else(|| stretch(builtin, cell)).or_else(|| line(builtin, cell))
 }
@@ -61,7 +61,7 @@ fn stretch(builtin: &Builtin, cell: &Outline) -> Option<(Span, ConnectionProblem
     let Stretch { unit, size, result } = stretch_of(space, cell)?;
     let (start, span) = constant_int(start)?;
     let extent = related(builtin, |relation| matches!(relation, Relation::Extent(_)));
-    // Where it is not known, as few as there may be.
+    // If the count is not known, the smallest possible one is assumed.
     let (count, len) = match extent.and_then(|(relation, expr)| Some((relation, constant_int(expr)?.0))) {
         Some((Relation::Extent(per_place), len)) => {
             let per_place = i64::from(per_place);
@@ -77,7 +77,7 @@ fn stretch(builtin: &Builtin, cell: &Outline) -> Option<(Span, ConnectionProblem
 fn line(builtin: &Builtin, cell: &Outline) -> Option<(Span, ConnectionProblem)> {
     let (_, expr) = addressed(builtin).find(|(space, _)| *space == Space::SerialLine)?;
     let ExprKind::Const(Value::String(name)) = &expr.kind else { return None };
-    // What has a slash is the path of a device.
+    // A name with a slash is the path of a device.
     let known = cell.lines.contains_key(&**name) || name.contains('/');
     let problem = || {
         let known = cell.lines.keys().cloned().collect();
@@ -86,7 +86,7 @@ fn line(builtin: &Builtin, cell: &Outline) -> Option<(Span, ConnectionProblem)> 
     (!known).then(|| (expr.span, problem()))
 }
 
-/// Registers and coils are used that no PLC can reach.
+/// Reports the use of registers and coils that no PLC can reach.
 pub(super) fn unseen(builtin: &Builtin) -> Option<ConnectionProblem> {
     builtin.is_served().then_some(ConnectionProblem::Unseen { name: builtin.entry.name })
 }

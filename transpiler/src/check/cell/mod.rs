@@ -1,4 +1,4 @@
-//! What a certain cell does not have or take, as far as it is constant.
+//! Constant values in a program that the given cell does not have or does not accept.
 
 mod channels;
 mod connections;
@@ -10,10 +10,10 @@ use arl_lang::catalog::{Param, Relation, Space};
 use arl_lang::span::Span;
 use arl_robot::outline::Outline;
 
-/// Holds the calls of a program against a cell.
+/// Checks the calls of a program against a cell.
 pub(crate) fn check(program: &Program, cell: &Outline, locate: &dyn Fn(ModuleId, Span) -> Location) -> Vec<Diagnostic> {
     let mut found = Vec::new();
-    // What is true of every call is said at the first one.
+    // A problem that all calls share is reported at the first one.
     let mut unseen = !cell.modbus_tcp;
     let mut look = |module: ModuleId, expr: &Expr| {
         let ExprKind::Builtin(builtin) = &expr.kind else { return };
@@ -37,7 +37,7 @@ pub(crate) fn check(program: &Program, cell: &Outline, locate: &dyn Fn(ModuleId,
     found
 }
 
-/// The values that are passed, each with its parameter, in the order of the parameters.
+/// The passed values, each with its parameter, in the order of the parameters.
 fn given(builtin: &Builtin) -> impl Iterator<Item = (&'static Param, &Expr)> {
     builtin.entry.params.iter().enumerate().filter_map(|(at, param)| {
         let bound = builtin.args.iter().find(|bound| bound.param == at)?;
@@ -48,23 +48,23 @@ fn given(builtin: &Builtin) -> impl Iterator<Item = (&'static Param, &Expr)> {
     })
 }
 
-/// The values that address something, and what.
+/// The values that are addresses, each with the space that it addresses.
 fn addressed(builtin: &Builtin) -> impl Iterator<Item = (Space, &Expr)> {
     given(builtin).filter_map(|(param, value)| Some((param.addresses?, value)))
 }
 
-/// The value that has such a relation to what is addressed.
+/// The value with the wanted relation to what is addressed.
 fn related(builtin: &Builtin, wanted: impl Fn(Relation) -> bool) -> Option<(Relation, &Expr)> {
     given(builtin).find_map(|(param, value)| Some((param.relation.filter(|relation| wanted(*relation))?, value)))
 }
 
-/// A constant whole number and its place.
+/// A constant whole number and its position.
 fn constant_int(expr: &Expr) -> Option<(i32, Span)> {
     let (value, span) = constant(expr)?;
     (value.fract() == 0.0).then_some((value as i32, span))
 }
 
-/// A constant number and its place.
+/// A constant number and its position.
 fn constant(expr: &Expr) -> Option<(f64, Span)> {
     let value = match &expr.kind {
         ExprKind::Const(Value::Double(value)) => *value,

@@ -1,4 +1,5 @@
-//! What an expression is before the program runs: targets, frames, tools and workpieces made of constants.
+//! The values of expressions that are known before the program runs: targets, frames, tools and workpieces made of
+//! constants.
 
 use super::super::convert::number;
 use super::super::first_motion::{GlobalPoints, known_structure, known_value};
@@ -17,16 +18,16 @@ pub(super) struct ConstantScope<'a> {
     pub(super) globals: GlobalPoints,
 }
 
-/// A target pose all of whose six components are set.
+/// A target pose with all six components set.
 pub(super) struct Pose {
-    /// Where the TCP goes, seen from the workpiece.
+    /// The target position of the TCP relative to the workpiece.
     pub(super) frame: Frame,
-    /// `cfg`, where it is constant.
+    /// `cfg`, if it is constant.
     pub(super) cfg: Option<i32>,
 }
 
 impl<'a> ConstantScope<'a> {
-    /// The axes of a joint target, in the order of its components: those that are set and constant, with their names.
+    /// The axes of a joint target that are set and constant, with their names, in the order of the components.
     pub(super) fn joints(self, target: &'a Expr) -> Option<Vec<(&'static str, f64)>> {
         let (Struct::Joint, values) = self.braces(target)? else { return None };
         let names = Struct::Joint.def(self.program.family).components.iter().map(|component| component.name);
@@ -34,7 +35,7 @@ impl<'a> ConstantScope<'a> {
         Some(names.zip(values).filter_map(|(name, value)| Some((name, set(value)?))).collect())
     }
 
-    /// A target pose: made of constants, or moved from such a one.
+    /// A target pose, made of constants or shifted from such a pose.
     pub(super) fn pose(self, target: &'a Expr) -> Option<Pose> {
         let target = known_value(self.program, self.func, self.globals, target)?;
         if let ExprKind::Builtin(function) = &target.kind {
@@ -46,7 +47,7 @@ impl<'a> ConstantScope<'a> {
         Some(Pose { frame: place, cfg })
     }
 
-    /// What `offset` and `reltool` make of a pose.
+    /// The result of applying `offset` or `reltool` to a pose.
     fn moved(self, function: &'a Builtin) -> Option<Pose> {
         let shift = function.entry.shift?;
         let pose = self.pose(argument(function, "p")?)?;
@@ -65,7 +66,7 @@ impl<'a> ConstantScope<'a> {
         Some(Pose { frame, ..pose })
     }
 
-    /// A tool or a workpiece; `$DFTOOL` and `$DFWOBJ` are what they are in `state`.
+    /// A tool or a workpiece; `$DFTOOL` and `$DFWOBJ` have the values in `state`.
     pub(super) fn mount(self, value: &'a Expr, state: &MotionState) -> Option<Mount> {
         if let ExprKind::Place(place) = &value.kind
             && let Root::System(variable) = place.root
@@ -99,7 +100,7 @@ impl<'a> ConstantScope<'a> {
         known_structure(self.program, self.func, self.globals, value)
     }
 
-    /// x, y, z, a, b, c; what is left out is `start`.
+    /// x, y, z, a, b, c; components left out have the value `start`.
     fn components(self, id: Struct, values: &[Option<Expr>], start: Option<f64>) -> Option<[f64; 6]> {
         let mut found = [0.0; 6];
         for (place, name) in found.iter_mut().zip(["x", "y", "z", "a", "b", "c"]) {
@@ -115,7 +116,7 @@ impl<'a> ConstantScope<'a> {
     }
 }
 
-/// `{}`: a structure of start values.
+/// `{}`: a structure of default values.
 fn empty(id: Struct, values: &[Option<Expr>]) -> Option<Mount> {
     match id {
         _ if !values.is_empty() => None,
@@ -136,7 +137,7 @@ fn flag(value: &Expr) -> Option<bool> {
     }
 }
 
-/// The value that is given for a parameter.
+/// The value given for a parameter.
 pub(super) fn argument<'a>(builtin: &'a Builtin, name: &str) -> Option<&'a Expr> {
     let wanted = builtin.entry.params.iter().position(|param| param.name.eq_ignore_ascii_case(name))?;
     builtin.args.iter().find(|bound| bound.param == wanted).and_then(|bound| match &bound.value {

@@ -1,4 +1,4 @@
-//! What holds for a program as a whole: which system variables it writes, and what its functions may change.
+//! Facts about a program as a whole: which system variables it writes, and what its functions may change.
 
 use super::super::first_motion::GlobalPoints;
 use super::constants::{ConstantScope, argument};
@@ -9,25 +9,25 @@ use arl_lang::catalog::{Effect, Role};
 
 /// Facts about a program.
 pub(super) struct ProgramFacts {
-    /// Whether tool and workpiece alone stand between poses and the flange.
+    /// Whether only tool and workpiece lie between poses and the flange.
     pub(super) plain_frames: bool,
-    /// Whether `ptp` goes to the configuration that its target says.
+    /// Whether `ptp` goes to the configuration given in its target.
     pub(super) as_taught: bool,
-    /// Whether lines end in the configuration in which they start, and cannot pass singular points.
+    /// Whether lines end in the configuration in which they start and cannot pass singular points.
     pub(super) lines_keep_cfg: bool,
     /// Whether the tool turns to the orientation of the target on arcs.
     pub(super) arcs_turn_to_targets: bool,
-    /// Whether `main` is called by some function.
+    /// Whether any function calls `main`.
     pub(super) main_is_called: bool,
     /// Whether lines end exactly at their targets.
     pub(super) lines_are_exact: bool,
     /// Whether the program writes points of data files while it runs.
     pub(super) teaches: bool,
-    /// What each function may change, with all that it calls.
+    /// What each function may change, including all functions that it calls.
     pub(super) functions: Vec<Changes>,
     /// What all functions together may change.
     pub(super) everywhere: Changes,
-    /// What may change at any time: an event may run it.
+    /// What may change at any time, because an event may change it.
     pub(super) anytime: Changes,
 }
 
@@ -84,14 +84,14 @@ impl ProgramFacts {
         self.functions.get(id.0 as usize).copied().unwrap_or_default()
     }
 
-    /// What an expression may change, calls included.
+    /// What an expression may change, including calls.
     pub(super) fn of_expr(&self, scope: ConstantScope<'_>, expr: &Expr) -> Changes {
         let mut changes = Changes::default();
         visit::exprs(expr, &mut |expr| changes.and(&self.of_one(scope, expr)));
         changes
     }
 
-    /// What statements may change, calls included.
+    /// What statements may change, including calls.
     pub(super) fn of_block(&self, scope: ConstantScope<'_>, block: &[Stmt]) -> Changes {
         let mut changes = Changes::default();
         each_expr(block, &mut |expr| changes.and(&self.of_one(scope, expr)));
@@ -106,7 +106,7 @@ impl ProgramFacts {
         }
     }
 
-    /// Callers change what is changed by what they call.
+    /// Adds to each caller the changes made by the functions that it calls.
     fn spread(&mut self, callers: &[Vec<usize>]) {
         let mut open: Vec<usize> = (0..self.functions.len()).collect();
         while let Some(at) = open.pop() {
@@ -122,7 +122,7 @@ impl ProgramFacts {
         }
     }
 
-    /// Something changes what has this role.
+    /// Records that a variable with this role is changed.
     fn changed(&mut self, role: Role) {
         match role {
             Role::Frame => self.plain_frames = false,
@@ -130,9 +130,9 @@ impl ProgramFacts {
             Role::WristPassage => self.lines_keep_cfg = false,
             Role::ArcOrientation => self.arcs_turn_to_targets = false,
             Role::Compensation => self.lines_are_exact = false,
-            // These are followed along the statements.
+            // Their values are tracked along the statements.
             Role::DefaultTool | Role::DefaultWorkpiece => {}
-            // These are read-only.
+            // They are read-only.
             Role::Flange | Role::World => {}
         }
     }
@@ -156,10 +156,10 @@ impl ProgramFacts {
     }
 }
 
-/// What one expression itself may change, without its parts and without what it calls.
+/// What one expression itself may change, without its parts and without the functions that it calls.
 fn direct(scope: ConstantScope<'_>, expr: &Expr) -> Changes {
     let mut changes = Changes::default();
-    // A part of the variable is written, or the whole, with what `value` is.
+    // Records a write to a part of the variable, or to the whole variable with the given `value`.
     let mut write = |place: &Place, value: Option<&Expr>| {
         let Root::System(variable) = place.root else { return };
         let change = || Change::from(value.and_then(|value| scope.mount(value, &MotionState::UNKNOWN)));

@@ -1,18 +1,19 @@
-//! Whether a robot can reach a target, by its own kinematics.
+//! Whether a robot can reach a target, according to its kinematics.
 
 use crate::diagnostics::targets::TargetProblem;
 use arl_robot::Robot;
 use arl_robot::frames::{Carried, StraightWay};
 use arl_robot::kinematics::{Axes, Frame, RANGE_SLACK, Refusal};
 
-/// Nearer to a singular point than this the pose leaves axes open, which are then where the way has led them.
+/// Closer to a singular point than this, the pose does not determine all axes; they are then where the path has led
+/// them.
 pub(super) const OPEN: f64 = 1e-4;
 
-/// What is to be said of a pose.
+/// The result of checking a pose.
 pub(super) enum Verdict {
-    /// These axes reach it; where no configuration was asked for, those of the first one that does.
+    /// These axes reach it; if no configuration was requested, those of the first one that does.
     Reached(Axes),
-    /// Perhaps; that depends on the way there.
+    /// Possibly reached, depending on the path.
     Open,
     /// No axes reach it.
     Refused(TargetProblem),
@@ -22,12 +23,12 @@ pub(super) enum Verdict {
 pub(super) struct TcpLine<'a> {
     pub(super) start: &'a Axes,
     pub(super) carried: Carried,
-    /// The TCP at its end, on its way.
+    /// The TCP at the end of the line.
     pub(super) end: Frame,
     pub(super) cfg: u8,
 }
 
-/// The first axis of a joint target that is beyond its range.
+/// The first axis of a joint target that is out of its range.
 pub(super) fn joints(robot: &Robot, target: &[(&str, f64)]) -> Option<TargetProblem> {
     robot.axes.iter().find_map(|axis| {
         let (_, value) = *target.iter().find(|(name, _)| axis.name.eq_ignore_ascii_case(name))?;
@@ -36,7 +37,7 @@ pub(super) fn joints(robot: &Robot, target: &[(&str, f64)]) -> Option<TargetProb
     })
 }
 
-/// Whether the flange gets to `flange`, seen from the robot's base, in configuration `cfg` or, without, in any.
+/// Whether the flange can reach `flange`, relative to the robot's base, in configuration `cfg` or, without one, in any.
 pub(super) fn pose(robot: &Robot, flange: &Frame, cfg: Option<u8>) -> Verdict {
     let kinematics = &robot.kinematics;
     let all = kinematics.configurations();
@@ -59,14 +60,14 @@ pub(super) fn pose(robot: &Robot, flange: &Frame, cfg: Option<u8>) -> Verdict {
         (Some((found, (axis, value, by))), _) => {
             let others = if cfg.is_some() { others() } else { Vec::new() };
             let Some(axis) = robot.axes.get(axis) else { return Verdict::Open };
-            Verdict::Refused(TargetProblem::pose(robot, axis, (value, by), found, others))
+            Verdict::Refused(TargetProblem::pose(robot, axis, value, by, found, others))
         }
         (None, Refusal::Tilted { by }) => Verdict::Refused(TargetProblem::tilted(robot, by)),
         (None, Refusal::Unreachable { beyond }) if beyond > RANGE_SLACK => {
             Verdict::Refused(TargetProblem::out_of_reach(robot, beyond))
         }
         (None, _) => match cfg {
-            // Where the border of reach is met by rounding, the way there decides.
+            // At the boundary of the reach rounding matters, so the path decides.
             Some(cfg) if others_reach(robot, flange) => {
                 Verdict::Refused(TargetProblem::configuration(robot, cfg, others()))
             }
@@ -88,8 +89,8 @@ fn fits(robot: &Robot, flange: &Frame, cfg: u8) -> bool {
     robot.kinematics.inverse(flange, cfg, &[0.0; 6]).is_some_and(|axes| beyond_range(robot, &axes).is_none())
 }
 
-/// The first axis that no number of whole turns brings into its range, where it stands nearest to that, and how far
-/// beyond.
+/// The first axis that no number of whole turns brings into its range: its index, its value nearest to the range, and
+/// how far that is beyond the range.
 fn beyond_range(robot: &Robot, axes: &Axes) -> Option<(usize, f64, f64)> {
     robot.own_axes().iter().zip(axes).enumerate().find_map(|(at, (axis, value))| {
         let (value, by) = axis.nearest_to_range(*value);

@@ -1,8 +1,8 @@
-//! Targets that a certain robot can never reach, as far as that is sure before the program runs.
+//! Targets that a given robot can never reach, as far as that is certain before the program runs.
 //!
-//! `constants` says which targets, tools and workpieces are known, `facts` what the program as a whole may change of
-//! what stands between a target and the robot, `walk` goes along each function and knows what holds where a motion is
-//! planned (`state`), and `judge` asks the robot's kinematics.
+//! `constants` determines which targets, tools and workpieces are known, `facts` what the program as a whole may change
+//! between a target and the robot. `walk` goes through each function and tracks what is known where a motion is planned
+//! (`state`), and `judge` uses the robot's kinematics.
 
 mod constants;
 mod facts;
@@ -15,20 +15,20 @@ use crate::hir::{ModuleId, Program};
 use arl_lang::span::Span;
 use arl_robot::Robot;
 
-/// What is around a program and its robot.
+/// The environment of a program and its robot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Around {
-    /// No other programs run beside it.
+    /// No other programs run in parallel.
     pub(crate) alone: bool,
-    /// The robot stands in the world's origin, as far as files say.
+    /// The robot stands in the origin of the world frame, as far as files show.
     pub(crate) in_origin: bool,
 }
 
-/// Warns of constant targets that end in an alarm: joint targets beyond the ranges of axes, poses out of reach, out of
-/// the axes' ranges or out of the configuration asked for, lines that pass a singular point. Of those only that are
-/// written where the motion stands, or given to something that nothing changes; of poses only where tool and workpiece
-/// are known, too. All others are left to run time. Points of data files count with the values that they have now,
-/// where the program runs alone: others might teach them.
+/// Warns about constant targets that end in an alarm: joint targets out of the axis ranges; poses out of reach, out of
+/// the axis ranges or out of the requested configuration; lines that pass a singular point. Considers only targets that
+/// are written in the motion or assigned to a variable that is never changed, and poses only if tool and workpiece are
+/// known, too. All others are left to run time. Points of data files count with their present values, provided that the
+/// program runs alone: other programs might teach them.
 pub(crate) fn check(
     program: &Program,
     robot: &Robot,

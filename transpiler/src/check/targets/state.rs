@@ -1,35 +1,35 @@
-//! What is known of tool, workpiece and robot at a place of a program, and what statements may change of it.
+//! What is known about tool, workpiece and robot at a point of a program, and what statements may change about it.
 
 use arl_lang::span::Span;
 use arl_robot::frames::Mount;
 use arl_robot::kinematics::{Axes, Frame};
 
-/// `$FLANGE`, with which a program starts.
+/// `$FLANGE`, the tool at the start of a program.
 pub(super) fn flange() -> Mount {
     Mount { frame: Frame::identity(), on_flange: true }
 }
 
-/// `$WORLD`, in which a program starts.
+/// `$WORLD`, the workpiece frame at the start of a program.
 pub(super) fn world() -> Mount {
     Mount { frame: Frame::identity(), on_flange: false }
 }
 
-/// What is known when a motion is planned; `None` is not known.
+/// What is known when a motion is planned; `None` means unknown.
 #[derive(Clone, Debug)]
 pub(super) struct MotionState {
     /// `$DFTOOL`
     pub(super) tool: Option<Mount>,
     /// `$DFWOBJ`
     pub(super) wobj: Option<Mount>,
-    /// The argument of an earlier motion, or the assignment, that `$DFTOOL` is from.
+    /// The argument of an earlier motion, or the assignment, that set `$DFTOOL`.
     pub(super) tool_from: Option<Span>,
-    /// The same of `$DFWOBJ`.
+    /// The argument of an earlier motion, or the assignment, that set `$DFWOBJ`.
     pub(super) wobj_from: Option<Span>,
     /// The robot's configuration.
     pub(super) cfg: Option<u8>,
-    /// Where its axes stand, up to whole turns.
+    /// The positions of its axes, up to whole turns.
     pub(super) axes: Option<Axes>,
-    /// Control never comes here.
+    /// Control never reaches this point.
     pub(super) dead: bool,
 }
 
@@ -37,7 +37,7 @@ impl MotionState {
     pub(super) const UNKNOWN: MotionState =
         MotionState { tool: None, wobj: None, tool_from: None, wobj_from: None, cfg: None, axes: None, dead: false };
 
-    /// What holds where control comes from here or from there.
+    /// What is known at a point that control reaches from either of two places.
     pub(super) fn or(self, other: MotionState) -> MotionState {
         if self.dead {
             return other;
@@ -56,7 +56,7 @@ impl MotionState {
         }
     }
 
-    /// What still holds when `changes` may have happened, none, some or all of them.
+    /// Keeps what still holds after none, some or all of `changes` have happened.
     pub(super) fn may(&mut self, changes: &Changes) {
         self.tool = self.tool.filter(|tool| changes.tool.leaves(tool));
         self.wobj = self.wobj.filter(|wobj| changes.wobj.leaves(wobj));
@@ -66,15 +66,15 @@ impl MotionState {
     }
 }
 
-/// What a variable may become.
+/// The possible new values of a variable.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(super) enum Change {
     /// Nothing writes it.
     #[default]
     Never,
-    /// This is all that it may become.
+    /// The only value that it may get.
     To(Mount),
-    /// Several values, or one that is not known.
+    /// Several values, or an unknown one.
     Other,
 }
 
@@ -87,7 +87,7 @@ impl Change {
         };
     }
 
-    /// The one value that a variable can have that begins as `start`.
+    /// The only value that a variable with the initial value `start` can have.
     pub(super) fn only(self, start: Mount) -> Option<Mount> {
         Some(start).filter(|start| self.leaves(start))
     }

@@ -1,4 +1,4 @@
-//! Goes along the statements of each function and looks at its motions, knowing what holds there.
+//! Goes through the statements of each function and checks its motions, tracking what is known at each point.
 
 use super::super::first_motion::GlobalPoints;
 use super::constants::{ConstantScope, argument};
@@ -14,28 +14,28 @@ use arl_robot::Robot;
 use arl_robot::frames::{Mount, Setting};
 use arl_robot::kinematics::Frame;
 
-/// How a motion gets to its target.
+/// How a motion reaches its target.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Way {
-    /// By the axes, to the configuration that the target says.
+    /// By the axes, to the configuration given in the target.
     Axes,
     /// Along a path, in the configuration of the start.
     Path,
 }
 
-/// Tells what is wrong with a target in a module.
+/// Reports a problem with a target in a module.
 type Tell<'a> = dyn FnMut(ModuleId, Span, TargetProblem, Vec<Also>) + 'a;
 
-/// Another place that has to do with it.
+/// Another position related to the problem.
 pub(super) type Also = (ModuleId, Span, &'static str);
 
-/// Looks at the motions of all functions.
+/// Checks the motions of all functions.
 pub(super) fn each_function(program: &Program, robot: &Robot, facts: &ProgramFacts, tell: &mut Tell<'_>) {
     for (at, func) in program.funcs.iter().enumerate() {
         let is_main = program.main.is_some_and(|main| main.0 as usize == at) && !facts.main_is_called;
         let state = match program.main {
             _ if is_main => MotionState { tool: Some(flange()), wobj: Some(world()), ..MotionState::UNKNOWN },
-            // From wherever it is called.
+            // It may be called from anywhere in the program.
             Some(_) => MotionState {
                 tool: facts.everywhere.tool.only(flange()),
                 wobj: facts.everywhere.wobj.only(world()),
@@ -63,7 +63,7 @@ impl<'a> Walk<'a, '_> {
         (self.tell)(self.scope.func.module, span, problem, Vec::new());
     }
 
-    /// Reports a target with the place where it is given, and where tool and workpiece are from.
+    /// Reports a target together with the places where it is given and where tool and workpiece were set.
     fn report_target(&mut self, motion: &Builtin, target: &Expr, problem: TargetProblem) {
         let module = self.scope.func.module;
         let mut also = Vec::new();
@@ -147,7 +147,7 @@ impl<'a> Walk<'a, '_> {
         self.round(&ends, &each.body);
     }
 
-    /// A loop: what a round may change is not known in it, nor behind it.
+    /// A loop: what a round may change is unknown inside and after the loop.
     fn round(&mut self, ends: &[&'a Expr], body: &'a Block) {
         for end in ends {
             self.state.may(&self.facts.of_expr(self.scope, end));
@@ -183,7 +183,7 @@ impl<'a> Walk<'a, '_> {
             if std::ptr::eq(part, expr) {
                 return;
             }
-            // Nobody knows when it moves.
+            // The time of the motion is unknown.
             if let ExprKind::Builtin(builtin) = &part.kind
                 && builtin.entry.effect == Effect::Plans
             {
@@ -211,7 +211,7 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
-    /// A motion: what it says of tool and workpiece stays for those behind it.
+    /// A motion: its tool and workpiece stay in effect for the motions after it.
     fn motion(&mut self, motion: &'a Builtin) {
         let Some(kind) = motion.entry.motion else { return };
         if let Some(tool) = argument(motion, "t") {
@@ -233,7 +233,7 @@ impl<'a> Walk<'a, '_> {
             Motion::PointToPoint | Motion::Jump => self.pose_target(motion, Way::Axes, before.1),
             Motion::Line | Motion::Spline => self.pose_target(motion, Way::Path, before.1),
             Motion::Arc if self.facts.arcs_turn_to_targets => self.pose_target(motion, Way::Path, before.1),
-            // Where such an arc ends is not known from its instruction alone.
+            // The end of such an arc is not known from its instruction alone.
             Motion::Arc | Motion::JoinedArc => {}
         }
     }
@@ -301,7 +301,7 @@ impl<'a> Walk<'a, '_> {
         self.facts.lines_are_exact && self.facts.lines_keep_cfg
     }
 
-    /// The motion ends where the axes are these; near a singular point some may be elsewhere.
+    /// The motion ends with these axis positions; near a singular point some axes may be elsewhere.
     fn stands(&mut self, axes: [f64; 6]) {
         let kinematics = &self.robot.kinematics;
         if kinematics.clearance(&axes) > judge::OPEN {

@@ -1,5 +1,5 @@
-//! Which functions are compiled by themselves: LLVM puts a function that has one caller into it, and takes long for
-//! what becomes of that in a large program.
+//! Determines which functions are compiled separately: LLVM inlines a function with a single caller, and in a large
+//! program it takes long for the result.
 
 use crate::emit::Sizes;
 use crate::hir::{ExprKind, Program};
@@ -18,7 +18,7 @@ pub(in crate::emit) fn is_large(program: &Program, sizes: Sizes) -> bool {
     program.funcs.iter().map(|func| weight(program, &func.body)).sum::<usize>() > sizes.awaits_of_a_program
 }
 
-/// How many `.await`s the statements have, about.
+/// The approximate number of `.await`s in the statements.
 fn weight(program: &Program, body: &[crate::hir::Stmt]) -> usize {
     let mut weight = 0;
     for stmt in body {

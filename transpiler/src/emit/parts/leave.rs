@@ -1,4 +1,4 @@
-//! What leaves a part: `return`, `break`, `continue`, and jumps to states.
+//! Exits from a part: `return`, `break`, `continue`, and jumps to states.
 
 use crate::emit::body::Body;
 use arl_lang::catalog::Base;
@@ -8,9 +8,9 @@ use quote::quote;
 /// A part that is being emitted.
 #[derive(Debug)]
 pub(in crate::emit) struct Frame {
-    /// How many loops are around it.
+    /// The number of loops around it.
     pub(super) loops: usize,
-    /// How it is left, in the order in which that was found.
+    /// The ways in which it is left, in the order in which they were found.
     pub(super) leaves: Vec<Leave>,
 }
 
@@ -21,17 +21,17 @@ pub(in crate::emit) enum Leave {
     Return,
     /// The loop around the part ends.
     Break,
-    /// The loop around the part has its next round.
+    /// The loop around the part goes to its next round.
     Continue,
-    /// The function goes on in the state that has been set.
+    /// The function continues in the state that has been set.
     Jump,
 }
 
 impl<'p> Body<'p, '_> {
-    /// The code that leaves the innermost part in this way; nothing where there is none, or the loop is inside it.
+    /// The code that leaves the innermost part like this; `None` if there is no part, or if the loop is inside it.
     pub(in crate::emit) fn leave_part(&mut self, how: Leave, value: Option<&TokenStream>) -> Option<TokenStream> {
-        let loops = self.loops.len();
-        let frame = self.frames.last_mut()?;
+        let loops = self.flow.loops.len();
+        let frame = self.flow.parts.last_mut()?;
         if matches!(how, Leave::Break | Leave::Continue) && loops > frame.loops {
             return None;
         }
@@ -51,17 +51,17 @@ impl<'p> Body<'p, '_> {
         Some(quote!(return #leave;))
     }
 
-    /// What a part that may be left ends with.
+    /// The end of a part that may be left early.
     pub(super) fn ended(&self, leave: TokenStream) -> TokenStream {
         if self.fails() { quote!(Done::Ok(#leave)) } else { leave }
     }
 
-    /// Whether the function's result tells of alarms.
+    /// Whether the function's result can report alarms.
     pub(in crate::emit) fn fails(&self) -> bool {
         self.func.is_some_and(|func| func.effects.fails)
     }
 
-    /// The arm that does what was asked by leaving a part.
+    /// The match arm that carries out what leaving a part requests.
     pub(super) fn arm_of(&mut self, how: Leave) -> TokenStream {
         match how {
             Leave::Return => {
@@ -85,7 +85,7 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// `return`, with a value that has been computed by the statements before it.
+    /// `return`, with a value computed by the statements before it.
     pub(in crate::emit) fn return_of(&mut self, before: TokenStream, value: Option<TokenStream>) -> TokenStream {
         if let Some(leave) = self.leave_part(Leave::Return, value.as_ref()) {
             return quote!(#before #leave);

@@ -2,7 +2,8 @@
 
 use super::leave::Frame;
 use super::plan::BlockPiece;
-use crate::emit::body::{Body, Tail};
+use crate::emit::body::Body;
+use crate::emit::control_flow::Tail;
 use crate::emit::mentions;
 use crate::emit::rows::Group;
 use crate::hir::{LocalId, Stmt, StmtKind};
@@ -11,20 +12,20 @@ use quote::quote;
 use std::collections::{HashMap, HashSet};
 
 impl<'p> Body<'p, '_> {
-    /// The code of groups that stand in a block one after the other, in parts where they are many.
+    /// The code of consecutive groups in a block, split into parts if there are many.
     pub(in crate::emit) fn grouped(&mut self, groups: Vec<Group<'p>>, tail: Tail) -> TokenStream {
         let weights: Vec<usize> = groups.iter().map(|group| self.group_weight(group)).collect();
         let pieces = self.planned(&groups, &weights);
         let mut out = TokenStream::new();
         if pieces.iter().any(|piece| matches!(piece, BlockPiece::Part(_))) {
-            // It would stand in front of the first statement that leads back to the function, in a part.
-            out.extend(self.guard.take());
-            // What lives in front of all states does so for the parts of one, too.
-            let of_states = self.machine.as_ref().map(|machine| machine.hoisted.clone()).unwrap_or_default();
-            let watched = self.frame.is_some();
+            // Otherwise it would be in a part, before the first statement that leads back to the function.
+            out.extend(self.form.guard.take());
+            // Variables that live before all states also live before the parts of one state.
+            let of_states = self.flow.machine.as_ref().map(|machine| machine.hoisted.clone()).unwrap_or_default();
+            let watched = self.form.frame.is_some();
             for id in outside_parts(&groups, &pieces, watched).into_iter().filter(|id| !of_states.contains(id)) {
                 out.extend(self.hoisted_variable(id));
-                self.hoisted.insert(id);
+                self.locals.hoisted.insert(id);
             }
         }
         out.extend(self.pieces(&pieces, &groups, tail));
@@ -45,26 +46,26 @@ impl<'p> Body<'p, '_> {
     }
 
     fn group(&mut self, group: &Group<'p>, tail: Tail) -> TokenStream {
-        let calls_itself = self.guard.is_some()
+        let calls_itself = self.form.guard.is_some()
             && match group {
                 Group::Alone(stmt) => self.calls_itself(stmt),
                 Group::Table(rows) => rows.iter().any(|row| self.calls_itself(row.stmt)),
             };
-        let guard = if calls_itself { self.guard.take() } else { None };
-        let own = self.guard.take();
+        let guard = if calls_itself { self.form.guard.take() } else { None };
+        let own = self.form.guard.take();
         let code = match group {
             Group::Alone(stmt) => self.statement(stmt, tail),
             Group::Table(rows) => self.table(rows),
         };
-        self.guard = own;
+        self.form.guard = own;
         quote!(#guard #code)
     }
 
     /// `let lines = async { .. }; part(pin!(lines)).await?;`
     fn part(&mut self, pieces: &[BlockPiece], groups: &[Group<'p>]) -> TokenStream {
-        self.frames.push(Frame { loops: self.loops.len(), leaves: Vec::new() });
+        self.flow.parts.push(Frame { loops: self.flow.loops.len(), leaves: Vec::new() });
         let code = self.pieces(pieces, groups, Tail::Inner);
-        let leaves = self.frames.pop().map(|frame| frame.leaves).unwrap_or_default();
+        let leaves = self.flow.parts.pop().map(|frame| frame.leaves).unwrap_or_default();
         let ask = self.fails().then(|| quote!(?));
         let lines = self.reserve("lines");
         self.release(&lines);
@@ -75,7 +76,7 @@ impl<'p> Body<'p, '_> {
         let returns = leaves.contains(&super::Leave::Return);
         let end = self.ended(if returns { quote!(Leave::On) } else { quote!(Leave::<()>::On) });
         let arms: Vec<TokenStream> = leaves.into_iter().map(|how| self.arm_of(how)).collect();
-        // A statement of its own ends what the part borrows: the arms may need it.
+        // A separate statement ends the borrows of the part, which the arms may need.
         let left = self.reserve("left");
         self.release(&left);
         quote! {
@@ -89,8 +90,8 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// The locals that are declared in a part and mentioned outside it, in the order of their declarations; for a debugger,
-/// which may go from any part to any other one, all that are declared in parts.
+/// The locals that are declared in a part and mentioned outside it, in the order of their declarations. For a debugger,
+/// which may go from any part to any other one, all locals that are declared in parts.
 fn outside_parts(groups: &[Group<'_>], pieces: &[BlockPiece], watched: bool) -> Vec<LocalId> {
     let mut part_of = vec![0; groups.len()];
     number_parts(pieces, 0, &mut 0, &mut part_of);
@@ -123,7 +124,7 @@ fn outside_parts(groups: &[Group<'_>], pieces: &[BlockPiece], watched: bool) -> 
     declared
 }
 
-/// Numbers the parts that groups stand in directly; 0 is outside.
+/// Numbers the parts that directly contain the groups; 0 means outside.
 fn number_parts(pieces: &[BlockPiece], own: usize, last: &mut usize, part_of: &mut [usize]) {
     for piece in pieces {
         match piece {

@@ -1,27 +1,27 @@
-//! Which statements of a block become parts.
+//! Decides which statements of a block become parts.
 
 use crate::emit::Sizes;
 
 /// A piece of a block.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum BlockPiece {
-    /// The group with this number, as it stands.
+    /// The group with this number, unchanged.
     Group(usize),
     /// A part.
     Part(Vec<BlockPiece>),
 }
 
-/// So many pieces of a block that is still too heavy become a part of parts.
+/// The number of pieces that become a part of parts in a block that is still too heavy.
 const PIECES: usize = 32;
 
-/// The pieces of a block whose groups have these weights; `stays` tells that the last one is in no part.
+/// The pieces of a block whose groups have these weights; `stays`: the last group is in no part.
 pub(super) fn plan(weights: &[usize], stays: bool, sizes: Sizes) -> Vec<BlockPiece> {
     let all = || (0..weights.len()).map(BlockPiece::Group);
     if weights.iter().sum::<usize>() <= sizes.awaits {
         return all().collect();
     }
     let movable = weights.len() - usize::from(stays);
-    // What goes before the first wait is where it is looked for: declarations.
+    // The code before the first wait stays outside the parts, because it contains declarations.
     let first = weights.iter().position(|weight| *weight > 0).unwrap_or(0).min(movable);
     let mut pieces: Vec<BlockPiece> = all().take(first).collect();
     let middle: Vec<BlockPiece> = all().take(movable).skip(first).collect();
@@ -37,7 +37,7 @@ pub(super) fn plan(weights: &[usize], stays: bool, sizes: Sizes) -> Vec<BlockPie
     pieces
 }
 
-/// Puts pieces into parts of at most so much weight; what is lighter than `least` stays as it is.
+/// Puts pieces into parts with a weight of at most `most`; parts lighter than `least` are not formed.
 fn pack(pieces: Vec<BlockPiece>, weights: &[usize], most: usize, least: usize) -> Vec<BlockPiece> {
     let mut out = Vec::new();
     let mut open: Vec<BlockPiece> = Vec::new();
@@ -60,13 +60,13 @@ fn pack(pieces: Vec<BlockPiece>, weights: &[usize], most: usize, least: usize) -
     out
 }
 
-/// Several pieces as a part, where more than one of them waits.
+/// Turns several pieces into a part if more than one of them waits.
 fn bundle(pieces: Vec<BlockPiece>, weights: &[usize]) -> Vec<BlockPiece> {
     let parts = pieces.iter().filter(|piece| matches!(piece, BlockPiece::Part(_))).count();
     if parts > 1 && weight_of(&pieces, weights) > 1 { vec![BlockPiece::Part(pieces)] } else { pieces }
 }
 
-/// How many `.await`s are left in the code around the parts.
+/// The number of `.await`s left in the code around the parts.
 pub(super) fn weight_of(pieces: &[BlockPiece], weights: &[usize]) -> usize {
     let weight = |piece: &BlockPiece| match piece {
         BlockPiece::Group(number) => weights.get(*number).copied().unwrap_or(0),

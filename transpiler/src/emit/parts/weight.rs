@@ -1,4 +1,4 @@
-//! How many `.await`s the code of statements has.
+//! Counts the `.await`s in the code of statements.
 
 use super::plan::{BlockPiece, plan, weight_of};
 use crate::effects::captures;
@@ -14,7 +14,7 @@ use std::collections::{HashMap, HashSet};
 #[derive(Default, Debug)]
 pub(in crate::emit) struct Weights {
     of: HashMap<*const Stmt, usize>,
-    /// Whether a block of the function has parts.
+    /// Whether any block of the function has parts.
     pub(in crate::emit) cut: bool,
 }
 
@@ -28,7 +28,7 @@ impl<'p> Body<'p, '_> {
         weights
     }
 
-    /// The weight of a block whose statements are in parts where they are many.
+    /// The weight of a block whose statements are split into parts if there are many.
     fn block_weight(&self, block: &'p [Stmt], weights: &mut Weights) -> usize {
         let groups = self.groups(flow::reachable(block));
         let of_groups: Vec<usize> = groups.iter().map(|group| self.weigh_group(group, weights)).collect();
@@ -61,13 +61,13 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// The weight of a group that has been weighed.
+    /// The weight of a group that has been weighed already.
     pub(super) fn group_weight(&self, group: &Group<'p>) -> usize {
         let first = match group {
             Group::Alone(stmt) => Some(*stmt),
             Group::Table(rows) => rows.first().map(|row| row.stmt),
         };
-        first.and_then(|stmt| self.weights.of.get(&std::ptr::from_ref(stmt))).copied().unwrap_or(0)
+        first.and_then(|stmt| self.flow.weights.of.get(&std::ptr::from_ref(stmt))).copied().unwrap_or(0)
     }
 
     fn statement_weight(&self, stmt: &'p Stmt, weights: &mut Weights) -> usize {
@@ -106,7 +106,7 @@ impl<'p> Body<'p, '_> {
             _ => 0,
         };
         let inside: usize = match &expr.kind {
-            // What an event does later is a body of its own.
+            // What an event does later is a separate body.
             ExprKind::Builtin(builtin) if builtin.entry.form == Form::Event => {
                 let now = builtin.args.iter().filter(|arg| !captures::is_later(builtin.entry, arg));
                 let values = now.filter_map(|arg| match &arg.value {

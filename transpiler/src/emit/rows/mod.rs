@@ -1,10 +1,10 @@
-//! Runs of like statements as tables: what rustc is given grows by a row for each statement, not by its code.
+//! Runs of similar statements as tables: each statement adds only a row to what rustc compiles, not its code.
 //!
-//! Statements are alike when they differ in constants only ([`shape`]). Those that follow one another become one loop
-//! over a table ([`runs`]): the constants that differ are its columns, and each shape is emitted once, with the columns
-//! in place of them ([`table`]). Invariants:
-//! - what runs, in which order, with which values and at which line is the same as without the table;
-//! - no statement of a table writes a local, declares one, or leaves the table but by an alarm.
+//! Statements are similar if they differ only in constants ([`shape`]). Consecutive ones become one loop over a table
+//! ([`runs`]): the differing constants are its columns, and each shape is emitted once, with the columns in place of
+//! the constants ([`table`]). Invariants:
+//! - the statements run in the same order, with the same values and at the same lines as without the table;
+//! - no statement of a table writes a local, declares one, or leaves the table other than by an alarm.
 
 mod runs;
 mod shape;

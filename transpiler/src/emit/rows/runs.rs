@@ -1,4 +1,4 @@
-//! Which statements become tables.
+//! Decides which statements become tables.
 
 use super::shape::{Shape, StatementRow};
 use crate::effects::flow;
@@ -10,21 +10,21 @@ use std::collections::HashMap;
 /// Statements that are emitted together.
 #[derive(Debug)]
 pub(in crate::emit) enum Group<'p> {
-    /// One as it stands.
+    /// A single statement, unchanged.
     Alone(&'p Stmt),
-    /// Those of a table.
+    /// The statements of a table.
     Table(Vec<StatementRow<'p>>),
 }
 
-/// A kind that is found once in a run stands between two tables where these have so many rows each, on the average, and
-/// before and behind all tables: there it reads better than in a table.
+/// A kind that occurs once in a run stays outside the tables if it is between two tables with this many rows each on
+/// average, or before or after all tables: there it is more readable than in a table.
 const ROWS_BESIDE: usize = 32;
 
-/// So often a run is cut where a kind is found once.
+/// The number of times that a run is cut at a kind that occurs once.
 const MOST_CUTS: usize = 8;
 
 impl<'p> Body<'p, '_> {
-    /// The statements of a block in the groups that they are emitted in.
+    /// The statements of a block, grouped as they are emitted.
     pub(in crate::emit) fn groups(&self, statements: Vec<&'p Stmt>) -> Vec<Group<'p>> {
         let sizes = self.unit.sizes;
         let mut groups = Vec::with_capacity(statements.len());
@@ -42,7 +42,7 @@ impl<'p> Body<'p, '_> {
         groups
     }
 
-    /// A statement as a row, where it may be one: it writes and declares no local, and goes on to the next.
+    /// A statement as a row, if possible: it writes and declares no local, and continues with the next statement.
     fn row(&self, stmt: &'p Stmt) -> Option<StatementRow<'p>> {
         let row = StatementRow::of(stmt, self.family(), &self.unit.slots)?;
         let is_call = matches!(row.expr.kind, ExprKind::Call(..) | ExprKind::Builtin(_) | ExprKind::Assign(_));
@@ -50,7 +50,7 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// Puts a run into tables and single statements.
+/// Splits a run into tables and single statements.
 fn arrange<'p>(sizes: Sizes, run: Vec<StatementRow<'p>>, cuts: usize, groups: &mut Vec<Group<'p>>) {
     let mut counts: HashMap<&Shape, usize> = HashMap::new();
     run.iter().for_each(|row| *counts.entry(&row.shape).or_default() += 1);
@@ -80,7 +80,7 @@ fn arrange<'p>(sizes: Sizes, run: Vec<StatementRow<'p>>, cuts: usize, groups: &m
     stretches(sizes, run, groups);
 }
 
-/// Puts the stretches of one kind into tables where they are long enough.
+/// Turns stretches of one kind into tables if they are long enough.
 fn stretches<'p>(sizes: Sizes, run: Vec<StatementRow<'p>>, groups: &mut Vec<Group<'p>>) {
     let mut rows = run.into_iter().peekable();
     while let Some(first) = rows.next() {

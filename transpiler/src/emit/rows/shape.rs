@@ -1,4 +1,4 @@
-//! What statements have in common when they differ in constants only.
+//! What statements that differ only in constants have in common.
 
 use crate::effects::captures;
 use crate::emit::slots::Slots;
@@ -11,20 +11,20 @@ use arl_lang::catalog::{Family, Presence, Struct};
 #[derive(Clone, PartialEq, Eq, Hash, Default, Debug)]
 pub(in crate::emit) struct Shape(Vec<u8>);
 
-/// What may differ: the code around it is the same whatever stands there.
+/// A part that may differ: the surrounding code is the same for any filling.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::emit) struct Hole<'p> {
     pub(in crate::emit) filling: Filling<'p>,
-    /// What it is for: the label of the parameter, the component.
+    /// Its purpose: the label of the parameter, or the component.
     pub(in crate::emit) name: &'p str,
 }
 
-/// What stands in a hole.
+/// The content of a hole.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::emit) enum Filling<'p> {
-    /// A constant that is an argument, a component of one, or what a global variable is set to.
+    /// A constant that is an argument, a component of an argument, or the value assigned to a global variable.
     Constant(&'p Expr, &'p Value),
-    /// A variable that is in an array.
+    /// A variable stored in an array.
     Variable(&'p Place, GlobalId),
 }
 
@@ -32,14 +32,14 @@ pub(in crate::emit) enum Filling<'p> {
 #[derive(Debug)]
 pub(in crate::emit) struct StatementRow<'p> {
     pub(in crate::emit) stmt: &'p Stmt,
-    /// The expression that it is.
+    /// The expression of the statement.
     pub(in crate::emit) expr: &'p Expr,
     pub(in crate::emit) shape: Shape,
     pub(super) holes: Vec<Hole<'p>>,
 }
 
 impl<'p> StatementRow<'p> {
-    /// The statement, where it is an expression; whether it may stand in a table is not asked here.
+    /// The statement as a row, if it is an expression. Does not check whether it may be in a table.
     pub(super) fn of(stmt: &'p Stmt, family: Family, slots: &Slots) -> Option<Self> {
         let StmtKind::Eval(expr) = &stmt.kind else { return None };
         let mut walk = Walk { slots: Some(slots), ..Walk::new(family) };
@@ -48,14 +48,14 @@ impl<'p> StatementRow<'p> {
     }
 }
 
-/// The shape and the holes of a value, where a constant alone is one.
+/// The shape and the holes of a value; a lone constant is a hole.
 pub(in crate::emit) fn of_value<'p>(value: &'p Expr, family: Family) -> (Shape, Vec<Hole<'p>>) {
     let mut walk = Walk::new(family);
     walk.expr(value, Some("value"));
     (Shape(walk.shape), walk.holes)
 }
 
-/// The shape, the holes and the local variables of a call in a function, whatever the names of these are.
+/// The shape, the holes and the local variables of a call in a function, regardless of the names of the variables.
 pub(in crate::emit) fn of_call<'p>(
     call: &'p Expr,
     func: &'p Func,
@@ -69,9 +69,9 @@ pub(in crate::emit) fn of_call<'p>(
 
 struct Walk<'p, 's> {
     family: Family,
-    /// The variables that are in arrays.
+    /// The variables stored in arrays.
     slots: Option<&'s Slots>,
-    /// Where local variables are told by their order and types alone: their function.
+    /// The function, if local variables are distinguished only by their order and types.
     func: Option<&'p Func>,
     shape: Vec<u8>,
     holes: Vec<Hole<'p>>,
@@ -85,11 +85,11 @@ impl<'p> Walk<'p, '_> {
 
     fn word(&mut self, word: impl std::fmt::Debug) {
         use std::io::Write;
-        // A vector takes all that is written to it.
+        // Writing to a vector cannot fail.
         let _ = write!(self.shape, "{word:?};");
     }
 
-    /// An expression; a constant may differ where it is `open` and has a name.
+    /// An expression; a constant may differ if it is `open` and has a name.
     fn expr(&mut self, expr: &'p Expr, open: Option<&'p str>) {
         self.word(std::mem::discriminant(&expr.kind));
         match &expr.kind {
@@ -120,7 +120,7 @@ impl<'p> Walk<'p, '_> {
                 self.expr(&sides.1, None);
             }
             ExprKind::Assign(sides) => {
-                // What a system variable takes is looked at while compiling, where it is known.
+                // The range of a system variable is checked at compile time, where the value is known.
                 let open = matches!(sides.0.root, Root::Global(_)).then_some("value");
                 self.place(&sides.0, None);
                 self.expr(&sides.1, open);
@@ -165,11 +165,11 @@ impl<'p> Walk<'p, '_> {
         }
     }
 
-    /// The components that have values; constants may differ where it is `open`.
+    /// The components that have values; constants may differ if `open` is set.
     fn structure(&mut self, id: Struct, values: &'p [Option<Expr>], open: bool) {
         let components = id.def(self.family).components;
         let mut given: Vec<usize> = (0..values.len()).filter(|at| matches!(values.get(*at), Some(Some(_)))).collect();
-        // They are evaluated as they stand in the program.
+        // They are evaluated in the order of the program.
         given.sort_by_key(|at| values.get(*at).and_then(Option::as_ref).map(|value| value.span.start));
         self.word((id, &given));
         for at in given {
@@ -178,16 +178,16 @@ impl<'p> Walk<'p, '_> {
         }
     }
 
-    /// A constant that must be the same.
+    /// A constant that must be the same in all rows.
     fn constant(&mut self, value: &Value) {
         match value {
-            // Bits, as -0 equals 0 and NaN does not equal itself.
+            // Compared by bits, as -0 equals 0 and NaN does not equal itself.
             Value::Double(value) => self.word(value.to_bits()),
             value => self.word(value),
         }
     }
 
-    /// A place; a variable of an array may differ where it is `open` and has a name.
+    /// A place; a variable stored in an array may differ if it is `open` and has a name.
     fn place(&mut self, place: &'p Place, open: Option<&'p str>) {
         let slots = self.slots;
         match (place.root, open) {

@@ -1,8 +1,9 @@
 //! The code of a table: its rows, and the loop over them.
 
 use super::shape::{Filling, Hole, Shape, StatementRow};
-use crate::emit::body::{Body, Tail};
+use crate::emit::body::Body;
 use crate::emit::consts;
+use crate::emit::control_flow::Tail;
 use crate::emit::fragment::{Fragment, Precedence};
 use crate::emit::names::{camel_case, field, ident};
 use crate::emit::sequence::Mode;
@@ -14,18 +15,18 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 use std::collections::{HashMap, HashSet};
 
-/// What stands for constants and for the line while the statements of a table are emitted.
+/// The columns that replace constants and the line while the statements of a table are emitted.
 #[derive(Default, Debug)]
 pub(in crate::emit) struct Columns {
     line: Option<Ident>,
-    /// The columns of the constants, which are told by where they are.
+    /// The columns of the constants, which are identified by their addresses.
     of: HashMap<*const Expr, Ident>,
-    /// The columns that say which variable of an array is meant.
+    /// The columns that select the variable of an array.
     slots: HashMap<*const Place, Ident>,
 }
 
 impl Columns {
-    /// Columns for the line and for what stands in holes.
+    /// Columns for the line and for the fillings of holes.
     pub(in crate::emit) fn new<'h>(line: Ident, holes: impl Iterator<Item = (&'h Hole<'h>, &'h Ident)>) -> Self {
         let mut columns = Self { line: Some(line), ..Self::default() };
         holes.for_each(|(hole, name)| columns.put(hole, name));
@@ -39,7 +40,7 @@ impl Columns {
         }
     }
 
-    /// Whether there are none.
+    /// Whether there are no columns.
     pub(in crate::emit) fn is_empty(&self) -> bool {
         self.line.is_none() && self.of.is_empty() && self.slots.is_empty()
     }
@@ -49,7 +50,7 @@ impl Columns {
         self.line.as_ref().map(ToTokens::to_token_stream)
     }
 
-    /// Whether code names one of them.
+    /// Whether code mentions any of the columns.
     pub(in crate::emit) fn are_in(&self, code: &TokenStream) -> bool {
         self.line
             .iter()
@@ -58,12 +59,12 @@ impl Columns {
             .any(|name| mentions(code, &name.to_string()))
     }
 
-    /// The column that says which variable of an array a place is.
+    /// The column that selects the variable of an array for a place.
     pub(in crate::emit) fn slot(&self, place: &Place) -> Option<Ident> {
         if self.slots.is_empty() { None } else { self.slots.get(&std::ptr::from_ref(place)).cloned() }
     }
 
-    /// The column of a constant, in the way in which it is wanted.
+    /// The column of a constant in the wanted mode.
     pub(in crate::emit) fn of(&self, expr: &Expr, mode: Mode) -> Option<Fragment> {
         if self.of.is_empty() {
             return None;
@@ -80,10 +81,10 @@ impl Columns {
     }
 }
 
-/// What becomes a row.
+/// The data of one row.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::emit) struct Entry<'r, 'p> {
-    /// What stands in the first column: the line, say.
+    /// The value of the first column, for example the line.
     pub(in crate::emit) lead: usize,
     pub(in crate::emit) shape: &'r Shape,
     pub(in crate::emit) holes: &'r [Hole<'p>],
@@ -93,7 +94,7 @@ pub(in crate::emit) struct Entry<'r, 'p> {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::emit) struct Lead<'a> {
     pub(in crate::emit) name: &'a Ident,
-    /// Its type.
+    /// The type of the column.
     pub(in crate::emit) ty: &'a TokenStream,
 }
 
@@ -102,7 +103,7 @@ struct Kind<'r, 'p> {
     holes: &'r [Hole<'p>],
     /// The columns: the numbers of the constants that differ, and their names.
     columns: Vec<(usize, Ident)>,
-    /// The name of the variant, where there are several kinds.
+    /// The name of the variant, if there are several kinds.
     name: Ident,
     code: TokenStream,
 }
@@ -117,15 +118,15 @@ impl<'p> Body<'p, '_> {
         let lead = Lead { name: &name, ty: &quote!(u32) };
         let word = |at: usize, body: &Self| rows.get(at).map_or_else(String::new, |row| word(row.expr, body));
         let code = self.tabulate(&entries, lead, &word, &mut |body, at| {
-            body.columns.line = Some(name.clone());
+            body.position.columns.line = Some(name.clone());
             rows.get(at).map(|row| body.statement(row.stmt, Tail::Inner)).unwrap_or_default()
         });
         self.release(&name);
         code
     }
 
-    /// The code of a table: `emit` makes the code for the entry with a number, with the columns in place of what
-    /// differs between those of its shape, and `word` says what its kind is called.
+    /// The code of a table. `emit` makes the code for the entry with a given number, with columns in place of the parts
+    /// in which the entries of its shape differ; `word` gives the name of its kind.
     pub(in crate::emit) fn tabulate(
         &mut self,
         entries: &[Entry<'_, 'p>],
@@ -153,7 +154,7 @@ impl<'p> Body<'p, '_> {
         self.loop_over(entries, &kinds, &numbers, lead)
     }
 
-    /// The rows of a shape with their code.
+    /// The rows of a shape, with their code.
     fn kind<'r>(
         &mut self,
         entries: &[Entry<'r, 'p>],
@@ -172,10 +173,10 @@ impl<'p> Body<'p, '_> {
         let columns: Vec<(usize, Ident)> =
             varying.iter().map(|(at, hole)| (*at, self.reserve(&field(hole.name).to_string()))).collect();
         for ((_, hole), (_, name)) in varying.iter().zip(&columns) {
-            self.columns.put(hole, name);
+            self.position.columns.put(hole, name);
         }
         let code = emit(self, first);
-        self.columns = Columns::default();
+        self.position.columns = Columns::default();
         columns.iter().for_each(|(_, name)| self.release(name));
         Some(Kind { holes, columns, name, code })
     }
@@ -240,7 +241,7 @@ impl<'p> Body<'p, '_> {
 }
 
 impl Body<'_, '_> {
-    /// What stands in a column.
+    /// The text of a column's value.
     pub(in crate::emit) fn in_column(&self, filling: Filling<'_>) -> String {
         match filling {
             Filling::Constant(_, value) => consts::text(value),
@@ -270,7 +271,7 @@ impl Kind<'_, '_> {
     }
 }
 
-/// What a kind of statement is called: as the instruction or the function that it calls.
+/// The name of a kind of statement: that of the instruction or function that it calls.
 fn word(expr: &Expr, body: &Body<'_, '_>) -> String {
     match &expr.kind {
         ExprKind::Builtin(builtin) => camel_case(&builtin.entry.name.to_ascii_lowercase()),
@@ -290,7 +291,7 @@ fn distinct(wanted: String, used: &mut HashSet<String>) -> Ident {
     ident(&name)
 }
 
-/// The type of a column; a `static` needs no lifetime for its texts.
+/// The type of a column; a `static` needs no lifetime for its strings.
 pub(in crate::emit) fn column_type(base: Base, family: Family, in_enum: bool) -> TokenStream {
     match base {
         Base::String if in_enum => quote!(&'static str),
@@ -299,7 +300,7 @@ pub(in crate::emit) fn column_type(base: Base, family: Family, in_enum: bool) ->
     }
 }
 
-/// `(line, x, y)`; one alone needs no parentheses.
+/// `(line, x, y)`; a single part needs no parentheses.
 fn tuple(parts: &[TokenStream]) -> TokenStream {
     match parts {
         [part] => part.clone(),
@@ -316,7 +317,7 @@ fn in_row(values: impl Iterator<Item = String>) -> String {
     }
 }
 
-/// Whether the same stands in two holes, constants to the last bit.
+/// Whether two holes have the same filling; constants are compared bit by bit.
 pub(in crate::emit) fn same(one: Filling<'_>, other: Filling<'_>) -> bool {
     match (one, other) {
         (Filling::Constant(_, Value::Double(one)), Filling::Constant(_, Value::Double(other))) => {

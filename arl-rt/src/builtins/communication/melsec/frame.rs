@@ -18,14 +18,14 @@ const D: u8 = 0xa8;
 /// How long the PLC may take for its answer, in units of 0.25 s: 4 s.
 const TIMER: u16 = 16;
 
-/// What stands at the start of what has come.
+/// The start of the received bytes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum ReceivedFrame {
-    /// An answer: its end code (0: done) and data, and how many bytes it takes.
+    /// An answer: its end code (0: done), its data, and its size in bytes.
     Answer { code: u16, data: Vec<u8>, size: usize },
     /// The beginning of an answer.
     Part,
-    /// No answer of the MC protocol.
+    /// Not an answer of the MC protocol.
     Garbage,
 }
 
@@ -34,7 +34,8 @@ pub(super) fn read(pc: u8, start: u32, count: u16) -> Vec<u8> {
     request(pc, READ, start, count, &[])
 }
 
-/// The request to write bytes into registers, low bytes first; a register that is left half gets 0 in its high byte.
+/// The request to write bytes into registers, low bytes first; a register that is only half filled gets 0 in its high
+/// byte.
 pub(super) fn write(pc: u8, start: u32, bytes: &[u8]) -> Vec<u8> {
     let count = bytes.len().div_ceil(2) as u16;
     let mut request = request(pc, WRITE, start, count, bytes);
@@ -60,7 +61,7 @@ fn request(pc: u8, command: u16, start: u32, count: u16, data: &[u8]) -> Vec<u8>
     request
 }
 
-/// The answer at the start of what has come.
+/// The answer at the start of the received bytes.
 pub(super) fn first(bytes: &[u8]) -> ReceivedFrame {
     const MARK: [u8; 2] = [0xd0, 0];
     if !MARK.starts_with(bytes.get(..bytes.len().min(2)).unwrap_or_default()) {
@@ -68,7 +69,7 @@ pub(super) fn first(bytes: &[u8]) -> ReceivedFrame {
     }
     let Some([low, high]) = bytes.get(ROUTE..HEAD) else { return ReceivedFrame::Part };
     let length = usize::from(u16::from_le_bytes([*low, *high]));
-    // An end code, and behind it registers, or what the PLC says of an error.
+    // An end code, followed by registers or the PLC's error information.
     if !(2..=2 + 2 * MOST_REGISTERS).contains(&length) {
         return ReceivedFrame::Garbage;
     }
@@ -85,7 +86,7 @@ mod tests {
     use super::*;
     use crate::fieldbus::noise::Noise;
 
-    /// The frames that the protocol's public description shows, for D registers.
+    /// The example frames of the protocol's public description, for D registers.
     #[test]
     fn requests_are_laid_out_as_described() {
         let head = [0x50, 0, 0, 0xff, 0xff, 3, 0];

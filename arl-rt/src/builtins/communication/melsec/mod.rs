@@ -1,5 +1,5 @@
 //! Melsec (manual 5.6.5): D registers of a PLC, read and written by the MC protocol (3E frames, binary) over TCP. Each
-//! call tries once and says whether it is done.
+//! call tries once and returns whether it is done.
 
 mod frame;
 
@@ -16,10 +16,10 @@ use crate::fault::Fault;
 use crate::values::Str;
 use frame::{LAST_REGISTER, MOST_REGISTERS, ReceivedFrame};
 
-/// How long a PLC may be silent: a second more than it may take by what it is told.
+/// How long a PLC may be silent: a second more than the time that the request allows it.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(5);
 
-/// A connection to a PLC. It is closed at first, and when the last that knows it is gone.
+/// A connection to a PLC. It is closed at first, and again once its last copy is dropped.
 #[derive(Clone, Default, Debug)]
 pub struct MelsecDev {
     handle: Rc<ConnectionHandle>,
@@ -36,24 +36,24 @@ impl Shown for MelsecDev {
     }
 }
 
-/// What has been asked and told.
+/// The state of requests and reports.
 #[derive(Default, Debug)]
 struct Talk {
     /// The station that the program named.
     pc: u8,
     asked: Option<Asked>,
-    /// The errors of the PLC that the user knows of.
+    /// The errors of the PLC that have been reported to the user.
     told: HashSet<String>,
 }
 
-/// A request that has no answer yet.
+/// A request without an answer so far.
 #[derive(Debug)]
 struct Asked {
     request: Vec<u8>,
     since: Instant,
 }
 
-/// Connects to a PLC; true when the connection is established.
+/// Connects to a PLC; true once the connection is established.
 ///
 /// # Errors
 /// A port outside 1 to 65535, a station that is neither 0 to 247 nor 255; the connection is open to something else.
@@ -74,14 +74,14 @@ pub async fn open(cx: &Cx, dev: &MelsecDev, ip: &Str, port: i32, slave_id: i32) 
     Ok(open)
 }
 
-/// Closes a connection; nothing happens to one that is not open.
+/// Closes a connection; does nothing if it is not open.
 pub async fn close(cx: &Cx, dev: &MelsecDev) {
     cx.motion_end().await;
     dev.handle.close();
     dev.talk.borrow_mut().asked = None;
 }
 
-/// Reads `len` bytes of D registers, low bytes first; true when they have come. Until then the text stays.
+/// Reads `len` bytes of D registers, low bytes first; true once they have arrived. Until then the text stays.
 ///
 /// # Errors
 /// A start outside 0 to 16777215, a length outside 0 to 1920; the connection is not open, or lost; the PLC is silent
@@ -92,30 +92,30 @@ pub async fn read_string(cx: &Cx, dev: &MelsecDev, data: &mut Str, start: i32, l
     Ok(found.map(|bytes| *data = bytes.into()).is_some())
 }
 
-/// Reads `len` bytes of D registers, low bytes first; true when they have come. The rest of the array stays.
+/// Reads `len` bytes of D registers, low bytes first; true once they have arrived. The rest of the array stays.
 ///
 /// # Errors
-/// As [`read_string`], and a length beyond the array.
+/// Those of [`read_string`], and a length beyond the array.
 pub async fn read_bytes(cx: &Cx, dev: &MelsecDev, data: &mut [u8], start: i32, len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     let found = dev.read(cx, start, len, data.len())?;
     Ok(found.map(|bytes| data.iter_mut().zip(bytes).for_each(|(place, byte)| *place = byte)).is_some())
 }
 
-/// Writes a text, or its first `len` bytes, into D registers; true when the PLC has taken them.
+/// Writes a text, or its first `len` bytes, into D registers; true once the PLC has accepted them.
 ///
 /// # Errors
-/// As [`read_string`], and a length beyond the text.
+/// Those of [`read_string`], and a length beyond the text.
 pub async fn write_string(cx: &Cx, dev: &MelsecDev, data: &Str, start: i32, len: Option<i32>) -> Result<bool, Fault> {
     cx.motion_end().await;
     let all = i32::try_from(data.as_bytes().len()).unwrap_or(i32::MAX);
     dev.write(cx, data.as_bytes(), start, len.unwrap_or(all))
 }
 
-/// Writes the first `len` bytes into D registers; true when the PLC has taken them.
+/// Writes the first `len` bytes into D registers; true once the PLC has accepted them.
 ///
 /// # Errors
-/// As [`read_string`], and a length beyond the array.
+/// Those of [`read_string`], and a length beyond the array.
 pub async fn write_bytes(cx: &Cx, dev: &MelsecDev, data: &[u8], start: i32, len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     dev.write(cx, data, start, len)
@@ -142,11 +142,11 @@ impl MelsecDev {
         Ok(self.ask(cx, "write", len, request)?.is_some())
     }
 
-    /// Asks, or looks for the answer of what was asked; the data when the PLC has done it.
+    /// Sends a request, or checks for the answer to the last one; the data once the PLC has carried it out.
     fn ask(&self, cx: &Cx, function: &'static str, len: usize, request: Vec<u8>) -> Result<Option<Vec<u8>>, Fault> {
         let mut talk = self.talk.borrow_mut();
         if let Some(asked) = &talk.asked {
-            // Answers carry no number: each must be taken before the next question.
+            // Answers carry no number: each must be taken before the next request.
             let Some((code, data)) = self.answer(function, asked.since)? else { return Ok(None) };
             let same = asked.request == request;
             talk.asked = None;
@@ -165,13 +165,13 @@ impl MelsecDev {
             }
         }
         if len == 0 {
-            // Nothing to be asked; a connection that is not open is told all the same.
+            // Nothing to request; a connection that is not open is reported all the same.
             return Ok(match self.handle.try_send(function, &[])? {
                 Some(Found::Lost(reason)) => return Err(lost(function, &reason)),
                 _ => Some(Vec::new()),
             });
         }
-        // What is there already would be taken for the answer.
+        // Bytes that are already there would be taken for the answer.
         match self.handle.take(function, |inbox| Some(inbox.waiting().is_empty()))? {
             Found::This(true) => {}
             Found::NotYet => return Ok(None),
@@ -180,7 +180,7 @@ impl MelsecDev {
                 return Err(fault(function, "the PLC has sent more than it was asked for"));
             }
         }
-        // What could not be sent is asked again in the next cycle: the call says that it is not done.
+        // A request that could not be sent is repeated in the next cycle, as the call returns that it is not done.
         match self.handle.try_send(function, &request)? {
             Some(Found::This(())) => talk.asked = Some(Asked { request, since: Instant::now() }),
             Some(Found::NotYet) | None => {}
@@ -189,7 +189,7 @@ impl MelsecDev {
         Ok(None)
     }
 
-    /// The answer, as code and data, if it has come.
+    /// The answer, as code and data, if it has arrived.
     fn answer(&self, function: &'static str, since: Instant) -> Result<Option<(u16, Vec<u8>)>, Fault> {
         let found = self.handle.take(function, |inbox| match frame::first(inbox.waiting()) {
             ReceivedFrame::Answer { code, data, size } => inbox.take(size).map(|_| Ok((code, data))),
@@ -203,7 +203,7 @@ impl MelsecDev {
             Found::This(Err(problem)) => problem,
             Found::Lost(reason) => return Err(lost(function, &reason)),
         };
-        // What may still come would be taken for the answer of something else.
+        // Bytes that may still arrive would be taken for the answer to another request.
         self.handle.close();
         Err(fault(function, problem))
     }
@@ -226,7 +226,7 @@ fn range(function: &'static str, start: i32, len: i32, room: usize) -> Result<(u
     }
 }
 
-/// How many bytes the answer at the start of what has come takes, where it is whole.
+/// The size of the answer at the start of the received bytes, if it is complete.
 #[cfg(feature = "fuzzing")]
 pub(crate) fn answer_size(bytes: &[u8]) -> Option<usize> {
     match frame::first(bytes) {

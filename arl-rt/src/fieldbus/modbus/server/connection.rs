@@ -1,4 +1,4 @@
-//! A connection of the server to a client, and what its thread does.
+//! A connection of the server to a client, and the work of its thread.
 
 use std::io::{ErrorKind, Read, Result, Write};
 use std::net::{Shutdown, TcpStream};
@@ -9,50 +9,50 @@ use crate::fieldbus::modbus::SharedTables;
 use crate::fieldbus::modbus::mbap::{self, LONGEST_FRAME, Received};
 use crate::fieldbus::modbus::pdu::{self, Answer};
 
-/// What is kept of a connection's bytes before the rest has to wait in the system's buffers. Whole frames are answered
-/// at once, so that there is always room for the rest of one.
+/// The most received bytes that are kept; further ones wait in the system's buffers. Complete frames are answered at
+/// once, so that there is always room for the rest of a frame.
 const BUFFER_BYTES: usize = 4 * LONGEST_FRAME;
 
 /// A connection to a client.
 pub(super) struct Connection {
     stream: TcpStream,
     since: Instant,
-    /// How long after that a request came the last time, in ms.
-    heard: AtomicU64,
-    /// Whether any has come.
+    /// The time of the last request after `since`, in ms.
+    received: AtomicU64,
+    /// Whether any request has arrived.
     has_asked: AtomicBool,
 }
 
 impl Connection {
-    /// A connection that a client has asked for.
+    /// A connection that a client has opened.
     ///
     /// # Errors
-    /// The client has gone again.
+    /// The client has disconnected again.
     pub(super) fn new(stream: mio::net::TcpStream) -> Result<Self> {
         let stream = TcpStream::from(stream);
         stream.set_nonblocking(false)?;
         stream.set_nodelay(true)?;
-        Ok(Self { stream, since: Instant::now(), heard: AtomicU64::new(0), has_asked: AtomicBool::new(false) })
+        Ok(Self { stream, since: Instant::now(), received: AtomicU64::new(0), has_asked: AtomicBool::new(false) })
     }
 
-    /// How long no request has come; bytes that are none do not count.
+    /// The time since the last request; bytes that are not a request do not count.
     pub(super) fn silence(&self) -> Duration {
-        self.since.elapsed().saturating_sub(Duration::from_millis(self.heard.load(Ordering::Relaxed)))
+        self.since.elapsed().saturating_sub(Duration::from_millis(self.received.load(Ordering::Relaxed)))
     }
 
-    /// Whether a request has ever come.
+    /// Whether any request has arrived.
     pub(super) fn has_asked(&self) -> bool {
         self.has_asked.load(Ordering::Relaxed)
     }
 
-    /// Ends it, whatever its thread waits for just now.
+    /// Ends the connection, whatever its thread waits for.
     pub(super) fn end(&self) {
-        // One that is over already cannot be ended.
+        // This fails if the connection has already ended.
         let _ = self.stream.shutdown(Shutdown::Both);
     }
 
-    /// Answers requests until the client goes, sends what is not Modbus, or the connection is ended. A client that does
-    /// not take its answers is not read on.
+    /// Answers requests until the client disconnects, sends bytes that are not Modbus, or the connection is ended.
+    /// While a client does not accept its answers, nothing more is read from it.
     pub(super) fn serve(&self, tables: &SharedTables) {
         let (mut input, mut filled) = ([0; BUFFER_BYTES], 0);
         let mut answers = Vec::with_capacity(BUFFER_BYTES + LONGEST_FRAME);
@@ -60,7 +60,7 @@ impl Connection {
             filled += count;
             let (done, sound) = answer(input.get(..filled).unwrap_or_default(), tables, &mut answers);
             if done > 0 {
-                self.heard.store(self.since.elapsed().as_millis() as u64, Ordering::Relaxed);
+                self.received.store(self.since.elapsed().as_millis() as u64, Ordering::Relaxed);
                 self.has_asked.store(true, Ordering::Relaxed);
             }
             if (&self.stream).write_all(&answers).is_err() || !sound {
@@ -72,7 +72,7 @@ impl Connection {
         }
     }
 
-    /// Waits for bytes: how many have come, 0 at the end; nothing where the connection is broken.
+    /// Waits for bytes and returns their number, 0 at the end; `None` if the connection is broken.
     fn receive(&self, room: &mut [u8]) -> Option<usize> {
         loop {
             match (&self.stream).read(room) {
@@ -84,7 +84,7 @@ impl Connection {
     }
 }
 
-/// Answers all requests that are whole: how many bytes they take, and whether what follows can be Modbus.
+/// Answers all complete requests; returns their size in bytes, and whether the following bytes can be Modbus.
 fn answer(bytes: &[u8], tables: &SharedTables, answers: &mut Vec<u8>) -> (usize, bool) {
     let mut done = 0;
     let mut answer = Answer::new();

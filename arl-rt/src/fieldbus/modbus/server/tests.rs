@@ -1,4 +1,4 @@
-//! The server with clients that behave and such that do not.
+//! The server with clients that behave well and with others that do not.
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, TcpStream};
@@ -20,7 +20,7 @@ fn client(server: &Server) -> TcpStream {
     stream
 }
 
-/// Reads registers 100 and 101 of unit 9 in a transaction.
+/// A request to read registers 100 and 101 of unit 9 in a transaction.
 fn request(transaction: u16) -> [u8; 12] {
     let [high, low] = transaction.to_be_bytes();
     [high, low, 0, 0, 0, 6, 9, 3, 0, 100, 0, 2]
@@ -34,7 +34,7 @@ fn expect(stream: &mut TcpStream, bytes: &[u8]) {
 
 fn expect_end(stream: &mut TcpStream) {
     let mut rest = Vec::new();
-    // A reset is an end, too.
+    // A reset also counts as the end.
     let _ = stream.read_to_end(&mut rest);
     assert!(rest.is_empty());
 }
@@ -90,7 +90,7 @@ fn who_comes_when_all_places_are_taken_is_sent_away() {
     expect_end(&mut client(&server));
     let [first, mut second] = two;
     drop(first);
-    // The place is free as soon as the server has seen the end.
+    // The slot is free as soon as the server has noticed the end.
     let mut third = loop {
         let mut stream = client(&server);
         let mut byte = [0];
@@ -114,7 +114,7 @@ fn who_is_silent_for_long_makes_room() {
         stream.write_all(&request(1)).unwrap();
         expect_answer(stream, 1);
     }
-    // Those that are sent away come again until there is room.
+    // Rejected clients reconnect until there is room.
     let mut third = loop {
         speaks.write_all(&request(2)).unwrap();
         expect_answer(&mut speaks, 2);
@@ -138,7 +138,7 @@ fn who_sends_a_request_byte_by_byte_makes_room() {
     set(&tables);
     let mut slow = client(&server);
     let slow_one = std::thread::spawn(move || {
-        // The head of a long request, and its bytes one by one, as long as they are taken.
+        // The header of a long request, and its bytes one by one, as long as they are accepted.
         let mut sent = slow.write_all(&[0, 1, 0, 0, 0, 250, 9]);
         while sent.is_ok() {
             std::thread::sleep(Duration::from_millis(40));
@@ -165,7 +165,7 @@ fn garbage_ends_its_connection_only() {
     let mut noise = Noise::new(3);
     for _ in 0..200 {
         let mut bad = client(&server);
-        // Who writes to a connection that is over gets an error, sooner or later.
+        // Writing to a connection that has ended fails, sooner or later.
         let _ = bad.write_all(&noise.bytes(2000));
         let _ = bad.shutdown(Shutdown::Write);
         let mut answers = Vec::new();
@@ -182,7 +182,7 @@ fn a_client_that_leaves_in_the_middle_leaves_nothing() {
     for round in 0..1000_u16 {
         let mut stream = client(&server);
         let end = usize::from(round % 12);
-        // The server may still count the one before as connected.
+        // The server may still count the previous client as connected.
         let _ = stream.write_all(&request(round)[..end]);
     }
     let mut answer = [0; 13];
@@ -203,7 +203,7 @@ fn a_flood_without_reading_holds_up_nobody_else() {
     let mut flood = client(&server);
     flood.set_write_timeout(Some(Duration::from_millis(200))).unwrap();
     let heap: Vec<u8> = (0..10_000).flat_map(request).collect();
-    // Its answers are not taken, so that the server stops reading.
+    // The answers are not read, so that the server stops reading.
     let mut full = false;
     for _ in 0..1000 {
         full = flood.write_all(&heap).is_err();
