@@ -221,6 +221,30 @@ fn unreachable_targets_are_alarms_of_their_line() {
 }
 
 #[test]
+fn an_alarm_names_the_frames_that_the_motion_does_not_give() {
+    let (outcome, _) = run(|cx| {
+        Box::pin(async move {
+            let tool = Tool { t_frame: Frame { z: 120.0, ..Frame::default() }, stationary: false };
+            let wobj = Wobj { w_frame: Frame { x: 5000.0, ..Frame::default() }, ..Wobj::default() };
+            let down = |x: f64| Pose { x, y: 0.0, z: 400.0, a: 0.0, b: 180.0, c: 0.0, ..Pose::default() };
+            cx.line(FILE, 1);
+            motion::movej(bent(0.0)).t(tool).run(cx).await.at(FILE, 1)?;
+            cx.line(FILE, 2);
+            motion::ptp(down(-4200.0)).w(&wobj).run(cx).await.at(FILE, 2)?;
+            cx.line(FILE, 3);
+            motion::ptp(down(800.0)).run(cx).await.at(FILE, 3)
+        })
+    });
+    let text = alarm(outcome);
+    for words in [
+        "this motion gives no `w:`, so the workpiece frame {5000,0,0,0,0,0} of line 2 applies",
+        "this motion gives no `t:`, so the tool {0,0,120,0,0,0} of line 1 applies",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
+}
+
+#[test]
 fn poses_and_joints_belong_together() {
     let (outcome, text) = run(|cx| {
         Box::pin(async move {

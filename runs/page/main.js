@@ -144,11 +144,8 @@ export class Page {
     );
     byId("channels").hidden = this.run.robots.length < 2;
     byId("channel").addEventListener("change", () => {
-      this.channel = this.run.robots.find((one) => one.number === Number(byId("channel").value)) ?? this.channel;
-      this.tracks.rebuild(this.channel);
-      this.teach?.changed();
-      this.showTab(this.tab);
-      this.stale = true;
+      const robot = this.run.robots.find((one) => one.number === Number(byId("channel").value));
+      if (robot) this.chooseRobot(robot);
     });
     if (this.channel) byId("channel").value = String(this.channel.number);
     this.setRate(this.rate);
@@ -174,6 +171,17 @@ export class Page {
     Object.assign(byId("trouble"), { hidden: trouble.length === 0, textContent: trouble.join(" ") });
     window.addEventListener("keydown", (event) => this.key(event));
     window.addEventListener("hashchange", () => this.fromLink());
+  }
+
+  /** Shows another robot. @param {import('./run.js').Channel} robot */
+  chooseRobot(robot) {
+    if (robot === this.channel) return;
+    this.channel = robot;
+    byId("channel").value = String(robot.number);
+    this.tracks.rebuild(robot);
+    this.teach?.changed();
+    this.showTab(this.tab);
+    this.stale = true;
   }
 
   /** @param {KeyboardEvent} event */
@@ -250,7 +258,10 @@ export class Page {
     if (Number.isFinite(time) && time > 0) this.time = Math.min(time, this.end);
     const mode = words.get("color") ?? this.mode;
     if (mode in COLORS) this.mode = mode;
-    this.channel = this.run.robots.find((one) => String(one.number) === words.get("robot")) ?? this.channel;
+    const robot = this.run.robots.find((one) => String(one.number) === words.get("robot"));
+    // At first nothing is there that shows it.
+    if (robot && this.tracks) this.chooseRobot(robot);
+    else this.channel = robot ?? this.channel;
     this.stale = true;
   }
 

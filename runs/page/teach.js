@@ -152,7 +152,13 @@ export class Teach {
   choose(name, more) {
     const point = this.points.choose(name, more);
     this.drawPoints();
+    this.allowSaving();
     if (point) this.goTo(point);
+  }
+
+  /** The pose can be written where the robot reaches it and one point is chosen that is not computed. */
+  allowSaving() {
+    this.save.disabled = !this.picked?.axes || !this.points.only()?.plain;
   }
 
   /** Chooses the point clicked in the cell. @param {MouseEvent} event */
@@ -259,7 +265,7 @@ export class Teach {
     this.solution = at;
     if (this.picked?.axes) this.axes = this.picked.axes;
     this.form.offer(this.place, at);
-    this.save.disabled = !this.picked?.axes || !this.points.only()?.plain;
+    this.allowSaving();
     this.drawRobot(this.place, handle);
   }
 

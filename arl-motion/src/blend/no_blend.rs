@@ -31,6 +31,8 @@ pub enum NoBlend {
         /// The axis that would have to turn infinitely fast, where there is one.
         axis: Option<String>,
     },
+    /// On a blend the weave or the compensation would change too much over too short a distance.
+    TooDense,
     /// Near the target the robot would arrive in another configuration than that of the next motion.
     Configuration,
 }
@@ -41,7 +43,7 @@ impl NoBlend {
         match error {
             PlanError::AxisLimit { axis, .. } => NoBlend::AxisLimit { axis },
             PlanError::Singular { axis, .. } | PlanError::Wrist { axis, .. } => NoBlend::Singular { axis: Some(axis) },
-            PlanError::TooDense { .. } => NoBlend::Singular { axis: None },
+            PlanError::TooDense { .. } => NoBlend::TooDense,
             PlanError::TooSharp { .. } => NoBlend::NothingLeft,
             _ => NoBlend::Unreachable,
         }
@@ -67,6 +69,9 @@ impl fmt::Display for NoBlend {
                 write!(f, "close to it is a singular point, where {axis} would have to turn infinitely fast")
             }
             NoBlend::Singular { axis: None } => write!(f, "close to it is a singular point"),
+            NoBlend::TooDense => {
+                write!(f, "on a blend the weave or the compensation would change too much over too short a distance")
+            }
             NoBlend::Configuration => write!(f, "on a blend the robot would change to another configuration"),
         }
     }

@@ -45,6 +45,7 @@ const LOOK_AHEAD_S: f64 = 3.0;
 
 /// How to come to rest on the path.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub enum Stop {
     /// Within the limits of the motion.
     General,

@@ -39,7 +39,7 @@ fn limits_of_the_default_robot_are_the_published_ones() {
 
 #[test]
 fn robots_that_would_be_stretched_out_at_zeros_stand_bent_at_home() {
-    for name in ["kr6-r700", "irb2400-10", "tx2-60", "cobra600"] {
+    for name in ["kr10-r1420", "kr6-r700", "irb2400-10", "tx2-60", "cobra600"] {
         let robot = Robot::builtin(name).unwrap();
         let home: [f64; 6] = std::array::from_fn(|axis| robot.home.get(axis).copied().unwrap_or_default());
         let flange = robot.kinematics.forward(&home);

@@ -8,7 +8,7 @@ use std::sync::mpsc::Sender;
 use crate::communication::{NetworkDriver, NetworkSettings, Opener};
 use crate::context::output::{Message, Output};
 use crate::context::random::Random;
-use crate::context::subscribers::{Event, Hearers};
+use crate::context::subscribers::{Event, Subscribers};
 use crate::context::watcher::Watcher;
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::channel_id::ChannelId;
@@ -44,7 +44,7 @@ pub(crate) struct SharedState {
     /// The listeners and outputs that have panicked.
     panicked: RefCell<Vec<&'static str>>,
     /// Other threads that receive all events.
-    pub(crate) subscribers: Hearers,
+    pub(crate) subscribers: Subscribers,
     pub(crate) state: RefCell<KeptState>,
     /// Writes files, beside the cycle.
     pub(crate) disk: Disk,
@@ -112,7 +112,7 @@ impl SharedState {
             listeners: RefCell::new(parts.listeners),
             panicked: RefCell::default(),
             warnings: RefCell::default(),
-            subscribers: Hearers::new(parts.subscribers),
+            subscribers: Subscribers::new(parts.subscribers),
             state: RefCell::new(parts.state),
             disk: Disk::default(),
         }

@@ -31,9 +31,9 @@ pub enum Event {
 
 /// The subscribers to all events.
 #[derive(Default)]
-pub(crate) struct Hearers(RefCell<Vec<Sender<Event>>>);
+pub(crate) struct Subscribers(RefCell<Vec<Sender<Event>>>);
 
-impl Hearers {
+impl Subscribers {
     pub(crate) fn new(subscribers: Vec<Sender<Event>>) -> Self {
         Self(RefCell::new(subscribers))
     }

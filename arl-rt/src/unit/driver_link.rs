@@ -22,12 +22,14 @@ impl DriverLink {
 
     /// Whether the driver wants torques with its set-points.
     pub(super) fn wants_torque(&self) -> bool {
-        self.driver.wants_torque()
+        !self.closed && self.driver.wants_torque()
     }
 
     /// Reports that the robot was moved while its motors did not hold it.
     pub(super) fn moved_by_hand(&mut self, here: &Joints) {
-        self.driver.moved_by_hand(here);
+        if !self.closed {
+            self.driver.moved_by_hand(here);
+        }
     }
 
     /// Switches the motors; returns the state of the drives.

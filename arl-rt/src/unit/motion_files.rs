@@ -13,7 +13,7 @@ pub(super) struct MotionFiles {
     recorded: Vec<(u64, File)>,
     /// The file of the motion planned last.
     pub(super) last: File,
-    /// The file of the last `startmove`.
+    /// The file of the statement that last started the motion again.
     pub(super) start: File,
     /// The file and line of the motion that is being executed, or was executed last.
     pub(super) pointer: Option<(File, u32)>,

@@ -58,7 +58,7 @@ impl<'a> Start<'a> {
 pub struct Setpoint {
     /// The axis positions at the end of the cycle, in deg (mm).
     pub position: Joints,
-    /// The speeds of the axes, in deg/s (mm/s): the difference of the positions of this cycle and the one before.
+    /// The speeds of the axes, in deg/s (mm/s): the change of the position since the cycle before, per s.
     pub velocity: Joints,
     /// The accelerations of the robot's own axes, in deg/s2 (mm/s2), likewise.
     pub acceleration: [f64; ROBOT_AXES],

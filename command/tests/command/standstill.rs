@@ -11,7 +11,9 @@ fn a_run_ends_where_nothing_can_change() {
     answer
         .is(4, "before\n")
         .says("nothing can change any more after 1.00")
-        .says("  a.arl:3 waits for its condition, which does not hold");
+        .says("  a.arl:3 waits for its condition, which does not hold")
+        .says("  3 | waituntil getdi(1)")
+        .says("  di.1 is off");
     // Where time is limited, and where there is no hurry, the program goes on waiting.
     let limited = folder.arl2rs(&["run", "a.arl", "--max-time", "0.001"]);
     limited.is(4, "before\n").says("the time limit of 0.001 s has passed");

@@ -50,7 +50,7 @@ impl Segments {
         self.deque.range(from, count)
     }
 
-    /// The deque of the segments alone, which costs nothing to keep.
+    /// The deque of the segments alone; both share the segments.
     pub(crate) fn shared(&self) -> SharedDeque<Segment> {
         self.deque.clone()
     }

@@ -6,6 +6,7 @@ use crate::blend::no_blend::NoBlend;
 
 /// Reason why a zone was not used at all, or only in part.
 #[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
 pub enum SmallerZone {
     /// The robot stops at the target because there is no blend.
     Stop(NoBlend),
