@@ -183,7 +183,7 @@ impl Scale {
         low + (raw - f64::from(r0)) / f64::from(r1 - r0) * (high - low)
     }
 
-    /// The register for a value in V or mA, limited to the scale.
+    /// The register nearest to a value in V or mA, limited to the scale.
     pub fn register(self, value: f64) -> u16 {
         let ((r0, r1), (low, high)) = (self.raw, self.ty.range());
         let raw = f64::from(r0) + (value - low) / (high - low) * f64::from(r1 - r0);

@@ -31,8 +31,8 @@ mod rate;
 #[doc(hidden)]
 pub mod regular_file;
 pub mod robot;
-// All crates of this project read the files that users write with this module. Their common error, `SettingsError`, is
-// also [`cell::SettingsError`].
+// With this module all crates of this project read the files that users write. Its error, `SettingsError`, is also
+// [`cell::SettingsError`].
 #[cfg(feature = "files")]
 #[doc(hidden)]
 pub mod settings;

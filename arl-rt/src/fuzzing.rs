@@ -37,10 +37,10 @@ pub fn island(table: u8, count: u16, bytes: &[u8]) {
 
 /// What arrives over the line of a Modbus RTU slave, in pieces, some of them after a silence.
 pub fn modbus_rtu(pieces: &[(bool, &[u8])]) {
-    let (mut received, mut tables, mut answer) = (ReceiveBuffer::default(), Tables::default(), pdu::Answer::new());
+    let (mut buffer, mut tables, mut answer) = (ReceiveBuffer::default(), Tables::default(), pdu::Answer::new());
     for (after_silence, piece) in pieces {
-        received.receive(piece, *after_silence);
-        while let Some(request) = received.take() {
+        buffer.push(piece, *after_silence);
+        while let Some(request) = buffer.take() {
             pdu::serve(&request.pdu, &mut tables, &mut answer);
             assert!((2..=pdu::LONGEST).contains(&answer.bytes().len()));
         }

@@ -54,8 +54,8 @@
 //!
 //! The modules are for those who drive a real arm ([`robot_driver`], [`io`], [`clock`], [`devicenet`], [`network`]),
 //! keep data that outlives a run ([`storage`]), write programs in Rust ([`program`], [`fault`], [`values`]), or want
-//! more details of a run ([`status`], [`output`], [`system`]). The crates below are re-exported, too: [`motion`],
-//! [`robot`], [`kinematics`], [`cell`], [`dynamics`].
+//! more details of a run ([`status`], [`output`], [`system`]). The layers below are public, too: [`motion`], [`robot`],
+//! [`kinematics`], [`cell`], [`dynamics`].
 //!
 //! The features: `macros` provides `arl!` and `arl_file!`; `serial` (on by default) provides serial lines; `realtime`
 //! provides [`clock::Realtime`] on Linux.

@@ -188,7 +188,7 @@ unsafe extern "C" fn global(run: *mut Served, name: *const c_char, take: Take, c
     }
 }
 
-/// Calls a function that can refuse: then `why` receives the reason, and 1 is returned.
+/// Calls a function that can refuse; if it does, `why` receives the reason, and 1 is returned.
 ///
 /// # Safety
 /// As for `Served::with`, and `why` may be called with `context`.

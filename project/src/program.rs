@@ -266,8 +266,8 @@ fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Re
     Ok(Ready { program, lock, sources })
 }
 
-/// Makes a program as new as its sources, even if they were written again with the same text: alarms show the lines of
-/// files that are no newer than the program.
+/// Makes a program as new as its sources, which have the text that it was compiled from, even if they were written
+/// again: alarms show the lines of files that are no newer than the program.
 fn renew(program: &Path, sources: &[PathBuf]) {
     let time = |path: &Path| path.metadata().and_then(|about| about.modified()).ok();
     let newest = sources.iter().filter_map(|path| time(path)).max();

@@ -175,7 +175,7 @@ def _is_empty(value: Any) -> bool:
 
 
 def _whole(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Makes the values of a column whole again that became floats because of gaps."""
+    """Turns columns of whole numbers that became floats because of gaps back into whole numbers."""
     for name in rows[0] if rows else ():
         values = [row[name] for row in rows]
         there = [value for value in values if not _is_empty(value)]

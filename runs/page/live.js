@@ -2,7 +2,7 @@
 
 import { byId, element, write } from "./dom.js";
 
-/** The interval at which news are requested, in ms. */
+/** The interval at which news is requested, in ms. */
 const NEWS_MS = 50;
 /** How far the displayed moment lags behind the latest data, in s, so that there is always data ahead. */
 export const BEHIND_S = 0.06;

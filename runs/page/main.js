@@ -297,7 +297,7 @@ export class Page {
     this.last = now;
     if (this.following) {
       const wished = Math.max(this.end - BEHIND_S, 0);
-      // News arrive in bursts: time advances evenly, and catches up if it has fallen behind.
+      // News arrives in bursts: time advances evenly, and catches up if it has fallen behind.
       const next = this.time + passed;
       this.time = Math.abs(wished - next) > 0.5 ? wished : Math.min(next + (wished - next) * 0.1, this.end);
       this.stale = true;

@@ -114,7 +114,10 @@ export class Frames {
     if (arm.tool.visible) arm.tool.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), along.divideScalar(length));
   }
 
-  /** Shows the bodies that exist, and no others. A body that reappears is not drawn again. @param {Map<string, import('./api.js').Entity>} there */
+  /**
+   * Shows the bodies that exist, and no others. A body that reappears unchanged uses its earlier drawing.
+   * @param {Map<string, import('./api.js').Entity>} there
+   */
   show(there) {
     for (const [id, { of, group }] of this.entities) {
       if (there.get(id) === of) continue;

@@ -54,7 +54,7 @@ export class Teach {
     this.wobjs = select("Workpiece", () => this.setting());
     this.points = new PointList((name, more) => this.choose(name, more));
     this.form = new PoseForm(
-      (components) => this.ask({ components }, this.picked?.cfg),
+      (components) => this.request({ components }, this.picked?.cfg),
       (solution) => this.pick(solution),
     );
     this.jog = new JogButtons(
@@ -193,7 +193,7 @@ export class Teach {
     this.tool = this.tools.value;
     this.wobj = this.wobjs.value;
     this.drawPoints();
-    if (this.axes.length > 0) this.ask({ axes: this.axes });
+    if (this.axes.length > 0) this.request({ axes: this.axes });
   }
 
   /** The axes that a solution should be close to. */
@@ -207,8 +207,8 @@ export class Teach {
     const missing = type === "pose" ? values.x === undefined : values.j1 === undefined;
     if (!plain || missing) return this.form.say("The program computes this point, or sets it later: it cannot be shown.");
     this.external = this.externals((at) => values[`ej${at}`]);
-    if (type === "joint") return this.ask({ axes: Array.from({ length: this.own }, (_, at) => values[`j${at + 1}`] ?? 0) });
-    return this.ask({ components: componentsOf(point) }, values.cfg ?? 0);
+    if (type === "joint") return this.request({ axes: Array.from({ length: this.own }, (_, at) => values[`j${at + 1}`] ?? 0) });
+    return this.request({ components: componentsOf(point) }, values.cfg ?? 0);
   }
 
   /** Moves the dragged robot to the position of the robot. */
@@ -216,7 +216,7 @@ export class Teach {
     const moment = this.moment;
     if (!moment) return;
     this.external = this.externals(() => undefined);
-    this.ask({ axes: moment.axes.slice(0, this.own) });
+    this.request({ axes: moment.axes.slice(0, this.own) });
   }
 
   /** The external axes, taken from those that are known. @param {(number: number) => number | undefined} of */
@@ -226,12 +226,12 @@ export class Teach {
   }
 
   /** Moves the dragged robot; of several orders the last one counts. @param {Asked} order @param {number} [cfg] the wanted configuration */
-  async ask(order, cfg) {
-    if (!this.channel || this.asking) {
+  async request(order, cfg) {
+    if (!this.channel || this.requesting) {
       this.next = { order, cfg };
       return;
     }
-    this.asking = true;
+    this.requesting = true;
     const place = await ask("place", {
       ...order,
       channel: this.channel.number,
@@ -239,12 +239,12 @@ export class Teach {
       near: this.near(),
       before: this.place?.components,
     });
-    this.asking = false;
+    this.requesting = false;
     if (place) this.show(place, cfg, order.placed !== undefined);
     if (this.next) {
       const { order, cfg } = this.next;
       this.next = undefined;
-      this.ask(order, cfg);
+      this.request(order, cfg);
     }
   }
 
@@ -349,7 +349,7 @@ export class Teach {
   drawRobot(place, handle) {
     const { scene, run } = this.page;
     if (!scene) return;
-    const dragged = (/** @type {number[]} */ placed) => this.ask({ placed }, this.picked?.cfg);
+    const dragged = (/** @type {number[]} */ placed) => this.request({ placed }, this.picked?.cfg);
     this.robot ??= new DraggedRobot(scene, run, this.channel, this.mode, dragged);
     if (handle) this.robot.hold(place.placed);
     this.robot.show(this.axes, this.where().base, place.placed);

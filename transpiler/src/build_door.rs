@@ -93,8 +93,8 @@ impl Build {
         self
     }
 
-    /// Compiles everything. Prints what cargo needs to know: files to watch, warnings, errors. If there was an error,
-    /// cargo ends the build after the script.
+    /// Compiles everything. Prints to standard output what cargo needs to know: files to watch, warnings, errors. If
+    /// there was an error, cargo ends the build after the script.
     pub fn compile(self) {
         #[expect(clippy::disallowed_methods, reason = "cargo says so where the files go")]
         let out = std::env::var_os("OUT_DIR").map(PathBuf::from);

@@ -2,8 +2,8 @@
 
 pub(crate) use arl_lang::near::nearest;
 
-/// The number of comparisons with wrong names in one check. A program with that many errors needs no hints for the last
-/// ones.
+/// The maximum number of comparisons with wrong names in one check. A program with that many errors needs no hints for
+/// the last ones.
 const COMPARISONS: usize = 1 << 20;
 
 /// How many comparisons a check may still make to find the names that were meant. The cost of a check thus grows only

@@ -400,7 +400,7 @@ pub struct BlendReport {
 pub struct SlowedReport {
     /// The axis.
     pub axis: String,
-    /// The part of the motion, 0 to 1.
+    /// How far along the motion that is, 0 to 1.
     pub along: f64,
     /// The speed to which the axis limits the motion.
     pub speed: f64,

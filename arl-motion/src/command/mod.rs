@@ -29,7 +29,7 @@ pub(crate) const LARGEST_ZONE: f64 = 0.5;
 pub struct Command {
     /// Where to move, and how.
     pub target: Target,
-    /// The tool or the workpiece that the robot carries, and the base.
+    /// The tool or the workpiece that the robot carries, and where the base of the robot is in the world.
     pub rig: Rig,
     /// The programmed speed.
     pub speed: Speed,
@@ -251,7 +251,7 @@ pub struct Settings {
     /// Manual low-speed mode: the TCP moves at 250 mm/s at most, on every kind of motion; with a stationary tool, this
     /// applies to the flange, too.
     pub manual: bool,
-    /// Whether lines and circles pass the wrist singularity with a deviating orientation.
+    /// Whether lines and circles pass the wrist singularity by letting the orientation deviate.
     pub wrist: bool,
     /// The weave that is laid over paths of the TCP.
     pub weave: Option<Weave>,

@@ -20,8 +20,8 @@ pub(crate) const MOST_LEGS: usize = 24;
 const SPEED_TOLERANCE: f64 = 1e-9;
 const WAY_TOLERANCE_S: f64 = 1e-10;
 
-/// How long a robot takes over the legs, in s, that starts with the speed `vel` and the acceleration `acc` and ends
-/// with at most the speed `exit`.
+/// How long a robot that starts with the speed `vel` and the acceleration `acc` takes over the legs, in s, where it
+/// ends with at most the speed `exit`.
 pub(crate) fn time_over(legs: &[Leg], exit: f64, mut vel: f64, mut acc: f64) -> f64 {
     let mut exits = [exit; MOST_LEGS];
     let legs = legs.get(..MOST_LEGS.min(legs.len())).unwrap_or_default();

@@ -185,8 +185,8 @@ impl Timing {
         }
     }
 
-    /// The speed at which the next stretch may be entered; `None` where that stretch may still change for another
-    /// reason.
+    /// The speed at which the next stretch may be entered; `None` where no stretch follows that one, which may then
+    /// still change in other ways.
     pub(crate) fn next_entry(&self) -> Option<f64> {
         if self.stretches.len() > 2 { self.stretches.get(1).map(|stretch| stretch.entry) } else { None }
     }

@@ -22,7 +22,7 @@ impl CurvePoint {
         Self { at: parametrization.at(share), first, second, third }
     }
 
-    /// The place by a parameter whose derivative of the previous one is `width`.
+    /// The place by another parameter, by which the derivative of the previous one is `width`.
     pub(crate) fn scaled(self, width: f64) -> Self {
         let Self { at, first, second, third } = self;
         Self { at, first: first * width, second: second * width * width, third: third * width * width * width }

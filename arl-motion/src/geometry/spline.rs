@@ -1,8 +1,8 @@
 //! Smooth paths through points.
 //!
 //! At each inner point the path has the direction and the curvature of the parabola through the point and its
-//! neighbours, over the lengths of the chords. Between inner points it is a polynomial of the fifth degree, which at
-//! the ends of the spline continues like a parabola. So a segment depends on at most two points before it and one
+//! neighbours, over the lengths of the chords. Between two points it is a polynomial of the fifth degree; towards an
+//! end of the spline, one that continues like a parabola. So a segment depends on at most two points before it and one
 //! behind it, points on a line make a line, and what is planned already never changes. The tool's rotation and the
 //! external axes follow the same rule.
 

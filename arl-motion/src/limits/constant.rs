@@ -45,7 +45,7 @@ pub(crate) fn highest_speed(constraints: &[Constraint]) -> f64 {
     }))
 }
 
-/// Limits under which the path from 0 to 1 is completed soon and every motion keeps all bounds.
+/// Limits under which the path from 0 to 1 is completed soon, and within which every motion keeps all bounds.
 pub(crate) fn quickest(constraints: &[Constraint]) -> Limits {
     let vel = highest_speed(constraints);
     if let Some(limits) = hardly_curved(constraints, vel) {

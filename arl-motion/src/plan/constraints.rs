@@ -279,7 +279,7 @@ impl<'a> Constraints<'a> {
         self.cap_point(joints, rates, &place, vel);
     }
 
-    /// Adds a speed that must not be exceeded by a point that the robot carries, given in the base in mm.
+    /// Adds a speed in mm/s that must not be exceeded by a point that the robot carries, given in the base in mm.
     fn cap_point(&mut self, joints: &Joints, rates: &[f64; ALL], place: &Vector3<f64>, vel: f64) {
         let rates = Joints::of(rates).axes;
         let speed = self.robot.kinematics.point_velocity(&joints.axes, &rates, place).norm() * BETWEEN_SAMPLES_FACTOR;

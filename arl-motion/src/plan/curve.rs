@@ -17,7 +17,7 @@ use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
 /// derivatives.
 pub(crate) const SINGULAR_CLEARANCE: f64 = 1e-5;
 
-/// What moves along a curve.
+/// What a motion moves along.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Curve {
     /// All axes by polynomials.

@@ -27,7 +27,8 @@ pub struct Motion {
     pub(crate) rig: Rig,
     /// `None` for a motion that goes nowhere.
     pub(crate) limits: Option<Limits>,
-    /// The nominal speed, as share of the motion per s, at which it meets its neighbours; at most `limits` are reached.
+    /// The nominal speed, in shares of the motion per s, at which it meets its neighbours; at most `limits` are
+    /// reached.
     pub(crate) rate: f64,
     /// Whether it continues smoothly from the motion before it, at the same nominal speed.
     pub(crate) flows: bool,
@@ -193,7 +194,7 @@ pub(crate) struct Weaving {
 }
 
 impl OverlaidMotion {
-    /// The speed that the motion may have without its overlays, as share of the motion per s.
+    /// The speed that the motion may have without its overlays, in shares of the motion per s.
     pub(crate) fn plain_speed(&self) -> Option<f64> {
         self.plain.limits.map(|limits| limits.vel)
     }

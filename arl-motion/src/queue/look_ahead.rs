@@ -346,11 +346,11 @@ impl Queue {
                     self.look_ahead.late_blends.note(late.number);
                 }
                 let due = self.layer.waiting.due(self.look_ahead.cycles).take(prepared);
-                let motions = due.map(|ready| ((&ready.motion, ready.number), ready.prepared.as_ref()));
+                let motions = due.map(|ready| (&ready.motion, ready.number, ready.prepared.as_ref()));
                 self.layer.path.offer(&self.robot, &self.commanded.joints, motions, self.cycle);
                 self.take_answer();
             } else if let Some(Ready { motion, number, prepared, .. }) = self.layer.waiting.pop() {
-                let unblended = self.layer.path.append(&self.robot, (&motion, number), prepared.as_ref(), self.cycle);
+                let unblended = self.layer.path.append(&self.robot, &motion, number, prepared.as_ref(), self.cycle);
                 self.note_laid(&motion, number, unblended);
             }
         }

@@ -215,10 +215,9 @@ impl Queue {
             }
             Some(OfferOutcome::Refused) => {
                 if let Some(Ready { motion, number, prepared, .. }) = self.layer.waiting.pop() {
-                    let motion = (&motion, number);
-                    let unblended =
-                        self.layer.path.append_behind_stop(&self.robot, motion, prepared.as_ref(), self.cycle);
-                    self.note_laid(motion.0, number, unblended);
+                    let (path, prepared) = (&mut self.layer.path, prepared.as_ref());
+                    let unblended = path.append_behind_stop(&self.robot, &motion, number, prepared, self.cycle);
+                    self.note_laid(&motion, number, unblended);
                 }
             }
             None => {}
@@ -307,7 +306,8 @@ impl Queue {
         self.drop_added();
     }
 
-    /// Drops, in the same way, the motions that were added since others were suspended; suspended motions stay.
+    /// Drops the motions that were added since others were suspended, in the same way as [`Queue::clear`]; suspended
+    /// motions stay.
     pub fn drop_added(&mut self) {
         self.layer.requests.clear();
         self.layer.path.keep_to_stop();
@@ -339,7 +339,7 @@ impl Queue {
         self.layer.path.current().map_or(&self.layer.end, |(segment, _)| segment.target())
     }
 
-    /// The tool and the base of the motion that is or was last executed.
+    /// What the robot carries in the motion that is or was last executed, and where its base is in the world.
     pub fn rig(&self) -> &Rig {
         &self.layer.execution.rig
     }

@@ -365,7 +365,7 @@ impl Recorder {
         }
     }
 
-    /// Notes what a cycle did that the queue has just made.
+    /// Notes what the cycle did that the queue has just executed.
     pub fn step(&mut self, queue: &mut Queue, step: &Step) {
         let period = queue.cycle();
         self.laid(queue);

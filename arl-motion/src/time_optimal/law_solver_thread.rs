@@ -49,8 +49,8 @@ const TEMPERED_USE: f64 = 1.006;
 const TEMPERED_SHARE: f64 = 0.998;
 const MOST_TEMPERED_USE: f64 = 4.0;
 /// A stop has a little more acceleration and jerk available than a law, so that a stop exists from any state of a law.
-/// It is sought at no more than this many places, each farther ahead by this factor, until one is known to be within
-/// this share of the shortest.
+/// It is sought at no more than this many places, at first farther ahead or nearer by this factor each time, until the
+/// shortest stop is known to be at least this share of the one found.
 const STOP_LIMIT_FACTOR: f64 = 1.004;
 const MOST_STOP_PLACES_TRIED: usize = 12;
 const STOP_STEP_FACTOR: f64 = 1.4;
@@ -113,8 +113,8 @@ pub(crate) enum LawRequest {
     /// The shortest law from a state to rest, at a distance of about `about`, with acceleration and jerk times
     /// `stop_scale`.
     Shortest { start: BoundaryState, about: f64, stop_scale: f64 },
-    /// The shortest law to rest, from the state of the robot in this number of cycles, if it comes to rest much sooner
-    /// than the governor would.
+    /// The shortest law to rest, from the state that the robot will have after this number of cycles, if it comes to
+    /// rest much sooner than the governor would.
     ShorterStop(Box<StopPrediction>, u32),
 }
 

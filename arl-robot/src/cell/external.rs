@@ -10,7 +10,7 @@ enum Kind {
     Input { row: bool },
     /// The input of the parity: negative for odd.
     Parity,
-    /// A digital output, the first of a row.
+    /// A digital output, and the length of the row that it begins.
     Output { row: Row },
     /// A number in this range.
     Number(i32, i32),

@@ -200,9 +200,8 @@ impl<F: Fn(f64) -> Frame> PassageSearch<'_, F> {
         [value, (after - before) / (2.0 * DIFFERENCE), (after + before) / (DIFFERENCE * DIFFERENCE)]
     }
 
-    /// The derivatives of axis 4 at an end of the path: those of the exact motion, reduced the nearer the middle axis
-    /// is to
-    /// 0. An adjoining path does the same there.
+    /// The derivatives of axis 4 at an end of the path: those of the exact motion, the smaller the nearer to 0 the
+    /// middle axis is. An adjoining path does the same there.
     fn derivatives_at_end(&self, end: f64, cfg: u8, near: &Axes) -> Option<[f64; 2]> {
         let here = self.exact(end, cfg, near)?;
         let share = share_kept(self.wrist_sine(&here));

@@ -334,7 +334,7 @@ impl Kinematics {
         (sum.turning, sum.moving * 1000.0)
     }
 
-    /// Passes the screw (rad, m) of every axis, with the axis's direction of rotation, and whether it is linear, to
+    /// Passes the screw (rad, m) of every axis, with the sign of the axis's own direction, and whether it is linear, to
     /// `take`.
     fn each_screw(&self, axes: &Axes, mut take: impl FnMut(usize, &Screw, bool)) {
         match self {

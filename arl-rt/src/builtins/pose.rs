@@ -40,7 +40,7 @@ pub fn cpose_default(cx: &Cx) -> Result<Pose, Fault> {
 /// The pose of the tool in the workpiece frame for given axes.
 ///
 /// # Errors
-/// Axes of the robot are unset; or the axes, the tool or the workpiece frame contain a value that is not a number.
+/// Axes of the robot are unset; or the axes, the tool or the workpiece frame contains a value that is not a number.
 pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     let unit = cx.channel_state().unit("getpose")?;
     known("getpose", &t, w)?;
@@ -57,8 +57,8 @@ pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
 /// are those of the pose.
 ///
 /// # Errors
-/// Components of the pose are unset; the pose, the tool or the workpiece frame contain a value that is not a number; or
-/// the pose cannot be reached in this configuration.
+/// Components of the pose are unset; the pose, the tool or the workpiece frame contains a value that is not a number;
+/// or the pose cannot be reached in this configuration.
 pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     let components = p.components();
     if components.iter().any(|component| is_open(*component)) {

@@ -238,7 +238,7 @@ impl Run {
         report::all_json(&self.controller.recorded())
     }
 
-    /// Sets the signals and global variables that [`observe`](Self::observe) returns, one name per line: `do.1`,
+    /// Sets the signals and global variables that [`observe`](Self::observe) fills in, one name per line: `do.1`,
     /// `global.placed`.
     ///
     /// # Errors

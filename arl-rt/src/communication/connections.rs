@@ -90,7 +90,7 @@ impl Connections {
         self.0.borrow().iter().all(|shared| shared.is_free())
     }
 
-    /// Whether no connection that is closing is still open: all sent bytes are gone.
+    /// Whether no connection that is closing is still open: all their bytes have been sent.
     pub(crate) fn are_settled(&self) -> bool {
         self.0.borrow().iter().all(|shared| shared.is_done() || !shared.is_closing())
     }

@@ -67,30 +67,30 @@ fn exchange(
     settings: &SlaveSettings,
 ) -> std::io::Result<()> {
     let mut events = Events::with_capacity(4);
-    let mut received = ReceiveBuffer::default();
+    let mut buffer = ReceiveBuffer::default();
     let mut last = Instant::now();
     let mut piece = [0; LONGEST_FRAME];
     while !shared.is_closing() {
         match attempt(|| stream.read(&mut piece))? {
             Some(0) => return Err(Error::new(ErrorKind::UnexpectedEof, "the line is gone")),
             Some(count) => {
-                received.receive(piece.get(..count).unwrap_or_default(), last.elapsed() >= settings.silence());
+                buffer.push(piece.get(..count).unwrap_or_default(), last.elapsed() >= settings.silence());
                 last = Instant::now();
                 continue;
             }
             None => {}
         }
         let silent = last.elapsed();
-        if !received.is_empty() && silent >= settings.silence() {
-            while let Some(request) = received.take() {
+        if !buffer.is_empty() && silent >= settings.silence() {
+            while let Some(request) = buffer.take() {
                 answer(shared, poll, stream, settings, &request)?;
             }
             if silent >= REQUEST_TIMEOUT {
-                received.clear();
+                buffer.clear();
             }
         }
         let patience = if last.elapsed() < settings.silence() { settings.silence() } else { REQUEST_TIMEOUT };
-        let deadline = (!received.is_empty()).then(|| last + patience);
+        let deadline = (!buffer.is_empty()).then(|| last + patience);
         wait(poll, &mut events, deadline)?;
     }
     Ok(())

@@ -104,7 +104,8 @@ impl<'a> Frame<'a> {
         declared.push((number, Rc::downgrade(&variable)));
     }
 
-    /// Runs the statements of the function; each time the program pointer is set, it runs them again, up to that line.
+    /// Runs the statements of the function; each time the program pointer is set, it begins again, and goes on at that
+    /// line.
     pub async fn run<T>(&self, mut statements: impl AsyncFnMut() -> T) -> T {
         loop {
             let run = {

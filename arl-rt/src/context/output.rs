@@ -47,7 +47,7 @@ pub struct Stream<W: Write> {
 }
 
 impl<W: Write> Stream<W> {
-    /// Buffers before the stream; the buffer is written out at the end of each cycle with messages.
+    /// Writes to the stream through a buffer, which is emptied at the end of each cycle with messages.
     pub fn new(stream: W) -> Self {
         Self { stream: BufWriter::new(stream), name: None }
     }

@@ -185,8 +185,8 @@ pub struct Beside {
     /// Sockets, serial lines, Modbus RTU or Melsec: the thread that opens connections. Where this is not set, that
     /// thread is started when the first connection is opened.
     pub connections: bool,
-    /// Registers and coils of the controller's Modbus TCP server. Where this is not set, and where the cell has no
-    /// server, they exist, but are not accessible from outside.
+    /// Registers and coils of the controller's Modbus TCP server. Where this is not set and the cell has no server
+    /// either, they exist, but are not accessible from outside.
     pub modbus_tcp: bool,
 }
 

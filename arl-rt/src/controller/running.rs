@@ -52,7 +52,7 @@ impl Running {
         self.wait(STOP).unwrap_or_else(|panic| resume_unwind(panic))
     }
 
-    /// Commands the thread how to end, and waits for it, unless this is that thread.
+    /// Tells the thread how to end, and waits for it, unless this is that thread.
     fn wait(&mut self, how: u8) -> thread::Result<Outcome> {
         self.told.store(how, Ordering::Relaxed);
         // The caller makes no more requests while it waits for the end: programs that wait for other threads then wait

@@ -214,7 +214,7 @@ impl Clock for RealClock {
     }
 }
 
-/// The time from the begin of the first cycle to that of this one.
+/// The time from the beginning of the first cycle to that of this one.
 fn since_start(cycle: u64, period: f64) -> Duration {
     Duration::from_secs_f64(cycle as f64 * period)
 }

@@ -130,7 +130,7 @@ mod system {
         Ok(())
     }
 
-    /// With a limit, memory allocated later would fail, so that memory is not locked then. The superuser has no limit.
+    /// With a limit, later allocations would fail, so that memory is not locked then. The superuser has no limit.
     fn lock_memory() -> Result<(), String> {
         if let (Some(most), false) = (getrlimit(Resource::Memlock).current, geteuid().is_root()) {
             return Err(format!("only {} KiB may be locked (`ulimit -l`): it must be unlimited", most / 1024));

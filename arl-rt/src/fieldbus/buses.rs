@@ -9,7 +9,7 @@ use super::modbus::SharedTables;
 use super::modbus_tcp::ModbusTcp;
 use super::{BusSettings, ModbusTcpSettings};
 
-/// The most different reports of a run, so that they never fill the memory.
+/// The largest number of different reports of a run, so that they never fill the memory.
 const MAX_REPORTS: usize = 100;
 
 /// The field buses of a controller.

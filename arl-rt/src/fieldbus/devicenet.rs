@@ -17,7 +17,7 @@ pub trait DeviceNet {
     /// from the runtime's own codes.
     fn write(&mut self, offset: usize, data: &[u8]) -> Result<(), ErrorCode>;
 
-    /// Returns bytes received from the bus, from `offset` on. They are within the size.
+    /// Fills `data` with bytes received from the bus, from `offset` on. They are within the size.
     ///
     /// # Errors
     /// The bus has no bytes. The code is as for [`DeviceNet::write`].

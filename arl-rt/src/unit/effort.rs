@@ -38,7 +38,7 @@ pub(crate) struct Collision {
     pub(crate) axis: usize,
     /// The torque beyond that of the model, in Nm (N).
     pub(crate) surplus: f64,
-    /// The allowed difference.
+    /// The allowed difference, in Nm (N).
     pub(crate) allowed: f64,
 }
 

@@ -27,8 +27,8 @@ impl Unit {
         started
     }
 
-    /// Drops the motions set aside, where they were not asked to go on; returns whether there were any. A stop under
-    /// way goes on to rest.
+    /// Drops the motions set aside, where going on with them was not requested; returns whether there were any. A stop
+    /// under way goes on to rest.
     pub(crate) fn drop_aside(&mut self) -> bool {
         self.queue.drop_suspended()
     }

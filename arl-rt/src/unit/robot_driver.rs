@@ -228,7 +228,8 @@ pub enum DrivenTime {
     Beat(Box<dyn Clock>),
 }
 
-/// Makes the driver that the settings of a cell file describe; it is not started yet. Otherwise returns the reason.
+/// Makes the driver that the settings of a cell file describe; it is not started yet. The error is the reason why there
+/// is none.
 pub type Connect = fn(&DriverSettings) -> Result<Driven, DriverError>;
 
 /// A robot that follows its set-point with a lag: its position is the mean of its last set-points, those of 8 ms and at

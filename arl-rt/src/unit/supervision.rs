@@ -51,7 +51,7 @@ impl Supervision {
     }
 
     /// Checks the feedback of a robot whose motors are on, or should be; returns the fault. That is reported once,
-    /// except for drives, against which the robot must not be commanded any more.
+    /// except for a fault of the drives, which must not be commanded any more.
     pub(super) fn look(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
         let fault = self.trouble(feedback, now)?;
         let counts = !self.found || matches!(fault, Fault::Drives(_));

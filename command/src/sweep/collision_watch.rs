@@ -52,7 +52,7 @@ pub(super) struct Looking {
 }
 
 impl Looking {
-    /// Looks at the runs of a process that works in this folder and knows this secret.
+    /// A value that looks at the runs of a process that works in this folder and knows this secret.
     pub(super) fn new(clearance: f64, folder: &Path, secret: Secret) -> Self {
         Self { clearance, secret, folder: folder.to_owned(), last: None }
     }

@@ -49,9 +49,9 @@ impl Root {
     }
 }
 
-/// As long as this value lives, no other process removes what was left: it would take a folder that is not locked yet
-/// for that. `None` if the file is another user's, who cannot remove our folder either, or stays locked: no sweep waits
-/// for that.
+/// As long as this value lives, no other process removes what was left: it would mistake a folder that is not locked
+/// yet for a leftover. `None` if the file is another user's, who cannot remove our folder either, or stays locked: no
+/// sweep waits for that.
 fn turn() -> Option<File> {
     let path = std::env::temp_dir().join(TURN);
     let file = File::options().write(true).create(true).truncate(false).open(path).ok()?;
@@ -116,7 +116,7 @@ impl Spread {
     }
 }
 
-/// The modification time that is given to files, which no run has changed.
+/// The modification time of the files that no run has changed.
 const LONG_AGO: SystemTime = SystemTime::UNIX_EPOCH;
 
 /// The folder of a worker.

@@ -31,7 +31,7 @@ pub(super) struct Process {
 }
 
 impl Process {
-    /// Starts a program; its news come under this number.
+    /// Starts a program; its news comes under this number.
     ///
     /// # Errors
     /// The program cannot be started, or ends before it connects: then its output and its end are news, too.

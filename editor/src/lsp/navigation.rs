@@ -50,7 +50,8 @@ pub(super) fn uses_of(server: &Server, uri: &Uri, position: Position) -> Vec<(Rc
     found.into_iter().map(|(_, program, mention)| (program, mention)).collect()
 }
 
-/// The programs in which something declared there may be used. A built-in is looked for in its own program only.
+/// The programs in which something declared there may be used. A built-in, which nothing declares, is looked for in
+/// `own` only.
 fn programs_with(server: &Server, own: &Rc<Program>, declared: Option<&Declared>) -> Vec<Rc<Program>> {
     let Some(declared) = declared else { return vec![own.clone()] };
     let mut roots: Vec<PathBuf> = server.workspace.dependents(&declared.path);

@@ -12,7 +12,7 @@ use std::rc::Rc;
 pub(super) struct Projects {
     /// The file that applies to the programs of a folder.
     files: RefCell<BTreeMap<PathBuf, Option<PathBuf>>>,
-    /// How the programs of a file are checked; `None` if the file is wrong, which was reported.
+    /// How the programs that a file applies to are checked; `None` if the file is wrong, which was reported.
     options: RefCell<BTreeMap<PathBuf, Option<Rc<CheckOptions>>>>,
 }
 

@@ -72,7 +72,7 @@ impl Checker<'_> {
 /// A unit in which small fractions are most often numbers in another unit.
 struct Scale {
     unit: ast::Unit,
-    /// The largest fraction that causes a warning.
+    /// Fractions below this number cause a warning.
     most: f64,
     found: &'static str,
     wanted: &'static str,

@@ -139,7 +139,8 @@ impl Judge {
     }
 }
 
-/// Makes the loops of a block that are counted after them yield the cycle there, except loops inside other loops.
+/// Makes the loops of a block whose rounds are counted after them yield the cycle there, except loops inside other
+/// loops.
 fn wait_behind(block: &mut Block) {
     for stmt in block {
         match info(stmt) {
@@ -266,7 +267,7 @@ impl<'a> Head<'a> {
         if each.shared { None } else { Self::of_any(each) }
     }
 
-    /// The header, even if other code sees the variable, which never changes it.
+    /// The header, also if the variable is visible to other code, provided that this does not change it.
     pub(crate) fn of_any(each: &'a For) -> Option<Self> {
         let [Stmt { kind: StmtKind::Let(local, Some(from)), .. }] = each.init.as_slice() else { return None };
         let ExprKind::Binary(op, sides) = &each.condition.as_ref()?.kind else { return None };

@@ -1,4 +1,5 @@
-//! The state while a function with `goto` becomes a machine: its states, and the positions of its variables.
+//! What is known about a function with `goto` while it becomes a machine: its states, and which of them its variables
+//! belong to.
 
 use super::hooks::Lines;
 use super::tokens::{each_word, mentions};

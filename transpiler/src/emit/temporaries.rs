@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-/// From this number of temporaries in a statement on, new names are not searched from the beginning.
+/// From this number of temporaries in a statement on, the search for a new name does not start from the beginning.
 const MANY: usize = 32;
 
 /// The names of a statement's temporaries, in the order in which they were assigned.

@@ -16,7 +16,7 @@ use end_zones::EndZones;
 /// Number of parts of a blend, of equal nominal time, with a speed each.
 pub(crate) const PARTS: usize = 16;
 
-/// Limits of the rate at which the done share of a blend changes, per s.
+/// Limits of the share of a blend that is done: its speed per s, acceleration per s2, jerk per s3.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct BlendLimits {
     /// Speed of each part.
@@ -111,8 +111,9 @@ impl Quickest<'_> {
 struct Site<'a> {
     parts: Range<usize>,
     rows: &'a [Constraint],
-    /// Shares of the limits that the speed; the acceleration and the squared speed; and the jerk, the product of
-    /// acceleration and speed, and the cubed speed use.
+    /// What a unit uses of the limits, as a share: of the speed limit, a unit of speed (`vel`); of the acceleration
+    /// limit, one of acceleration and of squared speed (`acc`); of the jerk limit, one of jerk, of the product of speed
+    /// and acceleration, and of cubed speed (`jerk`).
     vel: f64,
     acc: [f64; 2],
     jerk: [f64; 3],

@@ -424,12 +424,13 @@ fn lower(a: Limits, b: Limits) -> Limits {
     Limits { vel: a.vel.min(b.vel), acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) }
 }
 
-/// The value nearest to `goal`, which is not acceptable, from `start` on, that is; `None` where `start` is not.
+/// The acceptable value nearest to `goal`, which is not acceptable itself, sought from `start` on; `None` where
+/// `start` is not acceptable.
 fn farthest(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> Option<f64> {
     will_do(start).then(|| halved(start, goal, will_do))
 }
 
-/// The value nearest to `goal` from a `start` that is acceptable.
+/// The acceptable value nearest to `goal`, sought from a `start` that is acceptable.
 fn halved(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> f64 {
     let (mut found, mut beyond) = (start, goal);
     for _ in 0..JERK_HALVINGS {

@@ -21,12 +21,13 @@ fn began(taken: &[(Arc<Segment>, bool)]) -> bool {
 }
 
 impl PathBuffer {
-    /// Appends a motion that [`limit_rise`] has made ready, with what has been prepared for it. Returns the target
-    /// before the motion with the reason why it is not rounded off, where that was requested.
+    /// Appends a motion that [`super::limit_rise`] has made ready, with what has been prepared for it. Returns the
+    /// target before the motion with the reason why it is not rounded off, where that was requested.
     pub(crate) fn append(
         &mut self,
         robot: &Robot,
-        (motion, number): (&Arc<Motion>, u64),
+        motion: &Arc<Motion>,
+        number: u64,
         prepared: Option<&Prepared>,
         cycle: f64,
     ) -> Option<UnblendedTarget> {
@@ -42,7 +43,7 @@ impl PathBuffer {
         let known = prepared.zip(tail.as_ref()).map(|(prepared, tail)| prepared.take(robot, || tail.pair(motion)));
         let curved = tail.as_ref().and_then(|tail| self.curved(robot, known, tail, motion));
         let mut joined = tail.as_ref().zip(curved).and_then(|(tail, curved)| {
-            let segments = self.join_curved(tail, &curved, (motion, limits), number, cycle)?;
+            let segments = self.join_curved(tail, &curved, motion, limits, number, cycle)?;
             Some(Joined { before: Some((Arc::clone(&tail.motion), curved.curvature)), segments })
         });
         let unblended_for = |corner, why| Some(UnblendedTarget { number, line: motion.line, corner, why });
@@ -101,7 +102,8 @@ impl PathBuffer {
         &mut self,
         tail: &Tail,
         curved: &CurvedBlends,
-        (motion, limits): (&Motion, Limits),
+        motion: &Motion,
+        limits: Limits,
         number: u64,
         cycle: f64,
     ) -> Option<usize> {

@@ -100,6 +100,20 @@ pub(crate) enum Purpose {
     Offer(Box<Draft>),
 }
 
+impl Purpose {
+    /// Whether the law is for the path up to the next stop.
+    fn leads_on(&self) -> bool {
+        !matches!(self, Self::Next)
+    }
+}
+
+impl LawHandOver {
+    /// Whether a law for such a purpose is being sought.
+    pub(crate) fn seeks(&self, is_wanted: impl Fn(&Purpose) -> bool) -> bool {
+        self.pending.as_ref().is_some_and(|pending| is_wanted(&pending.purpose))
+    }
+}
+
 /// A law from the next stop on.
 #[derive(Clone, Debug)]
 pub(crate) struct Next {
@@ -146,7 +160,8 @@ impl PathBuffer {
     /// Whether the next motion has to wait: a law is being sought that might lead over what the motion changes.
     pub(crate) fn is_asking(&self) -> bool {
         let offers = |pending: &PendingLaw| matches!(pending.purpose, Purpose::Offer(_));
-        let waits = |pending: &PendingLaw| offers(pending) || (self.leads_on(pending) && self.changes(pending.reach));
+        let waits =
+            |pending: &PendingLaw| offers(pending) || (pending.purpose.leads_on() && self.changes(pending.reach));
         // The robot will soon be at rest, and then continues with the governor.
         self.laws.pending.as_ref().is_some_and(waits)
             || (self.laws.offer_pause > 0.0 && self.is_laid_down())
@@ -162,12 +177,13 @@ impl PathBuffer {
     pub(crate) fn append_behind_stop(
         &mut self,
         robot: &Robot,
-        motion: (&Arc<Motion>, u64),
+        motion: &Arc<Motion>,
+        number: u64,
         prepared: Option<&Prepared>,
         cycle: f64,
     ) -> Option<UnblendedTarget> {
         self.laws.appending = Appending::BehindStop;
-        let unblended = self.append(robot, motion, prepared, cycle);
+        let unblended = self.append(robot, motion, number, prepared, cycle);
         self.laws.appending = Appending::Blended;
         unblended
     }
@@ -180,11 +196,6 @@ impl PathBuffer {
     /// Whether the robot is at rest until a law is found.
     pub(crate) fn awaits_law(&self) -> bool {
         self.laws.leader.follower().is_some_and(|follower| follower.rests())
-    }
-
-    /// Whether a law is for this part of the path, up to the next stop.
-    fn leads_on(&self, pending: &PendingLaw) -> bool {
-        !matches!(pending.purpose, Purpose::Next)
     }
 
     /// Whether the next motion may change the path before `reach`.
@@ -208,7 +219,7 @@ impl PathBuffer {
         &mut self,
         robot: &Arc<Robot>,
         here: &Joints,
-        motions: impl Iterator<Item = ((&'a Arc<Motion>, u64), Option<&'a Prepared>)>,
+        motions: impl Iterator<Item = (&'a Arc<Motion>, u64, Option<&'a Prepared>)>,
         cycle: f64,
     ) {
         let Some(follower) = self.laws.leader.follower() else { return };
@@ -220,8 +231,8 @@ impl PathBuffer {
             ..Self::default()
         };
         let (mut unblended, mut count) = (Vec::new(), 0);
-        for (motion, prepared) in motions {
-            unblended.extend(draft.append(robot, motion, prepared, cycle));
+        for (motion, number, prepared) in motions {
+            unblended.extend(draft.append(robot, motion, number, prepared, cycle));
             count += 1;
         }
         let same = self.segments.shared_with(&draft.segments);
@@ -288,7 +299,8 @@ impl PathBuffer {
 
     /// Drops the law from the next stop on where it leads beyond `same_to`: it may no longer be valid.
     fn drop_next_beyond(&mut self, same_to: f64) {
-        let pending = self.laws.pending.as_ref().filter(|pending| !self.leads_on(pending)).map(|pending| pending.reach);
+        let pending =
+            self.laws.pending.as_ref().filter(|pending| !pending.purpose.leads_on()).map(|pending| pending.reach);
         let Some(reach) = pending.or(self.laws.next.as_ref().map(|next| next.reach)) else { return };
         let stop = if self.laws.leader.follower().is_some() { self.segments.next_stop() } else { 0.0 };
         if stop + reach > same_to {
@@ -393,12 +405,7 @@ impl PathBuffer {
     /// Drops what leads on behind the next stop.
     pub(crate) fn keep_laws_to_stop(&mut self) {
         self.laws.next = None;
-        if self
-            .laws
-            .pending
-            .as_ref()
-            .is_some_and(|pending| matches!(pending.purpose, Purpose::Next | Purpose::Offer(_)))
-        {
+        if self.laws.seeks(|purpose| matches!(purpose, Purpose::Next | Purpose::Offer(_))) {
             self.cancel();
         }
         self.laws.answer = None;
@@ -407,7 +414,7 @@ impl PathBuffer {
     /// At a stop: a pending search is of use only if its law starts from there.
     pub(crate) fn end_at_stop(&mut self) {
         self.return_to_governor();
-        if self.laws.pending.as_ref().is_some_and(|pending| self.leads_on(pending)) {
+        if self.laws.seeks(Purpose::leads_on) {
             self.cancel();
         }
     }
@@ -438,7 +445,7 @@ impl PathBuffer {
             // Laws that are being sought assume the share that is known.
             Pacing::Go(share) | Pacing::Settle(share) => {
                 self.drop_stop_search();
-                if !self.laws.pending.as_ref().is_some_and(|pending| self.leads_on(pending)) {
+                if !self.laws.seeks(Purpose::leads_on) {
                     follower.go_at(share, self.searching(cycle));
                     self.request_law(&mut follower, robot, here, cycle, share);
                 }
@@ -501,7 +508,7 @@ impl PathBuffer {
 
     /// Cancels the search for a shorter stop.
     fn drop_stop_search(&mut self) {
-        if self.laws.pending.as_ref().is_some_and(|pending| matches!(pending.purpose, Purpose::StopRequest(_))) {
+        if self.laws.seeks(|purpose| matches!(purpose, Purpose::StopRequest(_))) {
             self.cancel();
         }
     }

@@ -9,7 +9,7 @@
 use crate::command::joints::Joints;
 use crate::follow::governor::Pacing;
 use crate::limits::profile::{Change, Limits, State};
-use crate::queue::path_buffer::law_hand_over::{PendingLaw, Purpose};
+use crate::queue::path_buffer::law_hand_over::Purpose;
 use crate::queue::path_buffer::leader::Leader;
 use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, PathBuffer};
 use crate::time_optimal::law_follower::LawFollower;
@@ -77,14 +77,14 @@ impl PathBuffer {
 
     fn drop_stop_request(&mut self) {
         self.laws.stop_asked = None;
-        if self.laws.pending.as_ref().is_some_and(is_for_stop) {
+        if self.laws.seeks(is_for_stop) {
             self.cancel();
         }
     }
 
     /// Takes the stop that was requested, when it is due, if the robot is where it begins.
     fn take_stop_law(&mut self) -> Option<Found> {
-        let pending = self.laws.pending.as_mut().filter(|pending| is_for_stop(pending))?;
+        let pending = self.laws.pending.as_mut().filter(|pending| is_for_stop(&pending.purpose))?;
         let found = match self.laws.solver.look(&mut pending.search) {
             Status::Running => return None,
             Status::Done(found) => found,
@@ -103,6 +103,6 @@ impl PathBuffer {
     }
 }
 
-fn is_for_stop(pending: &PendingLaw) -> bool {
-    matches!(pending.purpose, Purpose::ShorterStop)
+fn is_for_stop(purpose: &Purpose) -> bool {
+    matches!(purpose, Purpose::ShorterStop)
 }

@@ -96,7 +96,8 @@ pub(crate) fn fastest_behind(
     interior::solve(&way.rising_beside_rest([start, end]), [start, end], before)
 }
 
-/// Finds the fastest motion where the pace is roughly known ([`Law::pace`]): that with other limits at the same places.
+/// Finds the fastest motion where the pace is roughly known: that of a law ([`Law::pace`]) with other limits at the
+/// same places.
 pub(crate) fn fastest_near(way: &Way, start: BoundaryState, end: BoundaryState, pace: &Pace) -> Result<Law, Refusal> {
     check(way, [start, end])?;
     interior::solve_near(&way.rising_beside_rest([start, end]), [start, end], pace)

@@ -80,8 +80,8 @@ impl Screen {
         self.rows[range.clone()].iter().zip(&self.kept[range])
     }
 
-    /// The strictest speed limit of a place: where nothing has a speed limit, the speed is still not higher than
-    /// anywhere else.
+    /// The strictest speed limit of a place, as a factor of x: where nothing moves at the place, the speed is still not
+    /// higher than anywhere else.
     pub(crate) fn speed(&self, place: usize) -> f64 {
         self.rows[self.range(place)].iter().map(|row| row.vel).fold(self.least, f64::max)
     }

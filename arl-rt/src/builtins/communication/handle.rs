@@ -252,7 +252,7 @@ impl ConnectionHandle {
         held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing()).map(work)
     }
 
-    /// Warns the user, once for each message.
+    /// Warns the user, but not of the same thing twice in a row.
     fn tell(&self, cx: &Cx, text: String) {
         let mut told = self.told.borrow_mut();
         if *told != text {

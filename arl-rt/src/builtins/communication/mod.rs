@@ -12,5 +12,5 @@ pub mod socket;
 #[cfg(feature = "fuzzing")]
 pub(crate) use melsec::answer_size as melsec_answer;
 
-/// The most different messages of a connection, so that they never fill the memory.
+/// The largest number of different messages of a connection, so that they never fill the memory.
 const MAX_TOLD_PROBLEMS: usize = 100;

@@ -31,7 +31,7 @@ struct Lines {
     /// `None`, sent last, is the end.
     waiting: SyncSender<Option<String>>,
     if_full: Rc<Cell<IfFull>>,
-    /// How often something was left out and counted.
+    /// How often something was left out, where that is counted.
     lost: Rc<Cell<u64>>,
     /// Whether the reader is gone.
     gone: Rc<Cell<bool>>,

@@ -14,7 +14,7 @@
 //! `refused` for an order that could not be carried out.
 //!
 //! `--state-interval S` sets the interval of states. With `--each-cycle`, `cycle` reports in each cycle where the
-//! robots are, and the levels of inputs and outputs; with `--each-motion`, `report` reports what a motion did, once it
+//! robots are, and the levels of inputs and outputs; with `--each-motion`, `report` gives what a motion did, once it
 //! has ended.
 //!
 //! A mere listener (`--listener`) gets the same lines, reports at the end, and finally `ended` with how often something

@@ -12,7 +12,7 @@ use arl_robot::robot::{Family, RobotError};
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum SetupError {
-    /// The robot has an error.
+    /// The description of the robot has an error.
     Robot(RobotError),
     /// The program was checked for another family of robot.
     Family {

@@ -40,7 +40,7 @@ impl ReceiveBuffer {
     }
 
     /// Adds received bytes. If the bytes so far are as long as a frame without a request, they are discarded.
-    pub(crate) fn receive(&mut self, piece: &[u8], after_silence: bool) {
+    pub(crate) fn push(&mut self, piece: &[u8], after_silence: bool) {
         if self.bytes.len() >= LONGEST_FRAME {
             self.clear();
         }
@@ -165,14 +165,14 @@ mod tests {
         // Answers of another slave, complete or cut: too short for a request to write registers, and not a request to
         // read them.
         for other in [frame(5, &[16, 0, 0, 0, 2]), frame(5, &[3, 4, 1, 2, 3, 4]), frame(5, &[16, 0, 0])] {
-            let mut received = ReceiveBuffer::default();
-            received.receive(&other, true);
-            assert_eq!(received.take(), None);
-            received.receive(&request[..3], true);
-            assert_eq!(received.take(), None);
-            received.receive(&request[3..], false);
-            assert_eq!(received.take(), wanted, "{other:?}");
-            assert!(received.is_empty() && received.starts.is_empty());
+            let mut buffer = ReceiveBuffer::default();
+            buffer.push(&other, true);
+            assert_eq!(buffer.take(), None);
+            buffer.push(&request[..3], true);
+            assert_eq!(buffer.take(), None);
+            buffer.push(&request[3..], false);
+            assert_eq!(buffer.take(), wanted, "{other:?}");
+            assert!(buffer.is_empty() && buffer.starts.is_empty());
         }
     }
 
@@ -180,30 +180,29 @@ mod tests {
     fn a_request_may_come_in_pieces_and_be_followed_by_the_next() {
         let write = frame(17, &[16, 0, 1, 0, 2, 4, 0, 10, 1, 2]);
         let read = frame(17, &[3, 0, 0, 0, 1]);
-        let mut received = ReceiveBuffer::default();
+        let mut buffer = ReceiveBuffer::default();
         for piece in write.chunks(1) {
-            assert_eq!(received.take(), None);
-            received.receive(piece, true);
+            assert_eq!(buffer.take(), None);
+            buffer.push(piece, true);
         }
-        received.receive(&read, false);
-        assert_eq!(received.take().map(|request| request.pdu[0]), Some(16));
-        assert_eq!(received.take().map(|request| request.pdu[0]), Some(3));
-        assert_eq!(received.take(), None);
-        assert!(received.is_empty());
+        buffer.push(&read, false);
+        assert_eq!(buffer.take().map(|request| request.pdu[0]), Some(16));
+        assert_eq!(buffer.take().map(|request| request.pdu[0]), Some(3));
+        assert_eq!(buffer.take(), None);
+        assert!(buffer.is_empty());
     }
 
     #[test]
     fn noise_does_not_grow() {
         let mut noise = Noise::new(6);
-        let mut received = ReceiveBuffer::default();
+        let mut buffer = ReceiveBuffer::default();
         for at in 0..20_000 {
-            received.receive(&noise.bytes(LONGEST_FRAME), at % 3 == 0);
+            buffer.push(&noise.bytes(LONGEST_FRAME), at % 3 == 0);
             if at % 2 == 0 {
-                while received.take().is_some() {}
+                while buffer.take().is_some() {}
             }
             assert!(
-                received.bytes.len() < 2 * LONGEST_FRAME
-                    && received.starts.iter().all(|start| *start < received.bytes.len())
+                buffer.bytes.len() < 2 * LONGEST_FRAME && buffer.starts.iter().all(|start| *start < buffer.bytes.len())
             );
         }
     }

@@ -21,7 +21,7 @@ pub(super) fn plan(weights: &[usize], stays: bool, sizes: Sizes) -> Vec<BlockPie
         return all().collect();
     }
     let movable = weights.len() - usize::from(stays);
-    // The code before the first wait stays outside the parts, because it contains declarations.
+    // The code before the first wait, mostly declarations, stays where a reader looks for it.
     let first = weights.iter().position(|weight| *weight > 0).unwrap_or(0).min(movable);
     let mut pieces: Vec<BlockPiece> = all().take(first).collect();
     let middle: Vec<BlockPiece> = all().take(movable).skip(first).collect();

@@ -18,7 +18,7 @@ pub(super) struct Connection {
     stream: TcpStream,
     since: Instant,
     /// The time of the last request after `since`, in ms.
-    received: AtomicU64,
+    last_request_ms: AtomicU64,
     /// Whether any request has arrived.
     has_asked: AtomicBool,
 }
@@ -32,12 +32,17 @@ impl Connection {
         let stream = TcpStream::from(stream);
         stream.set_nonblocking(false)?;
         stream.set_nodelay(true)?;
-        Ok(Self { stream, since: Instant::now(), received: AtomicU64::new(0), has_asked: AtomicBool::new(false) })
+        Ok(Self {
+            stream,
+            since: Instant::now(),
+            last_request_ms: AtomicU64::new(0),
+            has_asked: AtomicBool::new(false),
+        })
     }
 
     /// The time since the last request; bytes that are not a request do not count.
     pub(super) fn silence(&self) -> Duration {
-        self.since.elapsed().saturating_sub(Duration::from_millis(self.received.load(Ordering::Relaxed)))
+        self.since.elapsed().saturating_sub(Duration::from_millis(self.last_request_ms.load(Ordering::Relaxed)))
     }
 
     /// Whether any request has arrived.
@@ -60,7 +65,7 @@ impl Connection {
             filled += count;
             let (done, sound) = answer(input.get(..filled).unwrap_or_default(), tables, &mut answers);
             if done > 0 {
-                self.received.store(self.since.elapsed().as_millis() as u64, Ordering::Relaxed);
+                self.last_request_ms.store(self.since.elapsed().as_millis() as u64, Ordering::Relaxed);
                 self.has_asked.store(true, Ordering::Relaxed);
             }
             if (&self.stream).write_all(&answers).is_err() || !sound {
