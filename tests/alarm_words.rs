@@ -10,7 +10,7 @@ fn operators_have_the_words_of_their_alarms() {
     let shift = |count, width: u8| {
         (OperatorAlarm::ShiftCount { count, most: u32::from(width) - 1 }, Fault::ShiftCount { count, width })
     };
-    for (said, fault) in [(OperatorAlarm::DivideByZero, Fault::DivideByZero), shift(-1, 32), shift(9, 8)] {
-        assert_eq!(said.to_string(), format!("alarm {}: {fault}", fault.number()));
+    for (alarm, fault) in [(OperatorAlarm::DivideByZero, Fault::DivideByZero), shift(-1, 32), shift(9, 8)] {
+        assert_eq!(alarm.to_string(), format!("alarm {}: {fault}", fault.number()));
     }
 }

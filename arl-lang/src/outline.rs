@@ -101,14 +101,14 @@ impl Outline {
             Some((_, Token::If, _)) => condition_end(tokens).and_then(|at| tokens.get(at)),
             _ => None,
         };
-        let mut left = tokens.iter().peekable();
+        let mut remaining = tokens.iter().peekable();
         let mut end = 0;
         for (at, (start, lexeme, to)) in lexemes.iter().enumerate() {
-            let role = match left.next_if(|token| token.0 == *start) {
+            let role = match remaining.next_if(|token| token.0 == *start) {
                 Some(token) => {
                     end = token.2;
                     // A number and its unit are one lexeme and two tokens.
-                    left.next_if(|token| token.0 < *to);
+                    remaining.next_if(|token| token.0 < *to);
                     role_of(token.1)
                 }
                 None if *start < end => LexemeRole::Unit,

@@ -375,16 +375,16 @@ fn statements(
             return quote!({ #error; #stub });
         }
     };
-    let said = shown(&checked).unwrap_or_default();
+    let messages = shown(&checked).unwrap_or_default();
     let watched = here.watched(&checked);
     let Some(program) = &mut checked.program else {
         let stub = stub::statements(context);
-        return quote!({ #said #watched #stub });
+        return quote!({ #messages #watched #stub });
     };
     if events_use_globals(program, FRAGMENT) {
         let (error, stub) =
             (report::error(GLOBALS_IN_EVENTS, Place::one(Span::call_site())), stub::statements(context));
-        return quote!({ #said #watched #error; #stub });
+        return quote!({ #messages #watched #error; #stub });
     }
     let types = spliced_types(program, splices.len());
     let names: Vec<Ident> = (0..splices.len()).map(splice_name).collect();
@@ -396,7 +396,7 @@ fn statements(
     let Some((call, items)) = function(program, here, &types) else { return stub::statements(context) };
     quote! {
         {
-            #said
+            #messages
             #watched
             mod arl_statements {
                 #items

@@ -61,7 +61,7 @@ mod numbers {
 }
 
 #[test]
-fn numbers_that_rust_cannot_read_are_written_its_way() {
+fn numbers_that_rust_cannot_read_are_written_as_it_does() {
     assert_eq!(run(numbers::Globals::new()), (Outcome::Ended, "62 11 2 12 9e+09\n".into()));
 }
 

@@ -331,12 +331,13 @@ fn create_held(path: &Path, private: bool) -> io::Result<File> {
 pub fn remove_leftovers(directory: &Path) {
     // Files that cannot be inspected or removed stay; they do no harm.
     let Ok(entries) = fs::read_dir(directory) else { return };
-    let left = entries.filter_map(Result::ok).filter(|entry| is_in_the_making(&entry.file_name().to_string_lossy()));
-    let mut left = left.map(|entry| entry.path()).peekable();
-    if left.peek().is_some() {
+    let leftovers =
+        entries.filter_map(Result::ok).filter(|entry| is_in_the_making(&entry.file_name().to_string_lossy()));
+    let mut leftovers = leftovers.map(|entry| entry.path()).peekable();
+    if leftovers.peek().is_some() {
         // Another process may be exchanging two files: the file beside then is not an abandoned draft.
         let Ok(locked) = lock(directory) else { return };
-        left.for_each(|path| remove_abandoned(&path, &locked));
+        leftovers.for_each(|path| remove_abandoned(&path, &locked));
     }
 }
 
@@ -372,7 +373,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_dead_have_left_is_removed_and_what_the_living_make_is_not() {
+    fn leftovers_of_dead_processes_are_removed_and_files_of_living_ones_are_not() {
         let path = folder("left");
         // This process represents another living one: it holds its file.
         let alive = create_held(&path.join("I.state.17.arl-new"), false).unwrap();
@@ -384,9 +385,9 @@ mod tests {
             fs::write(path.join(name), "a user's").unwrap();
         }
         remove_leftovers(&path);
-        let mut left: BTreeSet<String> = others.map(String::from).into();
-        left.insert("I.state.17.arl-new".into());
-        assert_eq!(names(&path), left);
+        let mut remaining: BTreeSet<String> = others.map(String::from).into();
+        remaining.insert("I.state.17.arl-new".into());
+        assert_eq!(names(&path), remaining);
         drop(alive);
         remove_leftovers(&path);
         assert!(!names(&path).contains("I.state.17.arl-new"));
@@ -399,16 +400,16 @@ mod tests {
     #[test]
     fn nothing_is_removed_while_others_replace_files() {
         let path = folder("locked");
-        let left = path.join("I.state.1.arl-new");
-        fs::write(&left, "an editor's").unwrap();
+        let leftover = path.join("I.state.1.arl-new");
+        fs::write(&leftover, "an editor's").unwrap();
         let held = lock(&path).unwrap().unwrap();
         std::thread::scope(|scope| {
             let removes = scope.spawn(|| remove_leftovers(&path));
             std::thread::sleep(Duration::from_millis(100));
-            assert!(left.exists() && !removes.is_finished());
+            assert!(leftover.exists() && !removes.is_finished());
             drop(held);
         });
-        assert!(!left.exists());
+        assert!(!leftover.exists());
         fs::remove_dir_all(&path).unwrap();
     }
 
@@ -428,7 +429,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_left_beside_a_file() {
+    fn nothing_remains_beside_a_file() {
         let path = folder("beside");
         for content in ["one", "two"] {
             write(&path.join("a.txt"), content.as_bytes()).unwrap();

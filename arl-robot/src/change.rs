@@ -191,7 +191,7 @@ limits = { velocity = 100, other = [1, 2] }
     }
 
     #[test]
-    fn what_is_not_there_is_told() {
+    fn what_is_not_there_is_reported() {
         for (path, words) in [
             ("event.3.at", "`3` is not an entry: there are 2, counted from 1"),
             ("event.0.at", "counted from 1"),

@@ -18,13 +18,13 @@ where
 
 /// A controller and what its programs say, each message with its channel before it.
 fn with_channels(builder: Builder, first: impl Program + 'static) -> (Controller, Captured) {
-    let said = Captured::new();
-    let mut out = said.clone();
+    let messages = Captured::new();
+    let mut out = messages.clone();
     let output = move |message: &arl_rt::Message<'_>| {
         let text = format!("{}: {}", message.channel, String::from_utf8_lossy(message.text));
         arl_rt::output::Output::message(&mut out, &arl_rt::Message { text: text.as_bytes(), ..*message });
     };
-    (builder.output(output).build(Box::new(first)).unwrap(), said)
+    (builder.output(output).build(Box::new(first)).unwrap(), messages)
 }
 
 #[test]
@@ -55,11 +55,11 @@ fn channels_share_io_and_time_and_run_in_their_order() {
             say(cx, &cx.time())
         })
     });
-    let (mut controller, said) = with_channels(builder, first);
+    let (mut controller, messages) = with_channels(builder, first);
     // The background program never ends; the run does, with the last foreground program.
     assert_eq!(controller.run(), Outcome::Ended);
     assert_eq!(
-        said.text(),
+        messages.text(),
         "channel 1: false\nchannel 2: true\nbackground channel 1: true\nchannel 1: 0.1\nchannel 2: 0.2\n"
     );
 }
@@ -86,13 +86,13 @@ fn each_channel_has_its_own_robot_and_modal_variables() {
             channel::channeljoint(cx, 3, true).map(drop).at(FILE, 5)
         })
     });
-    let (mut controller, said) = with_channels(Controller::builder().foreground(second), first);
+    let (mut controller, messages) = with_channels(Controller::builder().foreground(second), first);
     let outcome = controller.run();
     assert_eq!(
         alarm(outcome),
         "alarm 20004: channeljoint: there is no foreground channel 3, only channels 1 to 2 (t.arl:5)"
     );
-    assert_eq!(said.text(), "channel 2: 7\nchannel 2: -30\nchannel 1: 50\nchannel 1: -30\nchannel 2: 60\n");
+    assert_eq!(messages.text(), "channel 2: 7\nchannel 2: -30\nchannel 1: 50\nchannel 1: -30\nchannel 2: 60\n");
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn an_alarm_ends_the_program_of_its_channel_alone() {
             say(cx, &"still here")
         })
     });
-    let (mut controller, said) = with_channels(Controller::builder().foreground(second), first);
+    let (mut controller, messages) = with_channels(Controller::builder().foreground(second), first);
     assert_eq!(controller.run_for(0.1), State::Running);
     let alarms = controller.take_alarms();
     assert_eq!(
@@ -114,7 +114,7 @@ fn an_alarm_ends_the_program_of_its_channel_alone() {
     assert_eq!(alarms[0].channel, ChannelId::Foreground(2));
     // The alarm is how the whole ended.
     assert!(matches!(controller.run(), Outcome::Alarm(_)));
-    assert_eq!(said.text(), "channel 1: still here\n");
+    assert_eq!(messages.text(), "channel 1: still here\n");
 }
 
 #[test]
@@ -139,11 +139,11 @@ fn what_needs_a_robot_is_an_alarm_in_the_background() {
     for (wrong, words) in cases {
         let builder = Controller::builder().background(Box::new(script(wrong)));
         let first = script(|cx| Box::pin(async move { flow::waittime(0.1).run(cx).await.at(FILE, 1) }));
-        let (mut controller, said) = with_channels(builder, first);
+        let (mut controller, messages) = with_channels(builder, first);
         let text = alarm(controller.run());
         assert!(text.starts_with("alarm 20023: ") && text.contains(words), "{text}");
         assert!(text.ends_with("(t.arl:2, background channel 1)"), "{text}");
-        assert_eq!(said.text(), "");
+        assert_eq!(messages.text(), "");
     }
 }
 
@@ -166,9 +166,9 @@ fn pulses_and_outputs_in_motion_belong_to_their_channel() {
             say(cx, &io::getdo(cx, 5).await.at(FILE, 5)?)
         })
     });
-    let (mut controller, said) = with_channels(Controller::builder().foreground(second), first);
+    let (mut controller, messages) = with_channels(Controller::builder().foreground(second), first);
     assert_eq!(controller.run(), Outcome::Ended);
-    assert_eq!(said.text(), "channel 1: false\n");
+    assert_eq!(messages.text(), "channel 1: false\n");
     assert!(controller.digital_output(5).unwrap());
     // The second program ended long before the pulse of the first one did.
     assert!(controller.time() > 8.9, "{}", controller.time());

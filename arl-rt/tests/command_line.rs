@@ -349,10 +349,10 @@ fn a_process_that_was_stopped_stops_its_robot() {
     std::thread::sleep(std::time::Duration::from_millis(300));
     signal("-CONT");
     let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("alarm 20074: the computer was too busy: "), "{said}");
-    assert!(said.contains("cycles: ") && said.contains(" us late at most: "), "{said}");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{errors}");
+    assert!(errors.contains("alarm 20074: the computer was too busy: "), "{errors}");
+    assert!(errors.contains("cycles: ") && errors.contains(" us late at most: "), "{errors}");
 }
 
 #[cfg(not(target_os = "linux"))]

@@ -26,7 +26,7 @@ const RAMP: f64 = 250.0;
 
 /// The path of the TCP so far.
 #[derive(Default)]
-struct Way {
+struct TcpPath {
     last: Option<Vector3<f64>>,
     length: f64,
     cycle: u64,
@@ -40,7 +40,7 @@ struct Watched {
     robot: SimulatedRobot,
     kinematics: Kinematics,
     whole: f64,
-    way: Rc<RefCell<Way>>,
+    path: Rc<RefCell<TcpPath>>,
 }
 
 impl RobotDriver for Watched {
@@ -55,15 +55,15 @@ impl RobotDriver for Watched {
 
     fn exchange(&mut self, setpoint: &Setpoint) -> Feedback {
         let at = self.kinematics.forward(&setpoint.position.axes).translation.vector;
-        let mut way = self.way.borrow_mut();
-        let step = way.last.map_or(0.0, |last| (at - last).norm());
-        way.last = Some(at);
-        way.cycle += 1;
-        way.length += step;
-        let here = (way.length, way.cycle);
-        if way.length > RAMP && way.length < self.whole - RAMP {
-            way.from.get_or_insert(here);
-            way.to = Some(here);
+        let mut path = self.path.borrow_mut();
+        let step = path.last.map_or(0.0, |last| (at - last).norm());
+        path.last = Some(at);
+        path.cycle += 1;
+        path.length += step;
+        let here = (path.length, path.cycle);
+        if path.length > RAMP && path.length < self.whole - RAMP {
+            path.from.get_or_insert(here);
+            path.to = Some(here);
         }
         self.robot.exchange(setpoint)
     }
@@ -71,12 +71,12 @@ impl RobotDriver for Watched {
 
 /// The mean speed outside the ramps in mm/s, and the bytes that the controller held at most while the program ran.
 fn run(robot: &Robot, motions: u32) -> (f64, u64) {
-    let way = Rc::new(RefCell::new(Way::default()));
+    let path = Rc::new(RefCell::new(TcpPath::default()));
     let watched = Watched {
         robot: SimulatedRobot::new(),
         kinematics: robot.kinematics.clone(),
         whole: f64::from(motions) * STEP,
-        way: way.clone(),
+        path: path.clone(),
     };
     let builder = Controller::builder().robot(robot.clone()).robot_driver(watched);
     let (mut controller, _) = controller(builder, move |cx| {
@@ -96,8 +96,8 @@ fn run(robot: &Robot, motions: u32) -> (f64, u64) {
     let memory = allocation_counter::measure(|| {
         assert_eq!(controller.run(), arl_rt::Outcome::Ended);
     });
-    let way = way.borrow();
-    let speed = way.from.zip(way.to).map(|(from, to)| (to.0 - from.0) / ((to.1 - from.1) as f64 * 0.001));
+    let path = path.borrow();
+    let speed = path.from.zip(path.to).map(|(from, to)| (to.0 - from.0) / ((to.1 - from.1) as f64 * 0.001));
     (speed.unwrap_or(f64::NAN), memory.bytes_max)
 }
 

@@ -97,7 +97,7 @@ fn alarms_of_events_stop_the_robot_on_its_path() {
     for (what, wrong, words) in cases {
         let kept = Shared::default();
         let builder = Controller::builder().storage(kept.clone());
-        let (mut controller, said) = controller(builder, move |cx| program(cx, wrong));
+        let (mut controller, messages) = controller(builder, move |cx| program(cx, wrong));
         while !controller.digital_output(1).unwrap() {
             controller.step();
         }
@@ -117,8 +117,8 @@ fn alarms_of_events_stop_the_robot_on_its_path() {
         let text = alarm(controller.outcome().unwrap().clone());
         assert!(text.starts_with(words), "{what}: {text}");
         assert!(text.contains(if wrong.is_some() { "(t.arl:9)" } else { "(t.arl:8)" }), "{what}: {text}");
-        assert_eq!(said.text(), "", "{what}");
-        check_way(what, &robot_tcp(&controller, &rest), &path);
+        assert_eq!(messages.text(), "", "{what}");
+        check_path(what, &robot_tcp(&controller, &rest), &path);
         // What the program saved last is what the next start finds; what it changed since is gone.
         let next = Controller::builder().storage(kept).build(Box::new(script(|_| Box::pin(async { Ok(()) })))).unwrap();
         assert_eq!(next.system().i.item(1), 5, "{what}");
@@ -135,7 +135,7 @@ fn tcp(controller: &Controller) -> [f64; 3] {
 }
 
 /// The robot brakes along y, takes some cycles for that, and rests before the target.
-fn check_way(what: &str, start: &[f64; 3], path: &[[f64; 3]]) {
+fn check_path(what: &str, start: &[f64; 3], path: &[[f64; 3]]) {
     for at in path {
         assert!(
             (at[0] - start[0]).abs() < 1e-3 && (at[2] - start[2]).abs() < 1e-3,
@@ -155,7 +155,7 @@ fn check_way(what: &str, start: &[f64; 3], path: &[[f64; 3]]) {
 
 #[test]
 fn a_handler_that_never_ends_holds_nobody_up() {
-    let (mut controller, said) = controller(Controller::builder(), |cx| {
+    let (mut controller, messages) = controller(Controller::builder(), |cx| {
         Box::pin(async move {
             let handle = async |cx: &Cx| {
                 loop {
@@ -178,5 +178,5 @@ fn a_handler_that_never_ends_holds_nobody_up() {
     assert!(controller.outcome().is_none());
     controller.stop();
     assert_eq!(controller.run(), Outcome::Stopped);
-    assert_eq!(said.text(), "");
+    assert_eq!(messages.text(), "");
 }

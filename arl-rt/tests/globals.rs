@@ -123,7 +123,7 @@ fn they_are_set_by_name_where_the_program_has_names() {
 }
 
 #[test]
-fn a_name_that_is_none_is_told_before_anything_begins() {
+fn a_name_that_is_none_is_reported_before_anything_begins() {
     let refused = |name: &str, value: &str| {
         let built = Controller::builder().global(name, value).build(Box::new(Named::default()));
         built.map(drop).unwrap_err().to_string()

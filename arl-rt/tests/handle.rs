@@ -164,7 +164,7 @@ fn events_come_from_the_very_start() {
 }
 
 #[test]
-fn a_program_that_begins_anew_is_told_even_if_it_ends_at_once() {
+fn a_program_that_begins_anew_is_reported_even_if_it_ends_at_once() {
     let (tell, events) = mpsc::channel();
     let mut controller = plain(Controller::builder().events(tell), |_| Box::pin(async { Ok(()) }));
     controller.run();
@@ -189,7 +189,7 @@ fn a_program_that_has_ended_begins_anew_until_somebody_waits_for_its_end() {
 }
 
 #[test]
-fn who_waits_for_the_end_of_what_waits_in_vain_is_told_so() {
+fn who_waits_for_the_end_of_what_waits_in_vain_gets_a_standstill() {
     let make = || Controller::builder().build(Box::new(script(wait_forever)));
     let outcome = Controller::spawn(make).unwrap().join();
     assert!(matches!(&outcome, Outcome::Standstill(waiting) if waiting.len() == 1), "{outcome}");
@@ -326,18 +326,18 @@ fn what_nobody_did_in_time_is_never_done() {
 fn what_is_asked_is_done_in_its_order_between_two_cycles() {
     let mut controller = plain(Controller::builder(), wait_and_divide);
     let handle = controller.handle();
-    let (tell, told) = mpsc::channel();
+    let (sender, answers) = mpsc::channel();
     let asking = thread::spawn(move || {
         for number in 0..200_u32 {
-            tell.send(handle.ask(move |controller| (number, controller.time())).unwrap()).unwrap();
+            sender.send(handle.ask(move |controller| (number, controller.time())).unwrap()).unwrap();
         }
     });
     while !asking.is_finished() {
         controller.step();
     }
-    let told: Vec<(u32, f64)> = told.iter().collect();
-    assert!(told.iter().map(|(number, _)| *number).eq(0..200));
-    assert!(told.is_sorted_by(|a, b| a.1 < b.1), "a thread has one answer a cycle: {told:?}");
+    let answers: Vec<(u32, f64)> = answers.iter().collect();
+    assert!(answers.iter().map(|(number, _)| *number).eq(0..200));
+    assert!(answers.is_sorted_by(|a, b| a.1 < b.1), "a thread has one answer a cycle: {answers:?}");
 }
 
 #[test]

@@ -136,9 +136,9 @@ fn waits(cx: &Cx) -> BoxFuture<'_> {
 }
 
 /// Whether so many times were said, to a few steps of the loop.
-fn are_near(said: &str, times: &[f64]) -> bool {
-    let said: Vec<f64> = said.lines().map(|line| line.parse().unwrap_or(f64::NAN)).collect();
-    said.len() == times.len() && said.iter().zip(times).all(|(said, time)| (said - time).abs() < 0.05)
+fn are_near(printed: &str, times: &[f64]) -> bool {
+    let printed: Vec<f64> = printed.lines().map(|line| line.parse().unwrap_or(f64::NAN)).collect();
+    printed.len() == times.len() && printed.iter().zip(times).all(|(printed, time)| (printed - time).abs() < 0.05)
 }
 
 #[test]

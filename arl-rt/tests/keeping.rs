@@ -90,25 +90,25 @@ fn saving(cx: &Cx) -> BoxFuture<'_> {
 #[test]
 fn cycles_go_on_while_a_value_is_stored() {
     let gated = Gated::default();
-    let (mut controller, said) = controller(Controller::builder().storage(gated.clone()).clock(Paced), saving);
+    let (mut controller, messages) = controller(Controller::builder().storage(gated.clone()).clock(Paced), saving);
     controller.run_for(0.5);
-    assert_eq!((controller.outcome(), said.text()), (None, String::new()));
+    assert_eq!((controller.outcome(), messages.text()), (None, String::new()));
     gated.open_gate();
     assert_eq!(controller.run(), Outcome::Ended);
-    assert!(gated.value("I").is_some() && !said.text().is_empty());
+    assert!(gated.value("I").is_some() && !messages.text().is_empty());
 }
 
 #[test]
 fn on_the_virtual_clock_a_value_is_stored_in_one_cycle() {
     let gated = Gated::default();
-    let (mut controller, said) = controller(Controller::builder().storage(gated.clone()), saving);
+    let (mut controller, messages) = controller(Controller::builder().storage(gated.clone()), saving);
     let opener = std::thread::spawn(move || {
         std::thread::sleep(Duration::from_millis(20));
         gated.open_gate();
     });
     assert_eq!(controller.run(), Outcome::Ended);
     opener.join().unwrap();
-    assert_eq!(said.text(), "0.001\n");
+    assert_eq!(messages.text(), "0.001\n");
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn changes_are_kept_while_the_program_runs() {
 }
 
 #[test]
-fn what_cannot_be_stored_is_told() {
+fn what_cannot_be_stored_is_reported() {
     let gated = Gated::open();
     gated.0.0.lock().unwrap().error = Some("the disk is full");
     let (mut controller, _) = controller(Controller::builder().storage(gated.clone()), |cx| {

@@ -81,34 +81,34 @@ const SCENARIO: &str = "[[event]]\nat = 20\ndi.1 = true\n\
 /// Waits for time and for signals, with an interrupt, a timer, a pulse and motion in between.
 fn busy(cx: &Cx) -> BoxFuture<'_> {
     Box::pin(async move {
-        let told =
+        let print_time =
             |cx: &Cx, what: &'static str| text::print().argtoprint(&what).argtoprint(&cx.time()).run(cx).at(FILE, 9);
         event::interrupt(
             async |cx: &Cx| io::getdi(cx, 3).await.at(FILE, 1),
-            async move |cx: &Cx| told(cx, "interrupt "),
+            async move |cx: &Cx| print_time(cx, "interrupt "),
         )
         .name(&"three".into())
         .run(cx)
         .at(FILE, 1)?;
         flow::waittime(12.3456).run(cx).await.at(FILE, 2)?;
-        told(cx, "waited ")?;
+        print_time(cx, "waited ")?;
         while !io::getdi(cx, 1).await.at(FILE, 3)? {
             cx.change().await;
         }
-        told(cx, "di 1 ")?;
+        print_time(cx, "di 1 ")?;
         motion::movej(bent(30.0)).vp(100.0).run(cx).await.at(FILE, 4)?;
         io::setdo(cx, 1, true).await.at(FILE, 5)?;
-        told(cx, "there ")?;
+        print_time(cx, "there ")?;
         while !io::getdi(cx, 2).await.at(FILE, 6)? {
             cx.change().await;
         }
-        told(cx, "di 2 ")?;
+        print_time(cx, "di 2 ")?;
         io::pulsedo(cx, 3, true, 2.0).await.at(FILE, 7)?;
-        event::timer(3.5, async move |cx: &Cx| told(cx, "timer ")).name(&"t".into()).run(cx).at(FILE, 8)?;
+        event::timer(3.5, async move |cx: &Cx| print_time(cx, "timer ")).name(&"t".into()).run(cx).at(FILE, 8)?;
         flow::waittime(60.0).run(cx).await.at(FILE, 8)?;
         motion::movej(bent(-20.0)).vp(100.0).run(cx).await.at(FILE, 8)?;
         flow::waittime(1.0).run(cx).await.at(FILE, 8)?;
-        told(cx, "end ")
+        print_time(cx, "end ")
     })
 }
 
@@ -146,8 +146,8 @@ fn a_run_without_its_quiet_cycles_is_the_run_with_them() {
 /// Sets an output and waits at once, for long: somebody else sees it in the cycle behind.
 fn sets_and_waits(cx: &Cx) -> BoxFuture<'_> {
     Box::pin(async move {
-        let told = |cx: &Cx| text::print().argtoprint(&"seen ").argtoprint(&cx.time()).run(cx).at(FILE, 9);
-        event::interrupt(async |cx: &Cx| io::getdo(cx, 1).await.at(FILE, 1), async move |cx: &Cx| told(cx))
+        let print_time = |cx: &Cx| text::print().argtoprint(&"seen ").argtoprint(&cx.time()).run(cx).at(FILE, 9);
+        event::interrupt(async |cx: &Cx| io::getdo(cx, 1).await.at(FILE, 1), async move |cx: &Cx| print_time(cx))
             .name(&"set".into())
             .run(cx)
             .at(FILE, 1)?;

@@ -289,14 +289,14 @@ fn the_controller_keeps_its_variables_current() {
     assert_eq!(messages.text(), "{false,true,false,false,false}\n");
     controller.run_for(0.5);
     let system = controller.system();
-    let (elapsed, left) = (system.traj_elapse_time.get(), system.traj_left_time.get());
-    assert!((0.4..0.6).contains(&elapsed) && left > 0.5, "{elapsed} {left}");
+    let (elapsed, remaining) = (system.traj_elapse_time.get(), system.traj_left_time.get());
+    assert!((0.4..0.6).contains(&elapsed) && remaining > 0.5, "{elapsed} {remaining}");
     controller.run();
     assert_eq!(controller.system().traj_left_time.get(), 0.0);
 }
 
 #[test]
-fn a_motion_that_comes_too_late_to_be_blended_is_told_of() {
+fn a_motion_that_comes_too_late_to_be_blended_is_reported() {
     let (mut controller, _) = controller(Controller::builder(), |cx| {
         Box::pin(async move {
             motion::movej(bent(30.0)).vp(100.0).sp(50.0).run(cx).await.at(FILE, 1)?;
@@ -314,7 +314,7 @@ fn a_motion_that_comes_too_late_to_be_blended_is_told_of() {
 }
 
 #[test]
-fn a_target_that_is_not_rounded_off_is_told_of_once_with_the_cause() {
+fn a_target_that_is_not_rounded_off_is_reported_once_with_the_cause() {
     let (mut controller, _) = controller(Controller::builder(), |cx| {
         Box::pin(async move {
             motion::movej(bent(0.0)).vp(100.0).sp(-1.0).run(cx).await.at(FILE, 1)?;

@@ -8,7 +8,7 @@ use arl_rt::motion::MotionKind;
 use arl_rt::motion::{Limited, MotionRecord, NoBlend, SmallerZone};
 use common::*;
 
-fn way(cx: &Cx) -> BoxFuture<'_> {
+fn zone_program(cx: &Cx) -> BoxFuture<'_> {
     Box::pin(async move {
         cx.line(FILE, 3);
         motion::movej(bent(0.0)).vp(50.0).run(cx).await.at(FILE, 3)?;
@@ -33,7 +33,7 @@ fn aside(cx: &Cx, dy: f64, dz: f64) -> Done<Pose> {
 }
 
 fn records() -> (Vec<MotionRecord>, f64) {
-    let (mut controller, _) = controller(Controller::builder().record_motions(), way);
+    let (mut controller, _) = controller(Controller::builder().record_motions(), zone_program);
     controller.run();
     (controller.motions(), controller.time())
 }
@@ -66,7 +66,7 @@ fn every_motion_has_its_figures() {
         assert_eq!((record.programmed.value, record.programmed.unit), (speed, unit));
         assert!(record.reached <= speed * 1.001 && record.reached > speed * 0.99, "{record:?}");
     }
-    assert!((records[2].way + records[3].way + records[4].way - 460.0).abs() < 60.0);
+    assert!((records[2].path_length + records[3].path_length + records[4].path_length - 460.0).abs() < 60.0);
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn motions_that_wait_for_the_next_one_are_recorded_when_they_go() {
         assert!(record.zone().is_none_or(|blend| blend.used <= blend.asked + 1e-6), "{record:?}");
     }
     assert!(records[1].zone().is_some_and(|blend| blend.used > 5.0), "{:?}", records[1].zone());
-    assert!((records[2].way + records[3].way - 132.0).abs() < 25.0, "{records:?}");
+    assert!((records[2].path_length + records[3].path_length - 132.0).abs() < 25.0, "{records:?}");
 }
 
 #[test]
@@ -272,24 +272,24 @@ fn a_weave_is_not_part_of_the_speed_that_is_reached() {
     let woven = &records[1];
     assert!(woven.reached <= 8.0001 && woven.reached > 7.9, "{woven:?}");
     // The way is that of the TCP, with the weave.
-    assert!(woven.way > 40.0, "{woven:?}");
+    assert!(woven.path_length > 40.0, "{woven:?}");
 }
 
 #[test]
-fn the_way_is_that_of_the_trace() {
+fn the_distance_is_that_of_the_trace() {
     let (records, rows) = records_and_rows(zigzag);
     for record in records.iter().filter(|record| record.start.is_some()) {
         let step =
             |pair: &[Vec<f64>]| (0..3).map(|at| (pair[1][15 + at] - pair[0][15 + at]).powi(2)).sum::<f64>().sqrt();
         // The first row is that of the first cycle, which has gone a step already.
-        let way: f64 = rows.windows(2).filter(|pair| pair[1][2] == record.number as f64).map(step).sum();
-        assert!((way - record.way).abs() < 0.01, "{way} {record:?}");
+        let distance: f64 = rows.windows(2).filter(|pair| pair[1][2] == record.number as f64).map(step).sum();
+        assert!((distance - record.path_length).abs() < 0.01, "{distance} {record:?}");
     }
 }
 
 #[test]
 fn nothing_is_recorded_unless_asked_for() {
-    let (mut controller, _) = controller(Controller::builder(), way);
+    let (mut controller, _) = controller(Controller::builder(), zone_program);
     controller.run();
     assert_eq!(controller.motions(), []);
 }

@@ -24,7 +24,7 @@ fn say_three<'a>(cx: &'a Cx) -> BoxFuture<'a> {
 }
 
 #[test]
-fn an_output_that_panics_loses_what_it_was_told_and_no_more() {
+fn an_output_that_panics_loses_what_it_was_sent_and_no_more() {
     let heard = Rc::new(Cell::new(0));
     let hearing = Rc::clone(&heard);
     let builder = Controller::builder().output(move |_: &Message<'_>| {
@@ -38,7 +38,7 @@ fn an_output_that_panics_loses_what_it_was_told_and_no_more() {
 }
 
 #[test]
-fn listeners_that_panic_lose_what_they_were_told() {
+fn listeners_that_panic_lose_what_they_were_sent() {
     let builder = Controller::builder()
         .on_alarm(|_: &Alarm| panic!("as it is meant to"))
         .on_warning(|_| panic!("as it is meant to"));
@@ -51,7 +51,7 @@ fn listeners_that_panic_lose_what_they_were_told() {
 }
 
 #[test]
-fn a_program_that_panics_has_ended_when_the_panic_is_told() {
+fn a_program_that_panics_has_ended_when_the_panic_is_reported() {
     let mut controller = plain(Controller::builder(), |cx| {
         Box::pin(async move {
             flow::waittime(0.002).run(cx).await.at(FILE, 1)?;
@@ -59,8 +59,8 @@ fn a_program_that_panics_has_ended_when_the_panic_is_told() {
             Ok(())
         })
     });
-    let told = catch_unwind(AssertUnwindSafe(|| controller.run_for(0.1)));
-    assert!(told.is_err());
+    let result = catch_unwind(AssertUnwindSafe(|| controller.run_for(0.1)));
+    assert!(result.is_err());
     controller.step();
     assert_eq!((controller.state(), controller.outcome()), (State::Ended, Some(&Outcome::Stopped)));
     controller.reset().unwrap();

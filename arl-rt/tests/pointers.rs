@@ -81,7 +81,7 @@ fn another_controller_knows_where_programs_stood_until_they_run_again() {
             flow::waittime(0.0).run(cx).await.at(FILE, 10)
         })
     })));
-    let (mut after, said) = controller(state.builder().foreground(second), |cx| {
+    let (mut after, messages) = controller(state.builder().foreground(second), |cx| {
         Box::pin(async move {
             cx.line(FILE, 2);
             // The second channel's program has not run yet. This one does, and no motion of it.
@@ -96,7 +96,7 @@ fn another_controller_knows_where_programs_stood_until_they_run_again() {
     assert_eq!(after.run(), Outcome::Ended);
     let expected =
         ["first.arl 3, t.arl 2\n", "second.arl 3, second.arl 5\n", "second.arl 3, t.arl 8\n", "t.arl 9, t.arl 10\n"];
-    assert_eq!(said.text(), expected.concat());
+    assert_eq!(messages.text(), expected.concat());
     let text = state.text();
     let kept: Vec<&str> = text.lines().take(4).collect();
     let expected =
@@ -122,14 +122,14 @@ fn a_program_that_waits_for_the_start_button_has_not_run() {
     let (mut before, _) = controller(state.builder(), moving("first.arl"));
     before.run_for(2.0);
     drop(before);
-    let (mut after, said) = controller(state.builder(), |cx| Box::pin(async move { tell(cx, 1) }));
+    let (mut after, messages) = controller(state.builder(), |cx| Box::pin(async move { tell(cx, 1) }));
     after.press(arl_rt::io::Pendant::Pause);
     after.run_for(0.1);
     after.settle_state();
     assert!(state.text().starts_with("program 1 \"first.arl\" 5\nmotion 1 \"first.arl\" 3\n"), "{}", state.text());
     after.resume();
     assert_eq!(after.run(), Outcome::Ended);
-    assert_eq!(said.text(), "first.arl 3, t.arl 0\n");
+    assert_eq!(messages.text(), "first.arl 3, t.arl 0\n");
 }
 
 #[test]

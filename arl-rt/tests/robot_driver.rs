@@ -115,7 +115,7 @@ fn keep_limits(heard: &Heard) {
 }
 
 #[test]
-fn the_program_moves_at_speed_when_troubles_come() {
+fn the_program_moves_at_speed_when_faults_come() {
     let (mut controller, heard) = turning(|_, feedback| feedback);
     controller.run_for(AT_SPEED as f64 * 0.001);
     assert!(heard.borrow().setpoints.last().unwrap().velocity.axes[0] > 100.0);
@@ -141,7 +141,7 @@ fn a_robot_that_says_nothing_stops_and_is_switched_off_at_rest() {
 }
 
 #[test]
-fn a_few_cycles_without_a_word_are_no_trouble() {
+fn a_few_cycles_without_a_word_are_no_fault() {
     let (mut controller, heard) = turning(|cycle, feedback| if cycle % 25 < 5 { feedback } else { Feedback::none() });
     assert_eq!(controller.run(), Outcome::Ended);
     assert_eq!(heard.borrow().switched, []);
@@ -396,7 +396,7 @@ fn an_emergency_stop_cuts_the_power_at_speed_and_the_program_goes_on_from_its_pa
 }
 
 #[test]
-fn after_a_trouble_the_robot_is_switched_on_again_where_it_is() {
+fn after_a_fault_the_robot_is_switched_on_again_where_it_is() {
     let (mut controller, heard) =
         turning(|cycle, feedback| if (AT_SPEED..4000).contains(&cycle) { Feedback::none() } else { feedback });
     controller.run();
@@ -439,7 +439,7 @@ fn a_run_with_an_emergency_stop_ends() {
 }
 
 #[test]
-fn drives_that_fail_after_another_trouble_are_cut_off_too() {
+fn drives_that_fail_after_another_fault_are_cut_off_too() {
     let (mut controller, heard) = turning(|cycle, feedback| match cycle {
         0..AT_SPEED => feedback,
         _ if cycle < AT_SPEED + 60 => Feedback::none(),
@@ -655,7 +655,7 @@ fn what_was_never_sent_is_not_the_computers_fault() {
 }
 
 #[test]
-fn few_cycles_that_are_lost_are_no_trouble_and_a_cell_says_how_many() {
+fn few_cycles_that_are_lost_are_no_fault_and_a_cell_says_how_many() {
     let lost = |each, limit| {
         let cell = Cell { late: LateCycles { limit, ..LateCycles::default() }, ..Cell::default() };
         turning_with(|_, feedback| feedback, |builder| builder.clock(losing(each, 40)).cell(cell)).0

@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let arm = RsiArm::new(listen).in_its_own_time();
             controlled(cycles, |builder| {
                 let cell = arl_rt::Cell { rate: Rate::from_micros(4000), ..arl_rt::Cell::default() };
-                builder.cell(cell).clock(arm.beat()).robot_driver(arm)
+                builder.cell(cell).clock(arm.clock()).robot_driver(arm)
             })
         })?);
     }

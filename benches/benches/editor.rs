@@ -56,7 +56,7 @@ impl Server {
     }
 
     /// Milliseconds until the diagnostics of the last version are there.
-    fn told(&mut self, start: Instant) -> Result<f64, String> {
+    fn await_diagnostics(&mut self, start: Instant) -> Result<f64, String> {
         while self.peer.receive()?["params"]["version"] != self.version {}
         Ok(milliseconds(start))
     }
@@ -66,7 +66,7 @@ impl Server {
         let item = json!({"uri": URI, "languageId": "arl", "version": 1, "text": text});
         self.peer
             .send(&json!({"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": item}}))?;
-        self.told(Instant::now()).map(drop)
+        self.await_diagnostics(Instant::now()).map(drop)
     }
 
     /// A row of the table. What is typed goes to the middle of the text, a character more each time.
@@ -84,7 +84,7 @@ impl Server {
             });
             let start = Instant::now();
             self.peer.send(&json!({"jsonrpc": "2.0", "method": "textDocument/didChange", "params": params}))?;
-            times[0].push(self.told(start)?);
+            times[0].push(self.await_diagnostics(start)?);
             let at = json!({"textDocument": document, "position": place});
             times[1].push(self.ask("textDocument/completion", at.clone())?);
             times[2].push(self.ask("textDocument/hover", at)?);

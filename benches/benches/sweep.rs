@@ -45,8 +45,8 @@ fn main() -> Result<(), String> {
     for runs in [runs / 100, runs / 10, runs] {
         bench.measure(runs.max(2))?;
     }
-    let (plain, looking, known) = bench.other_ways((runs / 10).max(2))?;
-    println!("with collisions: {:.2} times as long", looking / plain);
+    let (plain, with_collisions, known) = bench.variants((runs / 10).max(2))?;
+    println!("with collisions: {:.2} times as long", with_collisions / plain);
     println!("known results: {:.3} ms a run, with the start of the command", known * 1e3);
     Ok(())
 }
@@ -89,12 +89,12 @@ impl Bench {
     }
 
     /// s of a sweep, of one that looks for collisions, and of a run that is known.
-    fn other_ways(&self, runs: usize) -> Result<(f64, f64, f64), String> {
+    fn variants(&self, runs: usize) -> Result<(f64, f64, f64), String> {
         let plain = self.sweep(runs, "cell = \"cell.toml\"", &["--no-cache"])?.0;
-        let looking = self.sweep(runs, "cell = \"cell.toml\"\ncollisions = true", &["--no-cache"])?.0;
+        let with_collisions = self.sweep(runs, "cell = \"cell.toml\"\ncollisions = true", &["--no-cache"])?.0;
         self.sweep(runs, "", &[])?;
         let known = self.sweep(runs, "", &[])?.0 / runs as f64;
-        Ok((plain, looking, known))
+        Ok((plain, with_collisions, known))
     }
 
     /// s on the clock of a sweep by the command, and s of the robot's time.

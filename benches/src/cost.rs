@@ -49,8 +49,8 @@ pub fn cost<S: AsRef<OsStr>>(command: &Path, words: &[S], cache: &Path, errors: 
     let mut measuring = Command::new(own);
     measuring.arg(MEASURE).arg(command).args(words).env("ARL2RS_CACHE", cache).stderr(errors);
     let output = measuring.output().map_err(|error| error.to_string())?;
-    let said = String::from_utf8_lossy(&output.stdout);
-    let mut numbers = said.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
+    let text = String::from_utf8_lossy(&output.stdout);
+    let mut numbers = text.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
     match (numbers.next(), numbers.next(), numbers.next()) {
         (Some(seconds), Some(megabytes), Some(code)) => Ok(Cost { seconds, megabytes, code: code as i32 }),
         _ => Err(format!("{} cannot be measured", command.display())),

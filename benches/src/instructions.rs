@@ -29,8 +29,8 @@ fn count(work: &[&str], rounds: usize) -> Result<u64, String> {
         .stdout(Stdio::null())
         .output()
         .map_err(|error| format!("valgrind: {error}"))?;
-    let said = String::from_utf8_lossy(&answer.stderr);
-    let counted = said.lines().filter_map(|line| line.split_once("Collected :")).next_back();
+    let report = String::from_utf8_lossy(&answer.stderr);
+    let counted = report.lines().filter_map(|line| line.split_once("Collected :")).next_back();
     let count = counted.and_then(|(_, count)| count.trim().parse().ok());
-    count.filter(|_| answer.status.success()).ok_or_else(|| format!("{work:?}: {said}"))
+    count.filter(|_| answer.status.success()).ok_or_else(|| format!("{work:?}: {report}"))
 }

@@ -293,15 +293,15 @@ enum State {
 pub fn machine(parts: i32) -> i32 {
     let mut seed: i32 = 1;
     let (mut weight, mut good, mut bad, mut held): (i32, i32, i32, i32) = (0, 0, 0, 0);
-    let mut left = parts;
+    let mut remaining = parts;
     let mut state = State::Next;
     loop {
         state = match state {
             State::Next => {
-                if left == 0 {
+                if remaining == 0 {
                     break;
                 }
-                left -= 1;
+                remaining -= 1;
                 seed = seed.wrapping_mul(1_103_515_245).wrapping_add(12_345);
                 weight = seed >> 16 & 0xff;
                 match weight {

@@ -117,8 +117,8 @@ fn check_group<'a>(
         all.push((&other.path, self::options(&other.checking(checking))?));
     }
     // For a single program nothing is reported twice.
-    let said = (all.len() + modules.len() > 1).then(HashSet::new);
-    let mut reporter = Reporter { say, said };
+    let reported = (all.len() + modules.len() > 1).then(HashSet::new);
+    let mut reporter = Reporter { say, reported };
     let mut refused = false;
     let mut found = Vec::new();
     let mut later = Vec::new();
@@ -179,7 +179,7 @@ fn as_module(file: &Path, options: &CheckOptions) -> Result<Compiled, Failure> {
 struct Reporter<'a> {
     say: &'a mut dyn FnMut(Compiled) -> Result<(), Failure>,
     /// What was reported, as JSON; `None` where nothing can come twice.
-    said: Option<HashSet<String>>,
+    reported: Option<HashSet<String>>,
 }
 
 impl Reporter<'_> {
@@ -187,8 +187,8 @@ impl Reporter<'_> {
     fn report(&mut self, mut compiled: Compiled) -> Result<bool, Failure> {
         let refused = compiled.checked.has_errors();
         let files = compiled.shown_files();
-        if let Some(said) = &mut self.said {
-            compiled.checked.diagnostics.retain(|diagnostic| said.insert(json(diagnostic, &files)));
+        if let Some(reported) = &mut self.reported {
+            compiled.checked.diagnostics.retain(|diagnostic| reported.insert(json(diagnostic, &files)));
         }
         drop(files);
         (self.say)(compiled)?;

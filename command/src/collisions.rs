@@ -101,9 +101,9 @@ fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result
         Some(listener) => listener.receive(&mut child),
         None => child.wait().map(|status| (status, Received::All)),
     };
-    let said = reader.join().ok().flatten().unwrap_or_default();
+    let printed = reader.join().ok().flatten().unwrap_or_default();
     let words = |line: &&str| !line.starts_with("warning") && !line.trim().is_empty();
-    let why = said.lines().find(words).unwrap_or("it printed no message").trim().to_owned();
+    let why = printed.lines().find(words).unwrap_or("it printed no message").trim().to_owned();
     let (status, received) = ended.map_err(fail)?;
     Ok(Ran { code: status.code().and_then(|code| u8::try_from(code).ok()).map(Exit), why, received })
 }

@@ -39,10 +39,10 @@ pub fn main() -> ExitCode {
 pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(words) {
         Ok(cli) => cli,
-        Err(said) => {
+        Err(error) => {
             // If the message cannot be printed, the exit code is enough.
-            let _ = said.print();
-            return u8::try_from(said.exit_code()).unwrap_or(Exit::USAGE.0);
+            let _ = error.print();
+            return u8::try_from(error.exit_code()).unwrap_or(Exit::USAGE.0);
         }
     };
     remember_panics();

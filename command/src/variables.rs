@@ -118,7 +118,7 @@ pub(crate) fn refuse_unknown<'p>(
     if !rows.clone().all(|row| unknown(row).is_some()) {
         return Ok(());
     }
-    rows.clone().find_map(unknown).map_or(Ok(()), |name| Err(Failure::Usage(told(name, &known))))
+    rows.clone().find_map(unknown).map_or(Ok(()), |name| Err(Failure::Usage(no_such_variable(name, &known))))
 }
 
 fn is_known(name: &str, known: &[(String, String)]) -> bool {
@@ -126,7 +126,7 @@ fn is_known(name: &str, known: &[(String, String)]) -> bool {
     known.iter().any(|(of, it)| it.eq_ignore_ascii_case(own) && file.is_none_or(|file| file.eq_ignore_ascii_case(of)))
 }
 
-fn told(name: &str, known: &[(String, String)]) -> String {
+fn no_such_variable(name: &str, known: &[(String, String)]) -> String {
     let names: Vec<&str> = known.iter().map(|(_, name)| name.as_str()).collect();
     let near = if names.is_empty() { "the program has none".to_owned() } else { hint_of_many(name, &names) };
     format!("there is no global variable `{name}`: {near}")

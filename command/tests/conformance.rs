@@ -55,7 +55,7 @@ fn every_folder_has_a_test() {
 fn every_case_was_looked_at() {
     let cases = count_cases(&workspace().join(CORPUS)) + count_cases(&workspace().join(EXAMPLE));
     assert!(cases > 500, "the corpus is there: {cases} cases");
-    assert_eq!(RUN.looked_at, Some(cases), "{}", RUN.said);
+    assert_eq!(RUN.looked_at, Some(cases), "{}", RUN.output_text);
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn all_cases_in_the_forms_of_large_programs() {
     // Not at the same time: some cases use ports of their own.
     let usual = LazyLock::force(&RUN);
     let all_forms = run(&["--all-forms"]);
-    assert_eq!(all_forms.looked_at, usual.looked_at, "{}", all_forms.said);
+    assert_eq!(all_forms.looked_at, usual.looked_at, "{}", all_forms.output_text);
     let failures: Vec<String> = all_forms.failures.iter().map(|(path, why)| format!("{path}\n{why}\n")).collect();
     assert!(failures.is_empty(), "{} of the cases failed\n{}", failures.len(), failures.join("\n"));
 }
@@ -77,9 +77,9 @@ fn programs_for_a_debugger_do_the_same() {
     LazyLock::force(&RUN);
     let folders = FOR_A_DEBUGGER.map(|folder| format!("{CORPUS}/{folder}"));
     let cases: usize = folders.iter().map(|folder| count_cases(&workspace().join(folder))).sum();
-    let said = run_folders(&folders.each_ref().map(String::as_str), &["--debug"]);
-    assert_eq!(said.looked_at, Some(cases), "{}", said.said);
-    let failures: Vec<String> = said.failures.iter().map(|(path, why)| format!("{path}\n{why}\n")).collect();
+    let run = run_folders(&folders.each_ref().map(String::as_str), &["--debug"]);
+    assert_eq!(run.looked_at, Some(cases), "{}", run.output_text);
+    let failures: Vec<String> = run.failures.iter().map(|(path, why)| format!("{path}\n{why}\n")).collect();
     assert!(failures.is_empty(), "{} of the cases failed\n{}", failures.len(), failures.join("\n"));
 }
 
@@ -90,7 +90,7 @@ struct Run {
     /// The cases that failed: their paths, and why.
     failures: Vec<(String, String)>,
     /// All that it said.
-    said: String,
+    output_text: String,
 }
 
 static RUN: LazyLock<Run> = LazyLock::new(|| run(&[]));
@@ -112,7 +112,7 @@ fn run_folders(folders: &[&str], options: &[&str]) -> Run {
         .output()
         .expect("the command starts");
     let out = String::from_utf8_lossy(&output.stdout);
-    let said = format!("{out}{}", String::from_utf8_lossy(&output.stderr));
+    let output_text = format!("{out}{}", String::from_utf8_lossy(&output.stderr));
     // All that is said of a case stands indented below its line.
     let failures = format!("\n{out}");
     let failures = failures.split("\nFAILED ").skip(1).filter_map(|failure| failure.split_once('\n'));
@@ -120,7 +120,7 @@ fn run_folders(folders: &[&str], options: &[&str]) -> Run {
     let looked_at = looked_at(out.lines().last().unwrap_or_default(), failures.len());
     // The exit code agrees with what is told.
     let looked_at = looked_at.filter(|_| output.status.success() == failures.is_empty());
-    Run { looked_at, failures, said }
+    Run { looked_at, failures, output_text }
 }
 
 /// How many cases there were, from the last line: `N passed, N failed`.
@@ -133,7 +133,7 @@ fn looked_at(summary: &str, failures: usize) -> Option<usize> {
 /// Fails where a case of a folder did.
 #[track_caller]
 fn assert_passed(folder: &str) {
-    assert!(RUN.looked_at.is_some(), "the command came to no end:\n{}", RUN.said);
+    assert!(RUN.looked_at.is_some(), "the command came to no end:\n{}", RUN.output_text);
     let failures = RUN.failures.iter().filter(|(path, _)| Path::new(path).starts_with(folder));
     let failures: Vec<String> = failures.map(|(path, why)| format!("{path}\n{why}\n")).collect();
     assert!(failures.is_empty(), "{} of the cases failed\n{}", failures.len(), failures.join("\n"));

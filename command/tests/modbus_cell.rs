@@ -14,7 +14,7 @@ fn the_press_is_loaded_over_modbus() {
         .env("ARL2RS_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         .output()
         .expect("the command starts");
-    let (out, said) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    assert_eq!(out, "part 1: 6.75 mm\npart 2: 5.5 mm\npart 3: 4.25 mm\n", "{said}");
-    assert!(output.status.success(), "{said}");
+    let (out, stderr) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(out, "part 1: 6.75 mm\npart 2: 5.5 mm\npart 3: 4.25 mm\n", "{stderr}");
+    assert!(output.status.success(), "{stderr}");
 }

@@ -152,9 +152,9 @@ fn every_example_does_what_stands_below_it() {
         .env("NO_COLOR", "1")
         .output()
         .unwrap();
-    let said = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
-    assert!(said.contains(&format!("{count} passed, 0 failed")), "{said}");
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{printed}");
+    assert!(printed.contains(&format!("{count} passed, 0 failed")), "{printed}");
 }
 
 /// Writes an example as a case of `arl2rs test`.
@@ -197,8 +197,8 @@ fn write_case(folder: &Path, example: &Example) {
         write("main.err", &(lines.join("\n") + "\n"));
     } else if is("alarm") {
         let (out, alarm) = prints.trim_end().rsplit_once('\n').unwrap_or(("", prints.trim_end()));
-        let told = alarm.strip_prefix("alarm ").and_then(|alarm| alarm.strip_suffix(')')?.split_once(" (main.arl:"));
-        let (number, line) = told.expect("the last line is `alarm NUMBER (main.arl:LINE)`");
+        let parts = alarm.strip_prefix("alarm ").and_then(|alarm| alarm.strip_suffix(')')?.split_once(" (main.arl:"));
+        let (number, line) = parts.expect("the last line is `alarm NUMBER (main.arl:LINE)`");
         let output = if out.is_empty() { String::new() } else { format!("{out}\n") };
         write("main.out", &output);
         write("main.alarm", &format!("{number} {line}\n"));
@@ -234,8 +234,8 @@ fn examples_of_what_is_built_in_run() {
         .env("NO_COLOR", "1")
         .output()
         .unwrap();
-    let said = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && said.contains(&format!("{count} passed, 0 failed")), "{said}");
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && printed.contains(&format!("{count} passed, 0 failed")), "{printed}");
     let mut alarms = Vec::new();
     for folder in std::fs::read_dir(&root).unwrap() {
         let folder = folder.unwrap().path();

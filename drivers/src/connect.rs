@@ -24,8 +24,8 @@ pub fn connect(settings: &DriverSettings) -> Result<Driven, DriverError> {
                 None => RsiArm::new(listen),
             };
             let arm = if waits { arm.in_its_own_time() } else { arm };
-            let beat = arm.beat();
-            Ok(Driven { driver: Box::new(arm), time: DrivenTime::Beat(Box::new(beat)) })
+            let clock = arm.clock();
+            Ok(Driven { driver: Box::new(arm), time: DrivenTime::Clock(Box::new(clock)) })
         }
         other => Err(format!("this program has no driver for {other:?}").into()),
     }

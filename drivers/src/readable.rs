@@ -10,9 +10,9 @@ pub(crate) fn wait_until(socket: &UdpSocket, until: Instant) -> bool {
     use rustix::event::{PollFd, PollFlags, Timespec, poll};
     use rustix::io::Errno;
     loop {
-        let left = until.saturating_duration_since(Instant::now());
-        let Ok(left) = Timespec::try_from(left) else { return false };
-        match poll(&mut [PollFd::new(socket, PollFlags::IN)], Some(&left)) {
+        let remaining = until.saturating_duration_since(Instant::now());
+        let Ok(remaining) = Timespec::try_from(remaining) else { return false };
+        match poll(&mut [PollFd::new(socket, PollFlags::IN)], Some(&remaining)) {
             Ok(count) => return count > 0,
             Err(Errno::INTR) => {}
             Err(_) => return false,
@@ -23,8 +23,8 @@ pub(crate) fn wait_until(socket: &UdpSocket, until: Instant) -> bool {
 /// Like the version above, with the timeout of sockets.
 #[cfg(not(unix))]
 pub(crate) fn wait_until(socket: &UdpSocket, until: Instant) -> bool {
-    let left = until.saturating_duration_since(Instant::now());
-    let limit = left.max(std::time::Duration::from_micros(1));
+    let remaining = until.saturating_duration_since(Instant::now());
+    let limit = remaining.max(std::time::Duration::from_micros(1));
     let is_there = socket.set_nonblocking(false).is_ok()
         && socket.set_read_timeout(Some(limit)).is_ok()
         // A packet larger than the buffer is an error there, but it has arrived.

@@ -96,9 +96,9 @@ fn a_cell_file_drives_a_robot() {
     assert_eq!(controller.run(), Outcome::Ended);
     assert!((controller.joints().axes[0] - 10.0).abs() < 1e-6);
     // The cell does not say which robot: the user hears which one it is.
-    let told = controller.take_warnings();
-    let is_told = told.iter().filter(|it| it.contains("is used, as it was the first to send to")).count();
-    assert!(is_told == 1 && told.iter().any(|it| it.contains("`address = \"127.0.0.1\"`")), "{told:?}");
+    let warnings = controller.take_warnings();
+    let count = warnings.iter().filter(|it| it.contains("is used, as it was the first to send to")).count();
+    assert!(count == 1 && warnings.iter().any(|it| it.contains("`address = \"127.0.0.1\"`")), "{warnings:?}");
     drop(controller);
     let got = robot.join().unwrap();
     assert_eq!((got[0].correction, got[0].stop), (0.0, false));
@@ -159,12 +159,12 @@ fn only_the_robot_that_is_named_is_followed() {
     let mut controller = Controller::builder().cell(cell).drivers(arl_drivers::connect).build(program()).unwrap();
     assert_eq!(controller.joints().axes[0], 20.0);
     assert_eq!(controller.run(), Outcome::Ended);
-    let told = controller.take_warnings();
+    let warnings = controller.take_warnings();
     assert!(
-        told.iter().any(|it| it.starts_with(&format!("{from} sends to {listen}, too, and is ignored"))),
-        "{told:?}"
+        warnings.iter().any(|it| it.starts_with(&format!("{from} sends to {listen}, too, and is ignored"))),
+        "{warnings:?}"
     );
-    assert!(!told.iter().any(|it| it.contains("is used, as it")), "{told:?}");
+    assert!(!warnings.iter().any(|it| it.contains("is used, as it")), "{warnings:?}");
     drop(controller);
     assert!(robot.join().unwrap().last().unwrap().stop);
     is_over.store(true, std::sync::atomic::Ordering::Relaxed);
@@ -177,12 +177,12 @@ fn nobody_takes_over_where_the_robot_falls_silent() {
     let (listen, to) = free_everywhere();
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
     let mut driver = RsiArm::new(&listen);
-    let mut beat = driver.beat();
+    let mut clock = driver.clock();
     let ipoc = begun(&mut driver, &to, &socket);
-    let told = driver.take_warning().unwrap();
-    assert!(told.contains("is used, as it was the first") && driver.take_warning().is_none(), "{told}");
+    let warning = driver.take_warning().unwrap();
+    assert!(warning.contains("is used, as it was the first") && driver.take_warning().is_none(), "{warning}");
     let mut cycle = || {
-        arl_rt::clock::Clock::wait_for(&mut beat, 0, 0.004);
+        arl_rt::clock::Clock::wait_for(&mut clock, 0, 0.004);
         driver.exchange(&Setpoint::resting(joints(20.0), 0.004))
     };
     assert_eq!(cycle().position, Some(joints(20.0)));
@@ -215,16 +215,16 @@ fn a_robot_outside_of_its_ranges_is_not_moved() {
 }
 
 #[test]
-fn messages_that_were_never_sent_are_told_apart_from_those_that_waited() {
+fn messages_that_were_never_sent_are_distinguished_from_those_that_waited() {
     let listen = free();
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
     let mut driver = RsiArm::new(&listen);
-    let mut beat = driver.beat();
+    let mut clock = driver.clock();
     let ipoc = begun(&mut driver, &listen, &socket);
     let mut cycle = |driver: &mut RsiArm| {
-        arl_rt::clock::Clock::wait_for(&mut beat, 0, 0.004);
+        arl_rt::clock::Clock::wait_for(&mut clock, 0, 0.004);
         driver.exchange(&Setpoint::resting(joints(20.0), 0.004));
-        let lateness = arl_rt::clock::Clock::lateness(&beat).unwrap();
+        let lateness = arl_rt::clock::Clock::lateness(&clock).unwrap();
         (lateness.lost(), lateness.missing())
     };
     let send = |at: u64| socket.send_to(message(ipoc + 4 * at, 20.0, 1).as_bytes(), &listen).unwrap();
@@ -284,9 +284,9 @@ fn only_new_messages_are_answered_and_count() {
     let listen = free();
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
     let mut driver = RsiArm::new(&listen).in_its_own_time();
-    let mut beat = driver.beat();
+    let mut clock = driver.clock();
     let mut cycle = |driver: &mut RsiArm, target: f64| {
-        arl_rt::clock::Clock::wait_for(&mut beat, 0, 0.004);
+        arl_rt::clock::Clock::wait_for(&mut clock, 0, 0.004);
         driver.exchange(&Setpoint::resting(joints(target), 0.004))
     };
     let base = begun(&mut driver, &listen, &socket) - 400;

@@ -113,7 +113,7 @@ fn a_cell_file_drives_an_arm() {
 }
 
 #[test]
-fn without_being_told_to_nothing_is_driven() {
+fn without_being_commanded_to_nothing_is_driven() {
     let text = "[driver]\nprotocol = \"udp\"\naddress = \"127.0.0.1:9\"\n";
     let cell = Cell::parse("cell.toml", text).unwrap();
     let mut controller = Controller::builder().cell(cell).build(program()).unwrap();

@@ -206,12 +206,12 @@ impl Session {
 
     /// Calls a function that can refuse; returns the text that it gave.
     fn tried(&self, act: impl FnOnce(*mut Served, *mut c_void) -> i32) -> Result<String, LoadError> {
-        let mut said = Vec::new();
-        match act(self.run.as_ptr(), context(&mut said)) {
-            0 => Ok(text(said)),
+        let mut answer = Vec::new();
+        match act(self.run.as_ptr(), context(&mut answer)) {
+            0 => Ok(text(answer)),
             BROKEN => Err(LoadError::Broken),
             WRONG_THREAD => Err(LoadError::WrongThread),
-            _ => Err(LoadError::Refused(text(said))),
+            _ => Err(LoadError::Refused(text(answer))),
         }
     }
 

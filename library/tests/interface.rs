@@ -71,7 +71,7 @@ fn begun(arguments: &[&str]) -> Session {
 }
 
 #[test]
-fn a_run_goes_on_as_far_as_it_is_told_and_hears_orders() {
+fn a_run_goes_on_as_far_as_it_is_asked_to_and_takes_orders() {
     let mut run = begun(&[]);
     assert_eq!(run.go_on(100, false), Ok(None));
     assert_eq!(run.time(), 0.1);
@@ -79,8 +79,8 @@ fn a_run_goes_on_as_far_as_it_is_told_and_hears_orders() {
     run.order("di.1 = true").unwrap();
     run.order("ai.1 = 4.0").unwrap();
     assert_eq!(run.go_on(u64::MAX, false), Ok(Some(0)));
-    let said = run.take_said();
-    assert!(said.starts_with("{\"message\":") && said.contains("\"text\":\"3\""), "{said}");
+    let output = run.take_said();
+    assert!(output.starts_with("{\"message\":") && output.contains("\"text\":\"3\""), "{output}");
     assert_eq!(run.take_said(), "");
     // It is over, and stays so.
     assert_eq!(run.go_on(1, false), Ok(Some(0)));
@@ -88,7 +88,7 @@ fn a_run_goes_on_as_far_as_it_is_told_and_hears_orders() {
 }
 
 #[test]
-fn what_came_of_a_run_is_told_with_what_its_motions_did() {
+fn what_came_of_a_run_is_reported_with_what_its_motions_did() {
     let mut run = begun(&["--report"]);
     assert!(run.summary().starts_with("{\"outcome\":\"runs\",\"code\":null,\"cycle_time\":0.0"), "{}", run.summary());
     run.order("di.1 = true").unwrap();
@@ -254,8 +254,8 @@ fn alarms_have_their_exit_code_and_their_line() {
     let mut run = begun(&[]);
     run.order("di.1 = true").unwrap();
     assert_eq!(run.go_on(u64::MAX, true), Ok(Some(3)));
-    let said = run.take_said();
-    assert!(said.contains("{\"alarm\":{\"number\":20001,") && said.contains("\"line\":5}"), "{said}");
+    let output = run.take_said();
+    assert!(output.contains("{\"alarm\":{\"number\":20001,") && output.contains("\"line\":5}"), "{output}");
 }
 
 #[test]
@@ -268,7 +268,7 @@ fn what_waits_in_vain_ends_where_nobody_else_is_there() {
 }
 
 #[test]
-fn it_ends_when_its_time_is_over_or_it_is_told_to_stop() {
+fn it_ends_when_its_time_is_over_or_it_is_stopped() {
     let mut run = begun(&["--max-time", "0.5"]);
     assert_eq!(run.go_on(u64::MAX, false), Ok(Some(4)));
     assert!((run.time() - 0.5).abs() < 0.01, "{}", run.time());
@@ -296,7 +296,7 @@ fn who_listens_hears_a_run_to_its_end() {
 }
 
 #[test]
-fn what_is_wrong_is_said() {
+fn what_is_wrong_is_reported() {
     let refused = |arguments: &[&str]| match library().begin(arguments, false) {
         Err(LoadError::Refused(why)) => why,
         other => panic!("{arguments:?}: {other:?}"),
@@ -330,7 +330,7 @@ fn a_panic_breaks_its_run_alone() {
 }
 
 #[test]
-fn another_version_is_told() {
+fn another_version_is_reported() {
     // SAFETY: it is what the function gave, and a static.
     let ours = unsafe { *arl_interface() };
     let theirs: &'static Interface = Box::leak(Box::new(Interface { version: INTERFACE + 1, ..ours }));
@@ -340,7 +340,7 @@ fn another_version_is_told() {
 }
 
 #[test]
-fn what_is_no_library_is_told() {
+fn what_is_no_library_is_reported() {
     let open = |path: &str| {
         // SAFETY: there is no such file, or no library.
         unsafe { Library::open(path.as_ref()) }.unwrap_err()

@@ -119,23 +119,23 @@ impl Slot<'_> {
 /// # Errors
 /// Something that the file names does not exist: the error names it and the line.
 fn fill<'a>(file: &ArlToml, tells: bool, entries: impl IntoIterator<Item = Entry<'a>>) -> Result<(), Failure> {
-    let mut said = String::new();
+    let mut origins = String::new();
     for (name, slot) in entries {
         if let Some(problem) = slot.problem() {
             let line = file.lines.iter().find(|(key, _)| key == name).map_or(1, |(_, line)| *line);
             return Err(Failure::Usage(format!("{}:{line}: {name}: {problem}", show::path(&file.path).display())));
         }
-        let (was_said, value) = match slot {
+        let (was_given, value) = match slot {
             Slot::Robot(own, other) => (own.is_some(), take(own, other).map(PathBuf::from)),
             Slot::Path(own, other) => (own.is_some(), take(own, other)),
         };
         if let Some(value) = value {
-            let from = if was_said { "the command line".into() } else { show::path(&file.path).display().to_string() };
-            said += &format!("{name}: {} ({from})\n", show::path(&value).display());
+            let from = if was_given { "the command line".into() } else { show::path(&file.path).display().to_string() };
+            origins += &format!("{name}: {} ({from})\n", show::path(&value).display());
         }
     }
     if tells {
-        show::say(&said);
+        show::say(&origins);
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 /// Something that is missing in the environment of the compiler.
 #[derive(Debug)]
-struct Trouble {
+struct KnownProblem {
     /// Messages of cargo, rustup or rustc, any of which indicates the problem.
     signs: &'static [&'static str],
     /// The problem.
@@ -12,24 +12,24 @@ struct Trouble {
 }
 
 /// The known problems; the first one that matches is reported.
-const KNOWN: [Trouble; 6] = [
-    Trouble {
+const KNOWN: [KnownProblem; 6] = [
+    KnownProblem {
         signs: &["No space left on device", "os error 28", "os error 112"],
         is: "the disk is full",
         help: "free some space; `arl2rs clean` removes what was compiled",
     },
-    Trouble {
+    KnownProblem {
         signs: &["linker `", "error: linking with"],
         is: "compiling needs a linker, which is missing or does not work",
         help: "install one: `apt install gcc` or `dnf install gcc` on Linux, `xcode-select --install` on macOS, Build Tools for \
                Visual Studio on Windows",
     },
-    Trouble {
+    KnownProblem {
         signs: &["requires rustc", "is not supported by the following package", "feature `edition"],
         is: "the installed Rust is too old",
         help: concat!("arl2rs needs Rust ", env!("CARGO_PKG_RUST_VERSION"), " or newer: `rustup update`"),
     },
-    Trouble {
+    KnownProblem {
         signs: &[
             "rustup could not choose",
             "no default toolchain",
@@ -39,7 +39,7 @@ const KNOWN: [Trouble; 6] = [
         is: "Rust is not installed completely",
         help: "`rustup default stable` installs what is missing; see https://www.rust-lang.org/tools/install",
     },
-    Trouble {
+    KnownProblem {
         signs: &[
             "Could not resolve host",
             "Couldn't resolve host",
@@ -56,7 +56,7 @@ const KNOWN: [Trouble; 6] = [
         is: "a package that the runtime needs is missing, and cargo cannot download it",
         help: "the first program needs the network once, for packages from https://crates.io; behind a proxy, set HTTPS_PROXY",
     },
-    Trouble {
+    KnownProblem {
         signs: &["Permission denied", "Read-only file system", "os error 13", "os error 30"],
         is: "a file or folder cannot be written",
         help: "set ARL2RS_CACHE to a folder that can be written",
@@ -64,10 +64,10 @@ const KNOWN: [Trouble; 6] = [
 ];
 
 /// The problem and its remedy, followed by the output of cargo; `None` for any other problem.
-pub(crate) fn of(said: &str) -> Option<String> {
-    let fits = |trouble: &&Trouble| trouble.signs.iter().any(|sign| said.contains(sign));
-    let Trouble { is, help, .. } = KNOWN.iter().find(fits)?;
-    Some(format!("{is}\n{}\nhelp: {help}", said.trim_end()))
+pub(crate) fn of(output: &str) -> Option<String> {
+    let fits = |problem: &&KnownProblem| problem.signs.iter().any(|sign| output.contains(sign));
+    let KnownProblem { is, help, .. } = KNOWN.iter().find(fits)?;
+    Some(format!("{is}\n{}\nhelp: {help}", output.trim_end()))
 }
 
 #[cfg(test)]
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn what_cargo_says() {
-        for (said, expected) in [
+        for (output, expected) in [
             ("error: failed to get `nalgebra` as a dependency of package `arl-robot`", "needs the network once"),
             (
                 "warning: spurious network error (3 tries remaining): [6] Could not resolve hostname",
@@ -90,8 +90,8 @@ mod tests {
             ("error: rustup could not choose a version of cargo to run", "rustup default stable"),
             ("error: could not write output: No space left on device (os error 28)", "arl2rs clean"),
         ] {
-            let told = of(said).unwrap_or_default();
-            assert!(told.contains(expected) && told.contains(said), "{said}: {told}");
+            let explanation = of(output).unwrap_or_default();
+            assert!(explanation.contains(expected) && explanation.contains(output), "{output}: {explanation}");
         }
         assert_eq!(of("error[E0308]: mismatched types"), None);
     }

@@ -172,8 +172,8 @@ fn refused(built: &Built, complaints: &str) -> Result<(), Failure> {
     let around: BTreeSet<&str> =
         built.errors.iter().filter(|error| error.file.is_none()).map(|error| error.rendered.as_str()).collect();
     let around = if around.is_empty() { complaints.to_owned() } else { around.into_iter().collect() };
-    if let Some(trouble) = build_failure::of(&anstream::adapter::strip_str(&around).to_string()) {
-        return Err(Failure::Other(trouble));
+    if let Some(explanation) = build_failure::of(&anstream::adapter::strip_str(&around).to_string()) {
+        return Err(Failure::Other(explanation));
     }
     if built.errors.is_empty() {
         return Err(Failure::Other(format!("cargo could not compile the program:\n{complaints}")));

@@ -82,7 +82,7 @@ pub struct Done {
     /// The emitted Rust.
     pub rust: Emitted,
     /// The messages, rendered.
-    said: String,
+    messages: String,
 }
 
 impl<'a> Job<'a> {
@@ -141,9 +141,9 @@ impl<'a> Job<'a> {
             programs.push(emit(&other.path, options)?);
         }
         let mut limit = listing::Limit::default();
-        let said: String = programs.iter().map(|compiled| listing::rendered(compiled, &mut limit)).collect();
+        let messages: String = programs.iter().map(|compiled| listing::rendered(compiled, &mut limit)).collect();
         if !self.is_checked || programs.iter().any(|compiled| compiled.rust.is_none()) {
-            show::say(&said);
+            show::say(&messages);
         }
         let rust: Option<Vec<String>> = programs.iter_mut().map(|compiled| compiled.rust.take()).collect();
         let mut rust = rust.ok_or(Failure::Shown)?.into_iter();
@@ -153,7 +153,7 @@ impl<'a> Job<'a> {
             Ok(EmittedOther { file: other.file.clone(), folder: other.folder(&main)?, rust })
         };
         let others = self.others.iter().zip(rust).map(beside).collect::<Result<_, Failure>>()?;
-        Ok(Done { programs, rust: Emitted { first, others, kind: self.kind }, said })
+        Ok(Done { programs, rust: Emitted { first, others, kind: self.kind }, messages })
     }
 
     /// A number that changes with everything except the sources: this command, the runtime, the options, the channels.
@@ -220,9 +220,9 @@ fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
         Some(stamp) => (stamp.kept.name, stamp.kept.program),
         None => build(&cache, &place, runtime, &done, &job.main()?)?,
     };
-    write_if_changed(&place.said(), done.said.as_bytes())?;
+    write_if_changed(&place.messages(), done.messages.as_bytes())?;
     let path = place.folder.join(&name);
-    let kept = Kept { name, program, said: Content::of(done.said.as_bytes()) };
+    let kept = Kept { name, program, messages: Content::of(done.messages.as_bytes()) };
     let stamp = Stamp::of(&done.programs, &read, identity, kept);
     if let Some(stamp) = &stamp {
         write_if_changed(&place.stamp(), stamp.text().as_bytes())?;
@@ -244,7 +244,7 @@ fn state(place: &Place, identity: u64) -> (Freshness, Option<Stamp>) {
 }
 
 fn is_whole(place: &Place, kept: &Kept) -> bool {
-    kept.program.is_in(&place.folder.join(&kept.name)) && kept.said.is_in(&place.said())
+    kept.program.is_in(&place.folder.join(&kept.name)) && kept.messages.is_in(&place.messages())
 }
 
 /// The file of a program that has changed since it was written.
@@ -252,14 +252,14 @@ fn damaged(place: &Place) -> Option<PathBuf> {
     let Some(Stamp { kept, .. }) = Stamp::read(&place.stamp()) else {
         return Stamp::is_damaged(&place.stamp()).then(|| place.stamp());
     };
-    let files = [(place.folder.join(&kept.name), kept.program), (place.said(), kept.said)];
+    let files = [(place.folder.join(&kept.name), kept.program), (place.messages(), kept.messages)];
     files.into_iter().find_map(|(path, content)| (path.exists() && !content.is_in(&path)).then_some(path))
 }
 
 /// Shows the warnings again unless the program is checked, and leaves everything else as it is.
 fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Result<Ready, Failure> {
     if !is_checked {
-        show::say(&std::fs::read_to_string(place.said()).unwrap_or_default());
+        show::say(&std::fs::read_to_string(place.messages()).unwrap_or_default());
     }
     let (program, sources) = (place.folder.join(&stamp.kept.name), sources(stamp));
     renew(&program, &sources);

@@ -21,7 +21,7 @@ pub struct Kept {
     /// The content of the program's file.
     pub program: Content,
     /// The content of the file with the warnings.
-    pub said: Content,
+    pub messages: Content,
 }
 
 /// Everything that a compiled program depends on.
@@ -112,8 +112,8 @@ impl Stamp {
             return None;
         }
         let identity = u64::from_str_radix(lines.next()?, 16).ok()?;
-        let (name, program, said) = (lines.next()?.into(), lines.next()?, lines.next()?);
-        let kept = Kept { name, program: Content::parse(program)?, said: Content::parse(said)? };
+        let (name, program, messages) = (lines.next()?.into(), lines.next()?, lines.next()?);
+        let kept = Kept { name, program: Content::parse(program)?, messages: Content::parse(messages)? };
         let mut stamp = Self { identity, kept, files: Vec::new(), missing: Vec::new() };
         for line in lines {
             let mut words = line.splitn(4, ' ');
@@ -137,8 +137,8 @@ impl Stamp {
 
     /// The text of a stamp file.
     pub fn text(&self) -> String {
-        let Kept { name, program, said } = &self.kept;
-        let mut text = format!("{VERSION}\n{:x}\n{name}\n{}\n{}\n", self.identity, program.text(), said.text());
+        let Kept { name, program, messages } = &self.kept;
+        let mut text = format!("{VERSION}\n{:x}\n{name}\n{}\n{}\n", self.identity, program.text(), messages.text());
         for file in &self.files {
             let shape = file.shape.map_or_else(|| "-".to_string(), |shape| format!("{shape:x}"));
             // Writing to a string cannot fail.
@@ -247,7 +247,7 @@ mod tests {
         let file = |path, text: &str, shape| Stamped { path, content: hash(text.as_bytes()), shape };
         Stamp {
             identity: 7,
-            kept: Kept { name: "pick-1".into(), program: Content::of(b"ELF"), said: Content::of(b"") },
+            kept: Kept { name: "pick-1".into(), program: Content::of(b"ELF"), messages: Content::of(b"") },
             files: vec![file(main, "main", None), file(data, "int a = 1\n", Some(shape))],
             missing: vec![folder.0.join("other.arl")],
         }

@@ -104,7 +104,7 @@ class SessionError(ArlError, RuntimeError):
     """A session is closed, is on another thread, or has crashed."""
 
 
-class _Told:
+class _PackageErrors:
     """Converts the exceptions of the Rust side into those of the package."""
 
     def __enter__(self) -> None:
@@ -124,7 +124,7 @@ class _Told:
                 raise ArlError(problem.args[0]) from None
 
 
-told = _Told()
+package_errors = _PackageErrors()
 """Within this block exceptions are those of the package. All share one: a step of a session takes microseconds."""
 
 

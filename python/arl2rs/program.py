@@ -16,11 +16,11 @@ from . import _arl2rs
 from .choices import Mode
 from .keywords import CompileArguments, RecordArguments, RunArguments, SweepArguments, named
 from .notice import notice
-from .problems import ArlError, CompileError, Diagnostic, RefusedError, StrPath, there, told
+from .problems import ArlError, CompileError, Diagnostic, RefusedError, StrPath, package_errors, there
 from .result import Result
 from .session import Beginning, Session
 from .values import Parameters, as_json, gathered
-from .variables import Signal, Variable, Watch, of_told
+from .variables import Signal, Variable, Watch, variables_by_name
 
 if TYPE_CHECKING:
     from .sweeps import Results, Rows
@@ -64,7 +64,7 @@ def given(
 
 
 def _text(source: str, beside: Mapping[str, str] | None) -> _arl2rs.Text:
-    with told:
+    with package_errors:
         return _arl2rs.Text([(NAME, source), *(beside or {}).items()])
 
 
@@ -97,7 +97,7 @@ def check(
     text = None if source is None else _text(source, beside)
     paths = [there(file, "a program") for file in files] if text is None else [text.path]
     settings = given(paths[0], robot=robot, cell=cell, script_dir=script_dir)
-    with told:
+    with package_errors:
         found = _arl2rs.check(paths, settings, strict, background)
     return [_shown(Diagnostic.of_json(line), text) for line in found]
 
@@ -200,7 +200,7 @@ class Program:
         }
         self._given = given(self.path, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
         with (
-            told,
+            package_errors,
             notice(
                 f"compiling {self.path.name}: this takes a minute or two the first time, and seconds after a change"
             ),
@@ -232,8 +232,8 @@ class Program:
     def variables(self) -> Mapping[str, Variable]:
         """The global variables, including points, in the order of their files and declarations. If several files have a
         variable of the same name, each name is preceded by its file: `grip::held`."""
-        with told:
-            return of_told([json.loads(text) for text in _arl2rs.variables(self._given)])
+        with package_errors:
+            return variables_by_name([json.loads(text) for text in _arl2rs.variables(self._given)])
 
     @property
     def points(self) -> Mapping[str, Variable]:
@@ -243,7 +243,7 @@ class Program:
     @cached_property
     def signals(self) -> tuple[Signal, ...]:
         """The signals of the cell: inputs and outputs, each with its name in the cell."""
-        with told:
+        with package_errors:
             return tuple(Signal(signal, name) for signal, name in _arl2rs.signals(self._given))
 
     @cached_property
@@ -382,5 +382,5 @@ class Program:
                 raise RefusedError(
                     f"{argument}.{places[0].removeprefix(what)}: this is a value of `{argument}`, which is not given: give it in compile() or here"
                 )
-        with told:
+        with package_errors:
             return [word for pair in words.items() for word in pair] + _arl2rs.words(as_json(parameters))

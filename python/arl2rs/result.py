@@ -124,16 +124,16 @@ def ended_by(figures: Mapping[str, Any]) -> Alarm | None:
 
 
 def of_summary(
-    summary: str, said: str, report: str = "", rows: NDArray[np.float64] | None = None, columns: tuple[str, ...] = ()
+    summary: str, output: str, report: str = "", rows: NDArray[np.float64] | None = None, columns: tuple[str, ...] = ()
 ) -> Result:
     """Makes the result from what the Rust side reports; `rows` are those of the trace."""
     figures = json.loads(summary)
     figures.pop("real_time", None)
     alarms, ending = alarms_of(figures), ended_by(figures)
     del figures["alarms"], figures["ended_by"]
-    lines = [json.loads(line) for line in said.split("\n") if line]
-    told = [json.loads(line) for line in report.split("\n") if line]
-    motions = tuple(row for row in told if "motion" in row)
+    lines = [json.loads(line) for line in output.split("\n") if line]
+    reports = [json.loads(line) for line in report.split("\n") if line]
+    motions = tuple(row for row in reports if "motion" in row)
     # The trace is that of the first robot.
     files = {row["motion"]: row["file"] for row in motions if row["channel"] == 1 and "file" in row}
     return Result(
@@ -143,6 +143,6 @@ def of_summary(
         messages=tuple(Message(**line["message"]) for line in lines if "message" in line),
         warnings=tuple(line["warning"] for line in lines if "warning" in line),
         report=motions,
-        totals=tuple(row for row in told if "motion" not in row),
+        totals=tuple(row for row in reports if "motion" not in row),
         trace=None if rows is None else Trace(rows, columns, files),
     )

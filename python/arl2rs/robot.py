@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arl2rs
 from .choices import Family
 from .keywords import FrameArguments, named
-from .problems import RefusedError, StrPath, told
+from .problems import RefusedError, StrPath, package_errors
 from .values import FrameLike
 
 __all__ = ["Axis", "Robot", "robots"]
@@ -56,7 +56,7 @@ class Robot:
     """
 
     def __init__(self, name: StrPath) -> None:
-        with told:
+        with package_errors:
             self._robot = _arl2rs.Robot(os.fspath(name))
         self.name = self._robot.name
         self.family: Family = self._robot.family
@@ -83,7 +83,7 @@ class Robot:
     ) -> Array:
         """Returns the pose of the TCP for axes, even beyond their ranges. Rows of axes give rows of poses."""
         rows, one = _rows(joints, self._own, "joints")
-        with told:
+        with package_errors:
             poses, _ = self._robot.forward(rows, _frames(**frames))
         found = np.frombuffer(poses).reshape(-1, 6).copy()
         return found[0] if one else found
@@ -91,7 +91,7 @@ class Robot:
     def configuration(self, joints: ArrayLike) -> NDArray[np.int64]:
         """Returns the `cfg` of axes, as in poses of a program: an array for rows of axes, else one number."""
         rows, one = _rows(joints, self._own, "joints")
-        with told:
+        with package_errors:
             _, cfgs = self._robot.forward(rows, _frames())
         found = np.array(list(cfgs), dtype=np.int64)
         return found[0] if one else found
@@ -181,7 +181,7 @@ class Robot:
             raise RefusedError(
                 f"{self.name} has no configuration {cfg}: expected one of {', '.join(map(str, self.configurations))}"
             )
-        with told:
+        with package_errors:
             found, reasons = self._robot.inverse(rows, starts, how, frames)
         return np.frombuffer(found).reshape(-1, self._own).copy(), reasons
 

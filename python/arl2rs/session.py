@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arl2rs
-from .problems import AlarmError, RefusedError, SessionError, told
+from .problems import AlarmError, RefusedError, SessionError, package_errors
 from .result import Alarm, Result, alarms_of, ended_by, of_summary
 from .values import plain
 from .variables import Watch, find
@@ -89,7 +89,7 @@ class Session:
         """The names of what else is observed."""
         self._names = {name: at for at, name in reversed(list(enumerate((*self.columns, *self.watched))))}
         self._numbers = np.full(len(self.columns) + len(self.watched), np.nan)
-        with told:
+        with package_errors:
             self._run = self._program._library.begin([*beginning.words, "--report"], beginning.traced)
             if self.watched:
                 self._run.watch(list(beginning.watch.places))
@@ -101,7 +101,7 @@ class Session:
         self.code: int | None = None
         """The exit code, once the run is over: 0 ended, 3 alarm, 4 out of time, 130 stopped."""
         self._closed = False
-        self._said = ""
+        self._output = ""
         self._rows: list[NDArray[np.float64]] = []
         self._done: list[Done] = []
         self._known: dict[Done, Done] = {}
@@ -130,7 +130,7 @@ class Session:
 
     def observe(self) -> NDArray[np.float64]:
         """Returns what is observed now, as a new array: `columns` of the trace, then what is `watched`."""
-        with told:
+        with package_errors:
             self._run.observe(self._numbers)
         return self._numbers.copy()
 
@@ -154,13 +154,13 @@ class Session:
     @property
     def time(self) -> float:
         """Controller time, s."""
-        with told:
+        with package_errors:
             return self._run.time
 
     @property
     def alarms(self) -> tuple[Alarm, ...]:
         """The alarms so far; an alarm ends only the program of its channel."""
-        with told:
+        with package_errors:
             return alarms_of(json.loads(self._run.summary()))
 
     def order(self, order: str) -> None:
@@ -193,39 +193,39 @@ class Session:
     def global_literal(self, name: str) -> str:
         """Returns the value of a global variable as a literal of ARL."""
         self._has_values()
-        with told:
+        with package_errors:
             return self._run.global_value(name)
 
     def set_global(self, name: str, value: Any) -> None:
         """Sets a global variable; components that a dictionary leaves out keep their values."""
         self._has_values()
-        with told:
+        with package_errors:
             literal = _arl2rs.literal(json.dumps(plain(value, name)))
         self._do("set_global", name, literal)
         self.observe()
 
     def state(self) -> dict[str, Any]:
         """Returns the state of everything: channels, axes, TCP, inputs and outputs."""
-        with told:
+        with package_errors:
             state: dict[str, Any] = json.loads(self._run.state())["state"]
         return state
 
     def stop(self) -> None:
         """Ends the programs: the robots stop on their paths within the steps that follow."""
-        with told:
+        with package_errors:
             self._run.stop()
         self._note("stop")
 
     def result(self) -> Result:
         """Returns the result of the run, or its result so far."""
-        with told:
-            self._said += self._run.take_said()
+        with package_errors:
+            self._output += self._run.take_said()
             names = (*self.columns, *self.watched)
             self._rows.append(np.frombuffer(self._run.take_rows()).reshape(-1, len(names)))
             self._rows = [np.concatenate(self._rows)]
             # Rows are handed out, and kept for the next result.
             rows = self._rows[0].copy() if self._beginning.traced else None
-            return of_summary(self._run.summary(), self._said, self._run.report(), rows, names)
+            return of_summary(self._run.summary(), self._output, self._run.report(), rows, names)
 
     def finish(self) -> Result:
         """Runs to the end without further changes from outside; returns the result, whose `check` raises an alarm."""
@@ -242,7 +242,7 @@ class Session:
         """
         if self._beginning.keeps_state:
             raise RefusedError("no snapshot of a run with a state_dir: it would begin with what it has written there")
-        with told:
+        with package_errors:
             is_real = json.loads(self._run.summary())["real_time"]
         if is_real:
             raise RefusedError("no snapshot of a run in real time or with connections: it is not the same twice")
@@ -250,7 +250,7 @@ class Session:
 
     def close(self) -> None:
         """Ends the run. A closed session stays closed."""
-        with told:
+        with package_errors:
             self._run.close()
         self._closed = True
 
@@ -273,7 +273,7 @@ class Session:
         """Runs cycles. Ctrl-C takes effect between cycles: those before it have been executed."""
         was_over, before = self.is_over, self._run.gone
         try:
-            with told:
+            with package_errors:
                 self.code = act(cycles, alone, *more)
         except KeyboardInterrupt:
             self._note_cycles(self._run.gone - before, alone)
@@ -283,7 +283,7 @@ class Session:
 
     def _alarm(self) -> AlarmError:
         """The exception for the alarm that ended the run."""
-        with told:
+        with package_errors:
             ending = ended_by(json.loads(self._run.summary()))
         return AlarmError(self.alarms[-1] if ending is None else ending)
 
@@ -292,11 +292,11 @@ class Session:
         if self.code == ALARMED:
             raise self._alarm()
         if self.code is not None:
-            with told:
+            with package_errors:
                 outcome = json.loads(self._run.summary())["outcome"]
             raise RefusedError(f"{' = '.join(arguments)}: the run ended at {self.time:.3f} s ({outcome})")
         act: Callable[..., None] = getattr(self._run, what)
-        with told:
+        with package_errors:
             act(*arguments)
         self._note(what, *arguments)
 
@@ -317,7 +317,7 @@ class Session:
     def _repeat(self, done: tuple[Done, ...]) -> None:
         for what, arguments in done:
             act: Callable[..., Any] = getattr(self._run, what)
-            with told:
+            with package_errors:
                 code = act(*arguments)
             self.code = code if what == "go_on" else self.code
         self._done = list(done)

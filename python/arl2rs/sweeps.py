@@ -18,7 +18,7 @@ from .choices import Engine
 from .choices import Figure as Choice
 from .keywords import named
 from .notice import notice, say
-from .problems import ArlError, RefusedError, StrPath, there, told
+from .problems import ArlError, RefusedError, StrPath, package_errors, there
 from .program import given
 from .values import Parameters, as_json, of_python
 
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Results", "Rows", "grid", "load_sweep", "sweep"]
 
-SAID_S = 30.0
+PROGRESS_S = 30.0
 """The interval between reports of a sweep's progress where no bar is visible, s."""
 
 
@@ -85,8 +85,8 @@ class Results(Sequence[dict[str, Any]]):
         outcomes: dict[str, int] = {}
         for row in self:
             outcomes[row["outcome"]] = outcomes.get(row["outcome"], 0) + 1
-        told = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
-        return f"Results({len(self)} runs: {told})" if told else "Results(no runs)"
+        counts = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
+        return f"Results({len(self)} runs: {counts})" if counts else "Results(no runs)"
 
     def best(self, figure: Choice = "cycle_time") -> dict[str, Any]:
         """Returns the run with the smallest value of a figure, among those that reached their end."""
@@ -148,7 +148,7 @@ def _flat(row: Mapping[str, Any], looked: bool) -> Iterator[tuple[str, Any]]:
 def load_sweep(file: StrPath) -> tuple[dict[str, Any], list[dict[str, Any]]]:
     """Reads a file of `arl2rs sweep`: returns the arguments of `sweep` except its rows, and the rows, with the Python
     names (`scenario`, `max_time`)."""
-    with told:
+    with package_errors:
         settings, rows = _arl2rs.table(there(file, "the file of a sweep"))
     settings["scenario"] = settings.pop("io")
     return settings, [{of_python(name): value for name, value in json.loads(row).items()} for row in rows]
@@ -158,8 +158,8 @@ def rows_of(rows: Rows) -> list[Parameters]:
     """The rows of a table, without the empty cells of a frame."""
     if hasattr(rows, "columns"):
         to_rows = getattr(rows, "to_dicts", None)
-        told_rows: list[dict[str, Any]] = to_rows() if to_rows else rows.to_dict("records")  # type: ignore[union-attr]
-        return [{str(name): value for name, value in row.items() if not _is_empty(value)} for row in _whole(told_rows)]
+        plain_rows: list[dict[str, Any]] = to_rows() if to_rows else rows.to_dict("records")  # type: ignore[union-attr]
+        return [{str(name): value for name, value in row.items() if not _is_empty(value)} for row in _whole(plain_rows)]
     if isinstance(rows, Mapping):
         raise RefusedError("rows are a list of dictionaries, a run each: [{..}, {..}], or a frame")
     return list(rows)
@@ -244,14 +244,14 @@ def sweep(
     if engine not in ("local", "ray"):
         raise RefusedError(f"engine {engine!r}: expected 'local' or 'ray'")
     with (
-        told,
+        package_errors,
         notice(
             f"compiling {path.name} for {len(texts)} runs: this takes a minute or two the first time, and seconds after a change"
         ),
     ):
         bundle = _arl2rs.Bundle(settings, texts)
     lines: list[str] = []
-    with _Progress(len(texts), progress) as bar, told:
+    with _Progress(len(texts), progress) as bar, package_errors:
 
         def take(line: str) -> None:
             lines.append(line)
@@ -286,6 +286,6 @@ class _Progress:
         """Takes the number of finished runs."""
         self._bar.update(count - self._came)
         self._came = count
-        if self._speaks and time.monotonic() - self._last > SAID_S:
+        if self._speaks and time.monotonic() - self._last > PROGRESS_S:
             self._last = time.monotonic()
             say(f"{count} of {self._total} runs")

@@ -16,7 +16,7 @@ from . import _arl2rs
 from .problems import RefusedError
 from .values import of_json
 
-__all__ = ["Signal", "Variable", "Watch", "of_told"]
+__all__ = ["Signal", "Variable", "Watch", "variables_by_name"]
 
 MOST_COLUMNS = 10_000
 """The most numbers of one variable that can be watched."""
@@ -109,12 +109,12 @@ def _rows(values: Sequence[Any], size: int) -> list[list[Any]]:
     return [list(values[start : start + size]) for start in range(0, len(values), size)]
 
 
-def of_told(told: Iterable[Mapping[str, Any]]) -> dict[str, Variable]:
+def variables_by_name(found: Iterable[Mapping[str, Any]]) -> dict[str, Variable]:
     """The variables that the Rust side reports, by their names."""
-    variables = [Variable(**{**one, "sizes": tuple(one["sizes"]), "numbers": tuple(one["numbers"])}) for one in told]
+    variables = [Variable(**{**one, "sizes": tuple(one["sizes"]), "numbers": tuple(one["numbers"])}) for one in found]
     count = Counter(variable.name.lower() for variable in variables)
-    several = (f"{PurePath(it.file).stem}::{it.name}" if count[it.name.lower()] > 1 else it.name for it in variables)
-    return dict(zip(several, variables, strict=True))
+    names = (f"{PurePath(it.file).stem}::{it.name}" if count[it.name.lower()] > 1 else it.name for it in variables)
+    return dict(zip(names, variables, strict=True))
 
 
 def find(name: str, variables: Mapping[str, Variable]) -> Variable | None:

@@ -174,7 +174,7 @@ impl Session {
     }
 
     /// A text that every run has unless it is broken.
-    fn told(&self, tell: impl FnOnce(&mut Run) -> String) -> PyResult<String> {
+    fn text_of(&self, tell: impl FnOnce(&mut Run) -> String) -> PyResult<String> {
         match self.with(|going| tell(&mut going.run))? {
             text if text.is_empty() => Err(of_library(LoadError::Broken)),
             text => Ok(text),
@@ -202,13 +202,13 @@ impl Session {
     /// Continues for this many cycles, or to the end of the run; returns its exit code then. Other Python threads
     /// continue meanwhile.
     fn go_on(&self, py: Python<'_>, cycles: u64, alone: bool) -> PyResult<Option<u8>> {
-        let mut left = cycles;
+        let mut remaining = cycles;
         loop {
-            let now = left.min(CHUNK);
+            let now = remaining.min(CHUNK);
             let code = py.detach(|| self.chunk(now, alone))?;
-            left -= now;
+            remaining -= now;
             py.check_signals()?;
-            if code.is_some() || left == 0 {
+            if code.is_some() || remaining == 0 {
                 return Ok(code);
             }
         }
@@ -269,12 +269,12 @@ impl Session {
 
     /// The present state, a JSON object.
     fn state(&self) -> PyResult<String> {
-        self.told(Run::state)
+        self.text_of(Run::state)
     }
 
     /// The result of the run, or how far it is, a JSON object.
     fn summary(&self) -> PyResult<String> {
-        self.told(Run::summary)
+        self.text_of(Run::summary)
     }
 
     /// What each motion did, a JSON object a line.

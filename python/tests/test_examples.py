@@ -44,7 +44,7 @@ def test_the_example_of_the_readme_draws_its_picture(tmp_path):
 
 def test_the_layout_gets_better(tmp_path):
     command = [sys.executable, CHECKOUT / "examples/layout/layout.py", "24"]
-    said = subprocess.run(command, check=True, cwd=tmp_path, capture_output=True, text=True).stdout
-    before, _, _, after, *_ = said.replace(" s before, ", " s before ").split()
-    assert float(after) < 0.9 * float(before), said
+    printed = subprocess.run(command, check=True, cwd=tmp_path, capture_output=True, text=True).stdout
+    before, _, _, after, *_ = printed.replace(" s before, ", " s before ").split()
+    assert float(after) < 0.9 * float(before), printed
     assert (tmp_path / "layout.png").stat().st_size > 20_000

@@ -97,7 +97,7 @@ def test_who_stops_leaves_nothing_on_the_cluster(cluster, tmp_path, monkeypatch)
     assert arl2rs.sweep(source, [{}], engine="ray", cache=False)[0]["outcome"] == "ended"
 
 
-def test_nodes_with_another_version_are_told(cluster, tmp_path, monkeypatch):
+def test_nodes_with_another_version_are_reported(cluster, tmp_path, monkeypatch):
     source = tmp_path / "other.arl"
     source.write_text(PROGRAM)
     monkeypatch.setattr("arl2rs._arl2rs.VERSION", "0.0.1")
@@ -105,7 +105,7 @@ def test_nodes_with_another_version_are_told(cluster, tmp_path, monkeypatch):
         arl2rs.sweep(source, [{}], engine="ray", cache=False)
 
 
-def test_nodes_without_the_package_are_told(tmp_path):
+def test_nodes_without_the_package_are_reported(tmp_path):
     """The only node has another package of that name."""
     other = tmp_path / "other/arl2rs"
     other.mkdir(parents=True)
@@ -120,7 +120,7 @@ try:
 except arl2rs.ArlError as problem:
     print(problem)
 """
-    said = subprocess.run(
+    shown = subprocess.run(
         [sys.executable, "-P", "-c", script], cwd=tmp_path, check=True, capture_output=True, text=True
     ).stdout
-    assert said.startswith("a node does not have this arl2rs: install the same version on all nodes of the cluster (")
+    assert shown.startswith("a node does not have this arl2rs: install the same version on all nodes of the cluster (")

@@ -66,7 +66,7 @@ def test_frames_are_between_pose_and_flange():
         robot.forward(axes, stationary=True)
 
 
-def test_what_is_not_reached_is_told():
+def test_what_is_not_reached_is_reported():
     robot = arl2rs.Robot("kr10-r1420")
     far, near = [5000.0, 0, 0, 0, 0, 0], robot.forward([0, -90, 90, 0, 20, 0])
     with pytest.raises(arl2rs.RefusedError, match=r"does not reach \{x 5000, .*\}: the arm falls short by 3608\.6 mm"):
@@ -92,7 +92,7 @@ def test_a_path_is_followed_without_jumps():
     np.testing.assert_allclose(robot.inverse(pose, near=start), start, atol=1e-9)
 
 
-def test_wrong_shapes_are_told():
+def test_wrong_shapes_are_reported():
     robot = arl2rs.Robot("kr10-r1420")
     for act, words in [
         (lambda: arl2rs.Robot("kr10-r142"), "did you mean `kr10-r1420`"),

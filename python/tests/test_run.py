@@ -49,7 +49,7 @@ def test_programs_and_exceptions_go_to_other_processes(short, tmp_path):
         arl2rs.check()
 
 
-def test_what_is_not_there_is_told(tmp_path):
+def test_what_is_not_there_is_reported(tmp_path):
     (tmp_path / "nine.arl").write_text("func void main()\nendfunc\n")
     for act in (arl2rs.compile, arl2rs.check, arl2rs.run, lambda program: arl2rs.sweep(program, [{}])):
         with pytest.raises(arl2rs.RefusedError, match=r"none\.arl: expected a program; did you mean .*nine\.arl"):
@@ -62,7 +62,7 @@ def test_what_is_not_there_is_told(tmp_path):
         arl2rs.check(tmp_path / "nine.arl", cell="no.toml")
 
 
-def test_a_scenario_that_is_not_there_is_told_when_compiling(short, tmp_path):
+def test_a_scenario_that_is_not_there_is_reported_when_compiling(short, tmp_path):
     program = arl2rs.compile(short)
     for act in (
         lambda io: arl2rs.compile(short, scenario=io),
@@ -85,7 +85,7 @@ def test_a_scenario_that_is_not_there_is_told_when_compiling(short, tmp_path):
         arl2rs.compile(tmp_path / "a.arl")
 
 
-def test_slips_in_names_of_arguments_are_told(short):
+def test_slips_in_names_of_arguments_are_reported(short):
     program = arl2rs.compile(short)
     for act, words in [
         (lambda: arl2rs.sweep(short, [], procesess=3), "no argument `procesess`: did you mean `processes`"),
@@ -250,7 +250,7 @@ def test_parameters_are_other_values(short):
     assert program.run(globals={"waits": arl2rs.Literal("false")}).ended
 
 
-def test_what_does_not_fit_is_told_by_its_name(short):
+def test_what_does_not_fit_is_reported_by_its_name(short):
     program = arl2rs.compile(short)
     for arguments, words in [
         ({"globals": {"part": 1}}, "did you mean `parts`"),

@@ -293,7 +293,7 @@ def test_a_robot_is_stopped_on_its_path(program):
         assert session.code == 130
 
 
-def test_what_is_wrong_is_told(short):
+def test_what_is_wrong_is_reported(short):
     program = arl2rs.compile(short)
     for names in (["do.9999"], ["door"], ["global.name"], ["global.nobody"]):
         with pytest.raises(arl2rs.RefusedError, match=names[0].removeprefix("global.")):

@@ -141,19 +141,19 @@ def test_names_are_those_of_python_and_the_command_s_are_taken(example):
     assert list(rows[0]) == ["scenario", "max_time"]
 
 
-def test_who_sees_no_bar_is_told_what_takes_long(tmp_path):
+def test_without_a_bar_a_message_says_what_takes_long(tmp_path):
     code = """
 import time, arl2rs
 from arl2rs import notice, sweeps
 notice.PATIENCE_S = 0.05
-sweeps.SAID_S = 0.0
+sweeps.PROGRESS_S = 0.0
 arl2rs.sweep("new.arl", [{"seed": 1}, {"seed": 2}], cache=False)
 """
     (tmp_path / "new.arl").write_text("func void main()\n    print rand()\nendfunc\n")
-    said = subprocess.run(
+    shown = subprocess.run(
         [sys.executable, "-P", "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
     ).stderr
-    assert "arl2rs: compiling new.arl for 2 runs" in said and "arl2rs: 2 of 2 runs" in said
+    assert "arl2rs: compiling new.arl for 2 runs" in shown and "arl2rs: 2 of 2 runs" in shown
 
 
 def test_a_notebook_without_widgets_is_no_warning():
@@ -169,7 +169,7 @@ import tqdm, arl2rs.sweeps
     subprocess.run([sys.executable, "-P", "-c", code], check=True)
 
 
-def test_mistakes_are_told_before_anything_runs(tmp_path, example):
+def test_mistakes_are_reported_before_anything_runs(tmp_path, example):
     wrong = tmp_path / "wrong.arl"
     wrong.write_text("func void main()\n    movej 5\nendfunc\n")
     with pytest.raises(arl2rs.CompileError):

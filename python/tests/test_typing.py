@@ -27,7 +27,7 @@ def test_right_uses_pass(tmp_path):
 
 
 def test_each_of_twenty_typos_is_found(tmp_path):
-    said = mypy("typos.py", tmp_path)
-    found = {int(line) for line in re.findall(r"typos\.py:(\d+): error", said)}
+    output = mypy("typos.py", tmp_path)
+    found = {int(line) for line in re.findall(r"typos\.py:(\d+): error", output)}
     wrong = {at for at, line in enumerate((HERE / "typos.py").read_text().splitlines(), 1) if line.endswith("# typo")}
-    assert len(wrong) >= 20 and found == wrong, said
+    assert len(wrong) >= 20 and found == wrong, output

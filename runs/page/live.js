@@ -22,12 +22,12 @@ export async function tell(order) {
     ok: false,
     text: async () => String(problem),
   }));
-  if (!answer.ok) trouble(await answer.text());
+  if (!answer.ok) showProblem(await answer.text());
   return answer.ok;
 }
 
 /** @param {string} text */
-export function trouble(text) {
+export function showProblem(text) {
   Object.assign(byId("trouble"), { hidden: text === "", textContent: text });
 }
 
@@ -43,13 +43,13 @@ export function holds(button, words, signal) {
   /** @type {string | undefined} */
   let order;
   /** @type {Promise<unknown>} keeps the orders in sequence, even if an answer is slow */
-  let said = Promise.resolve();
+  let sent = Promise.resolve();
   const say = () => {
     if (order === undefined) return;
     // A button that has been removed from the page is no longer held, even if the pointer is still down.
     if (!button.isConnected) return letGo();
     const now = order;
-    said = said.then(() => tell(now)).then(() => setTimeout(say, HOLD_MS));
+    sent = sent.then(() => tell(now)).then(() => setTimeout(say, HOLD_MS));
   };
   const hold = () => {
     const held = words();
@@ -63,7 +63,7 @@ export function holds(button, words, signal) {
     const key = order.split("=")[0];
     order = undefined;
     button.classList.remove("on");
-    said = said.then(() => tell(`${key}= ""`));
+    sent = sent.then(() => tell(`${key}= ""`));
   };
   let pointer = -1;
   button.addEventListener("pointerdown", (event) => {
@@ -117,7 +117,7 @@ export class Live {
   }
 
   get speed() {
-    return this.run.told.controller.at(-1)?.override ?? 100;
+    return this.run.answer.controller.at(-1)?.override ?? 100;
   }
 
   async ask() {
@@ -125,15 +125,15 @@ export class Live {
       const news = await this.run.refresh();
       if (news === "begun") return this.does.begun();
       if (news === "more") this.does.more();
-      if (this.lost) trouble("");
+      if (this.lost) showProblem("");
       this.lost = false;
     } catch {
       this.lost = true;
-      trouble("The arl2rs command has ended or does not answer. What was shown so far is still here.");
+      showProblem("The arl2rs command has ended or does not answer. What was shown so far is still here.");
     }
     this.show();
     if (!this.run.live) {
-      trouble("The program has ended. Start `arl2rs view` again to go on.");
+      showProblem("The program has ended. Start `arl2rs view` again to go on.");
       return this.does.ended();
     }
     setTimeout(() => this.ask(), this.lost ? 1000 : NEWS_MS);
@@ -151,12 +151,12 @@ export class Live {
 
   /** Inputs that can be set, and any other order. */
   inputs() {
-    const { names, levels } = this.run.told;
+    const { names, levels } = this.run.answer;
     const named = Object.keys(names ?? {}).filter((signal) => signal.startsWith("di."));
     const used = [...this.run.lanes.keys()].filter((signal) => signal.startsWith("di."));
     const signals = [...new Set([...named, ...used])].sort((one, other) => Number(one.slice(3)) - Number(other.slice(3)));
     const rows = signals.map((signal) => {
-      const on = () => this.run.told.levels?.di[Number(signal.slice(3)) - 1] === "1";
+      const on = () => this.run.answer.levels?.di[Number(signal.slice(3)) - 1] === "1";
       const button = element("button", { className: on() ? "on" : "", ariaLabel: signal }, on() ? "on" : "off");
       button.addEventListener("click", () => tell(`${signal} = ${!on()}`));
       return element(

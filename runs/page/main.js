@@ -50,7 +50,7 @@ export class Page {
     this.now = new Now(byId("now"));
     this.controls();
     if (this.run.live) this.goLive();
-    if (this.run.told.teaches && this.channel) {
+    if (this.run.answer.teaches && this.channel) {
       this.teach = new Teach(this);
       this.scene?.renderer.domElement.addEventListener("dblclick", (event) => this.teach?.clicked(event));
     }
@@ -67,7 +67,7 @@ export class Page {
         this.stale = this.tracks.stale = true;
         if (
           !["Source", "Teach"].includes(this.tab) &&
-          this.shownVersion !== this.run.told.version &&
+          this.shownVersion !== this.run.answer.version &&
           !byId("panel").contains(document.activeElement)
         )
           this.showTab(this.tab);
@@ -155,7 +155,7 @@ export class Page {
       "Lines",
       "Events",
       ...(this.run.live ? ["Inputs"] : []),
-      ...(this.run.told.teaches ? ["Teach"] : []),
+      ...(this.run.answer.teaches ? ["Teach"] : []),
       ...(this.runs.length > 1 ? ["Differences"] : []),
     ];
     byId("tabs").append(
@@ -167,8 +167,8 @@ export class Page {
     );
     write(byId("name"), this.runs.map((run) => run.name).join(" and "));
     document.title = `${this.run.name} – arl2rs view`;
-    const trouble = this.runs.map((run) => run.trouble).filter(Boolean);
-    Object.assign(byId("trouble"), { hidden: trouble.length === 0, textContent: trouble.join(" ") });
+    const problems = this.runs.map((run) => run.problem).filter(Boolean);
+    Object.assign(byId("trouble"), { hidden: problems.length === 0, textContent: problems.join(" ") });
     window.addEventListener("keydown", (event) => this.key(event));
     window.addEventListener("hashchange", () => this.fromLink());
   }
@@ -278,7 +278,7 @@ export class Page {
     else if (name === "Teach") panel.replaceChildren(...(this.teach ? [this.teach.holder] : []));
     else if (name === "Inputs") panel.replaceChildren(...(this.live ? [this.live.inputs()] : []));
     else this.showDifferences(panel, chosen);
-    this.shownVersion = this.run.told.version;
+    this.shownVersion = this.run.answer.version;
     this.source.marked = "";
     this.stale = true;
   }
@@ -287,8 +287,8 @@ export class Page {
   async showDifferences(panel, chosen) {
     panel.replaceChildren(element("p", { className: "hint" }, "Comparing the two runs."));
     const answer = await fetch("/api/differences");
-    const told = answer.ok ? differences(await answer.json(), chosen) : element("p", { className: "hint" }, await answer.text());
-    if (this.tab === "Differences") panel.replaceChildren(told);
+    const shown = answer.ok ? differences(await answer.json(), chosen) : element("p", { className: "hint" }, await answer.text());
+    if (this.tab === "Differences") panel.replaceChildren(shown);
   }
 
   /** Draws a frame. @param {number} now */

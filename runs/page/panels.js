@@ -48,7 +48,7 @@ export function lines(run, channel, chosen) {
 
 /** Messages, warnings, alarms and contacts. @param {import('./run.js').Run} run @param {(time: number) => void} seek */
 export function events(run, seek) {
-  const rows = [...run.told.log]
+  const rows = [...run.answer.log]
     .sort((one, other) => one.time - other.time)
     .slice(-5000)
     .map(({ time, level, text }) => row([seconds(time), [text, `text ${level}`]], () => seek(time)));
@@ -56,20 +56,20 @@ export function events(run, seek) {
   return table(["s", ""], rows);
 }
 
-/** What differs between two runs. @param {import('./api.js').Differences} told what the server reports about both @param {(file: string, line: number) => void} chosen */
-export function differences(told, chosen) {
+/** What differs between two runs. @param {import('./api.js').Differences} answer what the server reports about both @param {(file: string, line: number) => void} chosen */
+export function differences(answer, chosen) {
   /** @param {number | null} one @param {number | null} other @returns {[string, string]} */
   const change = (one, other) => {
     const by = (other ?? 0) - (one ?? 0);
     return [Math.abs(by) < 5e-4 ? "" : `${by > 0 ? "+" : ""}${by.toFixed(3)}`, Math.abs(by) < 5e-4 ? "" : by > 0 ? "worse" : "better"];
   };
   const cell = (/** @type {number | null} */ value) => (value === null ? "" : seconds(value));
-  const rows = told.lines.map(({ file, line, one, other }) =>
+  const rows = answer.lines.map(({ file, line, one, other }) =>
     row([`${file}:${line}`, cell(one), cell(other), change(one, other)], () => chosen(file, line)),
   );
-  const said = told.said.map((/** @type {string} */ text) => element("p", { className: "hint" }, text));
-  if (rows.length === 0 && said.length === 0) return element("p", { className: "hint" }, "Nothing differs between the two runs.");
-  return element("div", {}, ...said, table(["line", "this run s", "the other s", "by s"], rows));
+  const hints = answer.said.map((/** @type {string} */ text) => element("p", { className: "hint" }, text));
+  if (rows.length === 0 && hints.length === 0) return element("p", { className: "hint" }, "Nothing differs between the two runs.");
+  return element("div", {}, ...hints, table(["line", "this run s", "the other s", "by s"], rows));
 }
 
 /** The displayed moment. */
@@ -121,20 +121,20 @@ export class Now {
       `TCP ${x.toFixed(1)}  ${y.toFixed(1)}  ${z.toFixed(1)} mm, ${moment.speed.toFixed(0)} mm/s`,
     );
     const state = run.stateAt(channel.number, time);
-    const mode = [...run.told.controller].reverse().find((one) => one.time <= time + 1e-9);
+    const mode = [...run.answer.controller].reverse().find((one) => one.time <= time + 1e-9);
     write(
       /** @type {HTMLElement} */ (this.title),
       `${channel.robot} · ${state}${mode ? ` · ${mode.mode}, override ${mode.override} %` : ""}`,
     );
     write(
       /** @type {HTMLElement} */ (this.motion),
-      moment.motion ? told(run.byNumber?.get(`${channel.number}/${moment.motion}`), moment.motionLine) : "The robot stands still.",
+      moment.motion ? inWords(run.byNumber?.get(`${channel.number}/${moment.motion}`), moment.motionLine) : "The robot stands still.",
     );
   }
 }
 
 /** A motion in words. @param {import('./run.js').Motion | undefined} motion @param {number} line */
-function told(motion, line) {
+function inWords(motion, line) {
   if (!motion) return `Motion of line ${line}.`;
   const { kind, start, duration, way, programmed, reached, unit, blend } = motion;
   const limit = closest(motion);

@@ -70,8 +70,8 @@ export function path(rows, paint, look) {
   const colors = [];
   for (let row = 1; row < rows.count; row++) {
     const [from, to] = [(row - 1) * 7, row * 7];
-    const way = Math.hypot(rows.tcp[to] - rows.tcp[from], rows.tcp[to + 1] - rows.tcp[from + 1], rows.tcp[to + 2] - rows.tcp[from + 2]);
-    if (way < 1e-3 || rows.jumps[row]) continue;
+    const distance = Math.hypot(rows.tcp[to] - rows.tcp[from], rows.tcp[to + 1] - rows.tcp[from + 1], rows.tcp[to + 2] - rows.tcp[from + 2]);
+    if (distance < 1e-3 || rows.jumps[row]) continue;
     const [, line, motion] = rows.pointers.subarray(row * 4);
     const color = light(paint.color(rows.speed[row], motion, line));
     for (const at of [from, to]) {

@@ -94,11 +94,11 @@ export class Frames {
       if (!link.axis) continue;
       const value = axes[link.moves] ?? 0;
       if (link.linear) {
-        const way = link.axis
+        const displacement = link.axis
           .clone()
           .applyQuaternion(link.rest)
           .multiplyScalar(value / 1000);
-        link.made.position.copy(link.place).add(way);
+        link.made.position.copy(link.place).add(displacement);
       } else {
         const turned = new Quaternion().setFromAxisAngle(link.axis, (value * Math.PI) / 180);
         link.made.quaternion.copy(link.rest).multiply(turned);

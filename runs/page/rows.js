@@ -61,7 +61,7 @@ export function marks(run) {
     height: 20,
     draw({ context, x, from, to, top, height }) {
       const middle = top + height / 2;
-      for (const { time, level } of run.told.log) {
+      for (const { time, level } of run.answer.log) {
         if (time < from || time > to) continue;
         context.fillStyle = theme(level === "message" ? "quiet" : level);
         const size = level === "message" ? 1.5 : 4;
@@ -69,7 +69,7 @@ export function marks(run) {
         context.arc(x(time), middle, size, 0, 7);
         context.fill();
       }
-      for (const { time } of run.told.contacts) {
+      for (const { time } of run.answer.contacts) {
         if (time < from || time > to) continue;
         context.fillStyle = theme("alarm");
         context.beginPath();

@@ -10,19 +10,19 @@ import { Samples, rowAt } from "./samples.js";
  */
 
 export class Run {
-  /** @param {number} number @param {import('./api.js').RunAnswer} told @param {() => void} changed */
-  constructor(number, told, changed) {
+  /** @param {number} number @param {import('./api.js').RunAnswer} answer @param {() => void} changed */
+  constructor(number, answer, changed) {
     this.address = `/api/run/${number}`;
     this.changed = changed;
-    this.told = told;
-    this.name = told.name;
-    this.end = told.end;
-    this.trouble = told.trouble;
-    this.live = told.live;
+    this.answer = answer;
+    this.name = answer.name;
+    this.end = answer.end;
+    this.problem = answer.trouble;
+    this.live = answer.live;
     /** @type {Map<string, Lane>} by the name of the signal */
     this.lanes = new Map();
-    this.lanesFrom(told.signals);
-    this.channels = told.channels.map((channel, at) => ({
+    this.lanesFrom(answer.signals);
+    this.channels = answer.channels.map((channel, at) => ({
       ...channel,
       number: at + 1,
       samples: new Samples(`${this.address}/samples?channel=${at + 1}`, changed),
@@ -52,7 +52,7 @@ export class Run {
   lanesFrom(signals) {
     for (const { signal, changes } of signals) {
       /** @type {Lane} */
-      const lane = this.lanes.get(signal) ?? { signal, label: this.told.names?.[signal] ?? signal, times: [], values: [] };
+      const lane = this.lanes.get(signal) ?? { signal, label: this.answer.names?.[signal] ?? signal, times: [], values: [] };
       for (let at = 0; at < changes.length; at += 2) {
         lane.times.push(changes[at]);
         lane.values.push(changes[at + 1]);
@@ -76,16 +76,16 @@ export class Run {
       if (known?.duration === motion.duration) continue;
       news = true;
       if (known) Object.assign(known, motion);
-      else this.told.motions.push(motion);
+      else this.answer.motions.push(motion);
     }
     if (news) this.sortMotions();
   }
 
   sortMotions() {
-    this.told.motions.sort((one, other) => one.start - other.start);
+    this.answer.motions.sort((one, other) => one.start - other.start);
     this.motions.clear();
     this.byNumber.clear();
-    for (const motion of this.told.motions) {
+    for (const motion of this.answer.motions) {
       const all = this.motions.get(motion.channel) ?? [];
       all.push(motion);
       this.motions.set(motion.channel, all);
@@ -96,7 +96,7 @@ export class Run {
 
   /** Requests what has happened since, and takes it in. */
   async refresh() {
-    const { scene, controller, log, contacts, motions, tracks } = this.told;
+    const { scene, controller, log, contacts, motions, tracks } = this.answer;
     const known = {
       scene: scene.length,
       controller: controller.length,
@@ -113,7 +113,7 @@ export class Run {
     if (!answer.ok) throw new Error(await answer.text());
     /** @type {import('./api.js').News} */
     const news = await answer.json();
-    const isNew = news.version !== this.told.version;
+    const isNew = news.version !== this.answer.version;
     // The program has begun since: only now is it known what runs on which robots.
     if (this.channels.length === 0 && isNew) return "begun";
     scene.push(...news.scene);
@@ -121,7 +121,7 @@ export class Run {
     log.push(...news.log);
     contacts.push(...news.contacts);
     news.tracks.forEach((track, at) => {
-      const mine = (this.told.tracks[at] ??= { files: [], states: [], bases: [], lines: [], rows: 0 });
+      const mine = (this.answer.tracks[at] ??= { files: [], states: [], bases: [], lines: [], rows: 0 });
       mine.states.splice(Math.min(states, mine.states.length), Infinity, ...track.states);
       mine.bases.splice(Math.min(bases, mine.bases.length), Infinity, ...track.bases);
       Object.assign(mine, { files: track.files, lines: track.lines, rows: track.rows });
@@ -129,13 +129,13 @@ export class Run {
     this.lanesFrom(news.signals);
     this.takeMotions(news.motions);
     Object.assign(this, { end: Math.max(this.end, news.end), live: news.live });
-    Object.assign(this.told, { version: news.version, live: news.live, levels: news.levels });
+    Object.assign(this.answer, { version: news.version, live: news.live, levels: news.levels });
     return isNew ? "more" : "nothing";
   }
 
   /** @param {number} channel from 1 */
   track(channel) {
-    return this.told.tracks[channel - 1] ?? { files: [], states: [], bases: [], lines: [], rows: 0 };
+    return this.answer.tracks[channel - 1] ?? { files: [], states: [], bases: [], lines: [], rows: 0 };
   }
 
   /** The position of a robot's base at a time. @param {number} channel @param {number} time */
@@ -190,7 +190,7 @@ export class Run {
   sceneAt(time) {
     /** @type {Map<string, import('./api.js').Entity>} */
     const there = new Map();
-    for (const update of this.told.scene) {
+    for (const update of this.answer.scene) {
       if (update.time > time + 1e-9) break;
       for (const gone of update.gone) there.delete(gone);
       for (const entity of update.entities) there.set(entity.id, entity);

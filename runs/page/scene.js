@@ -115,7 +115,7 @@ export class CellScene {
         else complete = false;
       }
       frames.show(run.sceneAt(now));
-      const near = run.told.contacts.filter((contact) => now >= contact.time - 1e-9 && now < contact.time + CONTACT_S);
+      const near = run.answer.contacts.filter((contact) => now >= contact.time - 1e-9 && now < contact.time + CONTACT_S);
       frames.mark(new Set(near.flatMap((contact) => [...idsOf(contact.one), ...idsOf(contact.other)])), theme("alarm"));
       this.showPath(at, now, mode);
     });
@@ -131,7 +131,7 @@ export class CellScene {
     const [run, shown] = [this.runs[at], this.paths[at]];
     const pieces = run.robots.map((channel) => ({ channel, rows: channel.samples.piece(time, run.end) }));
     const count = pieces.reduce((sum, { rows }) => sum + (rows?.count ?? 0), 0);
-    const of = [mode, run.told.motions.length, ...pieces.map(({ rows }) => (rows ? `${rows.times[0]}` : ""))].join();
+    const of = [mode, run.answer.motions.length, ...pieces.map(({ rows }) => (rows ? `${rows.times[0]}` : ""))].join();
     // A growing path is redrawn only now and then.
     const grown = count - shown.rows;
     if (of === shown.of && (grown === 0 || (run.live && grown < 25 + shown.rows / 50))) return;

@@ -16,11 +16,11 @@ export class Source {
   /** @param {import('./run.js').Run} run @param {(file: string, line: number) => void} chosen */
   constructor(run, chosen) {
     this.run = run;
-    this.keywords = new Set(run.told.keywords);
+    this.keywords = new Set(run.answer.keywords);
     /** @type {Map<string, {row: HTMLElement, took: HTMLElement, pointer: HTMLElement}[]>} */
     this.lines = new Map();
     this.holder = element("div", { className: "source" });
-    for (const { name, text } of run.told.sources) {
+    for (const { name, text } of run.answer.sources) {
       const rows = text
         .replace(/\n$/, "")
         .split("\n")
@@ -48,8 +48,8 @@ export class Source {
 
   /** Shows the times that the lines of a channel took. @param {number} channel */
   times(channel) {
-    if (this.version === this.run.told.version * 100 + channel) return;
-    this.version = this.run.told.version * 100 + channel;
+    if (this.version === this.run.answer.version * 100 + channel) return;
+    this.version = this.run.answer.version * 100 + channel;
     const { files, lines } = this.run.track(channel);
     const most = Math.max(...lines.map((one) => one.moving + one.standing), 1e-9);
     for (const { file, line, moving, standing } of lines) {

@@ -2,7 +2,7 @@
 
 import { Object3D } from "./three.js";
 import { element } from "./dom.js";
-import { trouble } from "./live.js";
+import { showProblem } from "./live.js";
 import { DraggedRobot } from "./teach/dragged_robot.js";
 import { mirrored, moved, shifted } from "./teach/edits.js";
 import { JogButtons } from "./teach/jog.js";
@@ -135,7 +135,7 @@ export class Teach {
   /** Takes in the contents of the data files. @param {import('./api.js').Points} data */
   take(data) {
     this.data = data;
-    if (data.troubles.length > 0) trouble(data.troubles.join(" "));
+    if (data.troubles.length > 0) showProblem(data.troubles.join(" "));
     const option = (/** @type {string} */ name) => element("option", { value: name }, name.split(": ").at(-1) ?? name);
     const names = (/** @type {string} */ type) => data.frames.filter((frame) => frame.type === type && !frame.other);
     this.tools.replaceChildren(...["as now", "flange", ...names("tool").map(key)].map(option));
@@ -272,7 +272,7 @@ export class Teach {
   /** The order that moves the robot to the position of the dragged robot. */
   target() {
     if (this.picked?.axes) return `to ${[...this.axes.slice(0, this.own), ...this.external].join(" ")}`;
-    trouble("Choose a point first, or drag the robot to where it should go.");
+    showProblem("Choose a point first, or drag the robot to where it should go.");
     return undefined;
   }
 
@@ -280,7 +280,7 @@ export class Teach {
   async write(what, order) {
     const data = await ask(what, order);
     if (!data) return;
-    trouble("");
+    showProblem("");
     this.take(data);
     this.form.say("Written. It takes effect from the next reset of the program.");
   }
@@ -301,7 +301,7 @@ export class Teach {
     const { chosen } = this.points;
     const poses = this.points.all().filter(isPlainPose);
     if (poses.length > 0 && poses.length === chosen.size) return poses;
-    trouble("Choose poses that are plain numbers: only those can be shifted and mirrored.");
+    showProblem("Choose poses that are plain numbers: only those can be shifted and mirrored.");
     return [];
   }
 
@@ -330,7 +330,7 @@ export class Teach {
       this.mapped = undefined;
       return;
     }
-    if (!scene || !this.place) return trouble("Choose a point first, or take the pose of the robot.");
+    if (!scene || !this.place) return showProblem("Choose a point first, or take the pose of the robot.");
     const map = await ask("map", {
       channel: this.channel.number,
       components: this.place.components,

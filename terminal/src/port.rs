@@ -23,7 +23,7 @@ const MOST_UNKNOWN: usize = 128;
 /// The word that a run sends when it connects, and the answer to it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Secret {
-    said: String,
+    word: String,
     answer: String,
 }
 
@@ -44,12 +44,12 @@ impl Secret {
             }
             Ok(text)
         };
-        Ok(Self { said: word()?, answer: word()? })
+        Ok(Self { word: word()?, answer: word()? })
     }
 
     /// Passes the secret to a program that will connect.
     pub fn hand_over(&self, command: &mut Command) {
-        command.env(SECRET, format!("{}:{}", self.said, self.answer));
+        command.env(SECRET, format!("{}:{}", self.word, self.answer));
     }
 
     /// Connects like a program to which the secret was passed.
@@ -58,7 +58,7 @@ impl Secret {
     /// Nothing listens at the address, or the listener does not know the secret.
     pub fn connect(&self, address: &str) -> Result<TcpStream> {
         let mut stream = TcpStream::connect(address)?;
-        stream.write_all(format!("{}\n", self.said).as_bytes())?;
+        stream.write_all(format!("{}\n", self.word).as_bytes())?;
         let mut answer = vec![0; self.answer.len() + 1];
         stream.read_exact(&mut answer)?;
         match answer == format!("{}\n", self.answer).into_bytes() {
@@ -125,7 +125,7 @@ impl Port {
     /// The connection that has sent the word, among the open and the waiting ones. Connections that have sent another
     /// word are closed.
     fn look(&self, unknown: &mut Vec<Unknown>) -> Result<Option<TcpStream>> {
-        let word = format!("{}\n", self.secret.said).into_bytes();
+        let word = format!("{}\n", self.secret.word).into_bytes();
         let mut at = 0;
         while let Some(one) = unknown.get_mut(at) {
             match one.says(&word) {
@@ -144,7 +144,7 @@ impl Port {
                 Err(error) => return Err(error),
             };
             stream.set_nonblocking(true)?;
-            let mut one = Unknown { stream, said: Vec::new() };
+            let mut one = Unknown { stream, received: Vec::new() };
             match one.says(&word) {
                 // Only connections that were checked before are closed.
                 Says::Nothing => {
@@ -164,7 +164,7 @@ impl Port {
 /// A connection that is not yet identified.
 struct Unknown {
     stream: TcpStream,
-    said: Vec<u8>,
+    received: Vec<u8>,
 }
 
 /// What a connection has sent.
@@ -179,17 +179,17 @@ enum Says {
 impl Unknown {
     fn says(&mut self, word: &[u8]) -> Says {
         // Not a byte more than the word: the bytes after it are for the reader of the run.
-        let mut rest = vec![0; word.len() - self.said.len()];
+        let mut rest = vec![0; word.len() - self.received.len()];
         match self.stream.read(&mut rest) {
             Ok(0) => return Says::Another,
-            Ok(count) => self.said.extend(rest.iter().take(count)),
+            Ok(count) => self.received.extend(rest.iter().take(count)),
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => {}
             Err(_) => return Says::Another,
         }
         // An incomplete word is not judged: a client that learned that it is wrong could guess the word byte by byte.
-        match self.said.as_slice() {
-            said if said.len() < word.len() => Says::Nothing,
-            said if said == word => Says::TheWord,
+        match self.received.as_slice() {
+            received if received.len() < word.len() => Says::Nothing,
+            received if received == word => Says::TheWord,
             _ => Says::Another,
         }
     }
@@ -203,7 +203,7 @@ mod tests {
     fn secrets_differ() {
         let secrets = [Secret::new().expect("random numbers"), Secret::new().expect("random numbers")];
         assert_ne!(secrets[0], secrets[1]);
-        assert!(secrets.iter().all(|secret| secret.said.len() == 2 * BYTES && secret.said != secret.answer));
+        assert!(secrets.iter().all(|secret| secret.word.len() == 2 * BYTES && secret.word != secret.answer));
     }
 
     #[test]
@@ -223,9 +223,9 @@ mod tests {
         let stream = port.accept(|| Ok(None::<()>)).expect("no error").expect("a connection");
         assert_eq!(std::io::read_to_string(stream).expect("a text"), "{\"ended\":0}\n");
         run.join().expect("no panic");
-        let mut left = Vec::new();
+        let mut rest = Vec::new();
         // It was closed without an answer.
-        assert!(stranger.read_to_end(&mut left).is_err() || left.is_empty());
+        assert!(stranger.read_to_end(&mut rest).is_err() || rest.is_empty());
         drop(silent);
     }
 
@@ -238,12 +238,12 @@ mod tests {
             stream.write_all(words.as_bytes()).expect("it is open");
             stream
         };
-        let part = secret.said.get(..8).expect("a word");
+        let part = secret.word.get(..8).expect("a word");
         let _kept = [says(part), says("?"), says(&"?".repeat(8))];
         let mut unknown = Vec::new();
         assert!(port.look(&mut unknown).expect("no error").is_none());
         assert_eq!(unknown.len(), 3);
-        let mut whole = says(&"?".repeat(secret.said.len() + 1));
+        let mut whole = says(&"?".repeat(secret.word.len() + 1));
         whole.set_nonblocking(true).expect("it is open");
         let waits =
             |stream: &mut TcpStream| stream.read(&mut [0]).is_err_and(|error| error.kind() == ErrorKind::WouldBlock);
@@ -264,7 +264,7 @@ mod tests {
             assert!(unknown.len() <= MOST_UNKNOWN);
         }
         let mut run = TcpStream::connect(port.address()).expect("a port");
-        run.write_all(format!("{}\n", secret.said).as_bytes()).expect("it is open");
+        run.write_all(format!("{}\n", secret.word).as_bytes()).expect("it is open");
         while port.look(&mut unknown).expect("no error").is_none() {}
     }
 

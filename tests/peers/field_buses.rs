@@ -13,10 +13,10 @@ const LISTENS: &str = "warning: the Modbus TCP server listens on 127.0.0.1:";
 fn pymodbus_reads_and_writes_registers_and_coils() {
     let Some(python) = peer::python(&["pymodbus"]) else { return };
     let mut robot = Robot::start("modbus_tcp", CELL);
-    let port = robot.told(LISTENS);
+    let port = robot.wait_for_line(LISTENS);
     run(Command::new(python).arg(peer::script("modbus_master.py")).args(["tcp", &port]));
     let end = robot.end();
-    assert_eq!((end.out.as_str(), end.code), ("{81h,05h}\nabcd\n", Some(0)), "{}", end.said);
+    assert_eq!((end.out.as_str(), end.code), ("{81h,05h}\nabcd\n", Some(0)), "{}", end.stderr);
 }
 
 #[test]
@@ -25,7 +25,7 @@ fn mbpoll_reads_and_writes_registers_and_coils() {
         return;
     }
     let mut robot = Robot::start("modbus_tcp", CELL);
-    let port = robot.told(LISTENS);
+    let port = robot.wait_for_line(LISTENS);
     let poll = |arguments: &[&str]| {
         let mut command = Command::new("mbpoll");
         command.args(["-m", "tcp", "-p", &port, "-0", "-1", "-q"]);
@@ -37,7 +37,7 @@ fn mbpoll_reads_and_writes_registers_and_coils() {
     poll(&["-t", "4", "-r", "20", "127.0.0.1", "24930", "25444"]);
     poll(&["-t", "4", "-r", "0", "127.0.0.1", "7"]);
     let end = robot.end();
-    assert_eq!((end.out.as_str(), end.code), ("{81h,05h}\nabcd\n", Some(0)), "{}", end.said);
+    assert_eq!((end.out.as_str(), end.code), ("{81h,05h}\nabcd\n", Some(0)), "{}", end.stderr);
 }
 
 /// A pair of pseudo terminals that are connected, by their paths.
@@ -73,7 +73,7 @@ fn a_master_on_a_serial_line_reads_and_writes_registers() {
     assert!(read.contains("258") && read.contains("772"), "{read}");
     run(Command::new(python).arg(peer::script("modbus_master.py")).args(["rtu", &theirs]));
     let end = robot.end();
-    assert_eq!((end.out.as_str(), end.code), ("abcd\n6162h 6364h\n{00h,00h}\n", Some(0)), "{}", end.said);
+    assert_eq!((end.out.as_str(), end.code), ("abcd\n6162h 6364h\n{00h,00h}\n", Some(0)), "{}", end.stderr);
 }
 
 #[test]
@@ -88,8 +88,8 @@ fn a_slave_keeps_silent_on_a_bad_line_and_tells_when_it_is_lost() {
     run(Command::new(python).arg(peer::script("rtu_noise.py")).arg(&theirs));
     drop(socat);
     let end = robot.end();
-    assert_eq!((end.out.as_str(), end.code), ("", Some(3)), "{}", end.said);
-    assert!(end.said.contains("alarm 20050: read: the line is lost: "), "{}", end.said);
+    assert_eq!((end.out.as_str(), end.code), ("", Some(3)), "{}", end.stderr);
+    assert!(end.stderr.contains("alarm 20050: read: the line is lost: "), "{}", end.stderr);
 }
 
 /// The server of the tests' own, which other people's clients have looked at.
@@ -110,9 +110,9 @@ fn d_registers_are_written_and_read() {
     let Some((server, python)) = melsec_server() else { return };
     run(Command::new(python).arg(peer::script("melsec_clients.py")).arg(&server.first_line));
     robot::file("melsec.port", &server.first_line);
-    let End { out, said, code } = Robot::start("melsec", "").end();
+    let End { out, stderr, code } = Robot::start("melsec", "").end();
     let printed = "hello\n{01h,02h,03h,04h,05h,00h,09h,09h}\n4 a z\n4dh\nrefused: true\n";
-    assert_eq!((out.as_str(), code), (printed, Some(3)), "{said}");
-    assert!(said.contains("read: the PLC refused the request with code c056h (melsec.arl:25)"), "{said}");
-    assert!(said.contains("alarm 20050: read: the connection is not open (melsec.arl:29)"), "{said}");
+    assert_eq!((out.as_str(), code), (printed, Some(3)), "{stderr}");
+    assert!(stderr.contains("read: the PLC refused the request with code c056h (melsec.arl:25)"), "{stderr}");
+    assert!(stderr.contains("alarm 20050: read: the connection is not open (melsec.arl:29)"), "{stderr}");
 }

@@ -31,8 +31,8 @@ fn inputs_are_read_and_outputs_written() {
         return;
     }
     let Some(island) = island("0", "answer") else { return };
-    let End { out, said, code } = Robot::start("island", &cell(&island.first_line, "")).end();
-    assert_eq!((out.as_str(), said.as_str(), code), (PRINTED, "", Some(0)));
+    let End { out, stderr, code } = Robot::start("island", &cell(&island.first_line, "")).end();
+    assert_eq!((out.as_str(), stderr.as_str(), code), (PRINTED, "", Some(0)));
     // The run has ended: all outputs are off.
     let poll = |table: &str, count: &str| {
         let mut command = Command::new("mbpoll");
@@ -54,12 +54,12 @@ fn an_island_that_comes_back_gets_its_outputs_anew() {
     let mut robot = Robot::start("island", &cell(&port, "lost = \"warning\"\ninputs = \"hold\"\n"));
     assert_eq!(robot.first_line(), "135 -2.5 7.5");
     drop(first);
-    let told = robot.told(&format!("warning: the island peer (127.0.0.1:{port}) is lost: "));
-    assert!(told.ends_with("its inputs stay as they were"), "{told}");
+    let message = robot.wait_for_line(&format!("warning: the island peer (127.0.0.1:{port}) is lost: "));
+    assert!(message.ends_with("its inputs stay as they were"), "{message}");
     let Some(_second) = island(&port, "answer") else { return };
-    let End { out, said, code } = robot.end();
-    assert_eq!((out.as_str(), code), ("set\nseen\n", Some(0)), "{said}");
-    assert!(said.contains("is back"), "{said}");
+    let End { out, stderr, code } = robot.end();
+    assert_eq!((out.as_str(), code), ("set\nseen\n", Some(0)), "{stderr}");
+    assert!(stderr.contains("is back"), "{stderr}");
 }
 
 #[test]
@@ -68,25 +68,25 @@ fn an_island_that_goes_silent_or_talks_nonsense_stops_the_program() {
         [("silent", "it has not answered for 200 ms"), ("garbage", "what it sends is not a Modbus TCP response")]
     {
         let Some(island) = island("0", manner) else { return };
-        let End { out, said, code } = Robot::start("island", &cell(&island.first_line, "timeout = 200\n")).end();
-        assert_eq!((out.as_str(), code), ("135 -2.5 7.5\nset\n", Some(3)), "{said}");
-        assert!(said.contains("alarm 20051: the island peer (127.0.0.1:") && said.contains(words), "{said}");
-        assert!(said.contains("(island.arl:8)"), "{said}");
+        let End { out, stderr, code } = Robot::start("island", &cell(&island.first_line, "timeout = 200\n")).end();
+        assert_eq!((out.as_str(), code), ("135 -2.5 7.5\nset\n", Some(3)), "{stderr}");
+        assert!(stderr.contains("alarm 20051: the island peer (127.0.0.1:") && stderr.contains(words), "{stderr}");
+        assert!(stderr.contains("(island.arl:8)"), "{stderr}");
     }
 }
 
 #[test]
-fn what_an_island_refuses_is_told_at_the_start() {
+fn what_an_island_refuses_is_reported_at_the_start() {
     let Some(island) = island("0", "answer") else { return };
     let cell = cell(&island.first_line, "").replace("input_register = 0", "input_register = 1");
-    let End { out, said, code } = Robot::start("island", &cell).end();
-    assert_eq!((out.as_str(), code), ("", Some(2)), "{said}");
-    assert!(said.contains("it refuses input registers 1 to 2 with exception 2: it does not have these"), "{said}");
+    let End { out, stderr, code } = Robot::start("island", &cell).end();
+    assert_eq!((out.as_str(), code), ("", Some(2)), "{stderr}");
+    assert!(stderr.contains("it refuses input registers 1 to 2 with exception 2: it does not have these"), "{stderr}");
 }
 
 #[test]
 fn without_an_island_nothing_starts() {
-    let End { out, said, code } = Robot::start("island", &cell("1", "")).end();
-    assert_eq!((out.as_str(), code), ("", Some(2)), "{said}");
-    assert!(said.contains("error: the island peer (127.0.0.1:1) is not available: cannot connect to"), "{said}");
+    let End { out, stderr, code } = Robot::start("island", &cell("1", "")).end();
+    assert_eq!((out.as_str(), code), ("", Some(2)), "{stderr}");
+    assert!(stderr.contains("error: the island peer (127.0.0.1:1) is not available: cannot connect to"), "{stderr}");
 }

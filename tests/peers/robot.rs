@@ -40,7 +40,7 @@ pub(crate) fn file(name: &str, text: &str) {
 /// A run of a program on the real clock.
 pub(crate) struct Robot {
     child: Child,
-    said: BufReader<ChildStderr>,
+    stderr: BufReader<ChildStderr>,
 }
 
 /// How a run ended.
@@ -49,7 +49,7 @@ pub(crate) struct End {
     /// What was printed.
     pub(crate) out: String,
     /// What stood on the standard error, but for how busy the computer was.
-    pub(crate) said: String,
+    pub(crate) stderr: String,
     pub(crate) code: Option<i32>,
 }
 
@@ -63,16 +63,16 @@ impl Robot {
         let mut command = programs.project.choose(&programs.command, at);
         command.arg("--cell").arg(file).args(["--clock", "real", "--max-time", "60"]);
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        let said = BufReader::new(child.stderr.take().unwrap());
-        Self { child, said }
+        let stderr = BufReader::new(child.stderr.take().unwrap());
+        Self { child, stderr }
     }
 
     /// Waits for a line on the standard error that begins so; what follows there.
-    pub(crate) fn told(&mut self, start: &str) -> String {
+    pub(crate) fn wait_for_line(&mut self, start: &str) -> String {
         let mut line = String::new();
         loop {
             line.clear();
-            assert!(self.said.read_line(&mut line).unwrap() > 0, "the run ended without saying \"{start}\"");
+            assert!(self.stderr.read_line(&mut line).unwrap() > 0, "the run ended without saying \"{start}\"");
             if let Some(rest) = line.trim_end().strip_prefix(start) {
                 return rest.into();
             }
@@ -94,11 +94,11 @@ impl Robot {
 
     /// Waits for the end of the run.
     pub(crate) fn end(mut self) -> End {
-        let (mut out, mut said) = (String::new(), String::new());
+        let (mut out, mut stderr) = (String::new(), String::new());
         self.child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
-        self.said.read_to_string(&mut said).unwrap();
-        let said = said.split_inclusive('\n').filter(|line| !line.contains(" control cycles began late")).collect();
-        End { out, said, code: self.child.wait().unwrap().code() }
+        self.stderr.read_to_string(&mut stderr).unwrap();
+        let stderr = stderr.split_inclusive('\n').filter(|line| !line.contains(" control cycles began late")).collect();
+        End { out, stderr, code: self.child.wait().unwrap().code() }
     }
 }
 

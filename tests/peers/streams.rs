@@ -13,7 +13,7 @@ fn with_server(manner: &str, program: &str) -> Option<String> {
     let server = Server::start(Command::new(python).arg(peer::script("stream_server.py")).arg(manner));
     robot::file(&format!("{manner}.port"), &server.first_line);
     let end = Robot::start(program, "").end();
-    assert_eq!(end.code, Some(0), "{}{}", end.out, end.said);
+    assert_eq!(end.code, Some(0), "{}{}", end.out, end.stderr);
     Some(end.out)
 }
 
@@ -76,15 +76,15 @@ fn a_serial_line_has_all_settings_of_the_manual() {
     let Some(line) = Pty::start("echoing-line", "cat") else { return };
     let end = Robot::start("serial_line", &line.cell()).end();
     let printed = format!("{}worl\n{}{{01h,02h,03h,04h}}\nfalse\n", "true\n".repeat(10), "true\n".repeat(4));
-    assert_eq!((end.out, end.code), (printed, Some(3)), "{}", end.said);
-    assert!(end.said.contains("another program has it open") || end.said.contains("busy"), "{}", end.said);
-    assert!(end.said.contains("alarm 20050: open: the connection is already open: close it first"), "{}", end.said);
+    assert_eq!((end.out, end.code), (printed, Some(3)), "{}", end.stderr);
+    assert!(end.stderr.contains("another program has it open") || end.stderr.contains("busy"), "{}", end.stderr);
+    assert!(end.stderr.contains("alarm 20050: open: the connection is already open: close it first"), "{}", end.stderr);
 }
 
 #[test]
 fn a_serial_line_that_goes_away_is_an_alarm() {
     let Some(line) = Pty::start("lost-line", "head -c 1") else { return };
     let end = Robot::start("serial_lost", &line.cell()).end();
-    assert_eq!((end.out.as_str(), end.code), ("true\nx\n", Some(3)), "{}", end.said);
-    assert!(end.said.contains("alarm 20050: read: the line is lost: "), "{}", end.said);
+    assert_eq!((end.out.as_str(), end.code), ("true\nx\n", Some(3)), "{}", end.stderr);
+    assert!(end.stderr.contains("alarm 20050: read: the line is lost: "), "{}", end.stderr);
 }

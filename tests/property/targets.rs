@@ -116,17 +116,17 @@ fn warnings_of_targets_come_true() {
     let mut seen = std::collections::BTreeMap::new();
     for (at, (case, warned)) in cases.iter().zip(&warned).enumerate() {
         let run = project.choose(&command, at).arg("--robot").arg(&case.robot.name).output().unwrap();
-        let said = String::from_utf8_lossy(&run.stderr);
+        let stderr = String::from_utf8_lossy(&run.stderr);
         let alarm = !run.status.success();
         // On its way a line may meet more than is looked at before.
         let right = if case.instruction == "lin" && warned.is_empty() {
-            !said.contains("at the target")
+            !stderr.contains("at the target")
         } else {
             alarm != warned.is_empty()
         };
         if !right {
             failures.push(format!(
-                "seed {} on {}: {warned:?}, but {}\n{said}{}",
+                "seed {} on {}: {warned:?}, but {}\n{stderr}{}",
                 case.seed, case.robot.name, run.status, case.text
             ));
         }

@@ -153,12 +153,12 @@ impl Build {
     /// Writes the output of one program and returns the lines for cargo.
     fn output(&self, compiled: &Compiled, name: &str, out: &Path) -> Vec<String> {
         let files = compiled.shown_files();
-        let said = |diagnostic: &Diagnostic| plain(diagnostic, &files);
+        let text_of = |diagnostic: &Diagnostic| plain(diagnostic, &files);
         let all = &compiled.checked.diagnostics;
         let mut lines: Vec<String> = all
             .iter()
             .filter(|diagnostic| diagnostic.severity == Severity::Warning && !self.silent)
-            .map(|warning| format!("cargo::warning={}", said(warning)))
+            .map(|warning| format!("cargo::warning={}", text_of(warning)))
             .collect();
         let last_good = out.join(format!("{name}.last.rs"));
         let text = match &compiled.rust {
@@ -170,7 +170,7 @@ impl Build {
                 errors + &read_last(&last_good)
             }
             None => {
-                lines.extend(compiled.errors().map(|error| error_line(&said(error))));
+                lines.extend(compiled.errors().map(|error| error_line(&text_of(error))));
                 return lines;
             }
         };
@@ -233,11 +233,11 @@ fn watchable(path: &Path, out: &Path) -> PathBuf {
     }
     let folder = path.parent().unwrap_or(Path::new(""));
     let real = |path: &Path| std::fs::canonicalize(path).ok();
-    let holds_output = match (real(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }), real(out)) {
+    let contains_output = match (real(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }), real(out)) {
         (Some(folder), Some(out)) => out.starts_with(folder),
         _ => true,
     };
-    if holds_output { PathBuf::new() } else { folder.to_path_buf() }
+    if contains_output { PathBuf::new() } else { folder.to_path_buf() }
 }
 
 #[cfg(test)]
@@ -280,7 +280,7 @@ mod tests {
     const BAD: &str = "func void main()\n    prnt 1\n    goto no\nendfunc\n";
 
     #[test]
-    fn every_file_is_watched_and_warnings_are_told() {
+    fn every_file_is_watched_and_warnings_are_reported() {
         let folder = Folder::new("watch");
         let main = folder.program("a.arl", &format!("import \"m.arl\"\n{GOOD}"));
         folder.program("m.arl", "int x = 1\n");
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_are_told_on_one_line_each_and_nothing_is_written() {
+    fn errors_are_reported_on_one_line_each_and_nothing_is_written() {
         let folder = Folder::new("errors");
         let main = folder.program("a.arl", BAD);
         let lines = folder.lines(&Build::new().program(&main));

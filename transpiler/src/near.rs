@@ -10,12 +10,12 @@ const COMPARISONS: usize = 1 << 20;
 /// with the size of the program.
 #[derive(Debug)]
 pub(crate) struct Hints {
-    left: usize,
+    remaining: usize,
 }
 
 impl Default for Hints {
     fn default() -> Self {
-        Self { left: COMPARISONS }
+        Self { remaining: COMPARISONS }
     }
 }
 
@@ -27,7 +27,7 @@ impl Hints {
         count: usize,
         candidates: impl FnOnce() -> I,
     ) -> Option<&'a str> {
-        self.left = self.left.checked_sub(count.max(1))?;
+        self.remaining = self.remaining.checked_sub(count.max(1))?;
         nearest(name, candidates())
     }
 }
@@ -38,7 +38,7 @@ mod tests {
 
     #[test]
     fn hints_end_where_they_cost_too_much() {
-        let mut hints = Hints { left: 5 };
+        let mut hints = Hints { remaining: 5 };
         let names = || ["count", "mount"].into_iter();
         assert_eq!(hints.nearest("cuont", 2, names), Some("count"));
         assert_eq!(hints.nearest("cuont", 2, names), Some("count"));

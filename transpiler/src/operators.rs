@@ -149,13 +149,13 @@ fn common(left: Operand<'_>, right: Operand<'_>) -> Option<Base> {
         return Some(Base::Double);
     }
     // A constant takes the type of the other operand if it fits; of two constants the int is converted.
-    let gives_way = |constant: Operand<'_>, other: Operand<'_>| {
+    let type_of_constant = |constant: Operand<'_>, other: Operand<'_>| {
         if other.constant.is_some() && constant.base != Base::Int {
             return None;
         }
         constant.fitting(other.base).map(|_| other.base)
     };
-    if let Some(base) = gives_way(left, right).or_else(|| gives_way(right, left)) {
+    if let Some(base) = type_of_constant(left, right).or_else(|| type_of_constant(right, left)) {
         return Some(base);
     }
     match (a, b) {

@@ -79,7 +79,7 @@ fn kept(text: &str) -> String {
 }
 
 #[track_caller]
-fn holds(text: &str) -> String {
+fn assert_stable(text: &str) -> String {
     let laid_out = format(text);
     assert_eq!(format(&laid_out), laid_out, "once more, from:\n{text:?}");
     assert_eq!(kept(&laid_out), kept(text), "from:\n{text:?}\nto:\n{laid_out:?}");
@@ -128,7 +128,7 @@ fn programs_stay_the_same() {
     on_large_stack(|| {
         let mut compiled = 0;
         for (path, text) in corpus() {
-            if holds(&text) == text {
+            if assert_stable(&text) == text {
                 continue;
             }
             let before = emitted(&path, false);
@@ -139,7 +139,7 @@ fn programs_stay_the_same() {
         let documented = documented();
         assert!(documented.len() > 100, "only {} blocks", documented.len());
         for text in documented {
-            holds(&text);
+            assert_stable(&text);
         }
     });
 }
@@ -208,7 +208,7 @@ fn damaged_programs_keep_what_they_have() {
         for _ in 0..number("ARL_FORMAT_ROUNDS").unwrap_or(2000) {
             let program = &programs[random.below(programs.len())];
             let damaged = damage(program, &mut random);
-            holds(&damaged);
+            assert_stable(&damaged);
         }
     });
 }

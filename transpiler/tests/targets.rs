@@ -31,12 +31,12 @@ fn check_with(robot: &str, program: &str, data: Option<&'static str>) {
     for diagnostic in &checked.diagnostics {
         let line = checked.files.line(diagnostic.primary.at) as usize;
         let text = program.lines().nth(line - 1).unwrap_or_default();
-        let said = format!("{} {}", diagnostic.code.0, diagnostic.message);
+        let reported = format!("{} {}", diagnostic.code.0, diagnostic.message);
         match text.split_once("// ").map(|(_, words)| words.split_once(' ').unwrap_or((words, ""))) {
-            Some((code, words)) if code == diagnostic.code.0.to_string() && said.contains(words) => {
+            Some((code, words)) if code == diagnostic.code.0.to_string() && reported.contains(words) => {
                 found.push(text.into())
             }
-            _ => panic!("line {line}: {said}\n{text}"),
+            _ => panic!("line {line}: {reported}\n{text}"),
         }
     }
     let expected: Vec<&str> = program.lines().filter(|line| line.contains("// ")).collect();
@@ -197,7 +197,7 @@ fn functions_may_be_called_from_anywhere() {
 }
 
 #[test]
-fn configurations_ranges_and_singular_points_are_told() {
+fn configurations_ranges_and_singular_points_are_reported() {
     kr10(
         "movej start
         ptp p:{900,0,600,0,90,0,4} // 907 j1 at 180 deg in cfg 4, 10 deg beyond its range

@@ -78,10 +78,10 @@ pub(crate) fn blend(
     to: &Motion,
     is_slower: impl Fn(&Blend) -> bool,
 ) -> Result<Blend, NoBlend> {
-    let (asked, joining) = asked_parts(robot, from, to).ok_or(NoBlend::NothingLeft)?;
+    let (asked, joining) = asked_parts(robot, from, to).ok_or(NoBlend::NothingToRound)?;
     let smooth = is_smooth(from, to).then_some((LARGEST_ZONE, LARGEST_ZONE));
     let smaller = (0..=ZONE_HALVINGS).map(|halvings| f64::from(1 << halvings)).map(|by| (asked / by, joining / by));
-    let (mut why, mut slower) = (NoBlend::NothingLeft, 0);
+    let (mut why, mut slower) = (NoBlend::NothingToRound, 0);
     for (tried, (leaving, joining)) in smooth.into_iter().chain(smaller).enumerate() {
         match (Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2] }.blend()) {
             Ok(blend) if is_slower(&blend) => {
@@ -214,12 +214,12 @@ impl Corner<'_> {
             }
             _ => {
                 let [start, end] = &self.curvatures;
-                let [left, joined] = self.met();
+                let [exited, joined] = self.met();
                 let met = |motion, at, slope, bend, met| {
                     let knot = axes_knot(self.robot, motion, at, slope, bend);
                     knot.map(|knot| rising(knot, met)).ok_or(NoBlend::Singular { axis: None })
                 };
-                let from = met(from, leave, slope_from, start, &left)?;
+                let from = met(from, leave, slope_from, start, &exited)?;
                 let to = met(to, join, slope_to, end, &joined)?;
                 let curve = Quintic::between(&from, &to);
                 let gentle = self.from.corner.is_none() && turns_gently(&curve);
@@ -339,7 +339,7 @@ impl Corner<'_> {
     ) -> Result<(), NoBlend> {
         let [(leave, _), _] = self.ends();
         let start = joints_at(self.robot, self.from, leave).ok_or(NoBlend::Unreachable)?;
-        let found = check_path(self.robot, curve, &start).map_err(NoBlend::of_way)?;
+        let found = check_path(self.robot, curve, &start).map_err(NoBlend::from_plan_error)?;
         if !self.arrives(&found.end) {
             return Err(NoBlend::Configuration);
         }
@@ -381,14 +381,14 @@ impl Corner<'_> {
         let timed = if gentle { Parametrization::gently(derivative, start, end) } else { None };
         timed.unwrap_or_else(|| {
             // Where the curve is met with an acceleration, its parameter compensates for that: the motions are even.
-            let [left, joined] = self.met().map(|met| -met.acc / met.speed);
+            let [exited, joined] = self.met().map(|met| -met.acc / met.speed);
             let within = |time: f64| {
                 let end = |(at, rate, surge): (f64, f64, f64), made_up: f64| {
                     let second = if surge == 0.0 { 0.0 } else { surge / derivative(1, at).norm() };
                     [rate * time, (second + made_up * rate * rate) * time * time]
                 };
                 let [first, last] = ends;
-                (Parametrization::between([end(first, left), end(last, joined)]), time)
+                (Parametrization::between([end(first, exited), end(last, joined)]), time)
             };
             let mean = within(2.0 / (rates[0] + rates[1]));
             // In less time, the parameter always increases.
@@ -409,7 +409,7 @@ impl Corner<'_> {
         let (kinematics, carried) = (&self.robot.kinematics, &self.to.rig.carried);
         let tcp = |share: f64| {
             let axes = Joints::of(&curve.at(parametrization.at(share))).axes;
-            carried.way_at(&kinematics.forward(&axes)).translation.vector
+            carried.path_frame_at(&kinematics.forward(&axes)).translation.vector
         };
         for part in 0..=parts {
             let share = f64::from(part) / f64::from(parts);
@@ -460,7 +460,9 @@ fn is_gentle(curve: &ToolCurve) -> bool {
     let Track::Poly(track) = &curve.path.track else { return false };
     // A turn by so little counts as little, however it changes.
     const TURN: f64 = 0.01;
-    is_gentle_way(track, 0.0) && is_gentle_way(&curve.path.turning, TURN) && is_gentle_way(&curve.external, 0.0)
+    is_gentle_polynomial(track, 0.0)
+        && is_gentle_polynomial(&curve.path.turning, TURN)
+        && is_gentle_polynomial(&curve.external, 0.0)
 }
 
 /// Whether speeds and directions hardly change along a path of the axes.
@@ -469,8 +471,8 @@ fn turns_gently(curve: &Quintic<ALL>) -> bool {
 }
 
 /// Whether speeds and directions hardly change along one path; changes up to `little` count as little.
-fn is_gentle_way<const N: usize>(way: &PacedQuintic<N>, little: f64) -> bool {
-    changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| way.derivative(order, at))), little)
+fn is_gentle_polynomial<const N: usize>(polynomial: &PacedQuintic<N>, little: f64) -> bool {
+    changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| polynomial.derivative(order, at))), little)
 }
 
 /// Whether the first derivatives at the two ends hardly differ, and the second ones are small compared with them or
@@ -562,8 +564,9 @@ fn joints_at(robot: &Robot, motion: &Motion, at: f64) -> Option<Joints> {
     let Curve::Tool(tool) = &motion.curve else { return Some(motion.curve.joints(&robot.kinematics, at, &motion.end)) };
     let (from, near) = if at > 0.5 { (1.0, &motion.end) } else { (0.0, &motion.start) };
     let mut axes = near.axes;
-    let ways = motion.end.axes.iter().zip(&motion.start.axes).map(|(end, start)| (end - start).abs());
-    let steps = 1 + if tool.passages.is_empty() { (ways.fold(0.0, f64::max) / STEP).min(MOST) } else { MOST } as u32;
+    let distances = motion.end.axes.iter().zip(&motion.start.axes).map(|(end, start)| (end - start).abs());
+    let steps =
+        1 + if tool.passages.is_empty() { (distances.fold(0.0, f64::max) / STEP).min(MOST) } else { MOST } as u32;
     for step in 1..=steps {
         axes = tool.axes(&robot.kinematics, from + (at - from) * f64::from(step) / f64::from(steps), &axes)?;
     }

@@ -12,7 +12,7 @@ pub enum NoBlend {
     Late,
     /// The zone leaves nothing to round off: it is too small compared with one of the motions, or another blend has
     /// taken all of that motion.
-    NothingLeft,
+    NothingToRound,
     /// The next motion goes back along the path that the robot came on, so that there is nothing to round off.
     Reversal,
     /// One of the two motions moves external axes alone, while the TCP does not move.
@@ -39,12 +39,12 @@ pub enum NoBlend {
 
 impl NoBlend {
     /// Converts the error of a path near a target.
-    pub(crate) fn of_way(error: PlanError) -> Self {
+    pub(crate) fn from_plan_error(error: PlanError) -> Self {
         match error {
             PlanError::AxisLimit { axis, .. } => NoBlend::AxisLimit { axis },
             PlanError::Singular { axis, .. } | PlanError::Wrist { axis, .. } => NoBlend::Singular { axis: Some(axis) },
             PlanError::TooDense { .. } => NoBlend::TooDense,
-            PlanError::TooSharp { .. } => NoBlend::NothingLeft,
+            PlanError::TooSharp { .. } => NoBlend::NothingToRound,
             _ => NoBlend::Unreachable,
         }
     }
@@ -54,7 +54,7 @@ impl fmt::Display for NoBlend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             NoBlend::Late => write!(f, "the motion after it came too late"),
-            NoBlend::NothingLeft => {
+            NoBlend::NothingToRound => {
                 write!(
                     f,
                     "the zone is too small for one of the two motions, or another zone has taken all of that motion"

@@ -28,7 +28,7 @@ const LARGEST_DIFFERENCE_OF_SPEEDS: f64 = 0.01;
 pub(crate) fn is_smooth(from: &Motion, to: &Motion) -> bool {
     let plain = |motion: &Motion| motion.laid.is_none() && motion.timed.is_none() && motion.corner.is_none();
     let (Curve::Tool(a), Curve::Tool(b)) = (&from.curve, &to.curve) else { return false };
-    let (Track::Poly(way), Track::Poly(way_on)) = (&a.path.track, &b.path.track) else { return false };
+    let (Track::Poly(before), Track::Poly(behind)) = (&a.path.track, &b.path.track) else { return false };
     if !(plain(from) && plain(to) && a.is_even() && b.is_even() && a.goes_on(LARGEST_ZONE, b, LARGEST_ZONE)) {
         return false;
     }
@@ -46,9 +46,12 @@ pub(crate) fn is_smooth(from: &Motion, to: &Motion) -> bool {
     let off = |first: SVector<f64, 3>, second: SVector<f64, 3>| {
         OFF_PER_TURN * zone * (second / to.length - first / from.length).norm()
     };
-    let moved = off(way.derivative(1, 1.0).into(), way_on.derivative(1, 0.0).into());
+    let moved = off(before.derivative(1, 1.0).into(), behind.derivative(1, 0.0).into());
     let [[turning, ..], [turning_on, ..]] = [a.rotation_rates(1.0), b.rotation_rates(0.0)];
     let external = a.external.derivative(1, 1.0).into_iter().zip(b.external.derivative(1, 0.0));
-    let led = external.map(|(first, second)| OFF_PER_TURN * zone * (second / to.length - first / from.length).abs());
-    moved <= MOST_OFF && off(turning, turning_on).to_degrees() <= MOST_OFF && led.fold(0.0, f64::max) <= MOST_OFF
+    let moved_external =
+        external.map(|(first, second)| OFF_PER_TURN * zone * (second / to.length - first / from.length).abs());
+    moved <= MOST_OFF
+        && off(turning, turning_on).to_degrees() <= MOST_OFF
+        && moved_external.fold(0.0, f64::max) <= MOST_OFF
 }

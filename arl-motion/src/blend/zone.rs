@@ -123,9 +123,9 @@ fn leaving(robot: &Robot, motion: &Motion) -> Option<(Measure, f64, f64)> {
 fn extent(robot: &Robot, motion: &Motion, measure: Measure) -> Option<f64> {
     let is_tool = matches!(motion.curve, Curve::Tool(_));
     let external = |linear: bool| {
-        let ways = motion.end.external.iter().zip(&motion.start.external).map(|(end, start)| (end - start).abs());
-        let axes = robot.external_axes().iter().zip(ways).filter(|(axis, _)| axis.linear == linear);
-        axes.map(|(_, way)| way).fold(0.0, f64::max)
+        let distances = motion.end.external.iter().zip(&motion.start.external).map(|(end, start)| (end - start).abs());
+        let axes = robot.external_axes().iter().zip(distances).filter(|(axis, _)| axis.linear == linear);
+        axes.map(|(_, distance)| distance).fold(0.0, f64::max)
     };
     let extent = match measure {
         Measure::Share => 1.0,
@@ -161,5 +161,5 @@ fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
 /// The position of the TCP on its path at a share of an axis motion, in mm.
 fn tcp_place(robot: &Robot, motion: &Motion, at: f64) -> Vector3<f64> {
     let joints: Joints = motion.curve.joints(&robot.kinematics, at, &motion.start);
-    motion.rig.carried.way_at(&robot.kinematics.forward(&joints.axes)).translation.vector
+    motion.rig.carried.path_frame_at(&robot.kinematics.forward(&joints.axes)).translation.vector
 }

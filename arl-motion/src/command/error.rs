@@ -136,7 +136,7 @@ pub enum PlanError {
     /// This robot does not support this kind of motion.
     NotForThisRobot,
     /// The robot is in another configuration, or another turn of an axis, than where it was stopped.
-    NoWayBack,
+    NoReturnMotion,
     /// The look-ahead is full: check [`crate::queue::Queue::has_room`] first.
     Full,
     /// The robot is stopping to drop its motions; the start of the next one is not known yet.
@@ -224,7 +224,7 @@ impl fmt::Display for PlanError {
                 write!(f, "the motion ahead takes more than {most} cycles: use a higher override or longer cycles")
             }
             PlanError::NotForThisRobot => write!(f, "this robot does not support this motion"),
-            PlanError::NoWayBack => write!(
+            PlanError::NoReturnMotion => write!(
                 f,
                 "the robot cannot go straight back to its path: it is in another configuration, or in another turn of an axis, than when it was stopped; move its axes near that position first"
             ),

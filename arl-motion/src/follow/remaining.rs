@@ -18,7 +18,7 @@ pub(crate) struct Leg {
 pub(crate) const MOST_LEGS: usize = 24;
 /// Relative tolerance of a speed, and tolerance of a distance, in s of nominal time.
 const SPEED_TOLERANCE: f64 = 1e-9;
-const WAY_TOLERANCE_S: f64 = 1e-10;
+const DISTANCE_TOLERANCE_S: f64 = 1e-10;
 
 /// How long a robot that starts with the speed `vel` and the acceleration `acc` takes over the legs, in s, where it
 /// ends with at most the speed `exit`.
@@ -52,21 +52,21 @@ impl Leg {
         let limits = &self.limits;
         let changes = |peak: f64| {
             let (up, down) = (Change::new(vel, acc, peak, limits), Change::new(peak, 0.0, exit.min(peak), limits));
-            let way = up.distance(vel, acc) + down.distance(peak, 0.0);
-            (way, up.duration() + down.duration())
+            let distance = up.distance(vel, acc) + down.distance(peak, 0.0);
+            (distance, up.duration() + down.duration())
         };
         let excess = |peak: f64| changes(peak).0 - self.length;
         let least = exit.min(vel);
         let peak = if excess(limits.vel) <= 0.0 { limits.vel } else { highest(least, limits.vel, excess) };
-        let (way, time) = changes(peak);
-        let even = if peak > 0.0 { (self.length - way).max(0.0) / peak } else { 0.0 };
+        let (distance, time) = changes(peak);
+        let even = if peak > 0.0 { (self.length - distance).max(0.0) / peak } else { 0.0 };
         (time + even, exit.min(peak))
     }
 }
 
 /// The highest of a range of speeds whose path is not too long.
 fn highest(low: f64, high: f64, excess: impl Fn(f64) -> f64) -> f64 {
-    search::highest(low, high, Enough { value: SPEED_TOLERANCE * high, excess: WAY_TOLERANCE_S }, excess)
+    search::highest(low, high, Enough { value: SPEED_TOLERANCE * high, excess: DISTANCE_TOLERANCE_S }, excess)
 }
 
 #[cfg(test)]

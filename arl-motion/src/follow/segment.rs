@@ -84,7 +84,7 @@ struct Arm {
 
 /// A tool that is led along a path.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LedTool {
+pub(crate) struct GuidedTool {
     /// Position of the TCP, in mm.
     pub(crate) at: Vector3<f64>,
     /// Orientation, where it is led, too; in passages of the wrist singularity it may deviate.
@@ -223,11 +223,11 @@ impl Segment {
     /// How long it takes, in s, from `at` s of nominal time on, at its full speed.
     pub(crate) fn time_from(&self, at: f64) -> f64 {
         let mut end = 0.0;
-        let left = |cell: Cell| {
+        let remaining = |cell: Cell| {
             end += cell.length;
             (end - at).clamp(0.0, cell.length) / cell.limits.vel
         };
-        self.cells().map(left).sum()
+        self.cells().map(remaining).sum()
     }
 
     /// The joints after `at` s of nominal time.
@@ -247,15 +247,15 @@ impl Segment {
 
     /// The tool whose path is limited, after `at` s of nominal time, where the joints are `joints`. `None` where the
     /// axes are led, except for blends between motions that lead the TCP, and where it is not known what limits it.
-    pub(crate) fn tool(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<LedTool> {
+    pub(crate) fn tool(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<GuidedTool> {
         let pace = self.pace?;
         match &self.curve {
             Curve::Tool(curve) => {
                 let tcp = curve.tcp(self.place(at));
-                Some(LedTool { at: tcp.translation.vector, rotation: Some(tcp.rotation), carried: curve.carried })
+                Some(GuidedTool { at: tcp.translation.vector, rotation: Some(tcp.rotation), carried: curve.carried })
             }
             Curve::Axes(_) if pace.tcp.is_finite() => {
-                Some(LedTool { at: self.tcp_by_axes(kinematics, joints), rotation: None, carried: self.rig.carried })
+                Some(GuidedTool { at: self.tcp_by_axes(kinematics, joints), rotation: None, carried: self.rig.carried })
             }
             Curve::Axes(_) => None,
         }
@@ -263,7 +263,7 @@ impl Segment {
 
     /// The position of the TCP, in mm, where the axes are led.
     fn tcp_by_axes(&self, kinematics: &Kinematics, joints: &Joints) -> Vector3<f64> {
-        self.rig.carried.way_at(&kinematics.forward(&joints.axes)).translation.vector
+        self.rig.carried.path_frame_at(&kinematics.forward(&joints.axes)).translation.vector
     }
 
     /// The first three derivatives of the TCP's position in mm, where the axes are led, after `at` s of nominal time,

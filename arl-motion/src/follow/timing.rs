@@ -95,27 +95,27 @@ impl Stretch {
     /// end.
     fn highest_speed(&self, from: f64, exit: f64, margin: f64, cycle: f64) -> f64 {
         let limits = Limits { vel: 0.0, acc: self.acc * margin, jerk: self.jerk * margin };
-        let mut way = -from;
+        let mut distance = -from;
         let mut found: Option<(f64, f64)> = None;
         let speeds = self.cells.iter().skip(1).map(|cell| cell.limits.vel).chain([exit]);
         for (cell, speed) in self.cells.iter().zip(speeds) {
-            way += cell.length;
-            if way <= 0.0 {
+            distance += cell.length;
+            if distance <= 0.0 {
                 continue;
             }
             let first = || (cell.limits.vel, limits.slowing(cell.limits.vel, 0.0));
             let (highest, stop) = *found.get_or_insert_with(first);
             // It is entered in the middle of a cycle, and braking begins with the next one.
             let needed = |vel: f64| limits.slowing(vel, speed) + 2.0 * cycle * vel;
-            if speed >= highest || needed(highest) <= way {
+            if speed >= highest || needed(highest) <= distance {
                 // Nothing beyond the stopping distance from here matters.
-                if way > stop {
+                if distance > stop {
                     break;
                 }
                 continue;
             }
             let enough = Enough { value: ENTRY_SPEED_TOLERANCE * highest, excess: 0.0 };
-            let entry = search::highest(speed, highest, enough, |vel| needed(vel) - way);
+            let entry = search::highest(speed, highest, enough, |vel| needed(vel) - distance);
             found = Some((entry, limits.slowing(entry, 0.0)));
         }
         found.map_or(exit, |(highest, _)| highest)
@@ -269,26 +269,26 @@ impl Timing {
     pub(crate) fn braking(&self, open: f64) -> f64 {
         let (mut open, mut needed, mut exit) = (open, 0.0, 0.0);
         for stretch in self.stretches.iter().rev() {
-            let (mut way, mut fastest) = (-open, 0.0_f64);
+            let (mut distance, mut fastest) = (-open, 0.0_f64);
             for cell in &stretch.cells {
-                way += cell.length;
+                distance += cell.length;
                 fastest = fastest.max(cell.limits.vel);
             }
-            open = (-way).max(0.0);
-            if way <= 0.0 {
+            open = (-distance).max(0.0);
+            if distance <= 0.0 {
                 continue;
             }
             // The robot may just be speeding up.
             let fading = fastest * stretch.acc / stretch.jerk;
             let slowing = |vel: f64| stretch.limits().slowing(vel, exit) + fading;
-            if slowing(fastest) <= way {
+            if slowing(fastest) <= distance {
                 return needed + slowing(fastest);
             }
-            needed += way;
-            exit = if fastest <= exit || slowing(exit) > way {
+            needed += distance;
+            exit = if fastest <= exit || slowing(exit) > distance {
                 exit.min(fastest)
             } else {
-                search::highest(exit, fastest, BRAKING_TOLERANCE, |vel| slowing(vel) - way)
+                search::highest(exit, fastest, BRAKING_TOLERANCE, |vel| slowing(vel) - distance)
             };
         }
         needed

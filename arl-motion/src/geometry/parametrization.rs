@@ -74,15 +74,15 @@ impl Parametrization {
         const STEPS: usize = PARTS * PLACES_OF_PART;
         let speed = |at: f64| derivative(1, at).norm();
         // The path length up to each place, by Simpson's rule.
-        let mut ways = [0.0; STEPS + 1];
+        let mut path_lengths = [0.0; STEPS + 1];
         let step = 1.0 / STEPS as f64;
         let mut sum = 0.0;
         let mut slowest = f64::INFINITY;
-        for (index, way) in ways.iter_mut().enumerate().skip(1) {
+        for (index, path_length) in path_lengths.iter_mut().enumerate().skip(1) {
             let at = index as f64 * step;
             sum += (speed(at - step) + 4.0 * speed(at - step / 2.0) + speed(at)) * step / 6.0;
             slowest = slowest.min(speed(at)).min(speed(at - step / 2.0));
-            *way = sum;
+            *path_length = sum;
         }
         if slowest < 0.25 * sum || start <= 0.0 || end <= 0.0 {
             return None;
@@ -101,16 +101,16 @@ impl Parametrization {
             let x = share;
             let eased = x * x * x * (1.0 - x / 2.0);
             let by_acc = x * x * (rise * (0.5 - x * (2.0 / 3.0 - x / 4.0)) - fall * x * (1.0 / 3.0 - x / 4.0));
-            let way = time * (start * x + (end - start) * eased + by_acc);
-            let mut at = parameter(&ways, way);
+            let path_length = time * (start * x + (end - start) * eased + by_acc);
+            let mut at = parameter(&path_lengths, path_length);
             // The table provides a first guess.
             for _ in 0..3 {
                 let base = (at / step).floor().clamp(0.0, (STEPS - 1) as f64);
                 let from = base * step;
                 let rest = at - from;
                 let part = (speed(from) + 4.0 * speed(from + rest / 2.0) + speed(at)) * rest / 6.0;
-                let there = ways.get(base as usize).copied().unwrap_or(0.0) + part;
-                at = (at + (way - there) / speed(at)).clamp(0.0, 1.0);
+                let there = path_lengths.get(base as usize).copied().unwrap_or(0.0) + part;
+                at = (at + (path_length - there) / speed(at)).clamp(0.0, 1.0);
             }
             let (first, second) = (derivative(1, at), derivative(2, at));
             let rate = time * wanted(x) / first.norm();
@@ -132,12 +132,12 @@ impl Parametrization {
         let part = |from: f64, to: f64| {
             (length(from) + 4.0 * length(f64::midpoint(from, to)) + length(to)) * (to - from) / 6.0
         };
-        let mut ways = [0.0; STEPS + 1];
+        let mut path_lengths = [0.0; STEPS + 1];
         let mut sum = 0.0;
-        for (index, way) in ways.iter_mut().enumerate().skip(1) {
+        for (index, path_length) in path_lengths.iter_mut().enumerate().skip(1) {
             let at = index as f64 * step;
             sum += part(at - step, at);
-            *way = sum;
+            *path_length = sum;
         }
         // The speed eases like 3 x2 - 2 x3 in the first and in the last part of the time.
         let easing = |x: f64| x * x * (3.0 - 2.0 * x);
@@ -148,20 +148,20 @@ impl Parametrization {
             let (rising, falling) = ((share / EASING_SHARE).min(1.0), ((1.0 - share) / EASING_SHARE).min(1.0));
             let change = |x: f64, from: f64| (middle - from) * 6.0 * x * (1.0 - x) / EASING_SHARE;
             let speed = start + (middle - start) * easing(rising) + (end - middle) * (1.0 - easing(falling));
-            let way = middle * share
+            let path_length = middle * share
                 + (start - middle) * EASING_SHARE * (rising - eased(rising))
                 + (end - middle) * EASING_SHARE * (0.5 - (falling - eased(falling)));
-            (way, speed, change(rising, start) - change(falling, end))
+            (path_length, speed, change(rising, start) - change(falling, end))
         };
         let along = Self::of(|share| {
-            let (way, speed, change) = speed(share);
-            let way = way * time;
-            let mut at = parameter(&ways, way);
+            let (path_length, speed, change) = speed(share);
+            let path_length = path_length * time;
+            let mut at = parameter(&path_lengths, path_length);
             // The table provides a first guess.
             for _ in 0..3 {
                 let base = (at / step).floor().clamp(0.0, (STEPS - 1) as f64);
-                let known = ways.get(base as usize).copied().unwrap_or(0.0);
-                at = (at + (way - known - part(base * step, at)) / length(at)).clamp(0.0, 1.0);
+                let known = path_lengths.get(base as usize).copied().unwrap_or(0.0);
+                at = (at + (path_length - known - part(base * step, at)) / length(at)).clamp(0.0, 1.0);
             }
             if share >= 1.0 {
                 at = 1.0;
@@ -213,17 +213,17 @@ impl Parametrization {
 
 /// The time in s for a distance in mm with a smooth change from one speed and acceleration, in mm/s and mm/s2, to
 /// others.
-fn time_along(way: f64, [start, start_acc]: [f64; 2], [end, end_acc]: [f64; 2]) -> Option<f64> {
+fn time_along(distance: f64, [start, start_acc]: [f64; 2], [end, end_acc]: [f64; 2]) -> Option<f64> {
     let (mean, gain) = (f64::midpoint(start, end), (start_acc - end_acc) / 12.0);
-    let inside = mean * mean + 4.0 * gain * way;
-    (inside >= 0.0).then(|| 2.0 * way / (mean + inside.sqrt())).filter(|time| time.is_finite())
+    let inside = mean * mean + 4.0 * gain * distance;
+    (inside >= 0.0).then(|| 2.0 * distance / (mean + inside.sqrt())).filter(|time| time.is_finite())
 }
 
-/// The parameter at which the table of path lengths has reached `way`.
-fn parameter(ways: &[f64], way: f64) -> f64 {
-    let after = ways.partition_point(|known| *known < way).clamp(1, ways.len() - 1);
-    let (Some(low), Some(high)) = (ways.get(after - 1), ways.get(after)) else { return 0.0 };
-    ((after - 1) as f64 + (way - low) / (high - low)) / (ways.len() - 1) as f64
+/// The parameter at which the table of path lengths has reached `path_length`.
+fn parameter(path_lengths: &[f64], path_length: f64) -> f64 {
+    let after = path_lengths.partition_point(|known| *known < path_length).clamp(1, path_lengths.len() - 1);
+    let (Some(low), Some(high)) = (path_lengths.get(after - 1), path_lengths.get(after)) else { return 0.0 };
+    ((after - 1) as f64 + (path_length - low) / (high - low)) / (path_lengths.len() - 1) as f64
 }
 
 #[cfg(test)]
@@ -277,10 +277,10 @@ mod tests {
     }
 
     #[test]
-    fn an_eased_way_takes_its_speeds() {
+    fn an_eased_path_takes_its_speeds() {
         let gait = |at: f64| [1.0 + at * (1.0 - at), 1.0 - 2.0 * at];
         let (parametrization, time) = Parametrization::eased(gait, [2.0, 5.0, 1.0]);
-        let mut way = 0.0;
+        let mut distance = 0.0;
         for step in 0..=1000 {
             let share = f64::from(step) / 1000.0;
             let at = parametrization.at(share);
@@ -292,8 +292,11 @@ mod tests {
                 _ => speed,
             };
             assert!((speed - wanted).abs() < 1e-3 && speed > 0.99, "{share}: {speed}");
-            way += speed * time / 1000.0;
+            distance += speed * time / 1000.0;
         }
-        assert!((way - (1.0 + 1.0 / 6.0)).abs() < 5e-3 && (parametrization.at(1.0) - 1.0).abs() < 1e-9, "{way}");
+        assert!(
+            (distance - (1.0 + 1.0 / 6.0)).abs() < 5e-3 && (parametrization.at(1.0) - 1.0).abs() < 1e-9,
+            "{distance}"
+        );
     }
 }

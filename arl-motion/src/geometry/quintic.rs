@@ -29,14 +29,14 @@ impl<const N: usize> Quintic<N> {
         for index in 0..N {
             let (p0, v0, a0) = (from.value[index], from.first[index], from.second[index]);
             let (p1, v1, a1) = (to.value[index], to.first[index], to.second[index]);
-            let way = p1 - p0;
+            let distance = p1 - p0;
             let column = [
                 p0,
                 v0,
                 a0 / 2.0,
-                10.0 * way - 6.0 * v0 - 4.0 * v1 - 1.5 * a0 + 0.5 * a1,
-                -15.0 * way + 8.0 * v0 + 7.0 * v1 + 1.5 * a0 - a1,
-                6.0 * way - 3.0 * (v0 + v1) - 0.5 * a0 + 0.5 * a1,
+                10.0 * distance - 6.0 * v0 - 4.0 * v1 - 1.5 * a0 + 0.5 * a1,
+                -15.0 * distance + 8.0 * v0 + 7.0 * v1 + 1.5 * a0 - a1,
+                6.0 * distance - 3.0 * (v0 + v1) - 0.5 * a0 + 0.5 * a1,
             ];
             for (power, value) in powers.iter_mut().zip(column) {
                 power[index] = value;

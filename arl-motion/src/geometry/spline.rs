@@ -82,10 +82,15 @@ impl Passing {
     }
 }
 
-/// The first and second derivative in the middle of three points, which are `way0` and `way1` apart over the lengths
-/// `h0` and `h1`.
-fn parabola<const N: usize>(h0: f64, way0: SVector<f64, N>, h1: f64, way1: SVector<f64, N>) -> [SVector<f64, N>; 2] {
-    let (slope0, slope1) = (way0 / h0, way1 / h1);
+/// The first and second derivative in the middle of three points, which are `chord0` and `chord1` apart over the
+/// lengths `h0` and `h1`.
+fn parabola<const N: usize>(
+    h0: f64,
+    chord0: SVector<f64, N>,
+    h1: f64,
+    chord1: SVector<f64, N>,
+) -> [SVector<f64, N>; 2] {
+    let (slope0, slope1) = (chord0 / h0, chord1 / h1);
     [(slope0 * h1 + slope1 * h0) / (h0 + h1), (slope1 - slope0) * (2.0 / (h0 + h1))]
 }
 
@@ -127,16 +132,17 @@ pub(crate) fn segment(
     (path, PacedQuintic::paced(external, pace), time)
 }
 
-/// A polynomial from `start` by `way`; where the derivatives at an end are not given, it continues as a parabola there.
+/// A polynomial from `start` by `chord`; where the derivatives at an end are not given, it continues as a parabola
+/// there.
 fn polynomial<const N: usize>(
     start: SVector<f64, N>,
-    way: SVector<f64, N>,
+    chord: SVector<f64, N>,
     from: Option<[SVector<f64, N>; 2]>,
     to: Option<[SVector<f64, N>; 2]>,
 ) -> Quintic<N> {
-    let free = |first: &SVector<f64, N>, towards: f64| [way * 2.0 - first, (first - way) * (2.0 * towards)];
+    let free = |first: &SVector<f64, N>, towards: f64| [chord * 2.0 - first, (first - chord) * (2.0 * towards)];
     let (from, to) = match (from, to) {
-        (None, None) => return Quintic::even(start.into(), way.into()),
+        (None, None) => return Quintic::even(start.into(), chord.into()),
         (Some(from), Some(to)) => (from, to),
         (None, Some(to)) => (free(&to[0], 1.0), to),
         (Some(from), None) => (from, free(&from[0], -1.0)),
@@ -146,7 +152,7 @@ fn polynomial<const N: usize>(
         first: first.into(),
         second: second.into(),
     };
-    Quintic::between(&knot(start, from), &knot(start + way, to))
+    Quintic::between(&knot(start, from), &knot(start + chord, to))
 }
 
 /// The length of the path per unit of the parameter, in mm, and its derivative; never much shorter than

@@ -28,7 +28,7 @@ pub(crate) struct Prepared(Arc<Preparation>);
 struct Preparation {
     junction: OnceLock<Junction>,
     /// Whether the thread has given up the search, or never had it.
-    is_left: AtomicBool,
+    is_abandoned: AtomicBool,
 }
 
 /// What is known about the junction before a motion.
@@ -105,7 +105,7 @@ impl BlendThread {
 impl From<Junction> for Prepared {
     /// A junction that is already found.
     fn from(junction: Junction) -> Self {
-        Self(Arc::new(Preparation { junction: junction.into(), is_left: false.into() }))
+        Self(Arc::new(Preparation { junction: junction.into(), is_abandoned: false.into() }))
     }
 }
 
@@ -118,7 +118,7 @@ impl Prepared {
 
     /// Whether there is no need to wait for the thread.
     pub(crate) fn is_ready(&self) -> bool {
-        self.junction().is_some() || self.0.is_left.load(Ordering::Acquire)
+        self.junction().is_some() || self.0.is_abandoned.load(Ordering::Acquire)
     }
 
     /// The junction, if it has been found.
@@ -127,7 +127,7 @@ impl Prepared {
     }
 
     fn leave(&self) {
-        self.0.is_left.store(true, Ordering::Release);
+        self.0.is_abandoned.store(true, Ordering::Release);
     }
 
     /// The junction that has been found, or that is found now for `pair`.

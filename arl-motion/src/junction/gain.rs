@@ -126,21 +126,21 @@ thread_local! {
 fn fastest_along(robot: &Robot, segments: impl IntoIterator<Item = Segment>, start: &Joints) -> Option<f64> {
     #[cfg(test)]
     ASKED_HERE.with(|count| count.set(count.get() + 1));
-    let mut way = SharedDeque::default();
+    let mut shared = SharedDeque::default();
     for segment in segments.into_iter().filter(|segment| segment.time > 0.0) {
-        way.push_back(Arc::new(segment));
+        shared.push_back(Arc::new(segment));
     }
-    let part = Part::whole(way);
+    let part = Part::whole(shared);
     let end = part.end;
     let sampler = ConstraintSampler::new(&Arc::new(robot.clone()), part, 0.0, start);
     // Where there is too much to look at, the law would end earlier.
-    let prospect =
-        sampler.look(end, 1.0, BoundaryState::REST, BoundaryState::REST).filter(|prospect| prospect.end >= end)?;
-    let key = key(&prospect.way, BoundaryState::REST, None);
+    let sampled =
+        sampler.look(end, 1.0, BoundaryState::REST, BoundaryState::REST).filter(|sampled| sampled.end >= end)?;
+    let key = key(&sampled.path, BoundaryState::REST, None);
     if let Some(known) = KNOWN.with_borrow(|known| known.get(&key).copied()) {
         return known;
     }
-    let found = fastest_duration(&sampler, prospect);
+    let found = fastest_duration(&sampler, sampled);
     KNOWN.with_borrow_mut(|known| {
         if known.len() >= MOST_KNOWN {
             known.clear();

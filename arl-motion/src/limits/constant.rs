@@ -111,7 +111,7 @@ const PASSING_SHARES: [f64; 8] = [1.0, 0.98, 0.96, 0.94, 0.92, 0.88, 0.8, 0.6];
 /// Shares of the acceleration that is left at that speed; the one that reaches the speed soonest is used.
 const PASSING_ACC_SHARES: [f64; 9] = [0.95, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1];
 /// Least share of the acceleration and of the jerk available at rest that must be left at speed.
-const LEAST_SHARE_LEFT: f64 = 0.08;
+const LEAST_REMAINING_SHARE: f64 = 0.08;
 
 /// Limits for passing through without stopping, no faster than `fastest`, that keep all bounds.
 pub(crate) fn passing(constraints: &[Constraint], fastest: f64) -> Limits {
@@ -147,8 +147,8 @@ pub(crate) fn passing(constraints: &[Constraint], fastest: f64) -> Limits {
             }
         }
         if found.vel == vel
-            && found.acc >= LEAST_SHARE_LEFT * acc_at_rest
-            && found.jerk >= LEAST_SHARE_LEFT * jerk_at_rest
+            && found.acc >= LEAST_REMAINING_SHARE * acc_at_rest
+            && found.jerk >= LEAST_REMAINING_SHARE * jerk_at_rest
         {
             return found;
         }

@@ -70,27 +70,27 @@ impl Limits {
             return speeding_up.after(State::default(), time);
         }
         // The rest is the same, seen from the other end.
-        let left = speeding_up.after(State::default(), (whole - time).max(0.0));
-        State { at: 1.0 - left.at, vel: left.vel, acc: -left.acc }
+        let from_end = speeding_up.after(State::default(), (whole - time).max(0.0));
+        State { at: 1.0 - from_end.at, vel: from_end.vel, acc: -from_end.acc }
     }
 
     /// [`Limits::duration`] where slowing down uses only `braking` times the acceleration and jerk.
     pub(crate) fn duration_braking(&self, distance: f64, braking: f64) -> f64 {
         let gently = Self { acc: self.acc * braking, jerk: self.jerk * braking, ..*self };
         let ramps = |peak: f64| [Change::new(0.0, 0.0, peak, self), Change::new(peak, 0.0, 0.0, &gently)];
-        let way = |peak: f64| {
+        let distance_to = |peak: f64| {
             let [up, down] = ramps(peak);
             up.distance(0.0, 0.0) + down.distance(peak, 0.0)
         };
         let mut peak = self.vel;
-        if way(peak) > distance {
+        if distance_to(peak) > distance {
             let mut low = 0.0;
             for _ in 0..60 {
                 let middle = f64::midpoint(low, peak);
-                if way(middle) <= distance { low = middle } else { peak = middle }
+                if distance_to(middle) <= distance { low = middle } else { peak = middle }
             }
         }
-        let rest = (distance - way(peak)).max(0.0);
+        let rest = (distance - distance_to(peak)).max(0.0);
         ramps(peak).iter().map(Change::duration).sum::<f64>() + if peak > 0.0 { rest / peak } else { 0.0 }
     }
 }
@@ -139,7 +139,7 @@ impl Change {
         let (acc, gain) = (acc * sign, (goal - vel) * sign);
         let free = (jerk * gain + acc * acc / 2.0).max(0.0).sqrt();
         let peak = free.min(most);
-        let hold = if free > most {
+        let plateau = if free > most {
             // The gain that the two ramps do not provide; the first one falls where the acceleration is too high
             // already.
             let ramps = (peak * peak + (peak * peak - acc * acc) * (peak - acc).signum()) / (2.0 * jerk);
@@ -149,7 +149,9 @@ impl Change {
         };
         let first = peak - acc;
         let phase = |time: f64, jerk: f64| Phase { time, jerk: jerk * sign };
-        Self { phases: [phase(first.abs() / jerk, jerk * first.signum()), phase(hold, 0.0), phase(peak / jerk, -jerk)] }
+        Self {
+            phases: [phase(first.abs() / jerk, jerk * first.signum()), phase(plateau, 0.0), phase(peak / jerk, -jerk)],
+        }
     }
 
     pub(crate) fn duration(&self) -> f64 {
@@ -159,16 +161,16 @@ impl Change {
     /// The state `time` s after `state`, for which the change was created; behind its end the speed is constant.
     pub(crate) fn after(&self, state: State, time: f64) -> State {
         let mut state = state;
-        let mut left = time;
+        let mut remaining = time;
         for phase in self.phases {
-            let time = phase.time.min(left);
+            let time = phase.time.min(remaining);
             state = state.after(phase.jerk, time);
-            left -= time;
-            if left <= 0.0 {
+            remaining -= time;
+            if remaining <= 0.0 {
                 return state;
             }
         }
-        State { at: state.at + state.vel * left, acc: 0.0, ..state }
+        State { at: state.at + state.vel * remaining, acc: 0.0, ..state }
     }
 
     /// The rest of the change `time` s after its start.

@@ -40,7 +40,7 @@ impl Lead {
 
 /// The state of a compensation at the end of a motion, for the next one.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub(crate) struct Led {
+pub(crate) struct CompensationState {
     pub(crate) lead: Lead,
     /// Number of the compensation; 0 for none.
     pub(crate) number: u32,
@@ -50,7 +50,7 @@ pub(crate) struct Led {
     carried: Option<Carried>,
 }
 
-impl Led {
+impl CompensationState {
     /// The part that the next motion takes over: nothing under another compensation or none, or where its path is
     /// relative to something else.
     pub(crate) fn for_next(&self, settings: &Settings, rig: &Rig) -> Self {
@@ -98,7 +98,7 @@ impl Shift {
     /// `world` are the orientations of the workpiece frame and of the world, relative to what the path is relative to.
     pub(crate) fn new(
         compensation: &Compensation,
-        before: &Led,
+        before: &CompensationState,
         curve: &TcpPath,
         path: Option<&PathFrame>,
         [workpiece, world]: [&UnitQuaternion<f64>; 2],
@@ -140,9 +140,14 @@ impl Shift {
     }
 
     /// The state in which the motion behind this one begins.
-    pub(crate) fn led(&self, curve: &TcpPath, carried: Carried, path: Option<&PathFrame>) -> Led {
+    pub(crate) fn compensation_state(
+        &self,
+        curve: &TcpPath,
+        carried: Carried,
+        path: Option<&PathFrame>,
+    ) -> CompensationState {
         let across = path.map(|path| path.rotation(1.0) * Vector3::y() * self.side);
-        Led { lead: self.target(curve, path, 1.0), number: self.number, across, carried: Some(carried) }
+        CompensationState { lead: self.target(curve, path, 1.0), number: self.number, across, carried: Some(carried) }
     }
 
     /// The lead that it grows to, as of `at`.

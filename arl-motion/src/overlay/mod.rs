@@ -15,7 +15,7 @@ use compensation::Shift;
 use path_frame::{PathFrame, Rates, carried};
 use weave::Pattern;
 
-pub(crate) use compensation::Led;
+pub(crate) use compensation::CompensationState;
 
 /// The overlay on a path of the TCP.
 #[derive(Clone, PartialEq, Debug)]
@@ -80,9 +80,9 @@ impl Woven {
         if time < growing {
             rates = times(paced(easing(time / growing), rate / growing), rates);
         }
-        let left = self.seconds * (1.0 - at);
-        if left < self.fading {
-            rates = times(paced(easing(left / self.fading), -rate / self.fading), rates);
+        let remaining = self.seconds * (1.0 - at);
+        if remaining < self.fading {
+            rates = times(paced(easing(remaining / self.fading), -rate / self.fading), rates);
         }
         rates
     }

@@ -113,8 +113,8 @@ fn directed(curve: &TcpPath, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<f6
         (unit, (change - unit * unit.dot(&change)) / length)
     }
     // Splines end where they turn back, so that they have a direction at each point.
-    let way = curve.track.derivative(1, at);
-    let (x, dx) = unit(way, curve.track.derivative(2, at));
+    let tangent = curve.track.derivative(1, at);
+    let (x, dx) = unit(tangent, curve.track.derivative(2, at));
     let tool = curve.rotation(at) * Vector3::z();
     let [turning, ..] = curve.rotation_rates(at);
     let across = x.cross(&tool);

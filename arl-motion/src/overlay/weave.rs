@@ -63,11 +63,11 @@ impl Pattern {
             _ => &[(left, stay_left), (middle, stay_middle), (right, stay_right), (middle, stay_middle)],
         };
         // The legs share the time in proportion to their lengths.
-        let ways = |stops: &[(Vector3<f64>, f64)]| {
+        let length = |stops: &[(Vector3<f64>, f64)]| {
             let mut from = middle;
             stops.iter().map(|(to, _)| (to - std::mem::replace(&mut from, *to)).norm()).sum::<f64>()
         };
-        let whole = ways(stops).max(f64::MIN_POSITIVE);
+        let whole = length(stops).max(f64::MIN_POSITIVE);
         let mut legs = Vec::with_capacity(2 * stops.len());
         let (mut time, mut from) = (0.0, middle);
         for (to, stay) in stops {
@@ -174,8 +174,8 @@ mod tests {
         use WeaveShape::{Eight, Ellipse, Simple, Triangle, VShape};
         let plain = [Simple, VShape, Triangle, Ellipse, Eight].map(weave);
         let staying = plain.map(|weave| Weave { dwells: [0.1, 0.2, 0.05], ..weave });
-        let left = plain.map(|weave| Weave { dwells: [0.003, 0.0, 0.0], turned: Vector3::z() * 0.3, ..weave });
-        plain.into_iter().chain(staying).chain(left).collect()
+        let dwelling_left = plain.map(|weave| Weave { dwells: [0.003, 0.0, 0.0], turned: Vector3::z() * 0.3, ..weave });
+        plain.into_iter().chain(staying).chain(dwelling_left).collect()
     }
 
     #[test]

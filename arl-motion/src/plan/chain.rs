@@ -27,7 +27,7 @@ pub(crate) enum Kind {
 
 /// A motion that has been added, but is not planned yet.
 #[derive(Clone, Debug)]
-pub(crate) struct Held {
+pub(crate) struct DeferredMotion {
     kind: Kind,
     command: Command,
     settings: Settings,
@@ -60,7 +60,7 @@ impl Target {
     }
 }
 
-impl Held {
+impl DeferredMotion {
     /// Holds back a motion that starts at `start`; `None` for a kind that does not have to wait.
     pub(crate) fn new(
         robot: &Robot,
@@ -103,11 +103,11 @@ impl Held {
     }
 
     /// Whether the next motion forms one path with this one.
-    pub(crate) fn goes_on(&self, robot: &Robot, next: &Held) -> bool {
+    pub(crate) fn goes_on(&self, robot: &Robot, next: &DeferredMotion) -> bool {
         self.kind == next.kind
             && match self.kind {
                 Kind::Circle => {
-                    let carried = |held: &Held| std::mem::discriminant(&held.command.rig.carried);
+                    let carried = |deferred: &DeferredMotion| std::mem::discriminant(&deferred.command.rig.carried);
                     carried(self) == carried(next)
                 }
                 Kind::Spline => self.command.rig.carried == next.command.rig.carried && !self.breaks_off(robot, next),
@@ -116,7 +116,7 @@ impl Held {
 
     /// Whether a spline has to end here and a new one to begin: points are the same, the path turns back, or another
     /// compensation begins to grow, which would not flow.
-    fn breaks_off(&self, robot: &Robot, next: &Held) -> bool {
+    fn breaks_off(&self, robot: &Robot, next: &DeferredMotion) -> bool {
         let from = self.from(robot);
         self.settings.compensation != next.settings.compensation
             || from.chord(&self.target) <= SAME_POINT_MM
@@ -124,16 +124,16 @@ impl Held {
             || from.turns_back(&self.target, &next.target)
     }
 
-    /// Lets it end with a stop, whatever its zone, where only [`Held::breaks_off`] separates the next motion from the
-    /// same spline: zones do not apply within a spline.
-    pub(crate) fn stop_before(&mut self, robot: &Robot, next: &Held) {
+    /// Lets it end with a stop, whatever its zone, where only [`DeferredMotion::breaks_off`] separates the next motion
+    /// from the same spline: zones do not apply within a spline.
+    pub(crate) fn stop_before(&mut self, robot: &Robot, next: &DeferredMotion) {
         if [self.kind, next.kind] == [Kind::Spline; 2] && self.breaks_off(robot, next) {
             self.command.zone = Zone::NONE;
         }
     }
 
     fn from(&self, robot: &Robot) -> SplinePoint {
-        let tcp = self.command.rig.carried.way_at(&robot.kinematics.forward(&self.start.axes));
+        let tcp = self.command.rig.carried.path_frame_at(&robot.kinematics.forward(&self.start.axes));
         SplinePoint { tcp, external: self.start.external }
     }
 
@@ -142,7 +142,11 @@ impl Held {
     ///
     /// # Errors
     /// It cannot be planned; the error contains its line.
-    pub(crate) fn plan(&self, robot: &Robot, next: Option<&Held>) -> Result<(Motion, Option<Predecessor>), PlanError> {
+    pub(crate) fn plan(
+        &self,
+        robot: &Robot,
+        next: Option<&DeferredMotion>,
+    ) -> Result<(Motion, Option<Predecessor>), PlanError> {
         let planner = Planner { robot, start: &self.start, command: &self.command, settings: &self.settings };
         let planned = match self.kind {
             Kind::Circle => self.circle(&planner, next),
@@ -152,7 +156,7 @@ impl Held {
     }
 
     /// Whether its weave continues into the motion that forms one path with it.
-    pub(crate) fn weaves_on(&self, next: &Held) -> bool {
+    pub(crate) fn weaves_on(&self, next: &DeferredMotion) -> bool {
         self.kind == Kind::Spline && self.settings.weave == next.settings.weave
     }
 
@@ -189,14 +193,18 @@ impl Held {
         self.before.get_or_insert(Predecessor::Circle(start));
     }
 
-    fn circle(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Predecessor>), PlanError> {
+    fn circle(
+        &self,
+        planner: &Planner<'_>,
+        next: Option<&DeferredMotion>,
+    ) -> Result<(Motion, Option<Predecessor>), PlanError> {
         let Target::Circle { follow, external, .. } = &self.command.target else { return Err(PlanError::NoCircle) };
         let (start, target) = (planner.start_frame(), self.target.tcp);
         let [from, to] = [start, target].map(|frame| frame.translation.vector);
         let points = match (next, self.before) {
             (Some(next), _) => [from, to, next.target.tcp.translation.vector],
             (None, Some(Predecessor::Circle(before))) => {
-                let before = self.command.rig.carried.way_at(&planner.robot.kinematics.forward(&before.axes));
+                let before = self.command.rig.carried.path_frame_at(&planner.robot.kinematics.forward(&before.axes));
                 [before.translation.vector, from, to]
             }
             _ => return Err(PlanError::LoneCircle),
@@ -211,7 +219,11 @@ impl Held {
         Ok((motion, Some(Predecessor::Circle(self.start))))
     }
 
-    fn spline(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Predecessor>), PlanError> {
+    fn spline(
+        &self,
+        planner: &Planner<'_>,
+        next: Option<&DeferredMotion>,
+    ) -> Result<(Motion, Option<Predecessor>), PlanError> {
         let from = self.from(planner.robot);
         let speed = planner.tcp_speed()?;
         let start = match self.before {

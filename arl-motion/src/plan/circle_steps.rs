@@ -31,8 +31,8 @@ pub fn circle_steps(
     let between = 0.5 * (first + whole.sweep);
     let seen = whole.centre + whole.across * between.cos() + whole.along * between.sin();
     let seen = wobj.inverse() * nalgebra::Point3::from(seen);
-    let mut half_way = *external;
-    for (there, from) in half_way.iter_mut().zip(&start.external) {
+    let mut halfway = *external;
+    for (there, from) in halfway.iter_mut().zip(&start.external) {
         if !is_unset(*there) && !is_unset(*from) {
             *there = from + (*there - from) * first / all;
         }
@@ -42,5 +42,5 @@ pub fn circle_steps(
         Command { target, duration: None, ..command.clone() }
     };
     let rest = angle.map(|_| (all - first).to_degrees());
-    Some([arc(*via, Some(first.to_degrees()), half_way), arc([seen.x, seen.y, seen.z], rest, *external)])
+    Some([arc(*via, Some(first.to_degrees()), halfway), arc([seen.x, seen.y, seen.z], rest, *external)])
 }

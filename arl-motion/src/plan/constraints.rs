@@ -152,11 +152,11 @@ impl<'a> Constraints<'a> {
 
     /// Adds the limits of the external axes moving evenly from `start` to `end`.
     pub(crate) fn even_external(&mut self, start: &Joints, end: &Joints, pace: &PathLimits) {
-        let ways = start.external.iter().zip(&end.external).map(|(start, end)| end - start);
-        for (axis, way) in self.robot.external_axes().iter().zip(ways) {
+        let travels = start.external.iter().zip(&end.external).map(|(start, end)| end - start);
+        for (axis, travel) in self.robot.external_axes().iter().zip(travels) {
             let programmed = if axis.linear { pace.linear } else { pace.turning };
             let vel = axis.vel.min(programmed);
-            self.push(Constraint::even(way, vel, axis.acc * pace.acc, axis.jerk * pace.jerk));
+            self.push(Constraint::even(travel, vel, axis.acc * pace.acc, axis.jerk * pace.jerk));
         }
     }
 

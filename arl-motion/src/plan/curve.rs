@@ -74,7 +74,7 @@ impl ToolCurve {
 
     /// Whether the parameter's pace consists of parts, between which third derivatives jump.
     pub(crate) fn is_paced(&self) -> bool {
-        matches!(&self.path.track, Track::Poly(way) if way.is_paced())
+        matches!(&self.path.track, Track::Poly(polynomial) if polynomial.is_paced())
     }
 
     /// The orientation at `at`.
@@ -125,7 +125,7 @@ impl ToolCurve {
         let mut axes = match self.passage(at) {
             None => kinematics.inverse(&self.flange(at), self.cfg_at(at), near)?,
             Some(passage) => {
-                let (tcp, tool) = self.carried.meeting(&self.tcp(at));
+                let (tcp, tool) = self.carried.coincident_frames(&self.tcp(at));
                 kinematics.inverse_at_axis4(&tcp, &tool, passage.axis4(at), near)?
             }
         };

@@ -41,7 +41,7 @@ pub(crate) fn plan(
     let (Kinematics::Scara(_), Some(lift)) = (&robot.kinematics, robot.axes.get(LIFT_AXIS)) else {
         return Err(PlanError::NotForThisRobot);
     };
-    if [gate.rise, gate.sink].iter().any(|way| !way.is_finite() || *way < 0.0 || is_unset(*way)) {
+    if [gate.rise, gate.sink].iter().any(|distance| !distance.is_finite() || *distance < 0.0 || is_unset(*distance)) {
         return Err(PlanError::NotANumber);
     }
     let planner = Planner { robot, start, command, settings };
@@ -49,11 +49,14 @@ pub(crate) fn plan(
     let (from, to) = (height(start), height(&end));
     let top = top(&planner, gate, from, to, lift.max)?;
     let stays = at(start, top).all().iter().zip(at(&end, top).all()).all(|(a, b)| (a - b).abs() < NO_DISTANCE_MM);
-    let ways = Ways { robot, command, settings };
+    let gate_planner = GatePlanner { robot, command, settings };
     if stays {
         // There is nothing to move across when the target is at the same place.
-        let (end, way) = if gate.stays() { (at(&end, top), &gate.rising) } else { (end, &gate.falling) };
-        return Ok(vec![Motion { zone: zone(gate), ..ways.part(start, end, &ways.lifting(way))? }]);
+        let (end, lift_motion) = if gate.stays() { (at(&end, top), &gate.rising) } else { (end, &gate.falling) };
+        return Ok(vec![Motion {
+            zone: zone(gate),
+            ..gate_planner.part(start, end, &gate_planner.lifting(lift_motion))?
+        }]);
     }
     let (up, over) = (at(start, top), at(&end, top));
     let mut motions = Vec::with_capacity(3);
@@ -61,25 +64,25 @@ pub(crate) fn plan(
         motions.push(Motion { corner, ends: false, zone: Zone::NONE, ..motion });
     };
     // The share of a lift motion that is left after it has gone straight for `straight` mm.
-    let rest = |way: f64, straight: f64| 1.0 - (straight / way).min(1.0);
-    let way_over = Instruction { command: command.clone(), settings: *settings };
-    let form_over = ways.form(&up, over, &way_over)?;
+    let rest = |length: f64, straight: f64| 1.0 - (straight / length).min(1.0);
+    let across = Instruction { command: command.clone(), settings: *settings };
+    let form_over = gate_planner.form(&up, over, &across)?;
     if top - from > NO_DISTANCE_MM {
-        let rising = ways.lifting(&gate.rising);
-        let corner = corner(ways.form(start, up, &rising)?, rest(top - from, gate.rise), form_over);
+        let rising = gate_planner.lifting(&gate.rising);
+        let corner = corner(gate_planner.form(start, up, &rising)?, rest(top - from, gate.rise), form_over);
         push(
-            ways.part(start, up, &rising)?,
+            gate_planner.part(start, up, &rising)?,
             corner.map(|[lift, over]| GivenCorner { leaving: lift.reversed(), joining: over }),
         );
     }
-    let going_over = ways.part(&up, over, &way_over)?;
+    let going_over = gate_planner.part(&up, over, &across)?;
     if top - to > NO_DISTANCE_MM && !gate.stays() {
-        let sinking = ways.lifting(&gate.falling);
+        let sinking = gate_planner.lifting(&gate.falling);
         // Where the gate continues smoothly, the corner leaves the next blend its part.
         let most = 1.0 - if gate.smooth { SMOOTH_ZONE_PERCENT / 100.0 * LARGEST_ZONE } else { STOPPING_SHARE };
-        let corner = corner(ways.form(&over, end, &sinking)?, rest(top - to, gate.sink).min(most), form_over);
+        let corner = corner(gate_planner.form(&over, end, &sinking)?, rest(top - to, gate.sink).min(most), form_over);
         push(going_over, corner.map(|[lift, over]| GivenCorner { leaving: over.reversed(), joining: lift }));
-        push(ways.part(&over, end, &sinking)?, None);
+        push(gate_planner.part(&over, end, &sinking)?, None);
     } else {
         push(going_over, None);
     }
@@ -123,18 +126,18 @@ struct Instruction {
 }
 
 /// Plans the three motions of a gate.
-struct Ways<'a> {
+struct GatePlanner<'a> {
     robot: &'a Robot,
     command: &'a Command,
     settings: &'a Settings,
 }
 
-impl Ways<'_> {
+impl GatePlanner<'_> {
     /// What a motion of the lift is planned with.
-    fn lifting(&self, way: &Lift) -> Instruction {
+    fn lifting(&self, lift: &Lift) -> Instruction {
         let (command, settings) = (self.command, self.settings);
-        let speed = Speed { percent: way.vel.unwrap_or(command.speed.percent), ..command.speed };
-        let acc_percent = way.acc.unwrap_or(settings.acc_percent);
+        let speed = Speed { percent: lift.vel.unwrap_or(command.speed.percent), ..command.speed };
+        let acc_percent = lift.acc.unwrap_or(settings.acc_percent);
         let command = Command { speed, ..command.clone() };
         Instruction { command, settings: Settings { acc_percent, ..*settings } }
     }

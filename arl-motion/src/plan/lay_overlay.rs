@@ -7,7 +7,7 @@ use crate::command::Settings;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::limits::constant::{Constraint, passing, quickest};
-use crate::overlay::compensation::{Led, Shift};
+use crate::overlay::compensation::{CompensationState, Shift};
 use crate::overlay::path_frame::PathFrame;
 use crate::overlay::weave::Pattern;
 use crate::overlay::{Overlay, Woven};
@@ -35,7 +35,7 @@ pub(crate) struct OverlayStart<'a> {
     /// Where the robot really is.
     pub(crate) start: &'a Joints,
     /// State of a compensation there.
-    pub(crate) before: &'a Led,
+    pub(crate) before: &'a CompensationState,
     /// The segment of a spline that flows into the motion.
     pub(crate) flows_from: Option<&'a Motion>,
     /// Whether a weave continues into the motion behind.
@@ -179,8 +179,8 @@ impl OverlaidMotion {
         for (value, axis) in end.axes.iter_mut().zip(robot.own_axes()) {
             *value = value.clamp(axis.min, axis.max);
         }
-        let ends_on_way = self.shift.is_none() && self.weave.is_none_or(|weave| weave.fades);
-        if ends_on_way {
+        let ends_on_path = self.shift.is_none() && self.weave.is_none_or(|weave| weave.fades);
+        if ends_on_path {
             end = self.plain.end;
         }
         let moves = self.plain.limits.is_some() || self.shift.is_some_and(|shift| shift.grows());

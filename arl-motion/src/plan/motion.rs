@@ -6,7 +6,7 @@ use crate::command::joints::Joints;
 use crate::limits::duration::{DURATION_TOLERANCE, slowest_within};
 use crate::limits::profile::LOOK_AHEAD_MARGIN;
 use crate::limits::profile::Limits;
-use crate::overlay::Led;
+use crate::overlay::CompensationState;
 use crate::overlay::compensation::Shift;
 use crate::overlay::path_frame::PathFrame;
 use crate::plan::constraints::PathLimits;
@@ -16,7 +16,7 @@ use arl_robot::frames::Rig;
 use arl_robot::robot::VelocityProfile;
 
 /// Paths of the TCP that are shorter than this, in mm and deg, do not count: such close targets are the same.
-pub(crate) const NO_WAY_MM_OR_DEG: f64 = 1e-5;
+pub(crate) const NO_MOTION_MM_OR_DEG: f64 = 1e-5;
 
 /// A motion that is ready to run, from the previous target to its own.
 #[derive(Clone, PartialEq, Debug)]
@@ -98,7 +98,7 @@ impl Motion {
 
     /// Whether the TCP moves or the tool turns.
     pub(crate) fn moves_tool(&self) -> bool {
-        self.length.max(self.angle) >= NO_WAY_MM_OR_DEG
+        self.length.max(self.angle) >= NO_MOTION_MM_OR_DEG
     }
 
     /// Whether anything moves.
@@ -120,8 +120,8 @@ impl Motion {
     }
 
     /// The state of a compensation at the end, for the motion behind it.
-    pub(crate) fn led(&self) -> Led {
-        self.laid.as_ref().map_or_else(Led::default, |laid| laid.led())
+    pub(crate) fn compensation_state(&self) -> CompensationState {
+        self.laid.as_ref().map_or_else(CompensationState::default, |laid| laid.compensation_state())
     }
 
     /// The length of the TCP's path in mm; 0 for axis motions.
@@ -200,10 +200,12 @@ impl OverlaidMotion {
     }
 
     /// The state of the compensation at the end.
-    pub(crate) fn led(&self) -> Led {
+    pub(crate) fn compensation_state(&self) -> CompensationState {
         match (&self.plain.curve, &self.shift) {
-            (Curve::Tool(curve), Some(shift)) => shift.led(&curve.path, curve.carried, self.frame.as_ref()),
-            _ => Led::default(),
+            (Curve::Tool(curve), Some(shift)) => {
+                shift.compensation_state(&curve.path, curve.carried, self.frame.as_ref())
+            }
+            _ => CompensationState::default(),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
 use crate::geometry::parametrization::Parametrization;
 use crate::plan::curve::{SINGULAR_CLEARANCE, ToolCurve};
-use crate::plan::motion::NO_WAY_MM_OR_DEG;
+use crate::plan::motion::NO_MOTION_MM_OR_DEG;
 use arl_robot::kinematics::{
     Axes, CLEAR_OF_SINGULAR, RANGE_SLACK, Rates, Refusal, SHORTEST_STEP_S, Twist, lowest_pace, outruns,
 };
@@ -187,8 +187,8 @@ const BENT_SHARE: f64 = 1e-3;
 
 /// How long the slowest of the robot's own axes would take from `a` to `b`, in s at its highest speed.
 fn farthest(robot: &Robot, a: &Axes, b: &Axes) -> f64 {
-    let ways = a.iter().zip(b).zip(robot.own_axes());
-    ways.map(|((a, b), axis)| (a - b).abs() / axis.vel).fold(0.0, f64::max)
+    let pairs = a.iter().zip(b).zip(robot.own_axes());
+    pairs.map(|((a, b), axis)| (a - b).abs() / axis.vel).fold(0.0, f64::max)
 }
 
 /// Checks a short path at a few places, the first and the last of which are its ends; `None` where these are not enough
@@ -243,7 +243,7 @@ impl Walk<'_> {
             (Some(passage), _) if at < passage.to => (passage.to - passage.from) / PASSAGE_STEPS,
             (_, None) => BLIND_STEP_SHARE,
             (_, Some(known)) => {
-                let scale = self.scale_of_way(known, at, axes);
+                let scale = self.scale_on_plain_path(known, at, axes);
                 if scale < DENSEST_SHARE {
                     self.not_too_sharp(at, axes)?;
                 }
@@ -284,13 +284,13 @@ impl Walk<'_> {
     }
 
     /// The path without overlays.
-    fn way(&self) -> &ToolCurve {
+    fn plain_path(&self) -> &ToolCurve {
         self.plain.as_ref().unwrap_or(self.curve)
     }
 
     /// s per unit of the parameter at the lowest reasonable speed.
     fn lowest_pace(&self, at: f64) -> f64 {
-        let ([_, travel, ..], [turning, ..]) = (self.way().moving(at), self.way().rotation_rates(at));
+        let ([_, travel, ..], [turning, ..]) = (self.plain_path().moving(at), self.plain_path().rotation_rates(at));
         lowest_pace(&travel, &turning)
     }
 
@@ -307,12 +307,12 @@ impl Walk<'_> {
         if margin < 1.0 {
             return Err(self.singular(axis, at));
         }
-        let ([_, travel, ..], [turning, ..]) = (self.way().moving(at), self.way().rotation_rates(at));
-        let (way, unit) = match travel.norm() {
-            way if way > NO_WAY_MM_OR_DEG => (way, "mm/s"),
+        let ([_, travel, ..], [turning, ..]) = (self.plain_path().moving(at), self.plain_path().rotation_rates(at));
+        let (rate, unit) = match travel.norm() {
+            rate if rate > NO_MOTION_MM_OR_DEG => (rate, "mm/s"),
             _ => (turning.norm().to_degrees(), "deg/s"),
         };
-        Ok(Some(NearSingular { axis, along: at, speed: margin * way / pace, unit }))
+        Ok(Some(NearSingular { axis, along: at, speed: margin * rate / pace, unit }))
     }
 
     /// Returns an error where the axes' motion changes over so little of the path although they could go straight on:
@@ -328,9 +328,9 @@ impl Walk<'_> {
 
     /// How the flange moves where the path goes straight on and the tool turns evenly.
     fn straight_on(&self, at: f64) -> Twist {
-        let way = self.way();
-        let ([_, travel, ..], [turning, ..], rest) = (way.moving(at), way.rotation_rates(at), Vector3::zeros());
-        way.carried.twist(&way.tcp(at), &[travel, rest, rest], &[turning, rest, rest])
+        let path = self.plain_path();
+        let ([_, travel, ..], [turning, ..], rest) = (path.moving(at), path.rotation_rates(at), Vector3::zeros());
+        path.carried.twist(&path.tcp(at), &[travel, rest, rest], &[turning, rest, rest])
     }
 
     /// The error for a path that is out of reach from here on, with the largest excess.
@@ -365,11 +365,11 @@ impl Walk<'_> {
 
     /// The same share where the path has an overlay: how the axes change along the plain path shows how near a singular
     /// point is, while a weave would be at rest now and then.
-    fn scale_of_way(&self, rates: &Rates, at: f64, axes: &Axes) -> f64 {
+    fn scale_on_plain_path(&self, rates: &Rates, at: f64, axes: &Axes) -> f64 {
         let plain = self.plain.as_ref().and_then(|plain| Some((plain, self.plain_rates(at, axes)?)));
         let Some((plain, plain_rates)) = plain else { return self.scale(rates) };
-        let ([_, way, ..], [_, whole, ..]) = (plain.moving(at), self.curve.moving(at));
-        let slower = if way.norm() > 0.0 { (way.norm() / whole.norm()).min(1.0) } else { 1.0 };
+        let ([_, travel, ..], [_, whole, ..]) = (plain.moving(at), self.curve.moving(at));
+        let slower = if travel.norm() > 0.0 { (travel.norm() / whole.norm()).min(1.0) } else { 1.0 };
         self.scale(&plain_rates) * slower
     }
 

@@ -14,11 +14,11 @@ use crate::limits::constant::{highest_speed, passing, quickest};
 use crate::limits::duration::slowest_within;
 use crate::limits::profile::LOOK_AHEAD_MARGIN;
 use crate::limits::profile::Limits;
-use crate::overlay::Led;
+use crate::overlay::CompensationState;
 use crate::plan::constraints::{Constraints, PathLimits};
 use crate::plan::curve::{Curve, ToolCurve};
 use crate::plan::lay_overlay::{OverlayStart, lay};
-use crate::plan::motion::{Motion, NO_WAY_MM_OR_DEG};
+use crate::plan::motion::{Motion, NO_MOTION_MM_OR_DEG};
 use crate::plan::path_check::check_path;
 use arl_robot::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, Wanted, frame, frame_components};
 use arl_robot::robot::{Axis, Robot, VelocityProfile};
@@ -39,14 +39,14 @@ pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Setting
         return Err(PlanError::NotANumber);
     }
     check(command, settings)?;
-    plan_behind(robot, start, &Led::default(), command, settings)
+    plan_behind(robot, start, &CompensationState::default(), command, settings)
 }
 
 /// Plans a motion that starts at `start`, with the compensation in the state `before`.
 pub(crate) fn plan_behind(
     robot: &Robot,
     start: &Joints,
-    before: &Led,
+    before: &CompensationState,
     command: &Command,
     settings: &Settings,
 ) -> Result<Motion, PlanError> {
@@ -54,19 +54,24 @@ pub(crate) fn plan_behind(
         return plan_plain(robot, start, command, settings);
     };
     let before = &before.for_next(settings, &command.rig);
-    let plain = not_led(robot, start, before, command)?;
+    let plain = without_compensation(robot, start, before, command)?;
     let motion = plan_plain(robot, &plain, command, settings)?;
     let beginning = OverlayStart { start, before, flows_from: None, goes_on: false };
     lay(robot, motion, &beginning, &wobj.rotation, settings)
 }
 
 /// The position of the robot without the compensation that leads it to `start`.
-pub(crate) fn not_led(robot: &Robot, start: &Joints, before: &Led, command: &Command) -> Result<Joints, PlanError> {
+pub(crate) fn without_compensation(
+    robot: &Robot,
+    start: &Joints,
+    before: &CompensationState,
+    command: &Command,
+) -> Result<Joints, PlanError> {
     if before.number == 0 {
         return Ok(*start);
     }
     let (kinematics, carried) = (&robot.kinematics, &command.rig.carried);
-    let tcp = before.lead.undone(&carried.way_at(&kinematics.forward(&start.axes)));
+    let tcp = before.lead.undone(&carried.path_frame_at(&kinematics.forward(&start.axes)));
     let axes = kinematics.inverse(&carried.flange_at(&tcp), kinematics.cfg(&start.axes), &start.axes);
     axes.map(|axes| Joints { axes, ..*start }).ok_or(PlanError::Unreachable { beyond: 0.0, along: 0.0 })
 }
@@ -100,7 +105,7 @@ pub(crate) struct Planner<'a> {
 impl Planner<'_> {
     /// The TCP's frame at the start, on its path.
     pub(crate) fn start_frame(&self) -> Frame {
-        self.command.rig.carried.way_at(&self.robot.kinematics.forward(&self.start.axes))
+        self.command.rig.carried.path_frame_at(&self.robot.kinematics.forward(&self.start.axes))
     }
 
     /// The TCP's frame at the target, on its path; unset components keep their values at the start, in the workpiece
@@ -328,7 +333,7 @@ impl Planner<'_> {
         } else {
             angle.angle().to_degrees()
         };
-        let goes = length.max(angle) >= NO_WAY_MM_OR_DEG;
+        let goes = length.max(angle) >= NO_MOTION_MM_OR_DEG;
         let found = if goes { Some(check_path(self.robot, &curve, self.start)) } else { None };
         let found = found.transpose().map_err(|error| self.at_the_wrist(error, &curve))?;
         curve.close_places = found.as_ref().map_or(Vec::new(), |found| found.close_places(self.robot));

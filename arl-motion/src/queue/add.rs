@@ -5,11 +5,11 @@ use crate::command::check::check;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target};
-use crate::plan::chain::Held;
+use crate::plan::chain::DeferredMotion;
 use crate::plan::gate;
 use crate::plan::lay_overlay::OverlayStart;
 use crate::plan::motion::Motion;
-use crate::plan::planner::{not_led, plan_behind};
+use crate::plan::planner::{plan_behind, without_compensation};
 
 /// How long, in s, the robot is at rest before a motion that waits for the next one of its path starts without it.
 const LONGEST_WAIT_FOR_NEXT_S: f64 = 0.1;
@@ -42,21 +42,21 @@ impl Queue {
     pub(super) fn add_as(&mut self, command: &Command, settings: &Settings, number: u64) -> Result<(), PlanError> {
         self.layer.concluded = false;
         let from = *self.end();
-        let start = match &self.layer.held {
-            Some(held) => *held.end(),
+        let start = match &self.layer.deferred {
+            Some(deferred) => *deferred.end(),
             None if command.target.chained().is_some() => self.plain_end(command, settings)?,
             None => self.layer.end,
         };
-        let mut next = Held::new(&self.robot, &start, command, settings, number)?;
+        let mut next = DeferredMotion::new(&self.robot, &start, command, settings, number)?;
         self.release(next.as_mut())?;
         if next.is_some() {
-            self.layer.held = next;
+            self.layer.deferred = next;
         } else if matches!(command.target, Target::Gate { .. }) {
             for motion in gate::plan(&self.robot, &self.layer.end, command, settings)? {
                 self.append(motion, number);
             }
         } else {
-            let motion = plan_behind(&self.robot, &self.layer.end, &self.layer.led, command, settings)?;
+            let motion = plan_behind(&self.robot, &self.layer.end, &self.layer.compensation_state, command, settings)?;
             self.append(motion, number);
         }
         self.note_asked(number, from, command, settings);
@@ -75,26 +75,26 @@ impl Queue {
     }
 
     /// Plans the motion that waits, before `next` where there is one.
-    fn release(&mut self, next: Option<&mut Held>) -> Result<(), PlanError> {
-        let Some(mut held) = self.layer.held.take() else { return Ok(()) };
+    fn release(&mut self, next: Option<&mut DeferredMotion>) -> Result<(), PlanError> {
+        let Some(mut deferred) = self.layer.deferred.take() else { return Ok(()) };
         if let Some(next) = &next {
-            held.stop_before(&self.robot, next);
+            deferred.stop_before(&self.robot, next);
         }
-        let joined = next.as_deref().filter(|next| held.goes_on(&self.robot, next));
+        let joined = next.as_deref().filter(|next| deferred.goes_on(&self.robot, next));
         let goes_on = joined.is_some();
-        let (plain, before) = held.plan(&self.robot, joined)?;
+        let (plain, before) = deferred.plan(&self.robot, joined)?;
         let end = *plain.end();
         let last = self.last_ahead();
         let flows_from = last.filter(|_| plain.flows);
         let beginning = OverlayStart {
             start: flows_from.map_or(&self.layer.end, Motion::end),
-            before: &self.layer.led.for_next(held.settings(), &held.command().rig),
+            before: &self.layer.compensation_state.for_next(deferred.settings(), &deferred.command().rig),
             flows_from,
-            goes_on: joined.is_some_and(|next| held.weaves_on(next)),
+            goes_on: joined.is_some_and(|next| deferred.weaves_on(next)),
         };
-        let motion = held.laid(&self.robot, plain, &beginning)?;
-        self.append(motion, held.number);
-        self.note_released(held.number);
+        let motion = deferred.laid(&self.robot, plain, &beginning)?;
+        self.append(motion, deferred.number);
+        self.note_released(deferred.number);
         match next {
             Some(next) if goes_on => next.goes_on_from(&end, before),
             Some(next) => next.goes_on_from(&self.plain_end(next.command(), next.settings())?, None),
@@ -105,13 +105,18 @@ impl Queue {
 
     /// Where the last motion ends, as the start of the next one's own path: without a compensation that continues.
     fn plain_end(&self, command: &Command, settings: &Settings) -> Result<Joints, PlanError> {
-        not_led(&self.robot, &self.layer.end, &self.layer.led.for_next(settings, &command.rig), command)
+        without_compensation(
+            &self.robot,
+            &self.layer.end,
+            &self.layer.compensation_state.for_next(settings, &command.rig),
+            command,
+        )
     }
 
     pub(super) fn append(&mut self, motion: Motion, number: u64) {
         self.layer.end = *motion.end();
         self.layer.last_rig = motion.rig;
-        self.layer.led = motion.led();
+        self.layer.compensation_state = motion.compensation_state();
         self.forecast = None;
         let share = motion.share_of_speed();
         if share < self.notices.slowed.0 {
@@ -123,7 +128,7 @@ impl Queue {
     /// Releases a motion that waits for the next one while the robot is at rest, where it can be the last one of its
     /// path.
     pub(super) fn release_after_wait(&mut self, dt: f64) {
-        let starves = self.layer.path.is_empty() && self.layer.held.as_ref().is_some_and(Held::can_end);
+        let starves = self.layer.path.is_empty() && self.layer.deferred.as_ref().is_some_and(DeferredMotion::can_end);
         self.look_ahead.waited = if starves { self.look_ahead.waited + dt } else { 0.0 };
         if self.look_ahead.waited >= LONGEST_WAIT_FOR_NEXT_S
             && let Err(error) = self.release(None)

@@ -8,7 +8,7 @@ use super::{FAST_STOP_FACTOR, Queue, Step, Stop};
 use crate::command::{Cycle, Override};
 use crate::follow::governor::Pacing;
 use crate::follow::segment::Segment;
-use crate::overlay::Led;
+use crate::overlay::CompensationState;
 use arl_robot::frames::Rig;
 
 impl Queue {
@@ -19,7 +19,7 @@ impl Queue {
         self.cycle = dt;
         let waits_for_motion = self.waits_for_motion(dt);
         self.count_cycle();
-        self.left.clear();
+        self.exited.clear();
         let before = self.commanded.joints;
         let speed = speed_override.percent() / 100.0;
         let pacing = self.choose_pacing(speed);
@@ -57,8 +57,8 @@ impl Queue {
     /// Advances along the path by a cycle; returns the motion executed in it, and its line.
     fn advance(&mut self, dt: f64, speed: f64, pacing: Pacing) -> (u64, u32) {
         let rested = self.layer.path.rests();
-        let is_held = rested && matches!(pacing, Pacing::Stop(_));
-        let Some(first) = self.layer.path.first().filter(|_| !is_held) else {
+        let is_stopped = rested && matches!(pacing, Pacing::Stop(_));
+        let Some(first) = self.layer.path.first().filter(|_| !is_stopped) else {
             if rested && self.layer.path.at() == 0.0 {
                 // The robot is at a target and not within a motion.
                 self.layer.progress = None;
@@ -79,14 +79,14 @@ impl Queue {
         let executed = self.place_on_path((motion, line), arrived.as_deref().filter(|_| stands));
         self.layer.progress = match arrived.filter(|_| stands) {
             Some(segment) => Some(self.progress_at_end(&segment)),
-            None => self.progress_on_way(passed),
+            None => self.progress_on_path(passed),
         };
         executed
     }
 
     /// Stays at rest before a motion that will begin; returns that none is executed.
     fn stand(&mut self) -> (u64, u32) {
-        self.layer.progress = self.progress_on_way(0.0);
+        self.layer.progress = self.progress_on_path(0.0);
         (0, 0)
     }
 
@@ -101,7 +101,7 @@ impl Queue {
             if !passed.leaves() {
                 let elapsed = if passed.number == execution.timed { execution.elapsed } else { 0.0 };
                 let duration = passed.duration().unwrap_or(elapsed);
-                self.left.push(progress_at(&passed, passed.share_at_end(), duration, 0.0));
+                self.exited.push(progress_at(&passed, passed.share_at_end(), duration, 0.0));
             }
             arrived = Some(passed);
         });
@@ -136,8 +136,8 @@ impl Queue {
     /// Ends motions that go nowhere once those before them have ended.
     pub(super) fn end_empty(&mut self) {
         let anew = self.layer.requests.first_anew().unwrap_or(self.added + 1);
-        let held = self.layer.held.as_ref().map_or(anew, |held| held.number);
-        let waiting = self.layer.waiting.first().map_or(held, |ready| ready.number);
+        let deferred = self.layer.deferred.as_ref().map_or(anew, |deferred| deferred.number);
+        let waiting = self.layer.waiting.first().map_or(deferred, |ready| ready.number);
         let next = self.layer.path.first().map_or(waiting, |segment| segment.number);
         self.layer.finished = self.layer.finished.max(next - 1);
         if self.layer.path.is_empty() && self.layer.waiting.is_empty() && !self.halt.dropping {
@@ -151,7 +151,7 @@ impl Queue {
             self.layer.over = self.added;
             self.layer.path.clear();
             self.layer.end = self.commanded.joints;
-            self.layer.led = Led::default();
+            self.layer.compensation_state = CompensationState::default();
             self.layer.execution.started = None;
             self.layer.progress = None;
             self.halt.dropping = false;

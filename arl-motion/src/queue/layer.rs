@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings};
-use crate::overlay::Led;
-use crate::plan::chain::Held;
+use crate::overlay::CompensationState;
+use crate::plan::chain::DeferredMotion;
 use crate::queue::look_ahead::Waiting;
 use crate::queue::path_buffer::PathBuffer;
 use crate::queue::{Progress, Start};
@@ -21,7 +21,7 @@ pub(crate) struct Layer {
     /// Motions that wait to be laid on the path.
     pub(crate) waiting: Waiting,
     /// The last motion, where its path depends on the next one.
-    pub(crate) held: Option<Held>,
+    pub(crate) deferred: Option<DeferredMotion>,
     /// Whether no motion is expected behind the last one until the robot is at rest.
     pub(crate) concluded: bool,
     /// Where the last motion ends.
@@ -29,7 +29,7 @@ pub(crate) struct Layer {
     /// Tool and base of the last motion.
     pub(crate) last_rig: Rig,
     /// State of a compensation at the end of the last motion.
-    pub(crate) led: Led,
+    pub(crate) compensation_state: CompensationState,
     /// The last motion that has ended.
     pub(crate) finished: u64,
     /// The last motion that is no longer executed: it has ended, or a blend leads away from it.
@@ -75,7 +75,7 @@ pub(crate) struct Asked {
     pub(crate) start: Joints,
     pub(crate) end: Joints,
     /// State of a compensation at its end.
-    pub(crate) led: Led,
+    pub(crate) compensation_state: CompensationState,
 }
 
 impl Layer {
@@ -84,11 +84,11 @@ impl Layer {
         Self {
             path: PathBuffer::default(),
             waiting: Waiting::default(),
-            held: None,
+            deferred: None,
             concluded: false,
             end: start,
             last_rig: Rig::bare(),
-            led: Led::default(),
+            compensation_state: CompensationState::default(),
             finished: 0,
             over: 0,
             execution: Execution { started: None, rig: Rig::bare(), timed: 0, elapsed: 0.0 },
@@ -105,11 +105,11 @@ impl Layer {
         let next = Self {
             path: std::mem::take(&mut self.path),
             waiting: Waiting::default(),
-            held: None,
+            deferred: None,
             concluded: false,
             end: here,
             last_rig: self.execution.rig,
-            led: Led::default(),
+            compensation_state: CompensationState::default(),
             finished: added,
             over: added,
             execution: Execution { started: None, ..self.execution },

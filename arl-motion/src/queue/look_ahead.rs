@@ -56,7 +56,7 @@ pub(crate) struct Ready {
 pub(crate) struct Waiting {
     motions: VecDeque<Ready>,
     /// Their duration, in s at full speed.
-    way: f64,
+    duration: f64,
 }
 
 /// Motions that had to wait for their blends when they were due, in real time.
@@ -115,23 +115,23 @@ impl Default for LookAhead {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Done {
     count: u32,
-    way: f64,
+    duration: f64,
 }
 
 impl Done {
     fn add(&mut self, motion: &Motion) {
         self.count += 1;
-        self.way += way(motion);
+        self.duration += duration(motion);
     }
 
     /// Whether this is `count` motions, and enough of the path for a cycle of `cycle` s.
     fn suffices(&self, cycle: f64, count: u32) -> bool {
-        self.count >= count && self.way >= CYCLES_WORTH_OF_MOTIONS * cycle
+        self.count >= count && self.duration >= CYCLES_WORTH_OF_MOTIONS * cycle
     }
 }
 
 /// The duration of a motion in s at full speed.
-fn way(motion: &Motion) -> f64 {
+fn duration(motion: &Motion) -> f64 {
     if motion.goes() { 1.0 / motion.rate } else { 0.0 }
 }
 
@@ -151,13 +151,13 @@ impl Waiting {
     pub(crate) fn pop(&mut self) -> Option<Ready> {
         let first = self.motions.pop_front()?;
         // Rounding errors must not accumulate.
-        self.way = if self.motions.is_empty() { 0.0 } else { self.way - way(&first.motion) };
+        self.duration = if self.motions.is_empty() { 0.0 } else { self.duration - duration(&first.motion) };
         Some(first)
     }
 
     pub(crate) fn clear(&mut self) {
         self.motions.clear();
-        self.way = 0.0;
+        self.duration = 0.0;
     }
 
     /// The motions that are due.
@@ -166,7 +166,7 @@ impl Waiting {
     }
 
     fn push(&mut self, ready: Ready) {
-        self.way += way(&ready.motion);
+        self.duration += duration(&ready.motion);
         self.motions.push_back(ready);
     }
 
@@ -178,10 +178,10 @@ impl Waiting {
 
 impl Queue {
     /// Whether so little path is ahead that more than the motions that can always wait may be added.
-    pub(crate) fn is_short_of_way(&self) -> bool {
+    pub(crate) fn is_short_of_path(&self) -> bool {
         // Motions may wait for a law.
         let lays = self.layer.waiting.is_empty() || !(self.layer.path.is_asking() || self.layer.path.is_laid_down());
-        lays && self.way_ahead() < LOOK_AHEAD_S
+        lays && self.time_ahead() < LOOK_AHEAD_S
     }
 
     /// Whether so many motions were planned in this cycle that the next one can wait for the next cycle, which must
@@ -192,11 +192,11 @@ impl Queue {
             self.look_ahead.spare.unwrap_or_else(|| self.layer.path.spare())
                 >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME
         };
-        let is_short_of_way = self.way_ahead() < enough || !can_wait();
+        let is_short_of_path = self.time_ahead() < enough || !can_wait();
         let path = &self.layer.path;
         let count = if path.rests() && path.wants_laws() && self.is_dense() {
             SHORT_MOTIONS_A_CYCLE_AT_REST
-        } else if is_short_of_way {
+        } else if is_short_of_path {
             MOST_MOTIONS_A_CYCLE
         } else {
             LEAST_MOTIONS_A_CYCLE
@@ -206,7 +206,7 @@ impl Queue {
 
     /// Whether the motion added last is short.
     fn is_dense(&self) -> bool {
-        self.last_ahead().is_some_and(|last| way(last) < SHORT_MOTION_S)
+        self.last_ahead().is_some_and(|last| duration(last) < SHORT_MOTION_S)
     }
 
     /// The motion added last, if it has not been executed yet.
@@ -215,8 +215,8 @@ impl Queue {
     }
 
     /// The path ahead, in s at full speed.
-    fn way_ahead(&self) -> f64 {
-        self.layer.path.time_left() + self.layer.waiting.way
+    fn time_ahead(&self) -> f64 {
+        self.layer.path.time_left() + self.layer.waiting.duration
     }
 
     /// Appends a motion to those that wait, and lays the motions that are due.
@@ -237,10 +237,10 @@ impl Queue {
         let Some(last) = before.map(|ready| &ready.motion).or(on_path) else { return (0, None) };
         // What is laid over a motion depends on how the motions before it have been laid.
         let overlaid = motion.laid.is_some() || last.laid.is_some();
-        let is_short = way(motion) < SHORT_MOTION_S;
-        let is_led = self.layer.path.wants_laws();
+        let is_short = duration(motion) < SHORT_MOTION_S;
+        let follows_laws = self.layer.path.wants_laws();
         let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
-        let mut hurries = if is_led {
+        let mut hurries = if follows_laws {
             // What comes behind a motion that waits for its blend has to wait, too.
             self.layer.path.rests() && !is_short && before.is_none()
         } else {
@@ -250,7 +250,7 @@ impl Queue {
         let is_late = |first: &Ready| first.due <= self.look_ahead.cycles && !self.is_prepared(first);
         let is_blocked = self.layer.waiting.first().is_some_and(is_late);
         let waits = is_blocked || self.layer.path.is_asking() || self.layer.path.is_laid_down();
-        if is_led && hurries && is_blended && !waits {
+        if follows_laws && hurries && is_blended && !waits {
             let pair = MotionPair { before: self.layer.path.before(), from: Arc::clone(last), to: Arc::clone(motion) };
             match Junction::find_quickly(&self.robot, pair) {
                 Some(junction) => return (0, Some(junction.into())),
@@ -269,7 +269,7 @@ impl Queue {
             self.layer.waiting.lay_at_once();
             return (0, prepared);
         }
-        let time = match (is_blended, is_led && !is_short) {
+        let time = match (is_blended, follows_laws && !is_short) {
             (false, _) => 0.0,
             (true, false) => time.max(LEAST_WAIT_S),
             // A robot at rest can wait longer if necessary.
@@ -289,7 +289,7 @@ impl Queue {
     /// last ones might come too late.
     pub(crate) fn waits_for_motion(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
-        let is_open = || self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
+        let is_open = || self.layer.deferred.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
         let comes_more = || !self.layer.concluded && is_open();
         let (longest, enough) = if self.is_dense() { GATHERING_OF_DENSE_CHAIN_S } else { GATHERING_S };
         let comes = || self.look_ahead.taken.count > 0 && comes_more();

@@ -19,8 +19,8 @@ use crate::blend::no_blend::NoBlend;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::follow::segment::{PlainSpeed, Segment};
-use crate::overlay::Led;
-use crate::plan::chain::Held;
+use crate::overlay::CompensationState;
+use crate::plan::chain::DeferredMotion;
 use crate::plan::motion::Motion;
 use arl_robot::frames::Rig;
 use arl_robot::kinematics::Frame;
@@ -75,7 +75,7 @@ pub struct Queue {
     /// down.
     forecast: Option<(u64, f64, u32)>,
     /// Progress of the motions that were left behind in the last cycle.
-    left: Vec<Progress>,
+    exited: Vec<Progress>,
     /// The length of a cycle, in s.
     cycle: f64,
     look_ahead: LookAhead,
@@ -126,7 +126,7 @@ pub(crate) struct LaidMotion {
     pub(crate) number: u64,
     pub(crate) motion: Arc<Motion>,
     /// The motion that is blended with it.
-    pub(crate) left: Option<Leaving>,
+    pub(crate) leaving: Option<Leaving>,
     /// Reason why it is not blended with the motion before it although a blend was requested.
     pub(crate) unblended: Option<NoBlend>,
 }
@@ -154,7 +154,7 @@ impl Queue {
             commanded: Commanded { joints: start, velocity: Joints::ZERO, tells_rates: true },
             added: 0,
             forecast: None,
-            left: Vec::with_capacity(LOOK_AHEAD),
+            exited: Vec::with_capacity(LOOK_AHEAD),
             cycle: 0.001,
             look_ahead: LookAhead::default(),
             notices: Notices::default(),
@@ -184,7 +184,7 @@ impl Queue {
     pub fn has_room(&self) -> bool {
         let executing = u64::from(self.layer.execution.started == Some(self.layer.finished + 1));
         let waiting = (self.unfinished() as u64).saturating_sub(executing);
-        waiting < LOOK_AHEAD as u64 || (waiting < MOST_MOTIONS_AHEAD && self.is_short_of_way())
+        waiting < LOOK_AHEAD as u64 || (waiting < MOST_MOTIONS_AHEAD && self.is_short_of_path())
     }
 
     /// From now on notes the motions that are laid on the path, for [`Queue::take_laid`].
@@ -227,9 +227,9 @@ impl Queue {
     /// Notes a motion that was laid on the path, and the target before it where that should be rounded off but is not.
     fn note_laid(&mut self, motion: &Arc<Motion>, number: u64, unblended: Option<UnblendedTarget>) {
         if let Some(laid) = &mut self.notices.laid {
-            let left = self.layer.path.left_before(number).filter(|_| motion.goes());
+            let leaving = self.layer.path.leaving_before(number).filter(|_| motion.goes());
             let unblended = unblended.as_ref().map(|target| target.why.clone());
-            laid.push(LaidMotion { number, motion: Arc::clone(motion), left, unblended });
+            laid.push(LaidMotion { number, motion: Arc::clone(motion), leaving, unblended });
         }
         if let Some(target) = unblended
             && !self.notices.unblended.iter().any(|known| known.is_same(&target))
@@ -252,7 +252,7 @@ impl Queue {
 
     /// Where the last motion of the queue ends and the next one will start.
     pub fn end(&self) -> &Joints {
-        self.layer.held.as_ref().map_or(&self.layer.end, Held::end)
+        self.layer.deferred.as_ref().map_or(&self.layer.end, DeferredMotion::end)
     }
 
     /// The current commanded positions.
@@ -312,7 +312,7 @@ impl Queue {
         self.layer.requests.clear();
         self.layer.path.keep_to_stop();
         self.layer.waiting.clear();
-        self.layer.held = None;
+        self.layer.deferred = None;
         self.halt.dropping = true;
         self.drop_at_rest();
     }
@@ -324,7 +324,7 @@ impl Queue {
         if idle {
             (self.commanded.joints, self.layer.end) = (joints, joints);
             self.commanded.velocity = Joints::ZERO;
-            self.layer.led = Led::default();
+            self.layer.compensation_state = CompensationState::default();
         }
         idle
     }

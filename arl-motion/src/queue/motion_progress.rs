@@ -17,11 +17,11 @@ pub struct Progress {
     /// Time since its start, in s.
     pub elapsed_time: f64,
     /// Time to its end, in s.
-    pub left_time: f64,
+    pub remaining_time: f64,
     /// Distance covered along the line, in mm; 0 for axis motions.
     pub elapsed_distance: f64,
     /// Distance left along the line, in mm; 0 for axis motions.
-    pub left_distance: f64,
+    pub remaining_distance: f64,
     /// Share of the motion that is done, 0 to 1; also for axis motions.
     pub share: f64,
 }
@@ -32,9 +32,9 @@ impl Progress {
         motion: 0,
         line: 0,
         elapsed_time: 0.0,
-        left_time: 0.0,
+        remaining_time: 0.0,
         elapsed_distance: 0.0,
-        left_distance: 0.0,
+        remaining_distance: 0.0,
         share: 1.0,
     };
 }
@@ -48,13 +48,13 @@ impl Queue {
 
     /// The progress of a motion when it ended, or was left for a blend, in the last cycle. `None` where neither
     /// happened in that cycle, or where the motion was dropped.
-    pub fn left(&self, motion: u64) -> Option<Progress> {
-        self.left.iter().rev().find(|progress| progress.motion == motion).copied()
+    pub fn exited(&self, motion: u64) -> Option<Progress> {
+        self.exited.iter().rev().find(|progress| progress.motion == motion).copied()
     }
 
     /// The progress of motions, and also of parts of motions, that ended or were left for a blend in the last cycle.
-    pub(super) fn left_behind(&self) -> &[Progress] {
-        &self.left
+    pub(super) fn exited_motions(&self) -> &[Progress] {
+        &self.exited
     }
 
     /// Adds time to the motion that counts as being executed.
@@ -72,32 +72,32 @@ impl Queue {
 
     /// How long the motion being executed still takes at full speed, in s; `passed` s have elapsed since the last call.
     pub(crate) fn time_left(&mut self, motion: u64, elapsed: f64, passed: f64) -> f64 {
-        let (left, age) = match self.forecast {
-            Some((of, left, age)) if of == motion && age < CYCLES_BETWEEN_FORECASTS => {
-                ((left - passed).max(0.0), age + 1)
+        let (remaining, age) = match self.forecast {
+            Some((of, remaining, age)) if of == motion && age < CYCLES_BETWEEN_FORECASTS => {
+                ((remaining - passed).max(0.0), age + 1)
             }
             _ => (self.layer.path.time_to_end(elapsed), 0),
         };
-        self.forecast = Some((motion, left, age));
-        left
+        self.forecast = Some((motion, remaining, age));
+        remaining
     }
 
-    pub(crate) fn progress_on_way(&mut self, passed: f64) -> Option<Progress> {
+    pub(crate) fn progress_on_path(&mut self, passed: f64) -> Option<Progress> {
         let (segment, share) = self.layer.path.current()?;
         // A motion that is entered in this very cycle has not run yet.
         let elapsed = if segment.number == self.layer.execution.timed { self.layer.execution.elapsed } else { 0.0 };
         let motion = segment.number;
-        let left = self.time_left(motion, elapsed, passed);
+        let remaining = self.time_left(motion, elapsed, passed);
         let (segment, _) = self.layer.path.current()?;
-        Some(progress_at(segment, share, elapsed, left))
+        Some(progress_at(segment, share, elapsed, remaining))
     }
 
     /// Notes which motions are no longer executed. Those of which nothing is known go nowhere.
     pub(crate) fn leave_behind(&mut self) {
         let ahead = self.layer.path.current().map_or(self.layer.finished + 1, |(segment, _)| segment.number);
         for motion in self.layer.over + 1..ahead {
-            if !self.halt.dropping && self.left(motion).is_none() {
-                self.left.push(Progress { motion, ..Progress::DONE });
+            if !self.halt.dropping && self.exited(motion).is_none() {
+                self.exited.push(Progress { motion, ..Progress::DONE });
             }
         }
         self.layer.over = self.layer.over.max(ahead - 1);
@@ -105,15 +105,15 @@ impl Queue {
 }
 
 /// The progress of the motion of a segment.
-pub(crate) fn progress_at(segment: &Segment, share: f64, elapsed_time: f64, left_time: f64) -> Progress {
+pub(crate) fn progress_at(segment: &Segment, share: f64, elapsed_time: f64, remaining_time: f64) -> Progress {
     let elapsed_distance = segment.length * share;
     Progress {
         motion: segment.number,
         line: segment.line,
         elapsed_time,
-        left_time,
+        remaining_time,
         elapsed_distance,
-        left_distance: segment.length - elapsed_distance,
+        remaining_distance: segment.length - elapsed_distance,
         share,
     }
 }

@@ -45,15 +45,15 @@ mod tests {
     use super::*;
 
     /// The highest acceleration and jerk along a path, after the first steps.
-    fn most(ways: impl Iterator<Item = Vector3<f64>>, period: f64) -> [f64; 2] {
-        let ways: Vec<Vector3<f64>> = ways.collect();
+    fn most(displacements: impl Iterator<Item = Vector3<f64>>, period: f64) -> [f64; 2] {
+        let displacements: Vec<Vector3<f64>> = displacements.collect();
         let mut speed = PathSpeed::default();
-        let rates = ways.windows(2).map(|pair| speed.derivatives(pair[1] - pair[0], period)).skip(3);
+        let rates = displacements.windows(2).map(|pair| speed.derivatives(pair[1] - pair[0], period)).skip(3);
         rates.fold([0.0; 2], |[acc, jerk], rates| [acc.max(rates[1].abs()), jerk.max(rates[2].abs())])
     }
 
     #[test]
-    fn a_way_back_has_the_derivatives_of_the_robot() {
+    fn a_return_motion_has_the_derivatives_of_the_robot() {
         let period = 0.001;
         let swing = (0..2000).map(|cycle| Vector3::new(100.0 * (f64::from(cycle) * period * 5.0).sin(), 0.0, 0.0));
         let [acc, jerk] = most(swing, period);
@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn a_way_that_brakes_into_a_hairpin_has_the_acceleration_along_it() {
+    fn a_path_that_brakes_into_a_hairpin_has_the_acceleration_along_it() {
         let period = 0.001;
         // It brakes to 4 mm/s at 8000 mm/s2, turns by 120 deg from one cycle to the next, and speeds up from 5.6 mm/s
         // in the same manner.
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn a_way_that_all_but_turns_back_has_no_jerk_to_speak_of() {
+    fn a_path_that_all_but_turns_back_has_no_jerk_to_speak_of() {
         let period = 0.001;
         let swing = (0..2000).map(|cycle| {
             let angle = f64::from(cycle) * period * 5.0;

@@ -120,10 +120,10 @@ fn between(from: &Step, to: &Step, share: f64, period: f64) -> Step {
 /// A value with two derivatives at a share of `time` s, between two points where all three are given.
 fn quintic([p0, v0, a0]: [f64; 3], [p1, v1, a1]: [f64; 3], share: f64, time: f64) -> [f64; 3] {
     let (c1, c2) = (v0 * time, a0 * time * time / 2.0);
-    let (way, speed, change) = (p1 - p0 - c1 - c2, v1 * time - c1 - 2.0 * c2, a1 * time * time - 2.0 * c2);
-    let c3 = 10.0 * way - 4.0 * speed + change / 2.0;
-    let c4 = -15.0 * way + 7.0 * speed - change;
-    let c5 = 6.0 * way - 3.0 * speed + change / 2.0;
+    let (distance, speed, change) = (p1 - p0 - c1 - c2, v1 * time - c1 - 2.0 * c2, a1 * time * time - 2.0 * c2);
+    let c3 = 10.0 * distance - 4.0 * speed + change / 2.0;
+    let c4 = -15.0 * distance + 7.0 * speed - change;
+    let c5 = 6.0 * distance - 3.0 * speed + change / 2.0;
     let s = share;
     [
         p0 + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5)))),

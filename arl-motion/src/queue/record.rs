@@ -12,7 +12,7 @@ use crate::command::joints::ALL;
 use crate::command::{Command, GatePart, MotionKind, Settings, Speed, Target};
 use crate::follow::segment::PlainSpeed;
 use crate::plan::constraints::MANUAL_SPEED_MM_S;
-use crate::plan::motion::{Motion, NO_WAY_MM_OR_DEG};
+use crate::plan::motion::{Motion, NO_MOTION_MM_OR_DEG};
 use crate::plan::path_check::NearSingular;
 use crate::queue::elapsed::Elapsed;
 use crate::queue::path_buffer::Leaving;
@@ -145,7 +145,7 @@ pub struct MotionRecord {
     /// How long it was executed, in s.
     pub duration: f64,
     /// Length of the path of the TCP relative to the workpiece, in mm.
-    pub way: f64,
+    pub path_length: f64,
     /// The zone at its end as planned, where one was requested.
     blend: Option<Rounding>,
     /// Reason why the robot stops at its target although a zone was requested.
@@ -209,11 +209,11 @@ impl MotionRecord {
     fn measured_by(&self, robot: &Robot, motion: &Motion) -> (Measure, Figure) {
         let figure = |value: f64, unit: &'static str| Figure { value, unit };
         let moves = |linear: bool| {
-            let ways = motion.end.external.iter().zip(&motion.start.external);
-            robot.external_axes().iter().zip(ways).any(|(axis, (end, start))| axis.linear == linear && end != start)
+            let ends = motion.end.external.iter().zip(&motion.start.external);
+            robot.external_axes().iter().zip(ends).any(|(axis, (end, start))| axis.linear == linear && end != start)
         };
         let (of_path, moves_external) = (self.measure == Measure::Tcp, moves(false) || moves(true));
-        if of_path && motion.length() >= NO_WAY_MM_OR_DEG {
+        if of_path && motion.length() >= NO_MOTION_MM_OR_DEG {
             (Measure::Tcp, self.programmed)
         } else if of_path && (motion.moves_tool() || !moves_external) {
             (Measure::Turning, figure(self.speed.ori, "deg/s"))
@@ -294,7 +294,7 @@ impl Recorder {
             reached: 0.0,
             start: None,
             duration: 0.0,
-            way: 0.0,
+            path_length: 0.0,
             blend: None,
             unblended: None,
             slowed: None,
@@ -316,7 +316,7 @@ impl Recorder {
 
     /// Notes what the queue has laid on the path.
     fn laid(&mut self, queue: &mut Queue) {
-        for LaidMotion { number, motion, left, unblended } in queue.take_laid() {
+        for LaidMotion { number, motion, leaving, unblended } in queue.take_laid() {
             let rounding = zone::rounding(&self.robot, &motion, 1.0);
             let Some(record) = record_of(&mut self.records, &self.places, number) else { continue };
             record.blend = rounding;
@@ -326,7 +326,7 @@ impl Recorder {
             }
             let Figure { value, unit } = record.programmed;
             record.slowed = motion.near_singular.filter(|near| near.unit == unit && near.speed < SLOWED_SHARE * value);
-            if let (Some(Leaving { number: before, share, less }), Some((_, last))) = (left, &self.last) {
+            if let (Some(Leaving { number: before, share, less }), Some((_, last))) = (leaving, &self.last) {
                 let rounding = zone::rounding(&self.robot, last, share);
                 let mixed = record_of(&mut self.records, &self.places, before).is_some_and(|record| {
                     (record.blend, record.unblended, record.less) = (rounding, None, less);
@@ -357,7 +357,7 @@ impl Recorder {
     fn note_arrived(&mut self, queue: &Queue) {
         let here = queue.progress().filter(|progress| progress.share >= 1.0);
         // What leads into a motion, or is its first part, is left behind before the motion is.
-        let over = queue.left_behind().iter().filter(|left| queue.is_over(left.motion));
+        let over = queue.exited_motions().iter().filter(|exited| queue.is_over(exited.motion));
         for ended in over.chain(&here) {
             if let Some(record) = record_of(&mut self.records, &self.places, ended.motion) {
                 record.arrived = true;
@@ -380,15 +380,15 @@ impl Recorder {
             self.derivatives.without_tool(&step.joints, period);
             return;
         };
-        let led = record.along_tool.then_some(record.carried);
-        let tool = self.derivatives.tool(record.carried, led, &self.robot, &step.joints, period);
+        let guided = record.along_tool.then_some(record.carried);
+        let tool = self.derivatives.tool(record.carried, guided, &self.robot, &step.joints, period);
         let axes = self.derivatives.axes(&step.joints, period);
         self.executed = number;
         if step.motion != 0 {
             record.start.get_or_insert(began);
             record.duration += period;
         }
-        record.way += tool.way;
+        record.path_length += tool.distance;
         // Differences reach back two cycles: the limits that held there count, too.
         self.smooth = if record.jerks { self.smooth + 1 } else { 0 };
         self.plain = if queue.hardness() > 1.0 { 0 } else { self.plain + 1 };

@@ -4,19 +4,19 @@
 //! continues along the same path. Only where motions are skipped, those behind them are planned again, from the target
 //! that the robot goes to instead.
 
-mod way_back;
+mod return_motion;
 
 use std::collections::VecDeque;
 
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target, Zone};
-use crate::overlay::Led;
+use crate::overlay::CompensationState;
 use crate::plan::gate;
 use crate::plan::planner::plan;
 use crate::queue::layer::{Asked, Layer, RESERVED_SUSPENSIONS, Requests};
 use crate::queue::{Queue, Stop};
-use way_back::{ReturnMotion, Skipped};
+use return_motion::{ReturnMotion, Skipped};
 
 /// How near to the place of the stop a return motion has to end, in deg (mm).
 const SAME_PLACE_DEG_OR_MM: f64 = 1e-6;
@@ -75,7 +75,7 @@ pub(crate) struct Suspension {
     /// Suspended motions, the last one on top.
     suspended: Vec<SuspendedMotion>,
     /// The return motion that was planned last, until a caller takes it.
-    way_back: Option<(u64, Command, Settings)>,
+    return_motion: Option<(u64, Command, Settings)>,
     /// Whether more motions were to be dropped than there were.
     beyond: bool,
     broken: Option<PlanError>,
@@ -87,7 +87,7 @@ impl Default for Suspension {
             stopping: None,
             again: Vec::with_capacity(RESERVED_SUSPENSIONS),
             suspended: Vec::with_capacity(RESERVED_SUSPENSIONS),
-            way_back: None,
+            return_motion: None,
             beyond: false,
             broken: None,
         }
@@ -113,7 +113,7 @@ impl Suspension {
     pub(crate) fn clear(&mut self) {
         self.again.clear();
         self.suspended.clear();
-        (self.stopping, self.way_back, self.broken) = (None, None, None);
+        (self.stopping, self.return_motion, self.broken) = (None, None, None);
         self.beyond = false;
     }
 
@@ -247,8 +247,8 @@ impl Queue {
     }
 
     /// Takes the return motion that [`Queue::start_again`] has added since the last call, with its running number.
-    pub fn take_way_back(&mut self) -> Option<(u64, Command, Settings)> {
-        self.suspension.way_back.take()
+    pub fn take_return_motion(&mut self) -> Option<(u64, Command, Settings)> {
+        self.suspension.return_motion.take()
     }
 
     /// Whether there is no motion being executed or waiting, apart from suspended ones.
@@ -262,15 +262,16 @@ impl Queue {
             self.layer.requests.asked.pop_front();
         }
         let end = *self.end();
-        let led = if self.layer.held.is_some() { Led::default() } else { self.layer.led };
+        let compensation_state =
+            if self.layer.deferred.is_some() { CompensationState::default() } else { self.layer.compensation_state };
         let (command, settings) = (command.clone(), *settings);
-        self.layer.requests.asked.push_back(Asked { number, command, settings, start, end, led });
+        self.layer.requests.asked.push_back(Asked { number, command, settings, start, end, compensation_state });
     }
 
     /// Notes where a motion ends that had waited for the next one and has now been planned.
     pub(crate) fn note_released(&mut self, number: u64) {
         if let Some(asked) = self.layer.requests.asked.iter_mut().rev().find(|asked| asked.number == number) {
-            (asked.end, asked.led) = (self.layer.end, self.layer.led);
+            (asked.end, asked.compensation_state) = (self.layer.end, self.layer.compensation_state);
         }
     }
 
@@ -339,9 +340,9 @@ impl Queue {
             }
             let skipped = suspended.skipped(start.skip);
             if !self.layer.requests.going {
-                let way = match &skipped {
-                    Skipped::None => suspended.way_back(&self.robot, &self.commanded.joints),
-                    Skipped::To(last) => Some(last.way_to(&self.robot)),
+                let motion = match &skipped {
+                    Skipped::None => suspended.return_motion(&self.robot, &self.commanded.joints),
+                    Skipped::To(last) => Some(last.motion_to_target(&self.robot)),
                     Skipped::Beyond => {
                         self.suspension.beyond = true;
                         self.layer.requests.starts.clear();
@@ -349,9 +350,9 @@ impl Queue {
                         return;
                     }
                 };
-                if let Some(way) = way {
+                if let Some(motion) = motion {
                     self.layer.requests.going = true;
-                    if let Err(error) = self.go(way, start) {
+                    if let Err(error) = self.go(motion, start) {
                         self.suspension.broken = Some(PlanError::Earlier { line: start.line, error: Box::new(error) });
                         self.layer.requests.starts.clear();
                         self.layer.requests.going = false;
@@ -359,7 +360,8 @@ impl Queue {
                     return;
                 }
             }
-            let skipped = if let Skipped::To(last) = skipped { Some((last.number, last.led)) } else { None };
+            let skipped =
+                if let Skipped::To(last) = skipped { Some((last.number, last.compensation_state)) } else { None };
             self.layer.requests.starts.pop_front();
             self.layer.requests.going = false;
             self.resume_suspended(skipped);
@@ -389,7 +391,7 @@ impl Queue {
         };
         if let (Some(end), Some(last)) = (end, motions.last_mut()) {
             if !last.end.is_at(&end, SAME_PLACE_DEG_OR_MM) {
-                return Err(PlanError::NoWayBack);
+                return Err(PlanError::NoReturnMotion);
             }
             last.end = end;
         }
@@ -399,21 +401,21 @@ impl Queue {
         }
         self.note_asked(number, here, &command, &settings);
         self.added = number;
-        self.suspension.way_back = Some((number, command, settings));
+        self.suspension.return_motion = Some((number, command, settings));
         Ok(())
     }
 
     /// Continues what was suspended last: where it was stopped, or behind the motion `skipped`, with the state of the
     /// compensation at its end.
-    fn resume_suspended(&mut self, skipped: Option<(u64, Led)>) {
+    fn resume_suspended(&mut self, skipped: Option<(u64, CompensationState)>) {
         let Some(SuspendedMotion { mut layer, added, .. }) = self.suspension.suspended.pop() else { return };
         self.layer.requests.take_over(std::mem::take(&mut layer.requests), (added + 1, self.added));
         self.forecast = None;
         match skipped {
             None => self.layer.resume(layer),
-            Some((last, led)) => {
+            Some((last, compensation_state)) => {
                 (self.layer.finished, self.layer.over) = (last, last);
-                (self.layer.end, self.layer.led) = (self.commanded.joints, led);
+                (self.layer.end, self.layer.compensation_state) = (self.commanded.joints, compensation_state);
                 self.layer.execution.started = None;
                 // What was still to be planned again when it was dropped was requested last.
                 let Requests { asked, anew, .. } = &mut self.layer.requests;
@@ -441,14 +443,14 @@ impl Queue {
     fn add_again(&mut self, asked: &Asked, before: Option<(Command, Joints)>) -> Result<(), PlanError> {
         // A circle continues through the points of the one that was skipped.
         let start = before
-            .filter(|_| self.layer.held.is_none())
+            .filter(|_| self.layer.deferred.is_none())
             .filter(|(before, _)| {
                 matches!((&before.target, &asked.command.target), (Target::Circle { .. }, Target::Circle { .. }))
             })
             .map(|(_, start)| start);
         self.add_as(&asked.command, &asked.settings, asked.number)?;
-        if let (Some(start), Some(held)) = (start, &mut self.layer.held) {
-            held.follows_circle_from(start);
+        if let (Some(start), Some(deferred)) = (start, &mut self.layer.deferred) {
+            deferred.follows_circle_from(start);
         }
         Ok(())
     }

@@ -30,9 +30,9 @@ fn tcp_zone(distance: f64) -> Zone {
 
 /// Distance in mm of a point from the line between two others.
 pub(super) fn off(at: &nalgebra::Vector3<f64>, a: &nalgebra::Vector3<f64>, b: &nalgebra::Vector3<f64>) -> f64 {
-    let way = b - a;
-    let along = ((at - a).dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
-    (at - a - way * along).norm()
+    let travel = b - a;
+    let along = ((at - a).dot(&travel) / travel.norm_squared()).clamp(0.0, 1.0);
+    (at - a - travel * along).norm()
 }
 
 #[test]
@@ -159,11 +159,11 @@ fn a_blend_belongs_to_the_motion_that_it_leads_into() {
     for (progress, tcp) in &rows {
         let at = tcp.translation.vector;
         let length = if progress.motion == 1 { 200.0 } else { 150.0 };
-        assert!((progress.elapsed_distance + progress.left_distance - length).abs() < 1e-9);
-        assert!((progress.share * length - progress.elapsed_distance).abs() < 1e-9 && progress.left_time >= 0.0);
+        assert!((progress.elapsed_distance + progress.remaining_distance - length).abs() < 1e-9);
+        assert!((progress.share * length - progress.elapsed_distance).abs() < 1e-9 && progress.remaining_time >= 0.0);
         if progress.motion == 1 {
             assert!((progress.elapsed_distance - (at - home.translation.vector).norm()).abs() < 1e-6);
-            assert!(progress.left_distance >= 40.0 - 1e-6, "{progress:?}");
+            assert!(progress.remaining_distance >= 40.0 - 1e-6, "{progress:?}");
         } else if progress.elapsed_distance > 40.0 {
             assert!((progress.elapsed_distance - (at - corner).norm()).abs() < 1e-6);
         }
@@ -176,13 +176,13 @@ fn a_blend_belongs_to_the_motion_that_it_leads_into() {
         assert!((pair[1].0.elapsed_time - pair[0].0.elapsed_time - CYCLE).abs() < 1e-9);
     }
     let last = rows.last().unwrap().0;
-    assert_eq!((last.share, last.left_distance, last.left_time), (1.0, 0.0, 0.0));
+    assert_eq!((last.share, last.remaining_distance, last.remaining_time), (1.0, 0.0, 0.0));
     queue.step(Cycle::MS, Override::FULL);
     assert_eq!(queue.progress(), None);
 }
 
 #[test]
-fn the_time_that_is_left_is_what_it_takes() {
+fn the_remaining_time_is_what_it_takes() {
     let mut random = Random::new(97);
     let (mut off, mut whole, mut motions, mut near) = (0.0, 0.0, 0, 0.0);
     for name in ["kr10-r1420", "tx2-60"] {
@@ -200,11 +200,11 @@ fn the_time_that_is_left_is_what_it_takes() {
                 let known = if motion == 1 { 50 } else { 0 };
                 let Some(first) = of.get(known) else { continue };
                 let took = (of.len() - known) as f64 * CYCLE;
-                let error = (first.left_time - took).abs();
+                let error = (first.remaining_time - took).abs();
                 (off, whole, motions) = (off + error, whole + took, motions + 1);
                 // What is near is known.
-                for (left, row) in of.iter().rev().enumerate().take(300).skip(1) {
-                    let off = (row.left_time - left as f64 * CYCLE).abs();
+                for (remaining, row) in of.iter().rev().enumerate().take(300).skip(1) {
+                    let off = (row.remaining_time - remaining as f64 * CYCLE).abs();
                     near = f64::max(near, off);
                 }
             }
@@ -283,8 +283,13 @@ fn a_law_looks_at_both_sides_of_a_place_only_where_derivatives_jump() {
     let end = part.end;
     let near = from.curve.joints(&robot.kinematics, blend.leave, &from.end);
     let sampler = ConstraintSampler::new(&robot, part, 0.0, &near);
-    let way = sampler.look(end, 1.0, BoundaryState { vel: 0.5, acc: 0.0 }, BoundaryState::REST).unwrap().way;
-    let jumps = (0..way.places().len()).filter(|index| way.jumps(*index)).count();
+    let path = sampler.look(end, 1.0, BoundaryState { vel: 0.5, acc: 0.0 }, BoundaryState::REST).unwrap().path;
+    let jumps = (0..path.places().len()).filter(|index| path.jumps(*index)).count();
     // Between the parts, and at the end.
-    assert_eq!((jumps, way.places().len() > 3 * (jumps - 1)), (Parametrization::PARTS, true), "{}", way.places().len());
+    assert_eq!(
+        (jumps, path.places().len() > 3 * (jumps - 1)),
+        (Parametrization::PARTS, true),
+        "{}",
+        path.places().len()
+    );
 }

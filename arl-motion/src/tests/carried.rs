@@ -8,7 +8,7 @@ fn held_line(robot: &Robot, start: &Joints, part: &Frame, travel: [f64; 3], turn
     let tool = robot.kinematics.forward(&start.axes) * part * frame([5.0, -3.0, 8.0, 20.0, 10.0, -15.0]);
     let rig =
         Rig { carried: Carried::Workpiece(tool), base: frame([100.0, 200.0, 300.0, 40.0, 0.0, 180.0]), ..Rig::bare() };
-    let from = part.inverse() * rig.carried.way_at(&robot.kinematics.forward(&start.axes));
+    let from = part.inverse() * rig.carried.path_frame_at(&robot.kinematics.forward(&start.axes));
     let [x, y, z, ..] = frame_components(&from);
     let to = frame([0.0, 0.0, 0.0, turn[0], turn[1], turn[2]]).rotation * from.rotation;
     let [_, _, _, a, b, c] = frame_components(&Frame::from_parts(Default::default(), to));
@@ -17,8 +17,8 @@ fn held_line(robot: &Robot, start: &Joints, part: &Frame, travel: [f64; 3], turn
 }
 
 /// The path of the TCP against the flange.
-fn way(robot: &Robot, command: &Command, row: &Step) -> Frame {
-    command.rig.carried.way_at(&robot.kinematics.forward(&row.joints.axes))
+fn tcp_on_workpiece(robot: &Robot, command: &Command, row: &Step) -> Frame {
+    command.rig.carried.path_frame_at(&robot.kinematics.forward(&row.joints.axes))
 }
 
 #[test]
@@ -42,17 +42,17 @@ fn the_tcp_goes_straight_along_the_held_workpiece_at_its_speed() {
             planned += 1;
             let rows = run(&mut queue, 100.0);
             assert_within_limits(&robot, &rows, name);
-            let ways: Vec<Frame> = rows.iter().map(|row| way(&robot, &command, row)).collect();
-            let (first, last) = (ways[0], ways[ways.len() - 1]);
+            let tcps: Vec<Frame> = rows.iter().map(|row| tcp_on_workpiece(&robot, &command, row)).collect();
+            let (first, last) = (tcps[0], tcps[tcps.len() - 1]);
             let gone = part.inverse() * last;
             let came = part.inverse() * first;
             let moved = gone.translation.vector - came.translation.vector;
             assert!((moved - nalgebra::Vector3::from(travel)).norm() < 1e-6, "{moved} {travel:?}");
-            for way in &ways {
-                let (off, turned) = off_line(&first, &last, way);
+            for tcp in &tcps {
+                let (off, turned) = off_line(&first, &last, tcp);
                 assert!(off < 1e-6 && turned < 1e-8, "{name}: {off} mm, {turned} rad off the line");
             }
-            let speeds = ways.windows(2).map(|pair| {
+            let speeds = tcps.windows(2).map(|pair| {
                 let moved = (pair[1].translation.vector - pair[0].translation.vector).norm() / CYCLE;
                 (moved, pair[0].rotation.angle_to(&pair[1].rotation).to_degrees() / CYCLE)
             });
@@ -84,7 +84,7 @@ fn the_programmed_speed_is_that_against_the_workpiece() {
     queue.add(&command, &Settings::default()).unwrap();
     let rows = run(&mut queue, 100.0);
     let highest = rows.windows(2).map(|pair| {
-        let [a, b] = [0, 1].map(|index| way(&robot, &command, &pair[index]).translation.vector);
+        let [a, b] = [0, 1].map(|index| tcp_on_workpiece(&robot, &command, &pair[index]).translation.vector);
         (b - a).norm() / CYCLE
     });
     let highest = highest.fold(0.0, f64::max);
@@ -113,7 +113,7 @@ fn a_corner_on_the_held_workpiece_is_rounded_within_its_zone() {
     assert_within_limits(&robot, &rows, "a corner");
     assert!(rows[2..rows.len() - 1].iter().all(|row| !row.rests), "it does not stop");
     let corner = (part * frame(pose)).translation.vector;
-    let near = rows.iter().map(|row| (way(&robot, &first, row).translation.vector - corner).norm());
+    let near = rows.iter().map(|row| (tcp_on_workpiece(&robot, &first, row).translation.vector - corner).norm());
     let near = near.fold(f64::INFINITY, f64::min);
     assert!(near > 1.0 && near < 20.0, "{near}");
 }

@@ -97,9 +97,9 @@ fn dense_motions_of_the_axes_flow() {
 fn off_triangle(at: &Place, [a, b, c]: [&Place; 3]) -> f64 {
     let mut least = f64::INFINITY;
     for (a, b) in [(a, b), (b, c), (a, c)] {
-        let way = b - a;
-        let along = ((at - a).dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
-        least = least.min((at - a - way * along).norm());
+        let side = b - a;
+        let along = ((at - a).dot(&side) / side.norm_squared()).clamp(0.0, 1.0);
+        least = least.min((at - a - side * along).norm());
     }
     let normal = (b - a).cross(&(c - a));
     if normal.norm() > 1e-9 {

@@ -59,21 +59,21 @@ fn it_grows_within_its_limits_stays_and_is_left_at_its_end() {
     assert_eq!(queue.take_slowed().0, 1.0);
     let rows = run(&mut queue, 100.0);
     assert_within_limits(&robot, &rows, "shifted");
-    let led: Vec<Vector3<f64>> = rows
+    let shifts: Vec<Vector3<f64>> = rows
         .iter()
         .filter(|row| row.motion < 3)
         .map(|row| row.tcp.translation.vector - place(&from))
         .map(|off| Vector3::new(off.x, 0.0, off.z))
         .collect();
-    let mut series = led.clone();
+    let mut series = shifts.clone();
     for most in &LIMITS[..3] {
         series = series.windows(2).map(|pair| (pair[1] - pair[0]) / CYCLE).collect();
         let highest = series.iter().map(Vector3::norm).fold(0.0, f64::max);
         assert!(highest <= 1.01 * most, "{highest} of {most}");
     }
     // Once there it stays.
-    let there = led.iter().position(|off| (off.norm() - 500.0_f64.sqrt()).abs() < 1e-6).unwrap();
-    assert!(led[there..].iter().all(|off| (off - led[there]).norm() < 1e-6));
+    let there = shifts.iter().position(|off| (off.norm() - 500.0_f64.sqrt()).abs() < 1e-6).unwrap();
+    assert!(shifts[there..].iter().all(|off| (off - shifts[there]).norm() < 1e-6));
     assert!(there > 300 && there < 1500, "{there}");
 }
 
@@ -81,7 +81,7 @@ fn it_grows_within_its_limits_stays_and_is_left_at_its_end() {
 fn each_frame_counts_along_its_own_axes() {
     let robot = robot("kr10-r1420");
     let wobj = frame([100.0, 50.0, 0.0, 90.0, 0.0, 0.0]);
-    let led = |reference, by: [f64; 6]| {
+    let shift_in = |reference, by: [f64; 6]| {
         let (mut queue, from) = queue(&robot);
         let to = moved(&from, [0.0, 200.0, 0.0]);
         let there = frame(to);
@@ -98,27 +98,27 @@ fn each_frame_counts_along_its_own_axes() {
     };
     let none = Vector3::zeros();
     let by = [10.0, 20.0, 30.0, 0.0, 0.0, 0.0];
-    let (off, turned, tool) = led(Reference::Tool, by);
+    let (off, turned, tool) = shift_in(Reference::Tool, by);
     near(off, tool * Vector3::new(10.0, 20.0, 30.0));
     near(turned, none);
-    near(led(Reference::Wobj, by).0, Vector3::new(-20.0, 10.0, 30.0));
-    near(led(Reference::World, by).0, Vector3::new(10.0, -20.0, -30.0));
+    near(shift_in(Reference::Wobj, by).0, Vector3::new(-20.0, 10.0, 30.0));
+    near(shift_in(Reference::World, by).0, Vector3::new(10.0, -20.0, -30.0));
     // Forward is y, left of it is -x, up is z.
-    near(led(Reference::ToolPath, by).0, Vector3::new(-20.0, 10.0, 30.0));
-    near(led(Reference::ModifyPath, by).0, Vector3::new(-20.0, 10.0, 30.0));
+    near(shift_in(Reference::ToolPath, by).0, Vector3::new(-20.0, 10.0, 30.0));
+    near(shift_in(Reference::ModifyPath, by).0, Vector3::new(-20.0, 10.0, 30.0));
     // Turns: about z of each.
     let turn = [0.0, 0.0, 0.0, 15.0, 0.0, 0.0];
-    let (off, turned, tool) = led(Reference::Tool, turn);
+    let (off, turned, tool) = shift_in(Reference::Tool, turn);
     near(off, none);
     near(turned, tool * Vector3::z() * 15.0);
-    near(led(Reference::Wobj, turn).1, Vector3::z() * 15.0);
-    near(led(Reference::World, turn).1, Vector3::z() * -15.0);
-    near(led(Reference::ToolPath, turn).1, Vector3::z() * 15.0);
-    near(led(Reference::ModifyPath, turn).1, none);
+    near(shift_in(Reference::Wobj, turn).1, Vector3::z() * 15.0);
+    near(shift_in(Reference::World, turn).1, Vector3::z() * -15.0);
+    near(shift_in(Reference::ToolPath, turn).1, Vector3::z() * 15.0);
+    near(shift_in(Reference::ModifyPath, turn).1, none);
 }
 
 #[test]
-fn modify_path_keeps_its_side_on_the_way_back() {
+fn modify_path_keeps_its_side_on_the_return() {
     let robot = robot("kr10-r1420");
     for (reference, back) in [(Reference::ToolPath, 10.0), (Reference::ModifyPath, -10.0)] {
         let (mut queue, from) = queue(&robot);

@@ -166,13 +166,13 @@ fn lines_that_turn_sharply_or_change_their_speed_keep_their_zones() {
         (0.01, [0.2, 0.2], [500.0, 500.0], [0.1, 0.0], 0.1),
         (0.01, [0.2, 0.2], [500.0, 500.0], [0.0, 0.1], 0.1),
     ];
-    for (angle, [first, second], speeds, [turned, led], used) in cases {
+    for (angle, [first, second], speeds, [turned, external_travel], used) in cases {
         let (sine, cosine) = f64::to_radians(angle).sin_cos();
         let corner = [x, y + first, z, a, b, c];
         let end = [x, y + first + second * cosine, z + second * sine, a, b, c + turned];
         let mut queue = Queue::repeatable(robot.clone(), start);
-        for ((pose, led), speed) in [(corner, 0.0), (end, led)].into_iter().zip(speeds) {
-            let external = [0.0, led, UNSET, UNSET, UNSET, UNSET];
+        for ((pose, external_travel), speed) in [(corner, 0.0), (end, external_travel)].into_iter().zip(speeds) {
+            let external = [0.0, external_travel, UNSET, UNSET, UNSET, UNSET];
             let command = Command {
                 zone: Zone { tcp: 0.1 * first, ..Zone::NONE },
                 speed: Speed { tcp: speed, ..fast() },
@@ -180,14 +180,17 @@ fn lines_that_turn_sharply_or_change_their_speed_keep_their_zones() {
             };
             queue.add(&command, &Settings::default()).unwrap();
         }
-        let mut left = 1.0;
+        let mut exit = 1.0;
         while !queue.idle() {
             queue.step(Cycle::MS, Override::FULL);
             if let Some(progress) = queue.progress().filter(|progress| progress.motion == 1) {
-                left = progress.share;
+                exit = progress.share;
             }
         }
-        let way = 500.0 * CYCLE / first;
-        assert!(left <= 1.0 - used + 1e-9 && left > 1.0 - used - way.min(0.2) - 1e-9, "{angle} deg: left at {left}");
+        let share_of_cycle = 500.0 * CYCLE / first;
+        assert!(
+            exit <= 1.0 - used + 1e-9 && exit > 1.0 - used - share_of_cycle.min(0.2) - 1e-9,
+            "{angle} deg: left at {exit}"
+        );
     }
 }

@@ -43,8 +43,8 @@ fn a_gate_goes_straight_up_over_and_straight_down() {
         let lift = robot.axes[2].clone();
         for round in 0..30 {
             let (from, to) = (random_joints(&robot, &mut random, 0.6), random_joints(&robot, &mut random, 0.6));
-            let ways = (random.between(0.0, 60.0), random.between(0.0, 60.0));
-            let (rise, sink) = if round % 5 == 0 { (0.0, 0.0) } else { ways };
+            let distances = (random.between(0.0, 60.0), random.between(0.0, 60.0));
+            let (rise, sink) = if round % 5 == 0 { (0.0, 0.0) } else { distances };
             let (rows, highest) = run_gate(&robot, &from, &to, plain(rise, sink), &Settings::default());
             assert_within_limits(&robot, &rows, &format!("{name} {round}"));
             let last = rows.last().unwrap();
@@ -127,7 +127,7 @@ fn a_gate_is_one_motion_without_a_stop_where_there_is_room() {
 }
 
 #[test]
-fn gates_without_a_way_over_or_without_height() {
+fn gates_without_a_motion_across_or_without_height() {
     let robot = robot("hsr065");
     let from = at([20.0, 60.0, 0.0, 10.0]);
     // Over the same place, and to the same place.
@@ -185,15 +185,15 @@ fn gates_go_on_smoothly_into_each_other() {
 }
 
 /// The least time in s in which the lift goes from rest over a way, at whose end it may be as fast as it likes.
-fn least_rise(robot: &Robot, profile: VelocityProfile, way: f64) -> f64 {
+fn least_rise(robot: &Robot, profile: VelocityProfile, distance: f64) -> f64 {
     let lift = &robot.axes[2];
     let jerk = if profile == VelocityProfile::T { 1e12 } else { lift.jerk };
     let ramp = lift.acc / jerk;
-    if jerk * ramp.powi(3) / 6.0 >= way {
-        return (6.0 * way / jerk).cbrt();
+    if jerk * ramp.powi(3) / 6.0 >= distance {
+        return (6.0 * distance / jerk).cbrt();
     }
     // Behind the ramp with the full acceleration, from the speed that it has then.
-    let (speed, rest) = (lift.acc * ramp / 2.0, way - jerk * ramp.powi(3) / 6.0);
+    let (speed, rest) = (lift.acc * ramp / 2.0, distance - jerk * ramp.powi(3) / 6.0);
     let then = (speed * speed + 2.0 * lift.acc * rest).sqrt();
     assert!(then <= lift.vel);
     ramp + (then - speed) / lift.acc
@@ -226,12 +226,12 @@ fn gates_take_little_longer_than_rising_going_over_and_sinking() {
 }
 
 #[test]
-fn a_gate_has_the_same_way_at_every_override_and_in_manual_operation() {
+fn a_gate_has_the_same_path_at_every_override_and_in_manual_operation() {
     let robot = robot("hsr065");
     let (from, to) = (at([-80.0, 60.0, 0.0, 10.0]), at([30.0, 70.0, 20.0, -90.0]));
     let gate = Gate { rising: Lift { vel: Some(30.0), acc: None }, ..plain(15.0, 25.0) };
     // How far the first axis has come where the lift is at most so high, going up or down.
-    let way = |settings: &Settings| {
+    let crossings_of = |settings: &Settings| {
         let (rows, _) = run_gate(&robot, &from, &to, gate, settings);
         [20.0, 25.0, 35.0, 50.0, 65.0].map(|height| {
             let crossings = rows.windows(2).filter_map(|pair| {
@@ -242,11 +242,11 @@ fn a_gate_has_the_same_way_at_every_override_and_in_manual_operation() {
             crossings.collect::<Vec<_>>()
         })
     };
-    let usual = way(&Settings::default());
+    let usual = crossings_of(&Settings::default());
     for settings in
         [Settings { speed_percent: 20.0, ..Settings::default() }, Settings { manual: true, ..Settings::default() }]
     {
-        for (one, other) in usual.iter().zip(way(&settings)) {
+        for (one, other) in usual.iter().zip(crossings_of(&settings)) {
             assert_eq!(one.len(), other.len());
             // Cycles are far apart.
             assert!(one.iter().zip(&other).all(|(a, b)| (a - b).abs() < 0.1), "{one:?} {other:?}");
@@ -256,7 +256,7 @@ fn a_gate_has_the_same_way_at_every_override_and_in_manual_operation() {
 
 /// Both corners of a short way over take half of it each.
 #[test]
-fn corners_share_a_short_way_over() {
+fn corners_share_a_short_motion_across() {
     let mut random = Random::new(67);
     for name in ["hsr065", "cobra600"] {
         let robot = robot(name);

@@ -3,6 +3,7 @@
 mod blends;
 mod carried;
 mod chained_overlays;
+mod chained_paths;
 mod chains;
 mod compensations;
 mod dense_chains;
@@ -21,7 +22,6 @@ mod stops;
 mod suspensions;
 mod traces;
 mod unblended;
-mod ways;
 mod weaves;
 mod wrist;
 
@@ -152,12 +152,12 @@ fn assert_within_limits_of(robot: &Robot, rows: &[Step], profile: VelocityProfil
 /// Distance in mm of a point from the line through two others, and the angle in rad that the rotation at the same share
 /// of the way would have to be off.
 fn off_line(start: &Frame, end: &Frame, at: &Frame) -> (f64, f64) {
-    let way = end.translation.vector - start.translation.vector;
+    let travel = end.translation.vector - start.translation.vector;
     let here = at.translation.vector - start.translation.vector;
-    let length = way.norm_squared();
-    let share = if length > 1e-12 { (here.dot(&way) / length).clamp(0.0, 1.0) } else { 0.0 };
+    let length = travel.norm_squared();
+    let share = if length > 1e-12 { (here.dot(&travel) / length).clamp(0.0, 1.0) } else { 0.0 };
     let rotation = start.rotation.slerp(&end.rotation, share);
-    ((here - way * share).norm(), if length > 1.0 { rotation.angle_to(&at.rotation) } else { 0.0 })
+    ((here - travel * share).norm(), if length > 1.0 { rotation.angle_to(&at.rotation) } else { 0.0 })
 }
 
 /// A random joint vector inside the middle part of all ranges.

@@ -216,9 +216,9 @@ fn durations_are_kept_or_refused() {
 
     let least = plan_one(&movej(goal), &Settings::default()).unwrap().duration();
     match plan_one(&Command { duration: Some(least * 0.9), ..movej(goal) }, &Settings::default()) {
-        Err(PlanError::Duration { wanted, least: told }) => {
+        Err(PlanError::Duration { wanted, least: reported }) => {
             // A duration counts on braking a little more gently.
-            assert!(told >= least && told < 1.001 * least && wanted < told);
+            assert!(reported >= least && reported < 1.001 * least && wanted < reported);
         }
         other => panic!("{other:?}"),
     }

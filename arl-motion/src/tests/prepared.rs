@@ -18,8 +18,9 @@ fn chain(robot: &Robot, random: &mut Random, length: f64, count: u32) -> (Joints
     let mut heading = 0.0;
     for number in 0..count {
         heading += random.between(-0.5, 0.9);
-        let way = if number == 0 { 150.0 } else { length * random.between(0.5, 1.5) };
-        (pose[1], pose[2]) = (pose[1] + way * f64::sin(heading), pose[2] + way * f64::cos(heading) - 0.3 * way);
+        let distance = if number == 0 { 150.0 } else { length * random.between(0.5, 1.5) };
+        (pose[1], pose[2]) =
+            (pose[1] + distance * f64::sin(heading), pose[2] + distance * f64::cos(heading) - 0.3 * distance);
         let target = match random.between(0.0, 4.0) as u32 {
             0 => Target::Pose {
                 pose,

@@ -39,8 +39,8 @@ fn between_cycles_the_motion_goes_on_smoothly() {
         // A law or a ramp that is found for another cycle goes a little otherwise.
         assert!(off(&seen.joints, &row.joints) < 0.2, "{number}: {seen:?} {row:?}");
         let here = coarse.at(std::time::Duration::from_micros(1) + std::time::Duration::from_millis(1) * number);
-        let way = off(&here.joints, &seen.joints);
-        assert!((way / 1e-6 - off(&seen.velocity, &Joints::ZERO)).abs() < 1.0, "{number}: {way}");
+        let travel = off(&here.joints, &seen.joints);
+        assert!((travel / 1e-6 - off(&seen.velocity, &Joints::ZERO)).abs() < 1.0, "{number}: {travel}");
     }
 }
 
@@ -83,8 +83,8 @@ fn who_asks_for_no_rates_gets_the_same_positions() {
     let mut quiet = queue.clone();
     quiet.tell_rates(false);
     for _ in 0..200 {
-        let (told, silent) = (queue.step(Cycle::MS, Override::FULL), quiet.step(Cycle::MS, Override::FULL));
-        assert_eq!(silent.joints, told.joints);
+        let (with_rates, silent) = (queue.step(Cycle::MS, Override::FULL), quiet.step(Cycle::MS, Override::FULL));
+        assert_eq!(silent.joints, with_rates.joints);
         assert_eq!((silent.velocity, silent.acceleration, silent.tcp_speed), (Joints::ZERO, Joints::ZERO, 0.0));
     }
     assert!(queue.step(Cycle::MS, Override::FULL).tcp_speed > 0.0);

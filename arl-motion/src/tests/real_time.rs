@@ -124,8 +124,8 @@ fn no_cycle_finds_out_whether_a_blend_saves_time() {
         for line in 0..6 {
             // The tool turns back and forth, so that small zones may lose time.
             let sign = if line % 2 == 0 { 1.0 } else { -1.0 };
-            let way = [0.0, 30.0 * sign, 25.0, 12.0 * sign, 0.0, 12.0 * sign];
-            pose.iter_mut().zip(way).for_each(|(value, by)| *value += by);
+            let offset = [0.0, 30.0 * sign, 25.0, 12.0 * sign, 0.0, 12.0 * sign];
+            pose.iter_mut().zip(offset).for_each(|(value, by)| *value += by);
             let zone = Zone { tcp: 0.1, ..Zone::NONE };
             queue.add(&Command { zone, line, ..lin(pose) }, &Settings::default()).unwrap();
         }

@@ -5,14 +5,14 @@ use crate::tests::*;
 
 /// Records lines from the start, each so far from the one before in mm and deg, with its profile; `stop` in a cycle,
 /// and on after rest.
-fn record(ways: &[([f64; 6], VelocityProfile)], zone: f64, stop: Option<(usize, Stop)>) -> Vec<MotionRecord> {
+fn record(offsets: &[([f64; 6], VelocityProfile)], zone: f64, stop: Option<(usize, Stop)>) -> Vec<MotionRecord> {
     let robot = with_external_axes("kr10-r1420");
     let start = Joints { axes: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET] };
     let mut queue = Queue::repeatable(robot.clone(), start);
     let mut recorder = Recorder::new(robot.clone(), &mut queue);
     let mut pose = frame_components(&robot.kinematics.forward(&start.axes));
-    for (way, profile) in ways {
-        pose.iter_mut().zip(way).for_each(|(value, by)| *value += by);
+    for (offset, profile) in offsets {
+        pose.iter_mut().zip(offset).for_each(|(value, by)| *value += by);
         let settings = Settings { profile: *profile, ..Settings::default() };
         let command = Command { zone: Zone { tcp: zone, ..Zone::NONE }, ..lin(pose) };
         let number = queue.add(&command, &settings).unwrap();
@@ -52,15 +52,15 @@ fn a_tool_that_turns_back_has_no_kink() {
 
 #[test]
 fn what_a_motion_without_limits_of_jerk_leaves_is_not_that_of_the_next_one() {
-    let ways =
+    let offsets =
         [([0.0, 60.0, 0.0, 0.0, 0.0, 0.0], VelocityProfile::T), ([0.0, 0.0, -60.0, 0.0, 0.0, 0.0], VelocityProfile::S)];
-    assert_within(&record(&ways, -1.0, None));
+    assert_within(&record(&offsets, -1.0, None));
 }
 
 #[test]
 fn a_fast_stop_is_measured_by_its_own_limits() {
-    let way = [([0.0, 300.0, 0.0, 0.0, 0.0, 0.0], VelocityProfile::S)];
-    let records = record(&way, -1.0, Some((300, Stop::Fast)));
+    let offset = [([0.0, 300.0, 0.0, 0.0, 0.0, 0.0], VelocityProfile::S)];
+    let records = record(&offset, -1.0, Some((300, Stop::Fast)));
     assert_within(&records);
     // It is no stop at all where nothing uses its limits.
     assert!(shares(&records)[0][2] > 0.9, "{records:?}");
@@ -119,7 +119,7 @@ fn a_gate_that_was_looked_at_from_above_has_one_record() {
     let records = recorder.records();
     assert_eq!(records.iter().map(|record| (record.number, record.line)).collect::<Vec<_>>(), [(1, 7), (3, 7), (4, 8)]);
     // Up and over and down again, as far as all of it.
-    assert!((records[0].way - records[1].way).abs() > 50.0, "{records:?}");
+    assert!((records[0].path_length - records[1].path_length).abs() > 50.0, "{records:?}");
     let whole: f64 = records.iter().map(|record| record.duration).sum();
     assert!((whole - f64::from(steps) * CYCLE).abs() < 1e-9);
 }

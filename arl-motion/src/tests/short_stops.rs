@@ -35,7 +35,7 @@ fn a_stop_takes_little_longer_than_its_axes_need() {
 }
 
 #[test]
-fn a_robot_that_goes_on_amid_a_stop_keeps_to_its_way_and_limits() {
+fn a_robot_that_goes_on_amid_a_stop_keeps_to_its_path_and_limits() {
     for Chain { profile, robot, queue, length, mut random } in chains() {
         for shot in 0..8 {
             let mut queue = queue.clone();

@@ -6,7 +6,7 @@ use arl_robot::robot::Family;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// A straight way of the TCP, on which the tool may turn, and where the axes stand at its start.
-struct Way {
+struct StraightPath {
     start: Joints,
     rig: Rig,
     from: Frame,
@@ -14,7 +14,7 @@ struct Way {
     turning: Vector3<f64>,
 }
 
-impl Way {
+impl StraightPath {
     /// The TCP at a share of the way.
     fn at(&self, share: f64) -> Frame {
         let turned = UnitQuaternion::from_scaled_axis(self.turning * share) * self.from.rotation;
@@ -32,7 +32,7 @@ impl Way {
 }
 
 /// A way that comes near a singular point of the robot somewhere, or not.
-fn random_way(robot: &Robot, random: &mut Random) -> Option<Way> {
+fn random_path(robot: &Robot, random: &mut Random) -> Option<StraightPath> {
     let mut number = |size: f64| random.between(-size, size);
     let tool = frame([number(50.0), number(50.0), 100.0 + number(100.0), number(90.0), 0.0, 0.0]);
     let size = 10.0_f64.powf(2.0 + number(1.0));
@@ -57,7 +57,7 @@ fn random_way(robot: &Robot, random: &mut Random) -> Option<Way> {
     );
     let start = kinematics.inverse(&rig.carried.flange_at(&from), kinematics.cfg(&middle), &middle)?;
     let inside = robot.own_axes().iter().zip(&start).all(|(axis, value)| *value > axis.min && *value < axis.max);
-    inside.then_some(Way { start: axes(start), rig, from, travel, turning })
+    inside.then_some(StraightPath { start: axes(start), rig, from, travel, turning })
 }
 
 /// What becomes of motions one behind the other, each of which starts where the one before has ended. A target that
@@ -78,18 +78,18 @@ fn outcome(robot: &Robot, start: &Joints, commands: &[Command]) -> &'static str 
 }
 
 #[test]
-fn a_way_has_the_same_outcome_however_it_is_cut() {
+fn a_path_has_the_same_outcome_however_it_is_cut() {
     let mut random = Random::new(49);
     let (mut seen, mut differ) = (std::collections::BTreeSet::new(), Vec::new());
     for name in Robot::builtin_names() {
         let robot = robot(name);
         for number in 0..400 {
-            let Some(way) = random_way(&robot, &mut random) else { continue };
-            let outcomes = [1, 2, 4, 8].map(|pieces| outcome(&robot, &way.start, &way.cut(pieces)));
+            let Some(path) = random_path(&robot, &mut random) else { continue };
+            let outcomes = [1, 2, 4, 8].map(|pieces| outcome(&robot, &path.start, &path.cut(pieces)));
             let reached = outcomes.map(|outcome| outcome == "reached");
             if reached != [reached[0]; 4] {
-                let (travel, turning) = (way.travel.as_slice(), way.turning.as_slice());
-                differ.push(format!("{name} {number}: {outcomes:?}, {:?} {travel:?} {turning:?}", way.start.axes));
+                let (travel, turning) = (path.travel.as_slice(), path.turning.as_slice());
+                differ.push(format!("{name} {number}: {outcomes:?}, {:?} {travel:?} {turning:?}", path.start.axes));
             }
             seen.insert((name, outcomes[0]));
         }
@@ -108,17 +108,17 @@ fn the_axes_pass_close_by_at_a_lower_speed_within_all_limits() {
     for name in Robot::builtin_names() {
         let robot = robot(name);
         for number in 0..100 {
-            let Some(way) = random_way(&robot, &mut random) else { continue };
-            let mut queue = Queue::repeatable(robot.clone(), way.start);
-            let commands = way.cut(1 + number % 3);
+            let Some(path) = random_path(&robot, &mut random) else { continue };
+            let mut queue = Queue::repeatable(robot.clone(), path.start);
+            let commands = path.cut(1 + number % 3);
             if !commands.iter().all(|command| queue.add(command, &Settings::default()).is_ok()) {
                 continue;
             }
             let rows = run(&mut queue, 100.0);
-            let what = format!("{name} {number}: {:?} {:?}", way.start.axes, way.travel.as_slice());
+            let what = format!("{name} {number}: {:?} {:?}", path.start.axes, path.travel.as_slice());
             assert_within_limits(&robot, &rows, &what);
             for row in rows.iter().filter(|row| row.motion > 0) {
-                let (off, _) = off_line(&way.at(0.0), &way.at(1.0), &row.tcp);
+                let (off, _) = off_line(&path.at(0.0), &path.at(1.0), &row.tcp);
                 assert!(off < 1e-3, "{what}: {off} mm off the line");
             }
             slowed += u32::from(usage(&robot, &rows)[0] > 0.9);

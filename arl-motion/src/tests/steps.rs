@@ -17,8 +17,8 @@ fn off(robot: &Robot, rows: &[Step]) -> [f64; 3] {
             off[0] = off[0].max((vel[index] - speed).abs() / axis.vel);
             off[1] = off[1].max((acc[index] - change).abs() / axis.acc);
         }
-        let way = next.tcp.translation.vector - before.tcp.translation.vector;
-        off[2] = off[2].max((here.tcp_speed - way.norm() / (2.0 * period)).abs());
+        let travel = next.tcp.translation.vector - before.tcp.translation.vector;
+        off[2] = off[2].max((here.tcp_speed - travel.norm() / (2.0 * period)).abs());
     }
     off
 }

@@ -23,11 +23,11 @@ fn assert_same_path(robot: &Robot, rows: &[Step], reference: &[Step]) {
         let here = place(row);
         let distance = |pair: &[Step]| {
             let (a, b) = (place(&pair[0]), place(&pair[1]));
-            let way: Vec<f64> = b.iter().zip(&a).map(|(b, a)| b - a).collect();
-            let length: f64 = way.iter().map(|w| w * w).sum();
-            let along: f64 = here.iter().zip(&a).zip(&way).map(|((h, a), w)| (h - a) * w).sum();
+            let travel: Vec<f64> = b.iter().zip(&a).map(|(b, a)| b - a).collect();
+            let length: f64 = travel.iter().map(|w| w * w).sum();
+            let along: f64 = here.iter().zip(&a).zip(&travel).map(|((h, a), w)| (h - a) * w).sum();
             let share = if length > 0.0 { (along / length).clamp(0.0, 1.0) } else { 0.0 };
-            here.iter().zip(&a).zip(&way).map(|((h, a), w)| (h - a - w * share).abs()).fold(0.0, f64::max)
+            here.iter().zip(&a).zip(&travel).map(|((h, a), w)| (h - a - w * share).abs()).fold(0.0, f64::max)
         };
         // The trace only goes forwards, so the search goes on where the last row was.
         let near = reference[from - 1..].windows(2).enumerate().find(|(_, pair)| distance(pair) < 2e-4);
@@ -44,8 +44,8 @@ fn the_override_changes_time_and_nothing_else() {
     change_override(&Settings::default(), 41, 30, |round| if round % 3 == 0 { 1 } else { 300 });
 }
 
-/// Runs at overrides that change after up to so many cycles, which `hold` gives for each round.
-pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, hold: impl Fn(u32) -> u32) {
+/// Runs at overrides that change after up to so many cycles, which `longest_stay` gives for each round.
+pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, longest_stay: impl Fn(u32) -> u32) {
     let robot = robot("kr10-r1420");
     let motions = || two_motions(&robot, settings);
     let reference = run(&mut motions(), 100.0);
@@ -62,23 +62,23 @@ pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, hold:
     for round in 0..rounds {
         let mut queue = motions();
         let mut rows = vec![reference[0]];
-        let (mut percent, mut left, mut due) = (100.0, 0, 0.0);
+        let (mut percent, mut remaining, mut due) = (100.0, 0, 0.0);
         while !queue.idle() {
-            if left == 0 {
-                let slides = hold(round) == 1;
+            if remaining == 0 {
+                let slides = longest_stay(round) == 1;
                 percent = match random.between(0.0, 1.0) {
                     _ if slides => f64::clamp(percent + random.between(-3.0, 3.0), 1.0, 100.0),
                     0.0..0.2 => 0.0,
                     _ => random.between(1.0, 100.0),
                 };
-                left = random.between(1.0, f64::from(hold(round)) + 0.5) as u32;
+                remaining = random.between(1.0, f64::from(longest_stay(round)) + 0.5) as u32;
             }
-            left -= 1;
+            remaining -= 1;
             rows.push(queue.step(Cycle::MS, at(percent)));
             due += CYCLE * percent / 100.0;
             assert!(rows.len() < 500_000);
         }
-        if hold(round) == 1 {
+        if longest_stay(round) == 1 {
             slid.push(due / (moves(&reference) * CYCLE));
         }
         assert_within_limits_of(&robot, &rows, settings.profile, "override");
@@ -282,7 +282,7 @@ fn progress_counts_time_at_full_override_and_mm_of_lines() {
     let now = at_full.last().unwrap();
     assert!((now.elapsed_time - 0.4).abs() < 1e-6 && now.motion == 1 && now.line == 7);
     let [_, y, ..] = frame_components(&robot.kinematics.forward(&start().axes));
-    assert!((now.elapsed_distance + now.left_distance - 2.0 * y.abs()).abs() < 1e-6);
+    assert!((now.elapsed_distance + now.remaining_distance - 2.0 * y.abs()).abs() < 1e-6);
     let mut slow = two_motions(&robot, &Settings::default());
     for _ in 0..800 {
         slow.step(Cycle::MS, at(50.0));

@@ -25,11 +25,11 @@ fn assert_on_path(robot: &Robot, rows: &[Step], reference: &[Step], own: impl Fn
     for row in rows.iter().filter(|row| own(row.motion)).step_by(40) {
         let here = place(row);
         let distance = |pair: &[Vec<f64>]| {
-            let way: Vec<f64> = pair[1].iter().zip(&pair[0]).map(|(b, a)| b - a).collect();
-            let length: f64 = way.iter().map(|w| w * w).sum();
-            let along: f64 = here.iter().zip(&pair[0]).zip(&way).map(|((h, a), w)| (h - a) * w).sum();
+            let travel: Vec<f64> = pair[1].iter().zip(&pair[0]).map(|(b, a)| b - a).collect();
+            let length: f64 = travel.iter().map(|w| w * w).sum();
+            let along: f64 = here.iter().zip(&pair[0]).zip(&travel).map(|((h, a), w)| (h - a) * w).sum();
             let share = if length > 0.0 { (along / length).clamp(0.0, 1.0) } else { 0.0 };
-            here.iter().zip(&pair[0]).zip(&way).map(|((h, a), w)| (h - a - w * share).abs()).fold(0.0, f64::max)
+            here.iter().zip(&pair[0]).zip(&travel).map(|((h, a), w)| (h - a - w * share).abs()).fold(0.0, f64::max)
         };
         let nearest = places.windows(2).map(distance).fold(f64::INFINITY, f64::min);
         assert!(nearest < 2e-3, "{nearest} beside the path at {here:?}");
@@ -48,11 +48,11 @@ fn a_stop_brakes_at_once_also_before_a_blend() {
             rows.push(queue.step(Cycle::MS, Override::FULL));
         }
         queue.stop_on_path(Stop::General);
-        let mut left = 1500;
+        let mut remaining = 1500;
         while !queue.rests() {
             rows.push(queue.step(Cycle::MS, Override::FULL));
-            left -= 1;
-            assert!(left > 0, "round {round}: it does not stop");
+            remaining -= 1;
+            assert!(remaining > 0, "round {round}: it does not stop");
         }
     }
 }
@@ -89,8 +89,8 @@ fn what_is_set_aside_goes_on_where_it_was_stopped() {
             }
         }
         // What holds from the next motion on is told by what has ended: never more than goes on behind it.
-        let is_told_late = |pair: &&[Step]| pair[1].motion != 0 && pair[0].finished >= pair[1].motion;
-        assert_eq!(rows.windows(2).find(is_told_late), None, "round {round}");
+        let is_reported_late = |pair: &&[Step]| pair[1].motion != 0 && pair[0].finished >= pair[1].motion;
+        assert_eq!(rows.windows(2).find(is_reported_late), None, "round {round}");
         if !fast {
             assert_within_limits(&robot, &rows, &format!("round {round}"));
         }
@@ -103,7 +103,7 @@ fn what_is_set_aside_goes_on_where_it_was_stopped() {
 }
 
 #[test]
-fn the_way_back_has_its_own_tool_to_its_last_row() {
+fn the_return_motion_has_its_own_tool_to_its_last_row() {
     let robot = robot("kr10-r1420");
     let [first, second] = [[0.0, 0.0, 100.0, 0.0, 0.0, 0.0], [50.0, 0.0, 150.0, 0.0, 30.0, 0.0]]
         .map(|tool| Rig { carried: Carried::Tool(frame(tool)), ..Rig::bare() });

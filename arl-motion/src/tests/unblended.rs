@@ -4,14 +4,14 @@ use crate::tests::*;
 
 /// What is said of the targets of lines from the start, each so far from the one before in mm, deg and mm (deg) of
 /// external axes.
-fn said(ways: &[([f64; 6], [f64; 2])], zone: f64) -> Vec<(u32, NoBlend)> {
+fn unblended_corners(offsets: &[([f64; 6], [f64; 2])], zone: f64) -> Vec<(u32, NoBlend)> {
     let robot = with_external_axes("kr10-r1420");
     let start = Joints { axes: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET] };
     let mut queue = Queue::repeatable(robot.clone(), start);
     let mut pose = frame_components(&robot.kinematics.forward(&start.axes));
     let mut external = start.external;
-    for (line, (way, moved)) in (1..).zip(ways) {
-        pose.iter_mut().zip(way).for_each(|(value, by)| *value += by);
+    for (line, (offset, moved)) in (1..).zip(offsets) {
+        pose.iter_mut().zip(offset).for_each(|(value, by)| *value += by);
         external.iter_mut().zip(moved).for_each(|(value, by)| *value += by);
         let target = Target::Line { pose, wobj: Frame::identity(), external };
         let zone = Zone { tcp: zone, ..Zone::NONE };
@@ -24,37 +24,37 @@ fn said(ways: &[([f64; 6], [f64; 2])], zone: f64) -> Vec<(u32, NoBlend)> {
 const STAYS: [f64; 2] = [0.0; 2];
 
 #[test]
-fn ways_that_turn_are_rounded_off() {
+fn paths_that_turn_are_rounded_off() {
     let square =
         [[0.0, 100.0, 0.0], [0.0, 0.0, -100.0], [0.0, -100.0, 0.0]].map(|[x, y, z]| ([x, y, z, 0.0, 0.0, 0.0], STAYS));
-    assert_eq!(said(&square, 10.0), []);
+    assert_eq!(unblended_corners(&square, 10.0), []);
 }
 
 #[test]
-fn a_way_back_is_told_as_one() {
+fn a_reversal_is_reported_as_one() {
     let there = [0.0, 0.0, -80.0, 0.0, 0.0, 0.0];
     let back = there.map(|value| -value);
     // Whatever is wrong with the axes where the way turns back.
-    assert_eq!(said(&[(there, STAYS), (back, STAYS)], 10.0), [(1, NoBlend::Reversal)]);
+    assert_eq!(unblended_corners(&[(there, STAYS), (back, STAYS)], 10.0), [(1, NoBlend::Reversal)]);
     let slanted = [40.0, 30.0, -80.0, 0.0, 0.0, 0.0];
-    let ways = [(slanted, STAYS), (slanted.map(|value| -value / 2.0), STAYS)];
-    assert_eq!(said(&ways, 2.0), [(1, NoBlend::Reversal)]);
+    let offsets = [(slanted, STAYS), (slanted.map(|value| -value / 2.0), STAYS)];
+    assert_eq!(unblended_corners(&offsets, 2.0), [(1, NoBlend::Reversal)]);
 }
 
 #[test]
-fn external_axes_alone_are_told_as_such() {
+fn external_axes_alone_are_reported_as_such() {
     let along = [0.0, 80.0, 0.0, 0.0, 0.0, 0.0];
-    assert_eq!(said(&[(along, STAYS), ([0.0; 6], [20.0, 100.0])], 10.0), [(1, NoBlend::ExternalAlone)]);
+    assert_eq!(unblended_corners(&[(along, STAYS), ([0.0; 6], [20.0, 100.0])], 10.0), [(1, NoBlend::ExternalAlone)]);
 }
 
 #[test]
-fn a_zone_that_is_nothing_beside_the_next_motion_is_told_as_such() {
+fn a_zone_that_is_nothing_beside_the_next_motion_is_reported_as_such() {
     let (along, down) = ([0.0, 200.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, -200.0, 0.0, 0.0, 0.0]);
-    assert_eq!(said(&[(along, STAYS), (down, STAYS)], 1e-4), [(1, NoBlend::NothingLeft)]);
+    assert_eq!(unblended_corners(&[(along, STAYS), (down, STAYS)], 1e-4), [(1, NoBlend::NothingToRound)]);
 }
 
 #[test]
-fn the_same_lines_are_told_once() {
+fn the_same_lines_are_reported_once() {
     let robot = robot("kr10-r1420");
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
     let mut queue = Queue::repeatable(robot.clone(), start);
@@ -81,8 +81,8 @@ fn to_and_fro(profile: VelocityProfile, turn: f64, zone: f64) -> (usize, Vec<NoB
     let mut pose = frame_components(&robot.kinematics.forward(&start.axes));
     for index in 0..8 {
         let sign = if index % 2 == 0 { 1.0 } else { -1.0 };
-        let way = [0.0, 30.0 * sign, 25.0, turn * sign, 0.0, turn * sign];
-        pose.iter_mut().zip(way).for_each(|(value, by)| *value += by);
+        let offset = [0.0, 30.0 * sign, 25.0, turn * sign, 0.0, turn * sign];
+        pose.iter_mut().zip(offset).for_each(|(value, by)| *value += by);
         let speed = Speed { tcp: 900.0, ..fast() };
         let command = Command { zone: Zone { tcp: zone, ..Zone::NONE }, speed, ..lin(pose) };
         queue.add(&command, &Settings { profile, ..Settings::default() }).unwrap();
@@ -142,7 +142,7 @@ fn a_tool_that_turns_along_short_lines_and_splines_gains_time_by_zones() {
 }
 
 #[test]
-fn targets_that_all_but_coincide_are_told_apart_from_singular_points() {
+fn targets_that_all_but_coincide_are_distinguished_from_singular_points() {
     let robot = robot("kr10-r1420");
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
     let [x, y, z, ..] = frame_components(&robot.kinematics.forward(&start.axes));
@@ -154,7 +154,10 @@ fn targets_that_all_but_coincide_are_told_apart_from_singular_points() {
             queue.add(&Command { zone, ..target }, &Settings::default()).unwrap();
         }
         run(&mut queue, 100.0);
-        let told: Vec<NoBlend> = queue.take_unblended().into_iter().map(|target| target.why).collect();
-        assert!(told.iter().all(|why| matches!(why, NoBlend::NothingLeft | NoBlend::Slower)), "{apart}: {told:?}");
+        let reasons: Vec<NoBlend> = queue.take_unblended().into_iter().map(|target| target.why).collect();
+        assert!(
+            reasons.iter().all(|why| matches!(why, NoBlend::NothingToRound | NoBlend::Slower)),
+            "{apart}: {reasons:?}"
+        );
     }
 }

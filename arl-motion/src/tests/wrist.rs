@@ -171,8 +171,8 @@ fn a_held_workpiece_passes_it_with_the_tcp_exact() {
     let rows = assert_passes(&robot, axes(start), &[command], "held").unwrap();
     let mut gave = 0.0_f64;
     for row in &rows {
-        let way = rig.carried.way_at(&kinematics.forward(&row.joints.axes));
-        let (off, turned) = off_line(&at(-150.0), &at(150.0), &way);
+        let tcp_on_workpiece = rig.carried.path_frame_at(&kinematics.forward(&row.joints.axes));
+        let (off, turned) = off_line(&at(-150.0), &at(150.0), &tcp_on_workpiece);
         assert!(off < 1e-5, "{off} mm off the line");
         gave = gave.max(turned);
     }

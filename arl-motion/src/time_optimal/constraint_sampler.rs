@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use crate::command::joints::{ALL, Joints};
-use crate::follow::segment::{LedTool, Segment};
+use crate::follow::segment::{GuidedTool, Segment};
 use crate::follow::shared_deque::SharedDeque;
 use crate::limits::constant::Constraint;
 use crate::plan::constraints::{Constraints, PathLimits};
-use crate::time_optimal::solver::{BoundaryState, Row, Way, guess_steps, places, thinned};
+use crate::time_optimal::solver::{BoundaryState, ConstrainedPath, Row, guess_steps, places, thinned};
 use arl_robot::robot::Robot;
 
 /// The longest time, in s, between two places, nominal or as estimated, and the least and the largest number of places.
@@ -100,9 +100,9 @@ pub(crate) struct ConstraintSampler {
 
 /// A part of the path that is ready to be timed.
 pub(crate) struct SampledPath {
-    pub(crate) way: Way,
+    pub(crate) path: ConstrainedPath,
     /// The path without places that are closer together in time than set-points can show, if there are any.
-    pub(crate) thinned: Option<Way>,
+    pub(crate) thinned: Option<ConstrainedPath>,
     /// Where it ends; earlier than requested where there are too many places.
     pub(crate) end: f64,
 }
@@ -186,8 +186,8 @@ impl ConstraintSampler {
         let is_fine = density >= 1.0;
         for _ in 0..MOST_SHORTENINGS {
             match self.walk(to, duration.unwrap_or_default(), density, most, edges) {
-                Ok((way, many)) => {
-                    let steps = if is_fine { guess_steps(&way, edges)? } else { Vec::new() };
+                Ok((path, many)) => {
+                    let steps = if is_fine { guess_steps(&path, edges)? } else { Vec::new() };
                     if is_fine && duration.is_none() {
                         let guessed = steps.iter().sum();
                         duration = Some(guessed);
@@ -196,13 +196,13 @@ impl ConstraintSampler {
                         }
                     }
                     // Where a singular point is all that is known about an end, no motion along the rest leads there.
-                    let [first, last] = [*way.places().first()?, *way.places().last()?];
+                    let [first, last] = [*path.places().first()?, *path.places().last()?];
                     if (first - self.at).max(to - last) > SAME_PLACE_SHARE * (to - self.at) {
                         return None;
                     }
-                    let closest = if way.limits_jerk() { CLOSEST_S } else { CLOSEST_WITHOUT_JERK_LIMITS_S };
-                    let thinned = if is_fine && !many { thinned(&way, &steps, closest / density) } else { None };
-                    return Some(SampledPath { way, thinned, end: to });
+                    let closest = if path.limits_jerk() { CLOSEST_S } else { CLOSEST_WITHOUT_JERK_LIMITS_S };
+                    let thinned = if is_fine && !many { thinned(&path, &steps, closest / density) } else { None };
+                    return Some(SampledPath { path, thinned, end: to });
                 }
                 Err(reached) => {
                     let shorter = self.at + 0.8 * (reached - self.at);
@@ -223,7 +223,7 @@ impl ConstraintSampler {
         density: f64,
         most: usize,
         [start, end]: [BoundaryState; 2],
-    ) -> Result<(Way, bool), f64> {
+    ) -> Result<(ConstrainedPath, bool), f64> {
         let count = (density * even_places(duration.max(to - self.at))) as usize;
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
@@ -237,7 +237,7 @@ impl ConstraintSampler {
             same
         });
 
-        let mut way = Way::new();
+        let mut path = ConstrainedPath::new();
         let mut constraints = Constraints::signed(&self.robot);
         let is_coarse = density < 1.0;
         let mut walk = Walk::new(self, many || is_coarse);
@@ -254,15 +254,15 @@ impl ConstraintSampler {
                 let step = step.min(spacing_at(&grades, grade, at));
                 // Where too many segments meet for places of their own, those that are far enough from the last place
                 // become places nevertheless.
-                is_place |= at - way.places().last().copied().unwrap_or(self.at) >= step;
+                is_place |= at - path.places().last().copied().unwrap_or(self.at) >= step;
                 if is_place && !constraints.rows.is_empty() {
                     let rows = constraints.rows.drain(..).map(row);
                     match walk.jump {
-                        Some(before) => way.push_jump(at, rows, before),
-                        None => way.push(at, rows),
+                        Some(before) => path.push_jump(at, rows, before),
+                        None => path.push(at, rows),
                     }
                 }
-                if way.places().len() > most {
+                if path.places().len() > most {
                     return Err(at);
                 }
                 match next {
@@ -271,7 +271,7 @@ impl ConstraintSampler {
                 }
             }
         }
-        Ok((way, many))
+        Ok((path, many))
     }
 
     /// The permitted spacing of places at the start, and where segments meet if there are not too many.
@@ -394,7 +394,7 @@ pub(crate) struct Point {
     /// Limits of the motion there.
     pub(crate) pace: PathLimits,
     /// The tool, if its path is limited.
-    pub(crate) tool: Option<LedTool>,
+    pub(crate) tool: Option<GuidedTool>,
 }
 
 impl Stroll<'_> {

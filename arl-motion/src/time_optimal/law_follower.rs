@@ -23,9 +23,9 @@ use crate::time_optimal::solver::{BoundaryState, Law, Moment};
 use crate::time_optimal::speed_scaling::{SpeedScaling, followed};
 
 /// A law is renewed when less than this share of it is left, if there is more path.
-const RENEWED_AT_SHARE_LEFT: f64 = 0.5;
+const RENEWED_AT_REMAINING_SHARE: f64 = 0.5;
 /// A law is renewed when no more than this number of searches fit into what is left of it.
-const SEARCHES_LEFT: f64 = 2.0;
+const REMAINING_SEARCHES: f64 = 2.0;
 /// A new law must be about as quick as the current one over this share of what is left of the current one.
 const COMPARED_SHARE: f64 = 0.3;
 const SLOWEST_RENEWAL_FACTOR: f64 = 1.1;
@@ -58,17 +58,17 @@ struct Drive {
 }
 
 impl Drive {
-    fn left(&self) -> f64 {
+    fn remaining_time(&self) -> f64 {
         self.found.law.duration() - self.time
     }
 
     fn is_over(&self) -> bool {
-        self.left() <= NO_TIME_S
+        self.remaining_time() <= NO_TIME_S
     }
 
     /// Whether another law that starts here is about as quick, before this one slows down for its end.
     fn is_as_quick(&self, other: &Found) -> bool {
-        let later = COMPARED_SHARE * self.left();
+        let later = COMPARED_SHARE * self.remaining_time();
         let there = self.found.law.at(self.time + later).at.min(other.end);
         let own = self.found.law.time_at(there) - self.time;
         other.law.time_at(there) <= SLOWEST_RENEWAL_FACTOR * own
@@ -95,7 +95,7 @@ struct Easing {
 
 impl Easing {
     /// The remaining time, in s.
-    fn left(&self) -> f64 {
+    fn remaining_time(&self) -> f64 {
         self.scaling.duration() - self.time
     }
 
@@ -118,7 +118,7 @@ impl Timed for Eased<'_> {
     }
 
     fn duration(&self) -> f64 {
-        self.easing.left()
+        self.easing.remaining_time()
     }
 
     fn known(&self, time: f64) -> Option<Moment> {
@@ -286,7 +286,7 @@ impl LawFollower {
     pub(crate) fn time_to(&self, at: f64) -> Option<(f64, f64)> {
         let Drive { found: Found { law, end, stops, .. }, time } = self.ahead.main.as_ref()?;
         // What comes later will be another law, if there is one.
-        let renewed = law.duration() * (1.0 - RENEWED_AT_SHARE_LEFT);
+        let renewed = law.duration() * (1.0 - RENEWED_AT_REMAINING_SHARE);
         let sure = if *stops || *time >= renewed { *end } else { law.at(renewed).at };
         let to = at.min(sure);
         Some(((law.time_at(to) - time).max(0.0), to))
@@ -316,8 +316,8 @@ impl LawFollower {
         }
         let start = State { at: sampler.at, ..State::default() };
         let glimpsed = sampler.sample_short_part(sampler.at + SETTING_OFF_LOOK_FACTOR * time);
-        let ramp = glimpsed.and_then(|SampledPath { way, end, .. }| {
-            let mut ramp = Ramp::setting_off(start, &Arc::new(LimitCheck::new(way)), end, share, time)?;
+        let ramp = glimpsed.and_then(|SampledPath { path, end, .. }| {
+            let mut ramp = Ramp::setting_off(start, &Arc::new(LimitCheck::new(path)), end, share, time)?;
             ramp.arrives = sampler.stops && sampler.end - ramp.end <= NO_TIME_S;
             // It must not come to rest on its path before the law is there.
             (ramp.arrives || ramp.duration() > time).then_some(ramp)
@@ -354,7 +354,8 @@ impl LawFollower {
     pub(crate) fn renewal(&self, cycles: u32, cycle: f64) -> Option<RenewalRequest> {
         let main = self.ahead.main.as_ref()?;
         let search = f64::from(cycles) * cycle;
-        let short = main.left() < (RENEWED_AT_SHARE_LEFT * main.found.law.duration()).max(SEARCHES_LEFT * search);
+        let short = main.remaining_time()
+            < (RENEWED_AT_REMAINING_SHARE * main.found.law.duration()).max(REMAINING_SEARCHES * search);
         if self.pause > 0.0 || main.found.stops || !short {
             return None;
         }
@@ -441,7 +442,7 @@ impl LawFollower {
         let leads_to = easing.as_ref().map_or(self.ahead.share, |easing| easing.scaling.to());
         // What takes long may be done sooner from a later state.
         let (is_new, takes_long) =
-            (leads_to != share, easing.as_ref().is_some_and(|easing| easing.left() > QUICK_SCALING_S));
+            (leads_to != share, easing.as_ref().is_some_and(|easing| easing.remaining_time() > QUICK_SCALING_S));
         if !(is_new || takes_long) || self.share_pause > 0.0 {
             return;
         }
@@ -473,7 +474,7 @@ impl LawFollower {
             return false;
         };
         let ramp = Ramp::hardest(now, check, end, stop_scale);
-        let longest = ramp.as_ref().map_or(f64::INFINITY, Ramp::left);
+        let longest = ramp.as_ref().map_or(f64::INFINITY, Ramp::remaining_time);
         // Where the law ends as soon, rounding must not end the ramp just before it.
         if self.arrives_in() <= longest + SAME_STOP_S {
             return false;
@@ -498,13 +499,13 @@ impl LawFollower {
     /// The state after `cycles` cycles for a shorter stop, if there may be one.
     pub(crate) fn request_stop(&self, cycles: u32, cycle: f64, stop_scale: f64) -> Option<StopRequest> {
         let known = self.shortest && stop_scale <= self.stop_scale;
-        if known || self.stop_pause > 0.0 || self.stop_left() < LONG_STOP_S {
+        if known || self.stop_pause > 0.0 || self.time_to_rest() < LONG_STOP_S {
             return None;
         }
         let State { at, vel, acc } = self.after(cycles, cycle).state()?;
         let (check, end) = self.ahead.limits()?;
         let start = State { at, vel, acc };
-        let about = Ramp::way(start, check, stop_scale);
+        let about = Ramp::stop_distance(start, check, stop_scale);
         (vel > 0.0 && about > 0.0 && at < end).then_some(StopRequest {
             at,
             start: BoundaryState { vel, acc },
@@ -516,30 +517,32 @@ impl LawFollower {
     /// Takes over the stop that was requested by [`LawFollower::request_stop`] a number of cycles ago, if it is
     /// shorter.
     pub(crate) fn stop_along(&mut self, found: Option<Found>, stop_scale: f64) {
-        match found.filter(|found| found.law.duration() < self.stop_left() - LEAST_GAIN_S) {
+        match found.filter(|found| found.law.duration() < self.time_to_rest() - LEAST_GAIN_S) {
             Some(found) => {
                 self.ahead.ramp = Some(Ramp::along(found));
                 (self.stop_scale, self.shortest) = (stop_scale, true);
             }
             None => {
                 // Where nothing leads to rest soon, another attempt is made.
-                self.shortest = self.stop_left() <= QUICK_SCALING_S;
+                self.shortest = self.time_to_rest() <= QUICK_SCALING_S;
                 self.stop_pause = RETRY_AFTER_S;
             }
         }
     }
 
     /// The s until it is at rest; infinite where it neither brakes nor arrives at a stop.
-    fn stop_left(&self) -> f64 {
-        let easing = self.ahead.easing.filter(Easing::stops).map_or(f64::INFINITY, |easing| easing.left());
-        self.ahead.ramp.as_ref().map_or(easing.min(self.arrives_in()), Ramp::left)
+    fn time_to_rest(&self) -> f64 {
+        let easing = self.ahead.easing.filter(Easing::stops).map_or(f64::INFINITY, |easing| easing.remaining_time());
+        self.ahead.ramp.as_ref().map_or(easing.min(self.arrives_in()), Ramp::remaining_time)
     }
 
     /// The s until the law leads to where the robot has to stop; infinite where it does not, or where its share of the
     /// speed is changing.
     fn arrives_in(&self) -> f64 {
         match &self.ahead {
-            Ahead { main: Some(main), share, easing: None, ramp: None } if main.found.stops => main.left() / share,
+            Ahead { main: Some(main), share, easing: None, ramp: None } if main.found.stops => {
+                main.remaining_time() / share
+            }
             _ => f64::INFINITY,
         }
     }

@@ -11,7 +11,7 @@ use std::hash::Hasher;
 use std::sync::Arc;
 
 use crate::time_optimal::constraint_sampler::ConstraintSampler;
-use crate::time_optimal::solver::{BoundaryState, Law, Way};
+use crate::time_optimal::solver::{BoundaryState, ConstrainedPath, Law};
 
 /// Maximum number of stretches that are remembered for all laws together, of 80 bytes each.
 const MOST_STRETCHES: usize = 60_000;
@@ -134,12 +134,12 @@ fn room(answer: &Answer) -> usize {
 }
 
 /// The fingerprint of what a law is found from.
-pub(crate) fn key(way: &Way, start: BoundaryState, before: Option<&Law>) -> u128 {
+pub(crate) fn key(path: &ConstrainedPath, start: BoundaryState, before: Option<&Law>) -> u128 {
     // The second hasher starts differently, so that the two are independent.
     let mut halves = [DefaultHasher::new(), DefaultHasher::new()];
     halves[1].write_u64(1);
     let mut note = |number: u64| halves.iter_mut().for_each(|half| half.write_u64(number));
-    way.numbers(&mut note);
+    path.numbers(&mut note);
     [start.vel, start.acc].into_iter().for_each(|number| note(number.to_bits()));
     if let Some(law) = before {
         law.numbers(&mut note);
@@ -153,24 +153,24 @@ mod tests {
     use super::*;
     use crate::time_optimal::solver::{Row, fastest, places};
 
-    fn way(places: &[f64], second: f64) -> Way {
-        let mut way = Way::new();
+    fn path(places: &[f64], second: f64) -> ConstrainedPath {
+        let mut path = ConstrainedPath::new();
         for at in places {
             let bent = if *at > 1.0 { second } else { 0.0 };
-            way.push(*at, [Row { first: 1.0, second: bent, third: 0.0, vel: 1.0, acc: 5.0, jerk: 50.0 }]);
+            path.push(*at, [Row { first: 1.0, second: bent, third: 0.0, vel: 1.0, acc: 5.0, jerk: 50.0 }]);
         }
-        way
+        path
     }
 
-    fn find(way: &Way) -> (Answer, bool) {
-        (fastest(way, BoundaryState::REST, BoundaryState::REST).ok().map(|law| (Arc::new(law), 1.0)), true)
+    fn find(path: &ConstrainedPath) -> (Answer, bool) {
+        (fastest(path, BoundaryState::REST, BoundaryState::REST).ok().map(|law| (Arc::new(law), 1.0)), true)
     }
 
     #[test]
     fn the_same_is_found_once_and_everything_counts() {
         let all = places(0.0, 2.0, 60, BoundaryState::REST, BoundaryState::REST);
         let mut memory = LawMemory::default();
-        let (plain, bent) = (way(&all, 0.0), way(&all, 1e-12));
+        let (plain, bent) = (path(&all, 0.0), path(&all, 1e-12));
         let first = memory.recall(key(&plain, BoundaryState::REST, None), || find(&plain)).unwrap();
         let again = memory.recall(key(&plain, BoundaryState::REST, None), || panic!("it is known")).unwrap();
         assert!(Arc::ptr_eq(&first.0, &again.0));
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn what_was_not_asked_for_for_longest_goes() {
         let all = places(0.0, 2.0, 60, BoundaryState::REST, BoundaryState::REST);
-        let plain = way(&all, 0.0);
+        let plain = path(&all, 0.0);
         let (law, _) = find(&plain);
         let mut memory = LawMemory::default();
         let most = (MOST_STRETCHES / law.as_ref().unwrap().0.stretches()) as u128;

@@ -15,7 +15,9 @@ use crate::time_optimal::constraint_sampler::{ConstraintSampler, SampledPath};
 use crate::time_optimal::law_memory::{LawMemory, RequestMemory, key};
 use crate::time_optimal::limit_check::{LimitCheck, MOST_USED_SHARE, law_keeps, used_by_law};
 use crate::time_optimal::set_points::used_by_set_points;
-use crate::time_optimal::solver::{BoundaryState, CREEPING, Law, Pace, Way, fastest, fastest_behind, fastest_near};
+use crate::time_optimal::solver::{
+    BoundaryState, CREEPING, ConstrainedPath, Law, Pace, fastest, fastest_behind, fastest_near,
+};
 use crate::time_optimal::stop_prediction::StopPrediction;
 
 /// The time for finding a law, in s of controller time; and the time along very many motions.
@@ -62,7 +64,7 @@ const MOST_STOP_SAMPLES: usize = 1500;
 /// share of its time, and is first sought at this share of its distance.
 const SHORT_STOP_S: f64 = 0.1;
 const SHORTER_STOP_SHARE_OF_TIME: f64 = 0.8;
-const SHORTER_STOP_SHARE_OF_WAY: f64 = 0.5;
+const SHORTER_STOP_SHARE_OF_DISTANCE: f64 = 0.5;
 
 /// A law that keeps all limits, and what it was found from.
 #[derive(Clone, Debug)]
@@ -79,7 +81,7 @@ pub(crate) struct Found {
 pub(crate) struct Search {
     result: Arc<Outcome>,
     /// Number of cycles left.
-    left: u32,
+    remaining_cycles: u32,
     /// Whether it has been counted as too late.
     is_late: bool,
 }
@@ -161,8 +163,8 @@ impl LawSolver {
 
     /// Counts a cycle of a search, and returns its state.
     pub(crate) fn look(&mut self, search: &mut Search) -> Status {
-        search.left = search.left.saturating_sub(1);
-        if search.left > 0 {
+        search.remaining_cycles = search.remaining_cycles.saturating_sub(1);
+        if search.remaining_cycles > 0 {
             return Status::Running;
         }
         if !self.in_real_time {
@@ -210,7 +212,7 @@ impl LawSolver {
             self.tasks = None;
             task.run(&mut Memory::default());
         }
-        Search { result, left: cycles, is_late: false }
+        Search { result, remaining_cycles: cycles, is_late: false }
     }
 }
 
@@ -248,16 +250,16 @@ const MOST_KEPT: usize = 4;
 
 impl Memory {
     /// Starts with the memory of the thread that ended last.
-    fn begun(left: &KeptMemory) -> Self {
-        let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
-        Self { laws: LawMemory::default(), requests: left.pop().unwrap_or_default() }
+    fn begun(kept: &KeptMemory) -> Self {
+        let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+        Self { laws: LawMemory::default(), requests: kept.pop().unwrap_or_default() }
     }
 
     /// Leaves the memory to the next thread.
-    fn leave(self, left: &KeptMemory) {
-        let mut left = left.lock().unwrap_or_else(PoisonError::into_inner);
-        if left.len() < MOST_KEPT {
-            left.push(self.requests);
+    fn leave(self, kept: &KeptMemory) {
+        let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+        if kept.len() < MOST_KEPT {
+            kept.push(self.requests);
         }
     }
 }
@@ -343,20 +345,20 @@ fn find(
         let to = if sampler.at + 1.2 * window < stop { sampler.at + window } else { stop };
         let mut attempt = |(share, density): &(f64, f64)| {
             let (to, edges) = (sampler.at + share * (to - sampler.at), [start, BoundaryState::REST]);
-            let SampledPath { way, thinned, end } = match speed {
+            let SampledPath { path, thinned, end } = match speed {
                 Some(speed) => sampler.look_at_speed(to, *density, edges, speed),
                 None => sampler.look(to, *density, start, BoundaryState::REST),
             }?;
-            let sparse = thinned.as_ref().unwrap_or(&way);
+            let sparse = thinned.as_ref().unwrap_or(&path);
             let found = || {
                 let found = law_within_limits(sampler, sparse, start, before, &wanted);
                 (found.map(|(law, used)| (Arc::new(law), used)), wanted())
             };
             let (law, used) = memory.recall(key(sparse, start, before), found)?;
-            Some((way, end, law, used))
+            Some((path, end, law, used))
         };
         // Between the places, a law may require more than is available: a small excess is acceptable.
-        let mut best: Option<(Way, f64, Arc<Law>, f64)> = None;
+        let mut best: Option<(ConstrainedPath, f64, Arc<Law>, f64)> = None;
         for attempt in SHARES_AND_DENSITIES.iter().take_while(|_| wanted()).filter_map(&mut attempt) {
             if best.as_ref().is_none_or(|(.., least)| attempt.3 < *least) {
                 best = Some(attempt);
@@ -365,10 +367,10 @@ fn find(
                 break;
             }
         }
-        let Some((way, end, law, _)) = best.filter(|(.., used)| *used <= MOST_USED_SHARE) else { return found };
+        let Some((path, end, law, _)) = best.filter(|(.., used)| *used <= MOST_USED_SHARE) else { return found };
         let ahead = law.duration();
         let stops = sampler.stops && end >= stop;
-        found = Some(Found { law, check: Arc::new(LimitCheck::new(way)), end, stops });
+        found = Some(Found { law, check: Arc::new(LimitCheck::new(path)), end, stops });
         if end < to || to >= stop || ahead >= LEAST_LAW_S {
             return found;
         }
@@ -382,11 +384,11 @@ fn find(
 /// places of `first`, which reach the end, then at closer places; `None` where no law keeps the limits.
 pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: SampledPath) -> Option<f64> {
     let closer = DENSITIES.iter().filter_map(|density| {
-        let prospect = sampler.look(sampler.end, *density, BoundaryState::REST, BoundaryState::REST)?;
-        (prospect.end >= sampler.end).then_some(prospect)
+        let sampled = sampler.look(sampler.end, *density, BoundaryState::REST, BoundaryState::REST)?;
+        (sampled.end >= sampler.end).then_some(sampled)
     });
-    [first].into_iter().chain(closer).find_map(|prospect| {
-        let sparse = prospect.thinned.as_ref().unwrap_or(&prospect.way);
+    [first].into_iter().chain(closer).find_map(|sampled| {
+        let sparse = sampled.thinned.as_ref().unwrap_or(&sampled.path);
         let (law, used) = law_within_limits(sampler, sparse, BoundaryState::REST, None, &|| true)?;
         (used <= MOST_USED_SHARE).then(|| law.duration())
     })
@@ -396,12 +398,12 @@ pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: SampledPath) 
 /// Where that is a little too much, the limits are lowered.
 fn law_within_limits(
     sampler: &ConstraintSampler,
-    way: &Way,
+    path: &ConstrainedPath,
     start: BoundaryState,
     before: Option<&Law>,
     wanted: &impl Fn() -> bool,
 ) -> Option<(Law, f64)> {
-    let mut limits = way.clone();
+    let mut limits = path.clone();
     let mut best: Option<(Law, f64)> = None;
     let mut pace: Option<Pace> = None;
     let mut longest: Option<f64> = None;
@@ -417,7 +419,7 @@ fn law_within_limits(
         }
         // Always the pace of the first law: limits that are lowered for one parameter hold for that parameter.
         pace = pace.or_else(|| law.pace());
-        let mut used = used_by_law(way, &law, TEMPERED_USE)?;
+        let mut used = used_by_law(path, &law, TEMPERED_USE)?;
         if used.most <= MOST_USED_SHARE {
             let by_set_points = used_by_set_points(sampler, &law, 1.0, TEMPERED_USE);
             let most = used.most.max(by_set_points.most);
@@ -455,8 +457,8 @@ fn find_stop(
             if looked_at > MOST_STOP_SAMPLES {
                 return None;
             }
-            let SampledPath { way, thinned, end } = sampler.look(to, density, start, BoundaryState::REST)?;
-            let sparse = thinned.as_ref().unwrap_or(&way);
+            let SampledPath { path, thinned, end } = sampler.look(to, density, start, BoundaryState::REST)?;
+            let sparse = thinned.as_ref().unwrap_or(&path);
             looked_at += sparse.places().len();
             let law = fastest(&sparse.hardened(STOP_LIMIT_FACTOR * stop_scale), start, BoundaryState::REST)
                 .ok()
@@ -464,7 +466,7 @@ fn find_stop(
             let is_smooth = || used_by_set_points(sampler, &law, stop_scale, MOST_USED_SHARE).beyond.is_empty();
             if law_keeps(sparse, &law, stop_scale) && is_smooth() {
                 let stops = sampler.stops && end >= sampler.end;
-                return Some(Found { law: Arc::new(law), check: Arc::new(LimitCheck::new(way)), end, stops });
+                return Some(Found { law: Arc::new(law), check: Arc::new(LimitCheck::new(path)), end, stops });
             }
         }
         None
@@ -505,12 +507,12 @@ fn find_shorter_stop(
     let stop_scale = prediction.stop_scale();
     let at = sampler.at + prediction.brake(cycles)?;
     let start = prediction.edge();
-    let [way, time] = prediction.rest(&wanted)?;
+    let [distance, time] = prediction.rest(&wanted)?;
     if time < SHORT_STOP_S {
         return None;
     }
-    let sampler = sampler.behind(at).up_to(at + way);
-    let found = find_stop(&sampler, start, SHORTER_STOP_SHARE_OF_WAY * way, stop_scale, wanted)?;
+    let sampler = sampler.behind(at).up_to(at + distance);
+    let found = find_stop(&sampler, start, SHORTER_STOP_SHARE_OF_DISTANCE * distance, stop_scale, wanted)?;
     (found.law.duration() < SHORTER_STOP_SHARE_OF_TIME * time).then_some(found)
 }
 
@@ -533,7 +535,7 @@ mod tests {
             if found {
                 result.found.set(None).unwrap();
             }
-            Search { result: Arc::new(result), left: 1, is_late: false }
+            Search { result: Arc::new(result), remaining_cycles: 1, is_late: false }
         };
         assert_eq!([false, true].map(|is_dense| solver.cycles(0.001, is_dense)), [20, 60]);
         for expected in [40, 80, 160, 300, 300] {
@@ -566,7 +568,7 @@ mod tests {
     }
 
     #[test]
-    fn a_request_that_is_the_same_does_not_look_at_the_way() {
+    fn a_request_that_is_the_same_does_not_look_at_the_path() {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
         let mut memory = Memory::default();
         let mut law = |number: u64, percent: f64, start: BoundaryState, before: Option<Arc<Law>>| {
@@ -592,12 +594,12 @@ mod tests {
     #[test]
     fn the_next_run_knows_what_the_last_one_found() {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
-        let left = KeptMemory::default();
+        let kept = KeptMemory::default();
         let law = |speed| {
-            let mut memory = Memory::begun(&left);
+            let mut memory = Memory::begun(&kept);
             let asked = FOUND_HERE.get();
             let found = recall_or_find(sampler(&robot, 1, speed), BoundaryState::REST, None, &mut memory, || true);
-            memory.leave(&left);
+            memory.leave(&kept);
             (FOUND_HERE.get() - asked, found.unwrap().law)
         };
         let (asked, first) = law(50.0);
@@ -606,17 +608,17 @@ mod tests {
         let (asked, again) = law(50.0);
         assert!(asked == 0 && Arc::ptr_eq(&first, &again));
         // Robots that run at the same time have memories of their own.
-        let [one, other] = [Memory::begun(&left), Memory::begun(&left)];
+        let [one, other] = [Memory::begun(&kept), Memory::begun(&kept)];
         let known =
             |memory: &Memory| memory.requests.recall(&sampler(&robot, 1, 50.0), BoundaryState::REST, None).is_some();
         assert_eq!((known(&one), known(&other)), (true, false));
-        one.leave(&left);
-        (0..2 * MOST_KEPT).for_each(|_| Memory::default().leave(&left));
-        assert_eq!(left.lock().unwrap().len(), MOST_KEPT);
+        one.leave(&kept);
+        (0..2 * MOST_KEPT).for_each(|_| Memory::default().leave(&kept));
+        assert_eq!(kept.lock().unwrap().len(), MOST_KEPT);
     }
 
     #[test]
-    fn a_way_that_was_gone_before_is_not_timed_again() {
+    fn a_path_that_was_followed_before_is_not_timed_again() {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
         let mut memory = LawMemory::default();
         let mut law = || find(&sampler(&robot, 1, 50.0), BoundaryState::REST, None, &mut memory, || true).unwrap().law;

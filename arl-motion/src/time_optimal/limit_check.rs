@@ -1,7 +1,7 @@
 //! The limits along a part of the path, and whether a motion keeps them.
 
 use crate::limits::profile::Limits;
-use crate::time_optimal::solver::{Law, Moment, Row, Way};
+use crate::time_optimal::solver::{ConstrainedPath, Law, Moment, Row};
 
 /// The interval in s at which a motion is checked, and the share of the limits that it may use.
 const SAMPLE_S: f64 = 0.001;
@@ -23,7 +23,7 @@ const NO_LIMITS: Limits = Limits { vel: f64::INFINITY, acc: f64::INFINITY, jerk:
 /// The limits along a part of the path.
 #[derive(Debug)]
 pub(crate) struct LimitCheck {
-    way: Way,
+    path: ConstrainedPath,
     /// The limits of the parameter at each place where it hardly moves.
     straight: Vec<Limits>,
 }
@@ -79,12 +79,12 @@ impl Timed for Law {
 impl LimitCheck {
     /// The number of rows of limits.
     pub(crate) fn rows(&self) -> usize {
-        self.way.row_count()
+        self.path.row_count()
     }
 
-    pub(crate) fn new(way: Way) -> Self {
+    pub(crate) fn new(path: ConstrainedPath) -> Self {
         let least = |index: usize| {
-            let rows = way.rows(index).iter().filter(|row| row.first != 0.0);
+            let rows = path.rows(index).iter().filter(|row| row.first != 0.0);
             rows.fold(NO_LIMITS, |Limits { vel, acc, jerk }, row| {
                 let first = row.first.abs();
                 Limits {
@@ -94,23 +94,23 @@ impl LimitCheck {
                 }
             })
         };
-        Self { straight: (0..way.places().len()).map(least).collect(), way }
+        Self { straight: (0..path.places().len()).map(least).collect(), path }
     }
 
     /// Whether a law that is followed at another share of its speed keeps its limits, those of acceleration and jerk
     /// times `stop_scale`.
     pub(crate) fn keeps(&self, motion: &impl Timed, stop_scale: f64) -> bool {
-        keeps(&Look { way: &self.way, stop_scale, between: Between::Even }, motion)
+        keeps(&Look { path: &self.path, stop_scale, between: Between::Even }, motion)
     }
 
     /// Whether a motion that does not follow a law keeps the limits.
     pub(crate) fn surely_keeps(&self, motion: &impl Timed, stop_scale: f64) -> bool {
-        keeps(&Look { way: &self.way, stop_scale, between: Between::Most }, motion)
+        keeps(&Look { path: &self.path, stop_scale, between: Between::Most }, motion)
     }
 
     /// The limits that the parameter has everywhere between two places where it hardly moves.
     pub(crate) fn straight(&self, from: f64, to: f64) -> Limits {
-        let places = self.way.places();
+        let places = self.path.places();
         let first = places.partition_point(|place| *place <= from).saturating_sub(1);
         let last = places.partition_point(|place| *place < to) + 1;
         let between = self.straight.get(first..last.min(self.straight.len())).unwrap_or_default();
@@ -148,8 +148,8 @@ fn used(rows: &[Row], now: &Moment, stop_scale: f64) -> f64 {
 
 /// The share of the limits that a law uses, of `allowed`, along the path that it was found for; `None` where the law
 /// moves backwards.
-pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
-    let looked = Look { way, stop_scale: 1.0, between: Between::Least };
+pub(crate) fn used_by_law(path: &ConstrainedPath, law: &Law, allowed: f64) -> Option<Used> {
+    let looked = Look { path, stop_scale: 1.0, between: Between::Least };
     let mut used = Used::of(allowed);
     for now in moments(law.duration()).map(|time| law.at(time)) {
         if now.vel.is_nan() || now.vel < -BACKWARDS_ROUNDING {
@@ -166,10 +166,10 @@ pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
     Some(used)
 }
 
-/// Whether a law along `way` only moves forwards and keeps the limits, those of acceleration and jerk times
+/// Whether a law along `path` only moves forwards and keeps the limits, those of acceleration and jerk times
 /// `stop_scale`.
-pub(crate) fn law_keeps(way: &Way, law: &Law, stop_scale: f64) -> bool {
-    keeps(&Look { way, stop_scale, between: Between::Least }, law)
+pub(crate) fn law_keeps(path: &ConstrainedPath, law: &Law, stop_scale: f64) -> bool {
+    keeps(&Look { path, stop_scale, between: Between::Least }, law)
 }
 
 /// Whether a motion only moves forwards and keeps the limits.
@@ -200,7 +200,7 @@ fn moments_beside_ends(duration: f64) -> impl Iterator<Item = f64> {
 
 /// How the limits along a path are checked.
 struct Look<'a> {
-    way: &'a Way,
+    path: &'a ConstrainedPath,
     /// Factor on the limits of acceleration and jerk.
     stop_scale: f64,
     between: Between,
@@ -209,10 +209,10 @@ struct Look<'a> {
 impl Look<'_> {
     /// The share of the limits that is used.
     fn used_at(&self, now: &Moment) -> f64 {
-        let (way, places) = (self.way, self.way.places());
+        let (path, places) = (self.path, self.path.places());
         let used = |rows: &[Row]| used(rows, now, self.stop_scale);
         let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
-        let [before, behind] = [way.rows_behind(next - 1), way.rows_before(next)].map(used);
+        let [before, behind] = [path.rows_behind(next - 1), path.rows_before(next)].map(used);
         match self.between {
             Between::Least => before.min(behind),
             Between::Even => {

@@ -155,7 +155,7 @@ impl Ramp {
     }
 
     /// The distance to rest if the limits at the start, acceleration and jerk times `stop_scale`, stay the same.
-    pub(crate) fn way(start: State, check: &LimitCheck, stop_scale: f64) -> f64 {
+    pub(crate) fn stop_distance(start: State, check: &LimitCheck, stop_scale: f64) -> f64 {
         Leg::new(start, 0.0, &scaled(check.straight(start.at, start.at), stop_scale)).end() - start.at
     }
 
@@ -189,7 +189,7 @@ impl Ramp {
     }
 
     /// The s until it comes to rest.
-    pub(crate) fn left(&self) -> f64 {
+    pub(crate) fn remaining_time(&self) -> f64 {
         self.duration() - self.time
     }
 

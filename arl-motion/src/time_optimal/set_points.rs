@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use nalgebra::Vector3;
 
-use crate::follow::segment::LedTool;
+use crate::follow::segment::GuidedTool;
 use crate::geometry::derivatives::third_difference_along;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Point};
 use crate::time_optimal::limit_check::Used;
@@ -75,13 +75,13 @@ fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], stop_scale: f6
     let pairs = [(a, b), (b, c), (c, d)];
     let tcp = &sampler.robot.tcp;
     let limits = points.map(|Point { pace, .. }| [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk]);
-    let by_way = used_along(pairs.map(|(from, to)| to.at - from.at), highest(limits), stop_scale);
-    let turn = |(from, to): (LedTool, LedTool)| Some((to.rotation? * from.rotation?.inverse()).scaled_axis());
-    let [Some(first), Some(second), Some(third)] = pairs.map(turn) else { return by_way };
+    let by_travel = used_along(pairs.map(|(from, to)| to.at - from.at), highest(limits), stop_scale);
+    let turn = |(from, to): (GuidedTool, GuidedTool)| Some((to.rotation? * from.rotation?.inverse()).scaled_axis());
+    let [Some(first), Some(second), Some(third)] = pairs.map(turn) else { return by_travel };
     let turns = [first, second, third].map(|turn| turn.map(f64::to_degrees));
     let limits =
         points.map(|Point { pace, .. }| [tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk]);
-    by_way.max(used_along(turns, highest(limits), stop_scale))
+    by_travel.max(used_along(turns, highest(limits), stop_scale))
 }
 
 /// The share of limits along a path that three consecutive steps use. Where a path all but turns back, its speed falls
@@ -89,9 +89,9 @@ fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], stop_scale: f6
 /// [`Constraints`].
 ///
 /// [`Constraints`]: crate::plan::constraints::Constraints
-fn used_along(ways: [Vector3<f64>; 3], limits: Limits, stop_scale: f64) -> f64 {
-    let along = third_difference_along(ways.each_ref());
-    let steps = ways.map(|way| way.norm());
+fn used_along(displacements: [Vector3<f64>; 3], limits: Limits, stop_scale: f64) -> f64 {
+    let along = third_difference_along(displacements.each_ref());
+    let steps = displacements.map(|displacement| displacement.norm());
     let of_speed = jerk_of(steps);
     used_with(steps, if along.abs() < of_speed.abs() { along } else { of_speed }, limits, stop_scale)
 }
@@ -124,16 +124,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_circle_at_an_even_speed_has_no_jerk_along_its_way() {
+    fn a_circle_at_an_even_speed_has_no_jerk_along_its_path() {
         let at = |angle: f64| Vector3::new(angle.cos(), angle.sin(), 0.0) * 10.0;
-        let ways = [0.0, 0.05, 0.1].map(|angle| at(angle + 0.05) - at(angle));
-        assert!(used_along(ways, [1e9, 1e9, 1e6], 1.0) < 1e-3);
+        let displacements = [0.0, 0.05, 0.1].map(|angle| at(angle + 0.05) - at(angle));
+        assert!(used_along(displacements, [1e9, 1e9, 1e6], 1.0) < 1e-3);
     }
 
     #[test]
-    fn what_turns_back_has_no_jerk_along_its_way() {
+    fn what_turns_back_has_no_jerk_along_its_path() {
         let limits = [1e3, 1e3, 1e4];
-        let along = |ways: [f64; 3]| used_along(ways.map(|way| Vector3::new(0.0, way, 0.0)), limits, 1.0);
+        let along = |displacements: [f64; 3]| {
+            used_along(displacements.map(|displacement| Vector3::new(0.0, displacement, 0.0)), limits, 1.0)
+        };
         // Slowing down evenly, through rest and back: the speed along the path falls and rises.
         let turned = along([1.5e-4, 0.5e-4, -0.5e-4]);
         assert!(turned < 1e-3, "{turned}");

@@ -37,24 +37,24 @@ impl StopPrediction {
     /// Brakes for `cycles` cycles; returns the distance covered, in s of nominal time. `None` where the robot is at
     /// rest by then.
     pub(crate) fn brake(&mut self, cycles: u32) -> Option<f64> {
-        let mut way = 0.0;
+        let mut distance = 0.0;
         for _ in 0..cycles {
-            way += self.step();
+            distance += self.step();
             if self.state.rests() {
                 return None;
             }
         }
-        Some(way)
+        Some(distance)
     }
 
     /// The remaining distance to rest, in s of nominal time, and the s that it takes. `None` where the result is no
     /// longer `wanted`.
     pub(crate) fn rest(mut self, wanted: impl Fn() -> bool) -> Option<[f64; 2]> {
-        let mut way = 0.0;
+        let mut distance = 0.0;
         for cycles in 1..MOST_PREDICTED_CYCLES {
-            way += self.step();
+            distance += self.step();
             if self.state.rests() {
-                return Some([way, f64::from(cycles) * self.cycle]);
+                return Some([distance, f64::from(cycles) * self.cycle]);
             }
             if !wanted() {
                 return None;
@@ -67,9 +67,9 @@ impl StopPrediction {
     fn step(&mut self) -> f64 {
         let governor = Governor { stretches: &self.timing.stretches, cycle: self.cycle };
         let next = governor.next(&self.state, &mut self.backup, Pacing::Stop(self.stop_scale));
-        let way = next.at - self.state.at;
+        let distance = next.at - self.state.at;
         self.state = next;
         self.timing.pass(&mut self.state);
-        way
+        distance
     }
 }

@@ -6,4 +6,4 @@ mod straight;
 
 pub use rig::{Carried, Rig};
 pub use setting::{Mount, Setting, Unmoved};
-pub use straight::StraightWay;
+pub use straight::StraightPath;

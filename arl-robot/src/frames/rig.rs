@@ -19,39 +19,40 @@ pub enum Carried {
 }
 
 impl Carried {
-    /// The flange in the robot's base when the tool's frame on its path is `way`.
-    pub fn flange_at(&self, way: &Frame) -> Frame {
+    /// The flange in the robot's base when the tool's frame on its path is `frame`.
+    pub fn flange_at(&self, frame: &Frame) -> Frame {
         match self {
-            Carried::Tool(tool) => way * tool.inverse(),
-            Carried::Workpiece(tool) => tool * way.inverse(),
+            Carried::Tool(tool) => frame * tool.inverse(),
+            Carried::Workpiece(tool) => tool * frame.inverse(),
         }
     }
 
     /// The tool's frame on its path when the flange is at `flange` in the robot's base.
-    pub fn way_at(&self, flange: &Frame) -> Frame {
+    pub fn path_frame_at(&self, flange: &Frame) -> Frame {
         match self {
             Carried::Tool(tool) => flange * tool,
             Carried::Workpiece(tool) => flange.inverse() * tool,
         }
     }
 
-    /// Two frames that coincide when the tool's frame on its path is `way`: one in the robot's base, one on the flange.
-    pub fn meeting(&self, way: &Frame) -> (Frame, Frame) {
+    /// Two frames that coincide when the tool's frame on its path is `frame`: one in the robot's base, one on the
+    /// flange.
+    pub fn coincident_frames(&self, frame: &Frame) -> (Frame, Frame) {
         match self {
-            Carried::Tool(tool) => (*way, *tool),
-            Carried::Workpiece(tool) => (*tool, *way),
+            Carried::Tool(tool) => (*frame, *tool),
+            Carried::Workpiece(tool) => (*tool, *frame),
         }
     }
 
-    /// The motion of the flange in the robot's base when the tool's frame on its path is `way` and moves there with the
-    /// first three derivatives `moving` of its position (mm per unit of the path parameter, its square, its cube) while
-    /// it turns with `turning`, the speed and its first two derivatives (rad).
-    pub fn twist(&self, way: &Frame, moving: &[Vector3<f64>; 3], turning: &[Vector3<f64>; 3]) -> Twist {
-        let Carried::Workpiece(_) = self else { return Twist::of_point(&way.translation.vector, moving, turning) };
+    /// The motion of the flange in the robot's base when the tool's frame on its path is `frame` and moves there with
+    /// the first three derivatives `moving` of its position (mm per unit of the path parameter, its square, its cube)
+    /// while it turns with `turning`, the speed and its first two derivatives (rad).
+    pub fn twist(&self, frame: &Frame, moving: &[Vector3<f64>; 3], turning: &[Vector3<f64>; 3]) -> Twist {
+        let Carried::Workpiece(_) = self else { return Twist::of_point(&frame.translation.vector, moving, turning) };
         // The tool is at rest; the flange moves the opposite way. The motion of its origin is given along its own axes,
         // which move with it.
-        let flange = self.flange_at(way);
-        let p = way.translation.vector;
+        let flange = self.flange_at(frame);
+        let p = frame.translation.vector;
         let ([v, a, j], [w, w1, w2]) = (*moving, *turning);
         let first = w.cross(&p) - v;
         let first1 = w1.cross(&p) + w.cross(&v) - a;

@@ -227,10 +227,10 @@ mod tests {
             let moving = [Vector3::new(x, y, z), Vector3::new(u, v, w), Vector3::new(r, s, t)];
             let axis = Vector3::new(a, b, c).normalize();
             let at = |h: f64| {
-                let way = moving[0] * h + moving[1] * (h * h / 2.0) + moving[2] * (h * h * h / 6.0);
+                let moved = moving[0] * h + moving[1] * (h * h / 2.0) + moving[2] * (h * h * h / 6.0);
                 let turned = UnitQuaternion::from_scaled_axis(axis * (0.7 * h + 0.3 * h * h + 0.2 * h * h * h));
                 let pose =
-                    Frame::from_parts(Translation3::from(start.translation.vector + way), turned * start.rotation);
+                    Frame::from_parts(Translation3::from(start.translation.vector + moved), turned * start.rotation);
                 setting.flange_of(&pose).unwrap()
             };
             let frame = setting.workpiece();

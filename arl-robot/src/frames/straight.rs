@@ -24,14 +24,14 @@ const JUMP: f64 = 90.0;
 
 /// A straight path of the TCP, along which the tool turns uniformly about one line.
 #[derive(Clone, Copy, Debug)]
-pub struct StraightWay {
+pub struct StraightPath {
     carried: Carried,
     start: Frame,
     travel: Vector3<f64>,
     turning: Vector3<f64>,
 }
 
-impl StraightWay {
+impl StraightPath {
     /// The path from `start` to `end`, both in the frame of paths of the TCP (see [`Carried`]), translations in mm.
     pub fn new(carried: Carried, start: Frame, end: &Frame) -> Self {
         let travel = end.translation.vector - start.translation.vector;
@@ -94,13 +94,13 @@ impl StraightWay {
     }
 
     /// The TCP at a part of the path.
-    fn way(&self, at: f64) -> Frame {
+    fn tcp(&self, at: f64) -> Frame {
         let turned = UnitQuaternion::from_scaled_axis(self.turning * at) * self.start.rotation;
         Frame::from_parts((self.start.translation.vector + self.travel * at).into(), turned)
     }
 
     fn flange(&self, at: f64) -> Frame {
-        self.carried.flange_at(&self.way(at))
+        self.carried.flange_at(&self.tcp(at))
     }
 
     /// The derivatives of the axes; `None` at a singular point itself.
@@ -109,7 +109,7 @@ impl StraightWay {
             return None;
         }
         let rest = Vector3::zeros();
-        let twist = self.carried.twist(&self.way(at), &[self.travel, rest, rest], &[self.turning, rest, rest]);
+        let twist = self.carried.twist(&self.tcp(at), &[self.travel, rest, rest], &[self.turning, rest, rest]);
         robot.kinematics.rates(axes, &twist)
     }
 

@@ -47,15 +47,15 @@ const RADIAN: f64 = 180.0 / std::f64::consts::PI;
 /// The tangent of 22.5 deg: up to it the polynomial is used directly, above it for the difference from 45 deg.
 const EIGHTH: f64 = 0.414_213_562_373_095_05;
 
-/// The powers are distributed over `WAYS` (2 or 4) independent sums, which the processor computes in parallel.
+/// The powers are distributed over `SUMS` (2 or 4) independent sums, which the processor computes in parallel.
 #[inline(always)]
-fn polynomial<const WAYS: usize, const N: usize>(coefficients: &[f64; N], at: f64) -> f64 {
+fn polynomial<const SUMS: usize, const N: usize>(coefficients: &[f64; N], at: f64) -> f64 {
     let square = at * at;
-    let step = if WAYS == 2 { square } else { square * square };
+    let step = if SUMS == 2 { square } else { square * square };
     let sum =
-        |first: usize| coefficients.iter().skip(first).step_by(WAYS).rev().fold(0.0, |sum, each| sum * step + each);
+        |first: usize| coefficients.iter().skip(first).step_by(SUMS).rev().fold(0.0, |sum, each| sum * step + each);
     let low = sum(0) + at * sum(1);
-    if WAYS == 2 { low } else { low + square * (sum(2) + at * sum(3)) }
+    if SUMS == 2 { low } else { low + square * (sum(2) + at * sum(3)) }
 }
 
 /// Returns `yes` if all bits of `mask` are set, `no` if none is.

@@ -245,14 +245,14 @@ fn quintic(start: [f64; 3], end: [f64; 3], length: f64) -> [f64; 6] {
     let [p, v, a] = start;
     let [q, w, b] = end;
     let (v, w, a, b) = (v * length, w * length, a * length * length, b * length * length);
-    let way = q - p;
+    let distance = q - p;
     [
         p,
         v,
         0.5 * a,
-        10.0 * way - 6.0 * v - 4.0 * w - 1.5 * a + 0.5 * b,
-        -15.0 * way + 8.0 * v + 7.0 * w + 1.5 * a - b,
-        6.0 * way - 3.0 * (v + w) - 0.5 * a + 0.5 * b,
+        10.0 * distance - 6.0 * v - 4.0 * w - 1.5 * a + 0.5 * b,
+        -15.0 * distance + 8.0 * v + 7.0 * w + 1.5 * a - b,
+        6.0 * distance - 3.0 * (v + w) - 0.5 * a + 0.5 * b,
     ]
 }
 

@@ -126,7 +126,7 @@ fn links_are_all_or_none() {
 }
 
 #[test]
-fn unknown_robots_and_missing_files_are_told_apart() {
+fn unknown_robots_and_missing_files_are_distinguished() {
     assert!(Robot::load("kr10-r1240").unwrap_err().message.contains("did you mean `kr10-r1420`"));
     assert!(Robot::load("no/such/robot.toml").unwrap_err().message.contains("cannot read"));
 }

@@ -141,17 +141,17 @@ pub fn ldexp(val: f64, exp: i32) -> f64 {
     // rounds.
     const UP: i32 = 1023;
     const DOWN: i32 = -1022 + 53;
-    let (mut scaled, mut left) = (val, exp);
+    let (mut scaled, mut remaining) = (val, exp);
     for _ in 0..2 {
-        let step = match left {
+        let step = match remaining {
             1024.. => UP,
             ..-1022 => DOWN,
             _ => 0,
         };
         scaled *= 2f64.powi(step);
-        left -= step;
+        remaining -= step;
     }
-    scaled * 2f64.powi(left.clamp(-1022, 1023))
+    scaled * 2f64.powi(remaining.clamp(-1022, 1023))
 }
 
 /// The remainder of the quotient truncated towards zero, with the sign of `x`.

@@ -122,7 +122,7 @@ async fn exchange<R>(
             match shared.try_lock() {
                 Some(mut tables) => break act(&mut tables, start, count),
                 // A condition must be evaluated at once.
-                None if cx.level() == Level::LOOKING => return None,
+                None if cx.level() == Level::CONDITION => return None,
                 None => cx.next_cycle().await,
             }
         },

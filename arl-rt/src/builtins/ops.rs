@@ -28,8 +28,8 @@ pub fn fits(text: Str) -> Result<Str, Fault> {
 /// About how many steps make up a distance: at least the real number, at most twice as many. A division would take
 /// longer than the short loops whose iterations are counted with it.
 #[inline]
-pub fn steps(way: i32, step: i32) -> i32 {
-    way >> (31 - (step | 1).leading_zeros())
+pub fn steps(distance: i32, step: i32) -> i32 {
+    distance >> (31 - (step | 1).leading_zeros())
 }
 
 #[inline]

@@ -11,7 +11,7 @@ pub(super) async fn done<T>(work: Work<T>, cx: &Cx) -> Option<T> {
         cx.shared().disk.wait_for();
         cx.next_cycle().await;
         match work.stage() {
-            Stage::UnderWay => {}
+            Stage::InProgress => {}
             Stage::Done(value) => return Some(value),
             Stage::Lost => return None,
         }

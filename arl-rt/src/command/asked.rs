@@ -72,7 +72,7 @@ fn kind(space: Space) -> Option<SignalKind> {
 }
 
 /// A signal with its name and its value: `di.12 (part_present) is off`.
-pub(super) fn told(signal: Signal, names: &Names, value: Option<String>) -> String {
+pub(super) fn signal_text(signal: Signal, names: &Names, value: Option<String>) -> String {
     let name = names.of(signal).map(|name| format!(" ({name})")).unwrap_or_default();
     match value {
         Some(value) => format!("{signal}{name} is {value}"),
@@ -100,6 +100,6 @@ mod tests {
     #[test]
     fn words_for_a_signal() {
         let signal = Signal { kind: SignalKind::DigitalInput, channel: 12 };
-        assert_eq!(told(signal, &Names::default(), Some("off".into())), "di.12 is off");
+        assert_eq!(signal_text(signal, &Names::default(), Some("off".into())), "di.12 is off");
     }
 }

@@ -52,10 +52,10 @@ mod tests {
         let answer = answer.to_owned();
         let other = std::thread::spawn(move || {
             let (mut stream, _) = listener.accept().unwrap();
-            let mut said = [0; 4];
-            stream.read_exact(&mut said).unwrap();
+            let mut sent = [0; 4];
+            stream.read_exact(&mut sent).unwrap();
             stream.write_all(answer.as_bytes()).unwrap();
-            String::from_utf8_lossy(&said).into_owned()
+            String::from_utf8_lossy(&sent).into_owned()
         });
         let mut stream = TcpStream::connect(address).unwrap();
         (greet(&mut stream, "one:two"), other.join().unwrap())
@@ -63,9 +63,9 @@ mod tests {
 
     #[test]
     fn only_who_knows_the_secret_is_spoken_to() {
-        let (greeted_well, said) = greeted("two\n");
+        let (greeted_well, sent) = greeted("two\n");
         assert!(greeted_well.is_ok());
-        assert_eq!(said, "one\n");
+        assert_eq!(sent, "one\n");
         for answer in ["", "two", "one\n", "too\n"] {
             assert_eq!(greeted(answer).0.unwrap_err().kind(), ErrorKind::PermissionDenied, "{answer}");
         }

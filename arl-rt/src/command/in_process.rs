@@ -21,7 +21,7 @@ use crate::fault::{Alarm, File};
 pub struct Run {
     controller: Controller,
     /// Lines that have not been taken yet.
-    said: Rc<RefCell<String>>,
+    output_lines: Rc<RefCell<String>>,
     /// The time limit in s, if any, and the cycle in which it is reached.
     max_time: Option<f64>,
     last: u64,
@@ -72,8 +72,8 @@ impl Run {
         arguments: Vec<OsString>,
         traced: bool,
     ) -> Result<Self, String> {
-        let said = Rc::new(RefCell::new(String::new()));
-        let lines = Rc::clone(&said);
+        let output_lines = Rc::new(RefCell::new(String::new()));
+        let lines = Rc::clone(&output_lines);
         let output = move |message: &Message<'_>| lines.borrow_mut().push_str(&message_line(message));
         let InProcess { controller, max_time, is_real, trace_columns, recording } =
             program_main::in_process(program, others, script_dir, arguments, output)?;
@@ -82,7 +82,7 @@ impl Run {
         let (rows, stops, observation) = (traced.then(Vec::new), Arc::default(), Observation::default());
         Ok(Self {
             controller,
-            said,
+            output_lines,
             max_time,
             last,
             cut: None,
@@ -163,8 +163,8 @@ impl Run {
             self.controller.close_robots();
             self.controller.settle_state();
             self.take_news();
-            let left_out = self.recording.take().map_or(0, |recording| recording.run_ended(&self.controller));
-            if let Some(text) = program_main::left_out(left_out) {
+            let lost_events = self.recording.take().map_or(0, |recording| recording.run_ended(&self.controller));
+            if let Some(text) = program_main::lost_events_warning(lost_events) {
                 self.say(&warning_line(&text));
             }
             if self.is_real {
@@ -189,7 +189,7 @@ impl Run {
     }
 
     fn say(&self, line: &str) {
-        self.said.borrow_mut().push_str(line);
+        self.output_lines.borrow_mut().push_str(line);
     }
 
     /// Carries out the words of a scenario's event: see [`Controller::order`].
@@ -205,7 +205,7 @@ impl Run {
 
     /// The messages, warnings and alarms since the last call, one JSON object per line, as `--live` writes them.
     pub fn take_said(&mut self) -> String {
-        std::mem::take(&mut self.said.borrow_mut())
+        std::mem::take(&mut self.output_lines.borrow_mut())
     }
 
     /// The state of the controller, a JSON object as `--live` writes it.
@@ -235,7 +235,7 @@ impl Run {
 
     /// What each motion did, one JSON object per line, where `--report` was given.
     pub fn report(&self) -> String {
-        report::all_json(&self.controller.recorded())
+        report::all_json(&self.controller.recorded_motions())
     }
 
     /// Sets the signals and global variables that [`observe`](Self::observe) fills in, one name per line: `do.1`,

@@ -41,7 +41,7 @@ impl Polling {
 #[derive(Default)]
 struct Watched {
     stay: Option<Stay>,
-    is_told: bool,
+    is_reported: bool,
 }
 
 struct Stay {
@@ -58,7 +58,7 @@ impl Watched {
     /// Notes where the program is, `None` where a robot moves or the program only calculates; `now` is real time,
     /// `time` that of the controller in s.
     fn look(&mut self, now: Duration, time: f64, place: Option<(File, u32)>) -> Option<String> {
-        let Some((file, line)) = place.filter(|_| !self.is_told) else {
+        let Some((file, line)) = place.filter(|_| !self.is_reported) else {
             self.stay = None;
             return None;
         };
@@ -74,7 +74,7 @@ impl Watched {
         if now.saturating_sub(stay.began) < PATIENCE {
             return None;
         }
-        self.is_told = true;
+        self.is_reported = true;
         let lines = if stay.first == stay.last {
             format!("{}:{}", stay.file.name(), stay.first)
         } else {
@@ -99,13 +99,13 @@ mod tests {
     }
 
     #[test]
-    fn a_loop_that_asks_is_told_once() {
+    fn a_loop_that_asks_is_reported_once() {
         let mut watched = Watched::default();
         for (second, line) in [(0, 3), (0, 2), (1, 3), (4, 2)] {
             assert_eq!(look(&mut watched, second, line), None);
         }
-        let said = look(&mut watched, 5, 3).unwrap();
-        assert!(said.contains("pick.arl:2 to 3 for 500 s"), "{said}");
+        let warning = look(&mut watched, 5, 3).unwrap();
+        assert!(warning.contains("pick.arl:2 to 3 for 500 s"), "{warning}");
         assert_eq!(look(&mut watched, 20, 3), None);
     }
 

@@ -1,7 +1,7 @@
 //! The command line of a compiled program.
 
+mod channel_traces;
 mod options;
-mod several;
 
 use std::ffi::OsString;
 use std::fs::File;
@@ -267,34 +267,34 @@ fn write_figures(controller: &Controller, report: Option<WriteReport>, cycle_tim
 
 /// Warnings about what was too late in a run in real time.
 pub(super) fn lateness(controller: &Controller) -> Vec<String> {
-    let mut said = Vec::new();
+    let mut warnings = Vec::new();
     if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
         let messages = if missing == 1 { "message" } else { "messages" };
-        said.push(format!(
+        warnings.push(format!(
             "{missing} {messages} from the robot did not arrive: the robot did not send, or the network lost them; as many control cycles were lost"
         ));
     }
     if let Some(lateness) = controller.lateness().filter(|lateness| lateness.late() > 0) {
         let (late, longest) = (lateness.late(), lateness.longest().as_secs_f64() * 1e3);
         let lost = lateness.lost() - lateness.missing();
-        said.push(format!(
+        warnings.push(format!(
             "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
         ));
     }
     if controller.found_late() > 0 {
         let advice = if cfg!(debug_assertions) { "; `arl2rs build --release` makes a faster program" } else { "" };
-        said.push(format!(
+        warnings.push(format!(
             "the computer was too busy to find the motion ahead in time, {} times: robots may have moved more slowly, or stopped on their path{advice}",
             controller.found_late()
         ));
     }
-    said
+    warnings
 }
 
 /// The programs that wait in vain and what they wait for, each with its channel where there are several.
 pub(super) fn listed(waiting: &[Standstill]) -> Vec<String> {
-    let several = waiting.len() > 1;
-    let line = |one: &Standstill| if several { format!("{}: {one}", one.channel) } else { one.to_string() };
+    let are_many = waiting.len() > 1;
+    let line = |one: &Standstill| if are_many { format!("{}: {one}", one.channel) } else { one.to_string() };
     waiting.iter().map(line).collect()
 }
 
@@ -354,7 +354,7 @@ pub(super) struct InProcess {
 }
 
 /// A warning where events for a listener were left out.
-pub(super) fn left_out(lost: u64) -> Option<String> {
+pub(super) fn lost_events_warning(lost: u64) -> Option<String> {
     (lost > 0).then(|| format!("the listener was too slow for real time: events were left out {lost} times"))
 }
 
@@ -379,14 +379,14 @@ type WriteReport = Box<dyn FnMut(&Controller) -> std::io::Result<()>>;
 fn report_to(report: Report) -> Result<WriteReport, String> {
     Ok(match report {
         Report::Table => Box::new(|controller| {
-            let text = report::tables(&controller.recorded());
+            let text = report::tables(&controller.recorded_motions());
             let lateness = controller.lateness().map(ToString::to_string).unwrap_or_default();
             std::io::stderr().write_all((text + &lateness).as_bytes())
         }),
         Report::File(path) => {
             let mut file = File::create(&path).map_err(|error| format!("{}: {error}", path.display()))?;
             Box::new(move |controller| {
-                let text = report::all_json(&controller.recorded());
+                let text = report::all_json(&controller.recorded_motions());
                 let clock = controller.lateness().map(report::clock_json).unwrap_or_default();
                 file.write_all((text + &clock).as_bytes())
             })
@@ -452,7 +452,7 @@ fn watch(
     controller.settle_state();
     say(controller, sources, recording.as_ref());
     let lost = recording.iter().map(|recording| recording.run_ended(controller)).sum::<u64>();
-    left_out(lost).iter().for_each(|text| warn(text));
+    lost_events_warning(lost).iter().for_each(|text| warn(text));
     between.into_iter().for_each(|mut between| between.run_ended(controller));
     match (code, controller.outcome()) {
         (Some(code), _) => code,
@@ -501,7 +501,7 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
         let cell = Cell::load_with(cell, &options.changes).map_err(SetupFailure::usage)?;
         names = cell.names.clone();
         builder = builder.cell_with(cell, others)?;
-        builder = several::trace(builder, options.trace.as_deref())?;
+        builder = channel_traces::trace(builder, options.trace.as_deref())?;
     }
     if options.drive {
         let connect = CONNECT.get().ok_or_else(|| SetupFailure::usage("--drive: this program has no drivers"))?;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::command::json::quoted;
-use crate::controller::Recorded;
+use crate::controller::RecordedMotions;
 use crate::cycle::clock_source::Lateness;
 use crate::fault::File;
 use crate::motion::{Closest, MotionKind, MotionRecord, NearSingular, Rate};
@@ -18,11 +18,11 @@ const WHAT_COUNTS: &str =
     "reached: along the path, outside of zones, without a weave; closest: zones included, tcp along its path only\n";
 
 /// The table of each robot; with several robots, each has a headline.
-pub(crate) fn tables(robots: &[Recorded]) -> String {
+pub(crate) fn tables(robots: &[RecordedMotions]) -> String {
     match robots {
         [robot] => table(robot),
         robots => {
-            let headed = |(at, robot): (usize, &Recorded)| {
+            let headed = |(at, robot): (usize, &RecordedMotions)| {
                 format!("channel {}, robot {}:\n{}", at + 1, robot.robot.name, table(robot))
             };
             robots.iter().enumerate().map(headed).collect()
@@ -31,13 +31,13 @@ pub(crate) fn tables(robots: &[Recorded]) -> String {
 }
 
 /// The report as JSON, robot by robot.
-pub(crate) fn all_json(robots: &[Recorded]) -> String {
+pub(crate) fn all_json(robots: &[RecordedMotions]) -> String {
     robots.iter().enumerate().map(|(at, robot)| json(at + 1, robot)).collect()
 }
 
 /// A table with one row for each line of the program, in the order of their first motions, and the figures of the cycle
 /// time.
-fn table(recorded: &Recorded) -> String {
+fn table(recorded: &RecordedMotions) -> String {
     let mut lines: Vec<Line<'_>> = Vec::new();
     for (file, record) in recorded.executed() {
         match lines.iter_mut().find(|line| line.is(file, record)) {
@@ -86,10 +86,10 @@ fn table(recorded: &Recorded) -> String {
     text + &summary(recorded)
 }
 
-fn summary(recorded: &Recorded) -> String {
+fn summary(recorded: &RecordedMotions) -> String {
     let time = recorded.ended;
     let moving = recorded.sum(|record| record.duration);
-    let metres = recorded.sum(|record| record.way) / 1000.0;
+    let metres = recorded.sum(|record| record.path_length) / 1000.0;
     let count = recorded.executed().count();
     let motions = if count == 1 { "1 motion".to_owned() } else { format!("{count} motions") };
     let percent = if time > 0.0 { 100.0 * moving / time } else { 0.0 };
@@ -100,7 +100,7 @@ fn summary(recorded: &Recorded) -> String {
 }
 
 /// One JSON object per line: each motion of a channel that began, then the figures of its cycle time.
-fn json(channel: usize, recorded: &Recorded) -> String {
+fn json(channel: usize, recorded: &RecordedMotions) -> String {
     let time = recorded.ended;
     let of_motion = |(file, record)| motion_json(channel, file, record, &recorded.robot);
     let mut text: String = recorded.executed().map(of_motion).collect();
@@ -132,13 +132,13 @@ pub(crate) fn clock_json(lateness: &Lateness) -> String {
 /// A motion of a file as a JSON object, with a newline.
 pub(super) fn motion_json(channel: usize, file: File, record: &MotionRecord, robot: &Robot) -> String {
     let mut text = String::new();
-    let MotionRecord { number, line, kind, programmed, reached, duration, way, .. } = record;
+    let MotionRecord { number, line, kind, programmed, reached, duration, path_length, .. } = record;
     let (kind, file) = (instruction(*kind), quoted(file.name()));
     let start = record.start.unwrap_or_default();
     let _ = write!(
         text,
         "{{\"channel\":{channel},\"motion\":{number},\"file\":{file},\"line\":{line},\"kind\":\"{kind}\",\"unit\":\"{}\",\"programmed\":{:.6},\
-         \"reached\":{reached:.6},\"start\":{start:.6},\"duration\":{duration:.6},\"way\":{way:.6}",
+         \"reached\":{reached:.6},\"start\":{start:.6},\"duration\":{duration:.6},\"way\":{path_length:.6}",
         programmed.unit, programmed.value
     );
     if let Some(blend) = record.zone() {
@@ -174,7 +174,7 @@ fn rate(closest: &Closest) -> &'static str {
     }
 }
 
-impl Recorded {
+impl RecordedMotions {
     /// The motions that began.
     fn executed(&self) -> impl Iterator<Item = (File, &MotionRecord)> {
         self.motions.iter().filter(|(_, record)| record.start.is_some()).map(|(file, record)| (*file, record))
@@ -273,7 +273,7 @@ impl<'a> Line<'a> {
         }
     }
 
-    fn cells(&self, recorded: &Recorded) -> [String; 10] {
+    fn cells(&self, recorded: &RecordedMotions) -> [String; 10] {
         let robot = &recorded.robot;
         let unit = self.first.programmed.unit;
         let blend = self.blend.zone().map_or_else(String::new, |blend| {

@@ -70,9 +70,10 @@ pub(super) fn say_condition(controller: &Controller, sources: &Path, waiting: &S
         }
     };
     let signals = asked::signals(code, &text);
-    let told =
-        signals.into_iter().map(|signal| format!("  {}", asked::told(signal, controller.names(), value(signal))));
-    std::iter::once(line.clone()).chain(told).collect()
+    let lines = signals
+        .into_iter()
+        .map(|signal| format!("  {}", asked::signal_text(signal, controller.names(), value(signal))));
+    std::iter::once(line.clone()).chain(lines).collect()
 }
 
 /// The text of a file, unless it was changed since the program was compiled.

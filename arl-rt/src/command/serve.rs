@@ -45,9 +45,9 @@ fn answer_all(make: &dyn Fn() -> Box<dyn Program>, others: &[Other], script_dir:
         let answer = match Run::begin(make(), others, script_dir, words(&question), false) {
             Ok(mut run) => {
                 run.go_on(u64::MAX, Outside::Nobody);
-                let said = run.take_said();
-                let said: Vec<&str> = said.lines().collect();
-                format!("{{\"summary\":{},\"said\":[{}]}}", run.summary(), said.join(","))
+                let lines = run.take_said();
+                let lines: Vec<&str> = lines.lines().collect();
+                format!("{{\"summary\":{},\"said\":[{}]}}", run.summary(), lines.join(","))
             }
             Err(problem) => format!("{{\"refused\":{}}}", quoted(&problem)),
         };

@@ -74,21 +74,21 @@ pub(crate) fn summary(controller: &Controller, ending: Option<Ending>, alarms: &
 
 fn figures(records: &[MotionRecord], time: f64) -> String {
     let moving = report::sum(records, |record| record.duration);
-    let way = report::sum(records, |record| record.way);
+    let distance = report::sum(records, |record| record.path_length);
     format!(
         ",\"moving\":{},\"standing\":{},\"motions\":{},\"way\":{}",
         number(moving),
         number((time - moving).max(0.0)),
         report::executed(records).count(),
-        number(way)
+        number(distance)
     )
 }
 
 fn push_alarm(text: &mut String, alarm: &Alarm) {
-    let (channel, said, file) = (alarm.channel, quoted(&alarm.to_string()), quoted(alarm.file.name()));
+    let (channel, message, file) = (alarm.channel, quoted(&alarm.to_string()), quoted(alarm.file.name()));
     let (number, line) = (alarm.fault.number(), alarm.line);
     let _ = write!(
         text,
-        "{{\"number\":{number},\"text\":{said},\"file\":{file},\"line\":{line},\"channel\":\"{channel}\"}}"
+        "{{\"number\":{number},\"text\":{message},\"file\":{file},\"line\":{line},\"channel\":\"{channel}\"}}"
     );
 }

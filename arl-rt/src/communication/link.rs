@@ -19,7 +19,7 @@ impl Link {
     /// # Errors
     /// The system has no threads left.
     pub(crate) fn open(connections: &Connections, opener: &Opener, opening: Opening) -> io::Result<Self> {
-        let shared = Arc::new(SharedConnection::new(opening.holds()));
+        let shared = Arc::new(SharedConnection::new(opening.is_exclusive()));
         connections.open(opener, Arc::clone(&shared), opening)?;
         Ok(Self(shared))
     }

@@ -42,7 +42,7 @@ pub(crate) enum Opening {
 
 impl Opening {
     /// Whether a port or a device of ours is held while the connection is being opened.
-    pub(crate) fn holds(&self) -> bool {
+    pub(crate) fn is_exclusive(&self) -> bool {
         !matches!(self, Opening::Connect { .. })
     }
 

@@ -36,7 +36,7 @@ pub(super) struct SharedConnection {
     /// Whether the cycle wants the connection closed; the bytes in the outbox are sent first.
     closing: AtomicBool,
     /// Whether it holds a resource that others may need: a port to listen on, or a device.
-    holds: AtomicBool,
+    is_exclusive: AtomicBool,
     /// Whether bytes can be transferred both ways, or could be.
     open: AtomicBool,
     /// How it ended: the thread does not use it any more.
@@ -52,12 +52,12 @@ pub(super) struct Bytes {
 }
 
 impl SharedConnection {
-    pub(super) fn new(holds: bool) -> Self {
+    pub(super) fn new(is_exclusive: bool) -> Self {
         Self {
             bytes: Mutex::default(),
             waker: OnceLock::new(),
             closing: AtomicBool::new(false),
-            holds: AtomicBool::new(holds),
+            is_exclusive: AtomicBool::new(is_exclusive),
             open: AtomicBool::new(false),
             end: OnceLock::new(),
         }
@@ -82,9 +82,9 @@ impl SharedConnection {
         }
     }
 
-    /// Notes that the connection is open; `holds`: it still holds a resource that others may need.
-    pub(super) fn opened(&self, holds: bool) {
-        self.holds.store(holds, Ordering::Release);
+    /// Notes that the connection is open; `is_exclusive`: it still holds a resource that others may need.
+    pub(super) fn opened(&self, is_exclusive: bool) {
+        self.is_exclusive.store(is_exclusive, Ordering::Release);
         self.open.store(true, Ordering::Release);
     }
 
@@ -135,13 +135,13 @@ impl SharedConnection {
 
     /// False while the connection is closing and still holds its port or device.
     pub(super) fn is_free(&self) -> bool {
-        self.is_over() || !self.holds.load(Ordering::Acquire) || !self.closing.load(Ordering::Acquire)
+        self.is_over() || !self.is_exclusive.load(Ordering::Acquire) || !self.closing.load(Ordering::Acquire)
     }
 
     /// Whether the connection need not be waited for: all bytes were sent, and the resource that it held is free. A
     /// name that is still being resolved holds nothing.
     pub(super) fn is_done(&self) -> bool {
-        self.is_over() || !(self.open.load(Ordering::Acquire) || self.holds.load(Ordering::Acquire))
+        self.is_over() || !(self.open.load(Ordering::Acquire) || self.is_exclusive.load(Ordering::Acquire))
     }
 }
 

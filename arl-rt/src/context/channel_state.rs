@@ -53,7 +53,7 @@ pub(crate) struct Stepping {
     /// Whether the program goes on step by step.
     pub(crate) on: Cell<bool>,
     /// How many instructions may still be executed.
-    pub(crate) left: Cell<u32>,
+    pub(crate) remaining: Cell<u32>,
     /// The motion with which the step ends, where it is planned already.
     pub(crate) until: Cell<Option<u64>>,
 }
@@ -203,8 +203,8 @@ impl ChannelState {
 
     /// A new fault of the robot, if there is one, as an alarm of the motion in which it happened; while the robot
     /// stands, of the instruction at the program pointer.
-    pub(crate) fn trouble(&self, place: (File, u32)) -> Option<Alarm> {
-        let (fault, motion) = self.robot_mut()?.take_trouble()?;
+    pub(crate) fn robot_alarm(&self, place: (File, u32)) -> Option<Alarm> {
+        let (fault, motion) = self.robot_mut()?.take_fault()?;
         let (file, line) = motion.unwrap_or(place);
         Some(Alarm::new(fault, file, line))
     }
@@ -227,9 +227,9 @@ impl ChannelState {
     pub(crate) fn set_progress_variables(&self, progress: &Progress) {
         let system = &self.system;
         system.traj_elapse_time.set(progress.elapsed_time);
-        system.traj_left_time.set(progress.left_time);
+        system.traj_left_time.set(progress.remaining_time);
         system.traj_elapse_dis.set(progress.elapsed_distance);
-        system.traj_left_dis.set(progress.left_distance);
+        system.traj_left_dis.set(progress.remaining_distance);
     }
 
     /// Whether all planned motion has ended and the robot has settled.

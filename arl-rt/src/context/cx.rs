@@ -95,7 +95,7 @@ impl Level {
     /// The program itself: it waits for all motion.
     pub(crate) const PROGRAM: Self = Self { number: 0, own_motion: None };
     /// A condition that is evaluated: it waits for no motion.
-    pub(crate) const LOOKING: Self = Self { number: u32::MAX, own_motion: Some(0) };
+    pub(crate) const CONDITION: Self = Self { number: u32::MAX, own_motion: Some(0) };
 
     /// The action of an event, `number` levels above the program: it waits for its own motion.
     pub(crate) fn action(number: u32) -> Self {
@@ -172,9 +172,9 @@ impl Cx {
     #[inline]
     pub fn spend_rounds(&self, rounds: i32) -> bool {
         // Code that has too little left waits for the next cycle, which brings a whole budget: nothing wraps.
-        let left = self.budget.get().wrapping_sub(rounds);
-        self.budget.set(left);
-        left < 0
+        let remaining = self.budget.get().wrapping_sub(rounds);
+        self.budget.set(remaining);
+        remaining < 0
     }
 
     /// Counts `rounds` turns of loops that have run without being counted. If they were too many, the next call that
@@ -189,7 +189,7 @@ impl Cx {
     /// The turns of loops that are left in this cycle, for a loop in which nothing else counts.
     #[inline]
     pub fn rounds(&self) -> Rounds<'_> {
-        Rounds { budget: &self.budget, left: self.budget.get() }
+        Rounds { budget: &self.budget, remaining: self.budget.get() }
     }
 
     /// Waits for the next cycle.
@@ -494,12 +494,12 @@ impl Cx {
             self.channel_state.conclude_motion();
             self.wait_for(WaitsFor::Motion).await;
         }
-        if stepping.left.get() == 0 && stepping.on.get() {
+        if stepping.remaining.get() == 0 && stepping.on.get() {
             self.channel_state.paused.set(true);
             self.goes_on();
             self.next_cycle().await;
         }
-        stepping.left.set(0);
+        stepping.remaining.set(0);
     }
 
     /// In single steps: begins another step within the same instruction.

@@ -116,7 +116,7 @@ impl Frames {
 
     /// Whether a function does not go on any more, as it, or one that has called it, begins again. The action of an
     /// event or its condition that runs on top meanwhile goes on.
-    pub(super) fn is_left(&self, id: u64) -> bool {
+    pub(super) fn is_abandoned(&self, id: u64) -> bool {
         let moved = self.moved.get();
         self.is_any_moved() && (moved == id || !self.records.borrow().iter().any(|record| record.id == id))
     }

@@ -182,8 +182,8 @@ impl<'a> Frame<'a> {
 
     /// The initial state of a function with `goto`: that of the line that the program pointer was set to, or the first.
     pub fn begins_in<S, const N: usize>(&self, first: S, states: [(u32, u32, S); N]) -> S {
-        let led = states.into_iter().find(|(first, last, _)| self.leads_to(*first, *last));
-        led.map_or(first, |(_, _, state)| state)
+        let entered = states.into_iter().find(|(first, last, _)| self.leads_to(*first, *last));
+        entered.map_or(first, |(_, _, state)| state)
     }
 
     /// A variable whose declaration is jumped over: the existing one, or one with its start value.
@@ -240,7 +240,7 @@ impl Future for Runs<'_> {
         let go = if asked { watcher.goes_on() } else { watcher.statement(self.cx, id) };
         match go {
             // The function, or one that has called it, begins again.
-            Go::On if self.cx.frames().is_left(id) => Poll::Pending,
+            Go::On if self.cx.frames().is_abandoned(id) => Poll::Pending,
             Go::On => Poll::Ready(true),
             Go::NotYet => Poll::Pending,
         }

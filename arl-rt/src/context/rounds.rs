@@ -10,7 +10,7 @@ use std::cell::Cell;
 pub struct Rounds<'a> {
     pub(super) budget: &'a Cell<i32>,
     /// Below 0 where a turn could not take place.
-    pub(super) left: i32,
+    pub(super) remaining: i32,
 }
 
 impl Rounds<'_> {
@@ -18,8 +18,8 @@ impl Rounds<'_> {
     #[inline(always)]
     pub fn take(&mut self) -> bool {
         // Below 0 the loop ends, so it goes no lower.
-        self.left = self.left.wrapping_sub(1);
-        self.left >= 0
+        self.remaining = self.remaining.wrapping_sub(1);
+        self.remaining >= 0
     }
 
     /// Counts turns that have taken place without being counted: less than 2^30.
@@ -27,20 +27,20 @@ impl Rounds<'_> {
     pub fn charge(&mut self, rounds: i32) {
         // A subtraction that saturates takes four instructions more. This one cannot wrap: a turn took place, so none
         // is owed.
-        self.left = self.left.wrapping_sub(rounds).max(0);
+        self.remaining = self.remaining.wrapping_sub(rounds).max(0);
     }
 
     /// Whether a turn was to be made and none was left.
     #[inline(always)]
     pub fn are_spent(&self) -> bool {
-        self.left < 0
+        self.remaining < 0
     }
 }
 
 impl Drop for Rounds<'_> {
     #[inline(always)]
     fn drop(&mut self) {
-        self.budget.set(self.left);
+        self.budget.set(self.remaining);
     }
 }
 
@@ -51,7 +51,7 @@ mod tests {
     #[test]
     fn a_loop_that_ends_with_its_last_round_is_not_spent() {
         let budget = Cell::new(2);
-        let mut rounds = Rounds { budget: &budget, left: 2 };
+        let mut rounds = Rounds { budget: &budget, remaining: 2 };
         assert!(rounds.take() && rounds.take() && !rounds.are_spent());
         assert!(!rounds.take() && rounds.are_spent());
     }
@@ -59,14 +59,14 @@ mod tests {
     #[test]
     fn what_others_owe_is_no_round() {
         let budget = Cell::new(-1);
-        let mut rounds = Rounds { budget: &budget, left: -1 };
+        let mut rounds = Rounds { budget: &budget, remaining: -1 };
         assert!(!rounds.take() && rounds.are_spent());
     }
 
     #[test]
-    fn what_is_left_goes_back() {
+    fn what_remains_goes_back() {
         let budget = Cell::new(20);
-        let mut rounds = Rounds { budget: &budget, left: 20 };
+        let mut rounds = Rounds { budget: &budget, remaining: 20 };
         assert!(rounds.take());
         rounds.charge(4);
         drop(rounds);
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn what_is_charged_does_not_end_a_loop_that_breaks() {
         let budget = Cell::new(20);
-        let mut rounds = Rounds { budget: &budget, left: 20 };
+        let mut rounds = Rounds { budget: &budget, remaining: 20 };
         assert!(rounds.take());
         rounds.charge(1 << 29);
         assert!(!rounds.are_spent());

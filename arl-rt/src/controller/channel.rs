@@ -351,8 +351,8 @@ impl Channel {
     }
 
     /// Ends the program where the robot does not do what it is asked for.
-    pub(super) fn handle_trouble(&mut self) {
-        if let Some(alarm) = self.channel_state.trouble(self.cx.place()) {
+    pub(super) fn handle_robot_fault(&mut self) {
+        if let Some(alarm) = self.channel_state.robot_alarm(self.cx.place()) {
             self.alarm(alarm);
         }
     }

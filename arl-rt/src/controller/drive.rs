@@ -16,7 +16,7 @@ pub(super) fn drive<'a>(
     connect: Connect,
     clock: &mut Box<dyn Clock>,
 ) -> Result<bool, SetupError> {
-    let mut beat = None;
+    let mut robot_clock = None;
     let mut count = 0;
     let (mut in_the_world, mut in_its_own, mut needs_the_world) = (clock.is_real(), false, false);
     for (channel, body) in (1..).zip(bodies) {
@@ -28,16 +28,16 @@ pub(super) fn drive<'a>(
         match time {
             DrivenTime::World => needs_the_world = true,
             DrivenTime::Robot => in_its_own = true,
-            DrivenTime::Beat(clock) => {
+            DrivenTime::Clock(clock) => {
                 in_the_world |= clock.is_real();
                 in_its_own |= !clock.is_real();
-                beat = Some(clock);
+                robot_clock = Some(clock);
             }
         }
     }
     let refused = match count {
         0 => Some("robots are to be driven, but the cell has no [driver]"),
-        2.. if beat.is_some() => Some(
+        2.. if robot_clock.is_some() => Some(
             "a robot that sets the control cycle (protocol \"rsi\") is driven together with another one: it needs a \
              controller of its own, as each would wait for the other",
         ),
@@ -50,8 +50,8 @@ pub(super) fn drive<'a>(
     if let Some(text) = refused {
         return Err(SetupError::Cell(text.to_owned()));
     }
-    if let Some(beat) = beat {
-        *clock = beat;
+    if let Some(robot_clock) = robot_clock {
+        *clock = robot_clock;
     }
     Ok(needs_the_world)
 }

@@ -193,9 +193,9 @@ impl Handle {
     /// # Errors
     /// As [`ask`](Handle::ask).
     pub fn events(&self) -> Result<Receiver<Event>, HandleError> {
-        let (tell, told) = mpsc::channel();
-        self.ask(move |controller| controller.shared.subscribers.add(tell))?;
-        Ok(told)
+        let (sender, events) = mpsc::channel();
+        self.ask(move |controller| controller.shared.subscribers.add(sender))?;
+        Ok(events)
     }
 }
 

@@ -123,18 +123,18 @@ mod tests {
     }
 
     #[test]
-    fn who_is_to_blame_is_told() {
+    fn who_is_to_blame_is_reported() {
         let mut lateness = Lateness::default();
         lateness.note_missing(30);
         let mut limit = LateLimit::new(Some(20), 1000);
-        let told = |lost: Option<Lost>| lost.map(|lost| lost.to_string()).unwrap_or_default();
+        let text = |lost: Option<Lost>| lost.map(|lost| lost.to_string()).unwrap_or_default();
         let lost = limit.look(Lost::from(&lateness), 5);
-        assert_eq!(told(lost), "messages from the robot did not arrive: 30 control cycles were lost within a second");
+        assert_eq!(text(lost), "messages from the robot did not arrive: 30 control cycles were lost within a second");
         lateness.note_missing(20);
         lateness.note_lost(2);
         let lost = limit.look(Lost::from(&lateness), 10);
         assert_eq!(
-            told(lost),
+            text(lost),
             "22 control cycles were lost within a second: 20 as messages from the robot did not arrive, 2 as the computer was too busy"
         );
     }

@@ -35,7 +35,7 @@ pub use foreground::Foreground;
 pub use handle::{Handle, HandleError};
 pub use order::OrderError;
 pub use outcome::Outcome;
-pub(crate) use recorded::Recorded;
+pub(crate) use recorded::RecordedMotions;
 pub use running::Running;
 pub use status::{ChannelStatus, RobotStatus, Status};
 
@@ -138,7 +138,7 @@ pub struct Controller {
     /// Requests of other threads.
     calls: HandleCalls,
     /// The state that the subscribers to events were last notified of.
-    told: State,
+    notified_state: State,
     /// Stores where the programs stand; `None` where that is not stored.
     pointer_store: Option<PointerStore>,
     /// Whether code outside may change something: drivers that are not ours.
@@ -193,7 +193,7 @@ impl Controller {
         self.islands.write(self.shared.io.borrow().outputs_all(cycle));
         self.io.write(self.shared.io.borrow().outputs_all(cycle));
         self.channels.each(Channel::handle_collision);
-        self.channels.each(Channel::handle_trouble);
+        self.channels.each(Channel::handle_robot_fault);
         let shared = &self.shared;
         shared.flush();
         if shared.take_real_time_need()
@@ -212,7 +212,7 @@ impl Controller {
     /// Notifies the subscribers to events of the controller's state, where it has changed.
     fn tell_state(&mut self) -> State {
         let state = self.state();
-        if std::mem::replace(&mut self.told, state) != state {
+        if std::mem::replace(&mut self.notified_state, state) != state {
             self.shared.subscribers.tell(|| Event::State(state));
         }
         state

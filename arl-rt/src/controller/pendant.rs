@@ -253,15 +253,15 @@ fn pause(channel: &Channel) {
 }
 
 fn step(channel: &mut Channel) {
-    let under_way = channel.channel_state().stepping.on.get() && channel.state() == State::Running;
-    if under_way || !may_go_on(channel, "step") {
+    let is_stepping = channel.channel_state().stepping.on.get() && channel.state() == State::Running;
+    if is_stepping || !may_go_on(channel, "step") {
         return;
     }
     let channel_state = channel.channel_state();
     channel_state.stepping.on.set(true);
     match channel_state.robot().and_then(|unit| unit.next_motion()) {
         Some(motion) => channel_state.stepping.until.set(Some(motion)),
-        None => channel_state.stepping.left.set(1),
+        None => channel_state.stepping.remaining.set(1),
     }
     go_on(channel);
 }

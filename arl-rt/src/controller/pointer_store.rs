@@ -58,7 +58,7 @@ impl Exchange {
     /// Runs the thread: stores what has changed since `kept`, which is stored already.
     fn run(&self, storage: &mut dyn Storage, kept: &PointerTable) {
         let mut stored = pointers::written(kept);
-        let mut told = None;
+        let mut reported = None;
         let mut pending = self.lock();
         loop {
             (pending, _) = self
@@ -78,11 +78,11 @@ impl Exchange {
             };
             pending = self.lock();
             match done {
-                Ok(()) => (stored, told) = (text, None),
+                Ok(()) => (stored, reported) = (text, None),
                 // An error is reported once, however often storing is tried.
-                Err(error) if told.as_ref() != Some(&error) => {
+                Err(error) if reported.as_ref() != Some(&error) => {
                     pending.problem = Some(format!("the program pointers cannot be saved: {error}"));
-                    told = Some(error);
+                    reported = Some(error);
                 }
                 Err(_) => {}
             }
@@ -197,14 +197,14 @@ mod tests {
     }
 
     #[test]
-    fn a_storage_that_panics_is_told_and_tried_again() {
+    fn a_storage_that_panics_is_reported_and_tried_again() {
         let (sender, stored) = channel();
         let mut pointer_store =
             PointerStore::start(Box::new(PanicsOnce(false, sender)), PointerTable::default()).unwrap();
         let now = CurrentPointers { program: Some((File::new("a.arl"), 3)), motion: None };
         assert_eq!(pointer_store.note([now].into_iter(), false), None);
-        let told = pointer_store.settle().unwrap();
-        assert!(told.contains("the storage has panicked"), "{told}");
+        let warning = pointer_store.settle().unwrap();
+        assert!(warning.contains("the storage has panicked"), "{warning}");
         assert_eq!(pointer_store.settle(), None);
         let text = stored.try_recv().unwrap();
         assert!(text.contains("a.arl"), "{text}");

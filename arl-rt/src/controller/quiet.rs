@@ -40,7 +40,7 @@ impl Controller {
         if cycle < self.awake_until || !self.clock.may_skip() || self.is_over() {
             return None;
         }
-        if self.is_watched() || self.is_under_way() {
+        if self.is_watched() || self.has_pending_work() {
             return None;
         }
         // What one program did last, another may only see in the next cycle.
@@ -64,7 +64,7 @@ impl Controller {
     }
 
     /// Whether anything is under way besides the programs, their robots and the scenario.
-    fn is_under_way(&self) -> bool {
+    fn has_pending_work(&self) -> bool {
         let shared = &self.shared;
         shared.disk.is_waited_for()
             || shared.state.borrow().is_saving()

@@ -12,7 +12,7 @@ use arl_robot::robot::Robot;
 
 /// What the motions of a foreground channel did.
 #[derive(Clone, Debug)]
-pub(crate) struct Recorded {
+pub(crate) struct RecordedMotions {
     pub(crate) robot: Arc<Robot>,
     /// The file that has the `main` of the channel's program.
     pub(crate) program: File,
@@ -45,7 +45,7 @@ impl Controller {
     }
 
     /// The records of all foreground channels for reports, with the files.
-    pub(crate) fn recorded(&self) -> Vec<Recorded> {
+    pub(crate) fn recorded_motions(&self) -> Vec<RecordedMotions> {
         let of_channel = |channel: &super::channel::Channel| {
             let unit = channel.channel_state().robot()?;
             let program = channel.cx().program();
@@ -58,7 +58,7 @@ impl Controller {
             // Jogging after the end of the program moves the robot, too.
             let ends = motions.iter().filter_map(|(_, record)| Some(record.start? + record.duration));
             let ended = ends.fold(program_ended, f64::max);
-            Some(Recorded { robot: unit.shared_robot(), program, ended, motions })
+            Some(RecordedMotions { robot: unit.shared_robot(), program, ended, motions })
         };
         self.channels.foreground().filter_map(of_channel).collect()
     }

@@ -26,7 +26,7 @@ const IDLE: Duration = Duration::from_millis(1);
 #[derive(Debug)]
 pub struct Running {
     handle: Handle,
-    told: Arc<AtomicU8>,
+    command: Arc<AtomicU8>,
     thread: Option<JoinHandle<Outcome>>,
 }
 
@@ -54,7 +54,7 @@ impl Running {
 
     /// Tells the thread how to end, and waits for it, unless this is that thread.
     fn wait(&mut self, how: u8) -> thread::Result<Outcome> {
-        self.told.store(how, Ordering::Relaxed);
+        self.command.store(how, Ordering::Relaxed);
         // The caller makes no more requests while it waits for the end: programs that wait for other threads then wait
         // in vain.
         self.handle.forget();
@@ -86,14 +86,14 @@ impl Controller {
         make: impl FnOnce() -> Result<Controller, SetupError> + Send + 'static,
     ) -> Result<Running, SetupError> {
         let (tell, made) = mpsc::sync_channel(1);
-        let told = Arc::new(AtomicU8::new(GO_ON));
-        let telling = Arc::clone(&told);
+        let command = Arc::new(AtomicU8::new(GO_ON));
+        let received = Arc::clone(&command);
         let run = move || match make() {
             Ok(mut controller) => {
                 let _ = tell.send(Ok(controller.handle()));
                 // The handle in the channel would count as one in use.
                 drop(tell);
-                controller.run_as_told(&telling)
+                controller.run_until_commanded(&received)
             }
             Err(error) => {
                 let _ = tell.send(Err(error));
@@ -104,7 +104,7 @@ impl Controller {
         let thread = spawned
             .map_err(|error| SetupError::Other(format!("the controller's thread cannot be started: {error}")))?;
         match made.recv() {
-            Ok(handle) => Ok(Running { handle: handle?, told, thread: Some(thread) }),
+            Ok(handle) => Ok(Running { handle: handle?, command, thread: Some(thread) }),
             // The thread has sent neither a handle nor an error.
             Err(_) => match thread.join() {
                 Err(panic) => resume_unwind(panic),
@@ -113,14 +113,14 @@ impl Controller {
         }
     }
 
-    fn run_as_told(&mut self, told: &AtomicU8) -> Outcome {
+    fn run_until_commanded(&mut self, command: &AtomicU8) -> Outcome {
         let mut how = GO_ON;
         while how == GO_ON {
             if self.is_over() && !self.clock.is_real() {
                 thread::sleep(IDLE);
             }
             self.step();
-            how = told.load(Ordering::Relaxed);
+            how = command.load(Ordering::Relaxed);
         }
         let outcome = if how == STOP { self.stop_to_end() } else { self.step_to_end() };
         self.close_robots();

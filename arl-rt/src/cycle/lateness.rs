@@ -48,11 +48,11 @@ impl Lateness {
         self.lost = self.lost.saturating_add(cycles);
     }
 
-    /// Notes beats that never came from the source that cycles follow (a robot that sends, a bus): their cycles are
-    /// lost, and the computer is not to blame.
-    pub fn note_missing(&mut self, beats: u64) {
-        self.missing = self.missing.saturating_add(beats);
-        self.lost = self.lost.saturating_add(beats);
+    /// Notes cycles that their source (a robot that sends, a bus) never began: they are lost, and the computer
+    /// is not to blame.
+    pub fn note_missing(&mut self, cycles: u64) {
+        self.missing = self.missing.saturating_add(cycles);
+        self.lost = self.lost.saturating_add(cycles);
     }
 
     /// How many cycles began.

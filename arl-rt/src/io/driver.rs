@@ -115,7 +115,7 @@ impl IoDriver for SimulatedIo {
 #[non_exhaustive]
 pub enum DriverError {
     /// The driver's own message.
-    Said(String),
+    Message(String),
     /// A system call failed; kind and message of its error.
     System(io::ErrorKind, String),
 }
@@ -123,7 +123,7 @@ pub enum DriverError {
 impl fmt::Display for DriverError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            DriverError::Said(why) | DriverError::System(_, why) => write!(f, "{why}"),
+            DriverError::Message(why) | DriverError::System(_, why) => write!(f, "{why}"),
         }
     }
 }
@@ -132,13 +132,13 @@ impl error::Error for DriverError {}
 
 impl From<String> for DriverError {
     fn from(why: String) -> Self {
-        DriverError::Said(why)
+        DriverError::Message(why)
     }
 }
 
 impl From<&str> for DriverError {
     fn from(why: &str) -> Self {
-        DriverError::Said(why.to_owned())
+        DriverError::Message(why.to_owned())
     }
 }
 

@@ -29,7 +29,7 @@ pub(crate) struct Work<T>(Receiver<T>);
 
 /// The state of a job.
 pub(crate) enum Stage<T> {
-    UnderWay,
+    InProgress,
     Done(T),
     /// The job has panicked.
     Lost,
@@ -111,7 +111,7 @@ impl<T> Work<T> {
     pub(crate) fn stage(&self) -> Stage<T> {
         match self.0.try_recv() {
             Ok(value) => Stage::Done(value),
-            Err(TryRecvError::Empty) => Stage::UnderWay,
+            Err(TryRecvError::Empty) => Stage::InProgress,
             Err(TryRecvError::Disconnected) => Stage::Lost,
         }
     }
@@ -133,7 +133,7 @@ mod tests {
         };
         let (first, held) = (note(1), disk.begin(move || wait.recv().is_ok()));
         let first = disk.begin(first);
-        assert!(matches!(held.stage(), Stage::UnderWay), "nobody waits for it");
+        assert!(matches!(held.stage(), Stage::InProgress), "nobody waits for it");
         gate.send(()).unwrap();
         disk.settle();
         assert!(matches!(held.stage(), Stage::Done(true)) && matches!(first.stage(), Stage::Done(())));
@@ -158,13 +158,13 @@ mod tests {
     #[test]
     fn a_panic_loses_its_work_only() {
         let disk = Disk::default();
-        let ((begun, under_way), (gate, go_on)) = (channel(), channel());
+        let ((begun, has_begun), (gate, go_on)) = (channel(), channel());
         let before = disk.begin(|| 5);
         let lost = disk.begin(|| {
             let _held = Unwinding { begun, go_on };
             std::panic::panic_any("meant to be")
         });
-        under_way.recv().unwrap();
+        has_begun.recv().unwrap();
         let during = disk.begin(|| 6);
         gate.send(()).unwrap();
         disk.settle();

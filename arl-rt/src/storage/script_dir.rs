@@ -124,8 +124,8 @@ mod tests {
             .output()
             .unwrap();
         fs::remove_dir_all(&folder).unwrap();
-        let said = String::from_utf8_lossy(&alone.stdout);
-        assert!(alone.status.success() && said.contains("1 passed"), "{said}");
+        let output = String::from_utf8_lossy(&alone.stdout);
+        assert!(alone.status.success() && output.contains("1 passed"), "{output}");
     }
 
     #[test]

@@ -195,7 +195,7 @@ impl KeptState {
         let mut problems = Vec::new();
         for Saving { name, text, work, asker } in std::mem::take(&mut self.saving) {
             let stored = match work.stage() {
-                Stage::UnderWay => {
+                Stage::InProgress => {
                     self.saving.push(Saving { name, text, work, asker });
                     continue;
                 }

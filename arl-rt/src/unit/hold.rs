@@ -13,8 +13,8 @@ const TCP_MM_S: f64 = 100.0;
 const TCP_DEG_S: f64 = 20.0;
 /// The distance to plan at most, in mm and deg: the first of these that the robot can move. While the button is held
 /// the robot goes on from there.
-const WAYS_MM: [f64; 9] = [500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0];
-const WAYS_DEG: [f64; 7] = [90.0, 45.0, 20.0, 10.0, 5.0, 2.0, 1.0];
+const DISTANCES_MM: [f64; 9] = [500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0];
+const ANGLES_DEG: [f64; 7] = [90.0, 45.0, 20.0, 10.0, 5.0, 2.0, 1.0];
 /// An axis this near to its target has reached it, in deg (mm).
 const THERE: f64 = 1e-6;
 
@@ -140,16 +140,16 @@ impl Unit {
                 let place = self.axis_of(&mut target, *axis)?;
                 let [low, high] = range.unwrap_or([*place; 2]);
                 *place = if *up { high } else { low };
-                self.hold_to(target)
+                self.move_to(target)
             }
             HeldButton::To(axes) => {
                 let mut target = *self.setpoint();
                 for (axis, value) in (1..).zip(axes) {
                     *self.axis_of(&mut target, axis)? = *value;
                 }
-                self.hold_to(target)
+                self.move_to(target)
             }
-            HeldButton::Tcp { along, turns, of } => self.hold_tcp(along, *turns, *of),
+            HeldButton::Tcp { along, turns, of } => self.move_tcp(along, *turns, *of),
         }
     }
 
@@ -160,7 +160,7 @@ impl Unit {
         Ok(())
     }
 
-    fn hold_to(&mut self, target: Joints) -> Result<(), String> {
+    fn move_to(&mut self, target: Joints) -> Result<(), String> {
         if self.setpoint().is_at(&target, THERE) {
             return Ok(());
         }
@@ -171,7 +171,7 @@ impl Unit {
         self.go_held(Target::Joints(target), speed)
     }
 
-    fn hold_tcp(&mut self, along: &Vector3<f64>, turns: bool, of: Seen) -> Result<(), String> {
+    fn move_tcp(&mut self, along: &Vector3<f64>, turns: bool, of: Seen) -> Result<(), String> {
         let rig = self.rig();
         if let Carried::Workpiece(_) = rig.carried {
             return Err(
@@ -186,13 +186,13 @@ impl Unit {
         };
         let along = seen * along;
         let speed = Speed { percent: JOGGING, tcp: TCP_MM_S, ori: TCP_DEG_S, exj: 1.0, exl: 1.0 };
-        let ways: &[f64] = if turns { &WAYS_DEG } else { &WAYS_MM };
-        for way in ways {
+        let distances: &[f64] = if turns { &ANGLES_DEG } else { &DISTANCES_MM };
+        for distance in distances {
             let target = if turns {
-                let turned = UnitQuaternion::from_axis_angle(&UnitVector::new_normalize(along), way.to_radians());
+                let turned = UnitQuaternion::from_axis_angle(&UnitVector::new_normalize(along), distance.to_radians());
                 Frame::from_parts(tcp.translation, turned * tcp.rotation)
             } else {
-                Frame::from_parts(Translation3::from(tcp.translation.vector + along * *way), tcp.rotation)
+                Frame::from_parts(Translation3::from(tcp.translation.vector + along * *distance), tcp.rotation)
             };
             let pose = frame_components(&target);
             let line = Target::Line { pose, wobj: Frame::identity(), external: here.external };

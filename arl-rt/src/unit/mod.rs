@@ -330,7 +330,7 @@ impl Unit {
 
     /// The progress of a motion when it ended, or was left for a blend, in the last cycle.
     pub(crate) fn left(&self, motion: u64) -> Option<Progress> {
-        self.queue.left(motion)
+        self.queue.exited(motion)
     }
 
     /// The commanded pose of the TCP in the world, with the tool of its motion: mm, deg.
@@ -409,7 +409,7 @@ impl Unit {
             && (self.queue.idle() && self.queue.rests() && self.is_settled())
             && (stands(&self.commanded) && stands(&self.reported) && self.commanded.at == self.reported.at)
             && (self.recorder.is_none()
-                && self.servo.trouble.is_none()
+                && self.servo.found_fault.is_none()
                 && !self.jogging.jogged
                 && self.jogging.button == Button::Free)
     }

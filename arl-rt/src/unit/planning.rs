@@ -40,7 +40,7 @@ impl Unit {
 
     /// Takes in motions that go on, and the motion back to them.
     pub(super) fn note_start(&mut self) {
-        if let Some((number, command, settings)) = self.queue.take_way_back() {
+        if let Some((number, command, settings)) = self.queue.take_return_motion() {
             self.planned = number;
             let file = self.files.start;
             self.note_planned(number, &command, &settings, file);

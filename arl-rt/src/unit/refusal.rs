@@ -116,9 +116,11 @@ fn words(error: &PlanError) -> String {
         PlanError::NoHighestSpeed { value } => {
             format!("the highest speed of velset in mm/s is {value}: {ABOVE_ZERO}")
         }
-        PlanError::NoWayBack => "the robot cannot go straight back to its path: it is in another configuration, or \
+        PlanError::NoReturnMotion => {
+            "the robot cannot go straight back to its path: it is in another configuration, or \
              in another turn of an axis, than when it was stopped; movej it near that position first"
-            .into(),
+                .into()
+        }
         error => error.to_string(),
     }
 }

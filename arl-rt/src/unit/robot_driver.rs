@@ -225,7 +225,7 @@ pub enum DrivenTime {
     /// The time of the robot, which is simulated: an exchange waits for it.
     Robot,
     /// The robot sets the control cycle: a cycle begins whenever this clock says so.
-    Beat(Box<dyn Clock>),
+    Clock(Box<dyn Clock>),
 }
 
 /// Makes the driver that the settings of a cell file describe; it is not started yet. The error is the reason why there

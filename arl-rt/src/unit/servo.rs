@@ -38,7 +38,7 @@ pub(super) struct Servo {
     pub(super) motors: Motors,
     pub(super) supervision: Supervision,
     /// The fault that the supervision has found, and in which motion, until it is taken.
-    pub(super) trouble: Option<(Fault, Option<(File, u32)>)>,
+    pub(super) found_fault: Option<(Fault, Option<(File, u32)>)>,
 }
 
 /// Checks that an axis can be moved by this much.
@@ -213,13 +213,13 @@ impl Unit {
         }
         self.stop();
         if is_first {
-            self.servo.trouble = Some((fault, place));
+            self.servo.found_fault = Some((fault, place));
         }
     }
 
     /// The fault of the robot, and in which motion it was, once.
-    pub(crate) fn take_trouble(&mut self) -> Option<(Fault, Option<(File, u32)>)> {
-        self.servo.trouble.take()
+    pub(crate) fn take_fault(&mut self) -> Option<(Fault, Option<(File, u32)>)> {
+        self.servo.found_fault.take()
     }
 
     /// Sets the motions aside, so that the robot can be moved beside its path.

@@ -53,13 +53,13 @@ impl Supervision {
     /// Checks the feedback of a robot whose motors are on, or should be; returns the fault. That is reported once,
     /// except for a fault of the drives, which must not be commanded any more.
     pub(super) fn look(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
-        let fault = self.trouble(feedback, now)?;
+        let fault = self.find_fault(feedback, now)?;
         let counts = !self.found || matches!(fault, Fault::Drives(_));
         self.found = true;
         counts.then_some(fault)
     }
 
-    fn trouble(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
+    fn find_fault(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
         let of_drives = self.drives(feedback.drives.as_ref(), now);
         let of_position = position(feedback.position.as_ref(), now).or_else(|| torque(feedback));
         of_drives.or(of_position).or_else(|| self.settling(feedback.position.as_ref(), now))

@@ -91,17 +91,17 @@ macro_rules! structures {
 
         impl Print for $rust {
             fn print(&self, out: &mut Str, style: &Style) {
-                let mut left = self.shown();
+                let mut remaining = self.shown();
                 let mut before = b'{';
                 $(
-                    if left > 0 {
-                        left -= 1;
+                    if remaining > 0 {
+                        remaining -= 1;
                         out.push(before);
                         before = b',';
                         self.$field.print(out, style);
                     }
                 )*
-                let _ = (left, before);
+                let _ = (remaining, before);
                 out.push(b'}');
             }
 

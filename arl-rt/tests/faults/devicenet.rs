@@ -31,14 +31,14 @@ impl DeviceNet for Pulled {
 #[test]
 fn the_codes_of_a_bus_go_to_the_program() {
     watched(|| {
-        let trouble = Rc::new(Cell::new(None));
-        let bus = Pulled(Rc::clone(&trouble));
+        let error_code = Rc::new(Cell::new(None));
+        let bus = Pulled(Rc::clone(&error_code));
         let mut robot = Robot::new(Controller::builder().devicenet(bus), move |cx: &Cx| {
-            let trouble = Rc::clone(&trouble);
+            let error_code = Rc::clone(&error_code);
             Box::pin(async move {
                 // Codes below 100 are the runtime's own.
                 for code in [None, Some(250), Some(3), None] {
-                    trouble.set(code);
+                    error_code.set(code);
                     let mut data = [0; 8];
                     say(cx, &devicenet::dnwrite(cx, 0, 8, &data).await.at(FILE, 1)?)?;
                     say(cx, &devicenet::dnread(cx, 0, 8, &mut data).await.at(FILE, 2)?)?;
@@ -47,6 +47,6 @@ fn the_codes_of_a_bus_go_to_the_program() {
                 Ok(())
             })
         });
-        assert_eq!(robot.run().told(), "0\n0\n1\n250\n250\n1\n100\n100\n1\n0\n0\n1\n");
+        assert_eq!(robot.run().text(), "0\n0\n1\n250\n250\n1\n100\n100\n1\n0\n0\n1\n");
     });
 }

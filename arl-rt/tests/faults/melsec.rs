@@ -61,18 +61,18 @@ fn ask_twice(peer: impl FnOnce(TcpStream) + Send + 'static) -> String {
                 Ok(())
             })
         });
-        let told = robot.run().told();
-        assert_eq!(robot.run().told(), "abcd\nabcd\n", "the program goes on");
+        let output = robot.run().text();
+        assert_eq!(robot.run().text(), "abcd\nabcd\n", "the program goes on");
         drop(robot);
         peer.join().unwrap();
-        told
+        output
     })
 }
 
 #[test]
-fn whatever_the_plc_does_the_program_is_told_and_goes_on() {
+fn whatever_the_plc_does_the_program_is_informed_and_goes_on() {
     for manner in Manner::ALL {
-        let told = ask_twice(move |stream| {
+        let output = ask_twice(move |stream| {
             // A PLC that answers answers the second question, too.
             if manner == Manner::ByteByByte {
                 let mut stream = stream;
@@ -98,7 +98,7 @@ fn whatever_the_plc_does_the_program_is_told_and_goes_on() {
                 "alarm 20050: read: the other side does not speak the MC protocol (3E, binary) (t.arl:2)"
             }
         };
-        assert_eq!(told, expected, "{manner:?}");
+        assert_eq!(output, expected, "{manner:?}");
     }
 }
 
@@ -122,12 +122,12 @@ fn answers_that_nobody_asked_for_are_an_alarm() {
 
 #[test]
 fn an_answer_of_another_length_is_an_alarm() {
-    let told = ask_twice(|mut stream| {
+    let output = ask_twice(|mut stream| {
         stream.read_exact(&mut [0; REQUEST]).unwrap();
         stream.write_all(b"\xd0\0\0\xff\xff\x03\0\x04\0\0\0ab").unwrap();
         until_it_goes(stream);
     });
-    assert_eq!(told, "alarm 20050: read: the PLC sent 2 bytes instead of 4 (t.arl:2)");
+    assert_eq!(output, "alarm 20050: read: the PLC sent 2 bytes instead of 4 (t.arl:2)");
 }
 
 /// The answer with bytes changed, cut off, doubled or put in, by a number.
@@ -155,13 +155,13 @@ fn damaged(seed: u64) -> Vec<u8> {
 /// The PLC goes after each: what is not an answer, or not all of one, is an alarm; of one that is whole the next
 /// question is.
 #[test]
-fn damaged_answers_are_told_and_nothing_is_left_of_them() {
+fn damaged_answers_are_reported_and_nothing_remains_of_them() {
     for seed in 0..60 {
-        let told = ask_twice(move |mut stream| {
+        let output = ask_twice(move |mut stream| {
             stream.read_exact(&mut [0; REQUEST]).unwrap();
             stream.write_all(&damaged(seed)).unwrap();
         });
-        assert!(told.contains("alarm 20050: read: "), "{seed}: {told}");
+        assert!(output.contains("alarm 20050: read: "), "{seed}: {output}");
     }
 }
 
@@ -185,7 +185,7 @@ fn a_thousand_connections_one_after_the_other() {
                 Ok(())
             })
         });
-        assert_eq!(robot.run().told(), "");
+        assert_eq!(robot.run().text(), "");
         drop(robot);
         peer.join().unwrap();
     });

@@ -67,7 +67,7 @@ fn serves(wrong: impl FnOnce(&mut Plug) + Send + 'static) {
             plug.write_all(&DONE).unwrap();
             until_it_goes(plug);
         });
-        assert_eq!(robot.run().told(), "true\n");
+        assert_eq!(robot.run().text(), "true\n");
         master.join().unwrap();
     });
 }
@@ -157,7 +157,7 @@ fn a_slave_is_opened_and_closed_a_thousand_times() {
             })
         });
         let _plug = outlet.plug();
-        assert_eq!(robot.run().told(), format!("{TIMES}\ntrue\nfalse\ntrue\n"));
+        assert_eq!(robot.run().text(), format!("{TIMES}\ntrue\nfalse\ntrue\n"));
     });
 }
 
@@ -186,11 +186,11 @@ fn a_slave_that_is_unplugged_is_an_alarm_and_opens_again_when_it_is_back() {
                 Ok(())
             })
         });
-        let told = robot.run().told();
+        let output = robot.run().text();
         let (start, end) = ("true\nalarm 20050: write: the line is lost: ", " (t.arl:2)");
-        assert!(told.starts_with(start) && told.ends_with(end), "{told}");
+        assert!(output.starts_with(start) && output.ends_with(end), "{output}");
         let new = outlet.plug();
-        assert_eq!(robot.run().told(), "true\ntrue\ntrue\n");
+        assert_eq!(robot.run().text(), "true\ntrue\ntrue\n");
         drop(new);
     });
 }

@@ -248,7 +248,7 @@ fn requests_a_byte_at_a_time_are_answered() {
 }
 
 #[test]
-fn a_port_that_is_taken_is_told_before_the_program_starts() {
+fn a_port_that_is_taken_is_reported_before_the_program_starts() {
     watched(|| {
         let taken = TcpListener::bind("127.0.0.1:0").unwrap();
         let port = taken.local_addr().unwrap().port();
@@ -296,7 +296,7 @@ fn without_a_port_by_default_the_program_goes_on_with_a_warning() {
         // No cycle tries to start it.
         let warnings = robot.warnings();
         assert!(warnings.len() == 1 && warnings[0].contains("cannot listen on 127.0.0.1:502"), "{warnings:?}");
-        assert_eq!(robot.run().told(), "true\ntrue\ntrue\n");
+        assert_eq!(robot.run().text(), "true\ntrue\ntrue\n");
         assert_eq!(robot.warnings(), [""; 0]);
     });
 }

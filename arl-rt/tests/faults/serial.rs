@@ -59,32 +59,32 @@ fn ask_twice(manner: Manner) -> String {
         });
         let plug = outlet.plug();
         let peer = std::thread::spawn(move || manner.play(plug, QUESTION.as_bytes().len(), ANSWER));
-        let told = robot.run().told();
+        let output = robot.run().text();
         peer.join().unwrap();
         let plug = outlet.plug();
         let peer = std::thread::spawn(move || behave(plug));
         patience.set(Manner::ByteByByte.patience());
-        assert_eq!(robot.run().told(), "true\nthe whole message\n", "the program goes on after {manner:?}");
+        assert_eq!(robot.run().text(), "true\nthe whole message\n", "the program goes on after {manner:?}");
         peer.join().unwrap();
-        told
+        output
     })
 }
 
 #[test]
-fn whatever_the_other_end_does_the_program_is_told_and_goes_on() {
+fn whatever_the_other_end_does_the_program_is_informed_and_goes_on() {
     for manner in Manner::ALL {
-        let told = ask_twice(manner);
+        let output = ask_twice(manner);
         match manner {
             // Of a line that is unplugged the system says so, or it ends: as it comes.
             Manner::LeavesHalfway | Manner::Resets => {
                 let (start, end) = ("true\nalarm 20050: readuntil: the line is lost: ", " (t.arl:3)");
-                assert!(told.starts_with(start) && told.ends_with(end), "{manner:?}: {told}");
+                assert!(output.starts_with(start) && output.ends_with(end), "{manner:?}: {output}");
             }
-            Manner::Silent | Manner::Garbage => assert_eq!(told, "true\n-\n", "{manner:?}"),
-            Manner::ByteByByte => assert_eq!(told, "true\nthe whole message\n"),
+            Manner::Silent | Manner::Garbage => assert_eq!(output, "true\n-\n", "{manner:?}"),
+            Manner::ByteByByte => assert_eq!(output, "true\nthe whole message\n"),
             // A pseudo terminal is slow: not every flood reaches 1 MiB in 0.3 s.
             Manner::Floods => {
-                assert!(told == "true\n-\n" || told.contains("1048576 bytes have been received"), "{told}")
+                assert!(output == "true\n-\n" || output.contains("1048576 bytes have been received"), "{output}")
             }
         }
     }
@@ -163,7 +163,7 @@ fn a_line_is_opened_and_closed_a_thousand_times() {
         });
         let plug = outlet.plug();
         let peer = std::thread::spawn(move || behave(plug));
-        assert_eq!(robot.run().told(), format!("{TIMES}\nthe whole message\n"));
+        assert_eq!(robot.run().text(), format!("{TIMES}\nthe whole message\n"));
         peer.join().unwrap();
     });
 }
@@ -186,7 +186,7 @@ fn a_line_that_is_taken_is_false_until_it_is_free() {
         });
         let plug = outlet.plug();
         let peer = std::thread::spawn(move || behave(plug));
-        assert_eq!(robot.run().told(), "true\nfalse\ntrue\nthe whole message\n");
+        assert_eq!(robot.run().text(), "true\nfalse\ntrue\nthe whole message\n");
         peer.join().unwrap();
     });
 }
@@ -215,7 +215,7 @@ fn a_line_that_is_unplugged_is_opened_again_when_it_is_back() {
                 ask(cx, &line, Manner::ByteByByte.patience()).await
             })
         });
-        assert_eq!(robot.run().told(), "true\ntrue\nfalse\ntrue\nthe whole message\n");
+        assert_eq!(robot.run().text(), "true\ntrue\nfalse\ntrue\nthe whole message\n");
     });
 }
 
@@ -240,8 +240,8 @@ fn a_line_that_vanishes_while_the_program_writes_is_an_alarm() {
                 }
             })
         });
-        let told = robot.run().told();
-        assert!(told.starts_with("true\nalarm 20050: write: the line is lost: "), "{told}");
+        let output = robot.run().text();
+        assert!(output.starts_with("true\nalarm 20050: write: the line is lost: "), "{output}");
     });
 }
 
@@ -260,7 +260,7 @@ fn what_is_no_line_any_more_does_not_open_and_holds_nobody_up() {
                 Ok(())
             })
         });
-        assert_eq!(robot.run().told(), "false\nfalse\nfalse\nfalse\n");
+        assert_eq!(robot.run().text(), "false\nfalse\nfalse\nfalse\n");
         let warnings = robot.warnings();
         assert_eq!(warnings.len(), 4, "{warnings:?}");
         assert!(warnings.iter().all(|warning| warning.starts_with("open ")), "{warnings:?}");

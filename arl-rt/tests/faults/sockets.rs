@@ -26,30 +26,30 @@ enum Side {
 }
 
 /// Where the peer meets the program.
-enum Meeting {
+enum Endpoint {
     /// It listens.
     Here(TcpListener),
     /// The program listens there.
     There(SocketAddr),
 }
 
-impl Meeting {
+impl Endpoint {
     /// A place to meet, and its port. A port of ours is free again at once, as nobody has connected to it.
     fn new(side: Side) -> (Self, i32) {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap();
         let port = i32::from(address.port());
         match side {
-            Side::Client => (Meeting::Here(listener), port),
-            Side::Server => (Meeting::There(address), port),
+            Side::Client => (Endpoint::Here(listener), port),
+            Side::Server => (Endpoint::There(address), port),
         }
     }
 
     /// The next connection.
-    fn meet(&self) -> TcpStream {
+    fn connection(&self) -> TcpStream {
         let stream = match self {
-            Meeting::Here(listener) => listener.accept().unwrap().0,
-            Meeting::There(address) => soon("the program does not listen", || TcpStream::connect(address).ok()),
+            Endpoint::Here(listener) => listener.accept().unwrap().0,
+            Endpoint::There(address) => soon("the program does not listen", || TcpStream::connect(address).ok()),
         };
         stream.set_nodelay(true).unwrap();
         stream
@@ -89,10 +89,10 @@ async fn ask(cx: &Cx, s: &Socket, patience: u64) -> Done<()> {
 /// Runs a program that asks a peer of this manner, and then, from its beginning again, one that answers as it should.
 fn ask_twice(side: Side, manner: Manner, detect: bool) -> String {
     watched(|| {
-        let (meeting, port) = Meeting::new(side);
+        let (endpoint, port) = Endpoint::new(side);
         let peer = std::thread::spawn(move || {
             for manner in [manner, Manner::ByteByByte] {
-                manner.play(meeting.meet(), QUESTION.as_bytes().len(), ANSWER);
+                manner.play(endpoint.connection(), QUESTION.as_bytes().len(), ANSWER);
             }
         });
         let patience = Rc::new(Cell::new(manner.patience()));
@@ -108,17 +108,17 @@ fn ask_twice(side: Side, manner: Manner, detect: bool) -> String {
                 say(cx, &socket::geterror(cx, &s).await.at(FILE, 6)?)
             })
         });
-        let told = robot.run().told();
+        let output = robot.run().text();
         patience.set(Manner::ByteByByte.patience());
-        assert_eq!(robot.run().told(), "the whole message\n0\n0\n", "the program goes on after {manner:?}");
+        assert_eq!(robot.run().text(), "the whole message\n0\n0\n", "the program goes on after {manner:?}");
         drop(robot);
         peer.join().unwrap();
-        told
+        output
     })
 }
 
 #[test]
-fn whatever_a_peer_does_the_program_is_told_and_goes_on() {
+fn whatever_a_peer_does_the_program_is_informed_and_goes_on() {
     const CLOSED: &str = "readuntil: the connection is lost: the other side has closed it";
     const RESET: &str = "readuntil: the connection is lost: Connection reset by peer (os error 104)";
     const FULL: &str = "readuntil: 1048576 bytes have been received, but what is looked for is not among them";
@@ -154,10 +154,10 @@ fn flood(mut stream: TcpStream, seconds: u64) -> JoinHandle<usize> {
 fn flooded(seconds: u64) {
     for side in [Side::Client, Side::Server] {
         watched(|| {
-            let (meeting, port) = Meeting::new(side);
+            let (endpoint, port) = Endpoint::new(side);
             let peer = std::thread::spawn(move || {
-                let sent = flood(meeting.meet(), seconds).join().unwrap();
-                Manner::ByteByByte.play(meeting.meet(), QUESTION.as_bytes().len(), ANSWER);
+                let sent = flood(endpoint.connection(), seconds).join().unwrap();
+                Manner::ByteByByte.play(endpoint.connection(), QUESTION.as_bytes().len(), ANSWER);
                 sent
             });
             let lines = Rc::new(Cell::new(0_usize));
@@ -211,10 +211,10 @@ fn a_long_flood_that_the_program_reads_loses_nothing() {
 fn a_thousand_connections_one_after_the_other() {
     for side in [Side::Client, Side::Server] {
         watched(|| {
-            let (meeting, port) = Meeting::new(side);
+            let (endpoint, port) = Endpoint::new(side);
             let peer = std::thread::spawn(move || {
                 for _ in 0..TIMES {
-                    let mut stream = meeting.meet();
+                    let mut stream = endpoint.connection();
                     let mut five = [0; 5];
                     stream.read_exact(&mut five).unwrap();
                     assert_eq!(&five, b"hello");
@@ -237,7 +237,7 @@ fn a_thousand_connections_one_after_the_other() {
                     say(cx, &again_and_again(greet, async || socket::close(cx, &s).await).await?)
                 })
             });
-            assert_eq!(robot.run().told(), format!("{TIMES}\n"), "{side:?}");
+            assert_eq!(robot.run().text(), format!("{TIMES}\n"), "{side:?}");
             drop(robot);
             peer.join().unwrap();
         });
@@ -247,13 +247,13 @@ fn a_thousand_connections_one_after_the_other() {
 #[test]
 fn a_port_that_is_taken_is_waited_for() {
     watched(|| {
-        let (meeting, port) = Meeting::new(Side::Client);
-        let Meeting::Here(listener) = meeting else { unreachable!() };
+        let (endpoint, port) = Endpoint::new(Side::Client);
+        let Endpoint::Here(listener) = endpoint else { unreachable!() };
         let address = listener.local_addr().unwrap();
         let peer = std::thread::spawn(move || {
             std::thread::sleep(Duration::from_millis(300));
             drop(listener);
-            Manner::ByteByByte.play(Meeting::There(address).meet(), QUESTION.as_bytes().len(), ANSWER);
+            Manner::ByteByByte.play(Endpoint::There(address).connection(), QUESTION.as_bytes().len(), ANSWER);
         });
         let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
             Box::pin(async move {
@@ -264,11 +264,11 @@ fn a_port_that_is_taken_is_waited_for() {
                 ask(cx, &s, Manner::ByteByByte.patience()).await
             })
         });
-        assert_eq!(robot.run().told(), "true\nthe whole message\n0\n");
+        assert_eq!(robot.run().text(), "true\nthe whole message\n0\n");
         let warnings = robot.warnings();
         drop(robot);
         peer.join().unwrap();
-        let told = warnings.iter().filter(|text| text.contains("trying again")).count();
-        assert_eq!(told, 1, "{warnings:?}");
+        let attempts = warnings.iter().filter(|text| text.contains("trying again")).count();
+        assert_eq!(attempts, 1, "{warnings:?}");
     });
 }

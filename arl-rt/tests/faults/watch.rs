@@ -13,7 +13,7 @@ static ALONE: Mutex<()> = Mutex::new(());
 
 /// How much memory may stay behind, in KiB: what threads and the allocator keep. A thousand connections that leave
 /// their buffers, or a flood that is kept, are far more.
-const MOST_LEFT: u64 = 12 << 10;
+const MAX_LEAKED: u64 = 12 << 10;
 
 /// Does something after which descriptors and threads are as before, and memory is bounded.
 pub(crate) fn watched<R>(work: impl FnOnce() -> R) -> R {
@@ -21,8 +21,8 @@ pub(crate) fn watched<R>(work: impl FnOnce() -> R) -> R {
     let (before, memory) = (open::all(), resident());
     let result = work();
     open::wait_for(before);
-    let left = resident().saturating_sub(memory);
-    assert!(left < MOST_LEFT, "{left} KiB of memory are left");
+    let leaked = resident().saturating_sub(memory);
+    assert!(leaked < MAX_LEAKED, "{leaked} KiB of memory are left");
     result
 }
 
@@ -42,7 +42,7 @@ pub(crate) struct End {
 
 impl End {
     /// Its alarm as text, or what it printed.
-    pub(crate) fn told(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         match &self.outcome {
             Outcome::Ended => self.out.clone(),
             Outcome::Alarm(alarm) => format!("{}{alarm}", self.out),

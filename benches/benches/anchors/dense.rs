@@ -139,23 +139,23 @@ fn curve(robot: &Robot, chain: &Chain) -> Result<Option<Track>, Box<dyn Error>> 
 fn share_of_speed(robot: &Arc<Robot>, profile: VelocityProfile) -> Result<f64, Box<dyn Error>> {
     let [chain, ..] = &CHAINS;
     let settings = Settings { profile, ..Settings::default() };
-    let ways = |commands: Vec<Command>| -> Result<Vec<f64>, Box<dyn Error>> {
-        let mut ways = Vec::new();
+    let distances = |commands: Vec<Command>| -> Result<Vec<f64>, Box<dyn Error>> {
+        let mut distances = Vec::new();
         let mut first = None;
         execute(robot, commands, &settings, Override::FULL, |_, tcp| {
             let start = *first.get_or_insert(*tcp);
-            ways.push((tcp - start).norm());
+            distances.push((tcp - start).norm());
         })?;
-        Ok(ways)
+        Ok(distances)
     };
     let most = chain.most;
     let end = [(chain.point)(most as f64)];
-    let single = ways(lines(robot, end, Zone::NONE, chain.speed).collect())?;
+    let single = distances(lines(robot, end, Zone::NONE, chain.speed).collect())?;
     let full = |pair: &[f64]| (pair[1] - pair[0]) / CYCLE >= 0.999 * chain.speed;
     let from = single.windows(2).find(|pair| full(pair)).ok_or("too short for its speed")?[0];
     let to = single.windows(2).rfind(|pair| full(pair)).ok_or("too short for its speed")?[1];
-    let short = ways(some_commands(robot, chain, most))?;
-    let when = |way: f64| short.partition_point(|gone| *gone < way);
+    let short = distances(some_commands(robot, chain, most))?;
+    let when = |distance: f64| short.partition_point(|gone| *gone < distance);
     let (first, last) = (when(from), when(to));
     Ok((short[last] - short[first]) / ((last - first) as f64 * CYCLE) / chain.speed)
 }

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::hint::black_box;
 
 use arl_benches::statistics::{Times, processor_time};
-use arl_rt::motion::time_optimal::solver::{BoundaryState, Row, Way, fastest};
+use arl_rt::motion::time_optimal::solver::{BoundaryState, ConstrainedPath, Row, fastest};
 use copp::robot::Robot;
 use copp::solver::topp2_ra::{ReachSet2OptionsBuilder, Topp2ProblemBuilder, s_to_t_topp2, topp2_ra};
 use copp::solver::topp3_socp::{ClarabelOptionsBuilder, Topp3ProblemBuilder, s_to_t_topp3, topp3_socp};
@@ -37,9 +37,9 @@ pub(crate) struct Timed {
 impl Path {
     /// What our solver finds, with or without jerk limits.
     pub(crate) fn ours(&self, jerk: bool) -> Result<Timed, Box<dyn Error>> {
-        let mut way = Way::new();
+        let mut path = ConstrainedPath::new();
         for (at, jet) in self.places.iter().zip(&self.jets) {
-            way.push(
+            path.push(
                 *at,
                 jet.iter().zip(&self.limits).map(|([_, first, second, third], [vel, acc, most])| Row {
                     first: *first,
@@ -55,7 +55,7 @@ impl Path {
         let mut duration = 0.0;
         for _ in 0..RUNS {
             let start = processor_time();
-            let law = black_box(fastest(black_box(&way), BoundaryState::REST, BoundaryState::REST)?);
+            let law = black_box(fastest(black_box(&path), BoundaryState::REST, BoundaryState::REST)?);
             times.push(processor_time() - start);
             duration = law.duration();
         }

@@ -27,13 +27,13 @@ pub(crate) fn excess(robot: &Robot, angle: f64, zone: f64) -> Result<f64, Box<dy
     let mut all: Vec<Axes> = Vec::with_capacity(count + 1);
     let first = frame_components(&robot.kinematics.forward(&START));
     for index in 0..=count {
-        let way = motion.at(index as f64 * step);
+        let travel = motion.at(index as f64 * step);
         let mut pose = first;
-        pose.iter_mut().zip(way.iter()).for_each(|(value, by)| *value += by);
+        pose.iter_mut().zip(travel.iter()).for_each(|(value, by)| *value += by);
         let frame = arl_rt::kinematics::frame(pose);
         axes = robot.kinematics.inverse(&frame, robot.kinematics.cfg(&START), &axes).ok_or("out of reach")?;
         all.push(axes);
-        track.push(&axes, &way);
+        track.push(&axes, &travel);
     }
     let mut slower = motion.slower(count, step);
     for around in all.windows(3) {
@@ -82,18 +82,18 @@ impl Blended {
     /// How much slower the TCP has to go for its speed and its acceleration along the way, which is looked at `count`
     /// times.
     fn slower(&self, count: usize, step: f64) -> f64 {
-        let way = |index: usize| (self.at((index + 1) as f64 * step) - self.at(index as f64 * step)).norm();
-        let ways: Vec<f64> = (0..count).map(way).collect();
-        let fastest = ways.iter().copied().fold(0.0, f64::max) / step;
-        let change = ways.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max) / (step * step);
+        let distance = |index: usize| (self.at((index + 1) as f64 * step) - self.at(index as f64 * step)).norm();
+        let distances: Vec<f64> = (0..count).map(distance).collect();
+        let fastest = distances.iter().copied().fold(0.0, f64::max) / step;
+        let change = distances.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max) / (step * step);
         (fastest / SPEED).max((change / self.acc).sqrt()).max(1.0)
     }
 
     /// Where the TCP is, in mm from the start.
     fn at(&self, time: f64) -> Vector3<f64> {
         let [first, second] = self.sides;
-        let before = first * way_after(time, self.acc);
-        let after = self.corner + second * way_after(time - self.starts, self.acc);
+        let before = first * distance_after(time, self.acc);
+        let after = self.corner + second * distance_after(time - self.starts, self.acc);
         let share = ((time - self.enters) / (self.leaves - self.enters)).clamp(0.0, 1.0);
         let blend = share * share * share * (10.0 + share * (6.0 * share - 15.0));
         before + (after - before) * blend
@@ -107,7 +107,7 @@ fn trapezoid_duration(acc: f64) -> f64 {
 }
 
 /// The way on one side, in mm, after a time.
-fn way_after(time: f64, acc: f64) -> f64 {
+fn distance_after(time: f64, acc: f64) -> f64 {
     let whole = trapezoid_duration(acc);
     let time = time.clamp(0.0, whole);
     let ramp = (SPEED / acc).min(whole / 2.0);
@@ -119,7 +119,7 @@ fn way_after(time: f64, acc: f64) -> f64 {
 }
 
 /// How long it takes from rest to get on by a way of at most half of the side.
-fn time_of(way: f64, acc: f64) -> f64 {
+fn time_of(distance: f64, acc: f64) -> f64 {
     let ramp = 0.5 * SPEED * SPEED / acc;
-    if way <= ramp { (2.0 * way / acc).sqrt() } else { SPEED / acc + (way - ramp) / SPEED }
+    if distance <= ramp { (2.0 * distance / acc).sqrt() } else { SPEED / acc + (distance - ramp) / SPEED }
 }

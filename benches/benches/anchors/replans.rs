@@ -197,9 +197,9 @@ fn any_state(robot: &Robot, random: &mut Random) -> InputParameter<6> {
         let (vel, acc, jerk) = (input.max_velocity[index], input.max_acceleration[index], input.max_jerk[index]);
         let now = random.between(-1.0, 1.0) * acc;
         // The acceleration must fade before the speed is too high.
-        let left = vel - 0.5 * now * now / jerk;
+        let allowed = vel - 0.5 * now * now / jerk;
         input.current_acceleration[index] = now;
-        input.current_velocity[index] = random.between(-1.0, 1.0) * left;
+        input.current_velocity[index] = random.between(-1.0, 1.0) * allowed;
     }
     input
 }

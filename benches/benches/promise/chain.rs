@@ -19,7 +19,7 @@ const PERCENTS: [f64; 4] = [5.0, 20.0, 50.0, 100.0];
 const SPEEDS: [f64; 4] = [100.0, 300.0, 900.0, 1500.0];
 /// By so much the tool turns back and forth, in deg; and so far external axes go, in deg and mm.
 const TURN: f64 = 12.0;
-const EXTERNAL_WAYS: [f64; 2] = [10.0, 40.0];
+const EXTERNAL_TRAVELS: [f64; 2] = [10.0, 40.0];
 /// External axes, one that turns and one that is linear.
 const EXTERNAL_AXES: &str = "
 [[axis]]
@@ -236,7 +236,7 @@ impl Grower<'_> {
                     let component = if self.is_scara() { 3 } else { 3 + index / 2 % 3 };
                     at[component] = self.pose[component] + if index % 2 == 0 { TURN } else { 0.0 };
                 }
-                let external = EXTERNAL_WAYS.map(|way| if index % 2 == 0 { way } else { 0.0 });
+                let external = EXTERNAL_TRAVELS.map(|travel| if index % 2 == 0 { travel } else { 0.0 });
                 (Goal::Lin(at), external)
             })
             .collect()
@@ -257,9 +257,9 @@ impl Grower<'_> {
             2 => Goal::Spl(self.place(side)),
             3 => {
                 let mut axes = *start;
-                let way = 0.3 * side;
+                let range = 0.3 * side;
                 let own = self.robot.own_axes().len();
-                axes.iter_mut().take(own).for_each(|axis| *axis += self.random.between(-way, way));
+                axes.iter_mut().take(own).for_each(|axis| *axis += self.random.between(-range, range));
                 Goal::Movej(axes)
             }
             _ => Goal::Ptp(self.place(side)),

@@ -2,7 +2,7 @@
 //! machine.
 
 use super::cell_files::CellFiles;
-use super::collision_watch::{self, Looking};
+use super::collision_watch::{self, CollisionWatch};
 use super::folder::{Folder, Spread};
 use super::result::RunResult;
 use super::table::Settings;
@@ -225,10 +225,10 @@ impl Bundle {
         }
         let spread = Spread::new(self).map_err(not_written)?;
         let folder = Folder::new(&spread).map_err(not_written)?;
-        let mut looking = Looking::new(0.0, folder.path(), Secret::new()?);
+        let mut watch = CollisionWatch::new(0.0, folder.path(), Secret::new()?);
         for (words, count) in counts {
-            files.check(&looking.cell(words)?, folder.path(), count)?;
-            match files.looks.then(|| looking.scene(words)) {
+            files.check(&watch.cell(words)?, folder.path(), count)?;
+            match files.looks.then(|| watch.scene(words)) {
                 Some(Err(problem)) if all_words.len() == 1 => return Err(Failure::Usage(problem)),
                 _ => {}
             }

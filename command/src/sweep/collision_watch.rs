@@ -40,7 +40,7 @@ pub(super) enum Contacts {
 
 /// Looks for collisions.
 #[derive(Debug)]
-pub(super) struct Looking {
+pub(super) struct CollisionWatch {
     /// mm; 0: contacts only.
     clearance: f64,
     /// The secret that the worker's process knows.
@@ -51,7 +51,7 @@ pub(super) struct Looking {
     last: Option<(Vec<String>, Scene)>,
 }
 
-impl Looking {
+impl CollisionWatch {
     /// A value that looks at the runs of a process that works in this folder and knows this secret.
     pub(super) fn new(clearance: f64, folder: &Path, secret: Secret) -> Self {
         Self { clearance, secret, folder: folder.to_owned(), last: None }
@@ -158,8 +158,8 @@ fn deciding(words: &[String]) -> Vec<String> {
 
 /// Reports what was not reported before in this process: the runs of a sweep have much in common, and so have sweeps.
 fn tell_once(text: &str) {
-    static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    if TOLD.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_owned()) {
+    static REPORTED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    if REPORTED.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_owned()) {
         show::warning(text);
     }
 }
@@ -199,7 +199,7 @@ mod tests {
                 "named/1/r.toml"
             ]
         );
-        let options = Looking::new(0.0, Path::new("/w"), Secret::new().unwrap()).options(&deciding);
+        let options = CollisionWatch::new(0.0, Path::new("/w"), Secret::new().unwrap()).options(&deciding);
         assert_eq!(options.robot.as_deref(), Some("named/1/r.toml"), "it is not there");
         assert_eq!(options.cell.as_deref(), Some(Path::new("/w/cell/c.toml")));
         assert_eq!(options.changes, ["cell.body.1.at=[1, 2, 3]"]);
@@ -207,14 +207,14 @@ mod tests {
 
     /// What is found in a run that sends these lines, looked for in a folder without a cell.
     fn found(lines: &str) -> Contacts {
-        let mut looking = Looking::new(0.0, Path::new("/nowhere"), Secret::new().unwrap());
-        let secret = looking.secret.clone();
+        let mut watch = CollisionWatch::new(0.0, Path::new("/nowhere"), Secret::new().unwrap());
+        let secret = watch.secret.clone();
         let run = |words: Vec<String>| {
             assert_eq!((&*words[0], &*words[2]), ("--listener", "--each-cycle"));
             let mut stream = secret.connect(&words[1]).unwrap();
             stream.write_all(lines.as_bytes()).unwrap();
         };
-        looking.look(&[], run).unwrap().1
+        watch.look(&[], run).unwrap().1
     }
 
     #[test]
@@ -226,8 +226,8 @@ mod tests {
         assert_eq!(found(hello), Contacts::Broken, "its process was lost");
         assert_eq!(found("{\"ended\":0}\n"), Contacts::Broken);
         assert_eq!(found(&format!("{hello}what?\n{{\"ended\":0}}\n")), Contacts::Broken);
-        let mut looking = Looking::new(0.0, Path::new("/nowhere"), Secret::new().unwrap());
-        assert_eq!(looking.look(&[], |_| ()), Ok(((), Contacts::Broken)), "it did not connect");
+        let mut watch = CollisionWatch::new(0.0, Path::new("/nowhere"), Secret::new().unwrap());
+        assert_eq!(watch.look(&[], |_| ()), Ok(((), Contacts::Broken)), "it did not connect");
         // The next run is received by itself.
         assert_eq!(found(&all), Contacts::All(Vec::new()));
     }

@@ -40,7 +40,7 @@ impl Root {
     fn new() -> io::Result<Self> {
         let turn = turn();
         if turn.is_some() {
-            remove_left();
+            remove_abandoned();
         }
         let folder = PrivateFolder::new(ROOT)?;
         let lock = File::create(folder.path().join(LOCK))?;
@@ -66,12 +66,12 @@ fn turn() -> Option<File> {
 }
 
 /// Removes folders whose owners are gone.
-fn remove_left() {
+fn remove_abandoned() {
     let Ok(entries) = std::fs::read_dir(std::env::temp_dir()) else { return };
     let ours = entries.filter_map(Result::ok).filter(|entry| entry.file_name().to_string_lossy().starts_with(ROOT));
     for folder in ours.map(|entry| entry.path()) {
-        let is_left = File::open(folder.join(LOCK)).is_ok_and(|lock| lock.try_lock().is_ok());
-        if is_left {
+        let is_abandoned = File::open(folder.join(LOCK)).is_ok_and(|lock| lock.try_lock().is_ok());
+        if is_abandoned {
             let _ = std::fs::remove_dir_all(&folder);
         }
     }

@@ -73,7 +73,7 @@ pub(crate) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
             return ControlFlow::Break(());
         }
         lost += usize::from(!row.result.is_whole());
-        failed = said(&row);
+        failed = print_row(&row);
         bar.inc(1);
         if options.out.is_some() {
             all.push(row);
@@ -99,7 +99,7 @@ pub(crate) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
     Ok(Exit::SUCCESS)
 }
 
-fn said(row: &Row) -> Result<(), Failure> {
+fn print_row(row: &Row) -> Result<(), Failure> {
     let line = serde_json::to_string(row).map_err(|error| Failure::Other(error.to_string()))?;
     answer::write(&(line + "\n"))
 }

@@ -89,7 +89,7 @@ impl From<Contact> for Collision {
 struct Answer {
     summary: Option<Summary>,
     #[serde(default)]
-    said: Vec<Said>,
+    said: Vec<OutputLine>,
     refused: Option<String>,
 }
 
@@ -107,7 +107,7 @@ struct Summary {
 }
 
 #[derive(Deserialize)]
-struct Said {
+struct OutputLine {
     message: Option<Message>,
 }
 
@@ -137,7 +137,7 @@ impl RunResult {
             Contacts::Unasked | Contacts::Unknown => None,
             Contacts::Broken => return Err("its run was not observed to the end".into()),
         };
-        let messages = answer.said.into_iter().filter_map(|said| said.message);
+        let messages = answer.said.into_iter().filter_map(|line| line.message);
         let shown = messages.filter(|message| message.hmi || message.console);
         let lines = |message: Message| -> Vec<String> {
             let text = message.text.strip_suffix('\n').unwrap_or(&message.text);

@@ -1,6 +1,6 @@
 //! A process of the program that makes one run after another, in a folder of its own.
 
-use super::collision_watch::{Contacts, Looking};
+use super::collision_watch::{CollisionWatch, Contacts};
 use super::folder::{Folder, Spread};
 use super::result::RunResult;
 use arl_terminal::port::Secret;
@@ -27,7 +27,7 @@ pub struct Worker {
     process: Option<Process>,
     /// The secret that its process sends when it connects to the listener.
     secret: Secret,
-    looking: Option<Looking>,
+    watch: Option<CollisionWatch>,
 }
 
 #[derive(Debug)]
@@ -58,8 +58,8 @@ impl Worker {
             Duration::try_from_secs_f64(timeout.unwrap_or(TIMEOUT)).map_err(|error| format!("timeout: {error}"))?;
         let folder = Folder::new(spread).map_err(|error| format!("cannot prepare the folder of a worker: {error}"))?;
         let secret = Secret::new().map_err(|failure| failure.to_string())?;
-        let looking = clearance.map(|clearance| Looking::new(clearance, folder.path(), secret.clone()));
-        Ok(Self { folder, timeout, process: None, secret, looking })
+        let watch = clearance.map(|clearance| CollisionWatch::new(clearance, folder.path(), secret.clone()));
+        Ok(Self { folder, timeout, process: None, secret, watch })
     }
 
     /// Makes the run of these words; returns its result, and whether the same run gives it again. A lost process is
@@ -104,11 +104,11 @@ impl Worker {
         words: &[String],
         is_enough: &dyn Fn() -> bool,
     ) -> Result<(Result<String, Lost>, Contacts), String> {
-        let Some(mut looking) = self.looking.take() else {
+        let Some(mut watch) = self.watch.take() else {
             return Ok((self.ask(words, is_enough), Contacts::Unasked));
         };
-        let looked = looking.look(words, |words| self.ask(&words, is_enough));
-        self.looking = Some(looking);
+        let looked = watch.look(words, |words| self.ask(&words, is_enough));
+        self.watch = Some(watch);
         looked
     }
 

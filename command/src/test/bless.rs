@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// Writes the results of a case that runs into its `.out` and `.alarm`. Fails if they cannot be expected results.
 pub(super) fn run(case: &Case, came: &Outcome) -> Result<(), String> {
-    let alarm = find_alarm(&came.said);
+    let alarm = find_alarm(&came.stderr);
     let ended = match came.code {
         Some(0) => true,
         Some(4) => case.options.max_time.is_some(),

@@ -133,12 +133,12 @@ fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, Str
         Some(Err(_)) => Err(format!("{stem}{ending} is not UTF-8")),
         None => Ok(None),
     };
-    let told = |ending: &str| {
+    let problem_in = |ending: &str| {
         let name = format!("{stem}{ending}");
         move |problem: String| format!("{name}:{problem}")
     };
     let options = match text(".toml")? {
-        Some(text) => options(&text).map_err(told(".toml"))?,
+        Some(text) => options(&text).map_err(problem_in(".toml"))?,
         None => CaseOptions::default(),
     };
     let scenario = path(".io.toml");
@@ -153,11 +153,11 @@ fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, Str
         // What is to be written again may be damaged, or still empty.
         errors: match text(".err")?.map(|text| parse_errors(&text)).transpose() {
             Err(_) if new => Some(Vec::new()),
-            errors => errors.map_err(told(".err"))?,
+            errors => errors.map_err(problem_in(".err"))?,
         },
         alarm: match text(".alarm")?.map(|text| parse_alarm(&text)).transpose() {
             Err(_) if new => None,
-            alarm => alarm.map_err(told(".alarm"))?,
+            alarm => alarm.map_err(problem_in(".alarm"))?,
         },
         scenario: scenario.exists().then_some(scenario),
         is_new: !expects || (new && damaged_alarm),

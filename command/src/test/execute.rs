@@ -21,7 +21,7 @@ const MOST_OUTPUT: u64 = 32 << 20;
 pub(super) struct Outcome {
     pub(super) out: Vec<u8>,
     /// Standard error.
-    pub(super) said: String,
+    pub(super) stderr: String,
     /// The exit code; `None` where a signal or the time limit ended it.
     pub(super) code: Option<i32>,
     /// Whether it had to be ended.
@@ -115,7 +115,7 @@ fn copy_files(from: &Path, to: &Path) -> std::io::Result<()> {
 
 fn watch(mut child: Child) -> std::io::Result<Outcome> {
     let out = collect(child.stdout.take());
-    let said = collect(child.stderr.take());
+    let stderr = collect(child.stderr.take());
     let start = Instant::now();
     let mut pause = Duration::from_micros(500);
     let (code, late) = loop {
@@ -132,8 +132,8 @@ fn watch(mut child: Child) -> std::io::Result<Outcome> {
     };
     let bytes = |reader: std::thread::JoinHandle<Vec<u8>>| reader.join().unwrap_or_default();
     let seconds = start.elapsed().as_secs_f64();
-    let said = String::from_utf8_lossy(&bytes(said)).into_owned();
-    Ok(Outcome { out: bytes(out), said, code, late, seconds, ..Outcome::default() })
+    let stderr = String::from_utf8_lossy(&bytes(stderr)).into_owned();
+    Ok(Outcome { out: bytes(out), stderr, code, late, seconds, ..Outcome::default() })
 }
 
 fn collect<R: Read + Send + 'static>(stream: Option<R>) -> std::thread::JoinHandle<Vec<u8>> {

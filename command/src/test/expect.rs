@@ -63,31 +63,31 @@ pub(super) fn parse_alarm(text: &str) -> Result<ExpectedAlarm, String> {
 
 /// The difference between the errors that were expected and those that were found; `None` if there is none.
 pub(super) fn compare_errors(expected: &[ExpectedError], found: &[FoundError]) -> Option<String> {
-    let mut left: Vec<&FoundError> = found.iter().collect();
+    let mut unmatched: Vec<&FoundError> = found.iter().collect();
     let mut missing = Vec::new();
     // The pickiest first, so that a short fragment does not take what only a long one fits.
     let mut order: Vec<&ExpectedError> = expected.iter().collect();
     order.sort_by_key(|error| std::cmp::Reverse(error.fragment.len()));
     for want in order {
-        match left.iter().position(|error| want.fits(error)) {
+        match unmatched.iter().position(|error| want.fits(error)) {
             Some(at) => {
-                left.remove(at);
+                unmatched.remove(at);
             }
             None => missing.push(want),
         }
     }
-    if left.is_empty() && missing.is_empty() {
+    if unmatched.is_empty() && missing.is_empty() {
         return None;
     }
     missing.sort_by_key(|error| error.line);
     let missing = missing.iter().map(|error| format!("-{} {}", error.line, error.fragment).trim_end().to_string());
-    let surplus = left.iter().map(|error| format!("+{} {}", error.line, error.text));
+    let surplus = unmatched.iter().map(|error| format!("+{} {}", error.line, error.text));
     Some(missing.chain(surplus).collect::<Vec<_>>().join("\n"))
 }
 
 /// Number and line of the alarm in what a program wrote to standard error: `alarm 10064: text (file.arl:12)`.
-pub(super) fn find_alarm(said: &str) -> Option<(u32, u32)> {
-    said.lines().find_map(|line| {
+pub(super) fn find_alarm(stderr: &str) -> Option<(u32, u32)> {
+    stderr.lines().find_map(|line| {
         let (number, rest) = line.strip_prefix("alarm ")?.split_once(':')?;
         let (_, place) = rest.rsplit_once(" (")?;
         let (_, line) = place.strip_suffix(')')?.rsplit_once(':')?;
@@ -125,11 +125,11 @@ mod tests {
     }
 
     #[test]
-    fn alarms_are_found_in_what_was_said() {
+    fn alarms_are_found_in_stderr() {
         assert_eq!(parse_alarm("* 12\n"), Ok(ExpectedAlarm { number: None, line: 12 }));
         assert_eq!(parse_alarm("10064 12"), Ok(ExpectedAlarm { number: Some(10064), line: 12 }));
-        let said = "warning: x\nalarm 10064: the file \"a (b)\": no (dir/file.arl:12)\n";
-        assert_eq!(find_alarm(said), Some((10064, 12)));
+        let stderr = "warning: x\nalarm 10064: the file \"a (b)\": no (dir/file.arl:12)\n";
+        assert_eq!(find_alarm(stderr), Some((10064, 12)));
         assert_eq!(find_alarm("alarm: none"), None);
     }
 }

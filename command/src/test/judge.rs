@@ -20,9 +20,9 @@ fn judge(case: &Case, outcome: &Outcome) -> Verdict {
         problems.push("it has no expected results yet".to_string());
     }
     if outcome.late {
-        let said = outcome.said.trim();
-        let separator = if said.is_empty() { "" } else { ": " };
-        problems.push(format!("it ran too long and was ended{separator}{said}"));
+        let stderr = outcome.stderr.trim();
+        let separator = if stderr.is_empty() { "" } else { ": " };
+        problems.push(format!("it ran too long and was ended{separator}{stderr}"));
     }
     if let Some(expected) = &case.out
         && *expected != outcome.out
@@ -30,26 +30,27 @@ fn judge(case: &Case, outcome: &Outcome) -> Verdict {
         let difference = diff::diff(expected, &outcome.out);
         problems.push(format!("the output differs (- expected, + actual):\n{difference}"));
     }
-    let said = || if outcome.said.trim().is_empty() { String::new() } else { format!("\n{}", outcome.said.trim_end()) };
+    let stderr_suffix =
+        || if outcome.stderr.trim().is_empty() { String::new() } else { format!("\n{}", outcome.stderr.trim_end()) };
     match (&case.alarm, outcome.code) {
         _ if outcome.late => {}
-        (Some(expected), Some(3)) => match expect::find_alarm(&outcome.said) {
+        (Some(expected), Some(3)) => match expect::find_alarm(&outcome.stderr) {
             Some((number, line)) => {
                 if expected.number.is_some_and(|expected| expected != number) || expected.line != line {
                     let wanted = expected.number.map_or("*".to_string(), |number| number.to_string());
                     problems.push(format!(
                         "expected alarm {wanted} in line {}, found {number} in line {line}{}",
                         expected.line,
-                        said()
+                        stderr_suffix()
                     ));
                 }
             }
-            None => problems.push(format!("an alarm was expected, but none was reported{}", said())),
+            None => problems.push(format!("an alarm was expected, but none was reported{}", stderr_suffix())),
         },
-        (Some(_), _) => problems.push(format!("an alarm was expected, but it {}{}", ending(outcome), said())),
+        (Some(_), _) => problems.push(format!("an alarm was expected, but it {}{}", ending(outcome), stderr_suffix())),
         (None, Some(0)) => {}
         (None, Some(4)) if case.options.max_time.is_some() => {}
-        (None, _) => problems.push(format!("it {}{}", ending(outcome), said())),
+        (None, _) => problems.push(format!("it {}{}", ending(outcome), stderr_suffix())),
     }
     if problems.is_empty() { Ok(()) } else { Err(problems.join("\n")) }
 }
@@ -61,7 +62,7 @@ fn ending(outcome: &Outcome) -> String {
     match outcome.code {
         Some(0) => "ended".into(),
         Some(3) => "ended with an alarm".into(),
-        Some(4) if outcome.said.contains(STANDSTILL) => "waits for something that never happens".into(),
+        Some(4) if outcome.stderr.contains(STANDSTILL) => "waits for something that never happens".into(),
         Some(4) => "ran out of controller time".into(),
         Some(101) => "ended by a bug in arl2rs".into(),
         Some(code) => format!("ended with exit code {code}"),
@@ -104,9 +105,9 @@ mod tests {
         assert!(judge(&case(), &other).unwrap_err().ends_with("-1\n+2\n"));
         let late = Outcome { code: None, late: true, ..outcome(0) };
         assert_eq!(judge(&case(), &late), Err("it ran too long and was ended".into()));
-        let told = Outcome { said: "the program has been at a.arl:2\n".into(), ..late };
+        let with_stderr = Outcome { stderr: "the program has been at a.arl:2\n".into(), ..late };
         let wanted = "it ran too long and was ended: the program has been at a.arl:2";
-        assert_eq!(judge(&case(), &told), Err(wanted.into()));
+        assert_eq!(judge(&case(), &with_stderr), Err(wanted.into()));
     }
 
     #[test]
@@ -119,11 +120,11 @@ mod tests {
     #[test]
     fn alarms_need_their_number_and_line() {
         let alarm = |number| Case { alarm: Some(ExpectedAlarm { number, line: 5 }), ..case() };
-        let said = |text: &str| Outcome { said: text.into(), ..outcome(3) };
-        assert_eq!(judge(&alarm(Some(7)), &said("alarm 7: x (a.arl:5)\n")), Ok(()));
-        assert_eq!(judge(&alarm(None), &said("alarm 8: x (a.arl:5)\n")), Ok(()));
-        assert!(judge(&alarm(Some(7)), &said("alarm 8: x (a.arl:5)\n")).is_err());
-        assert!(judge(&alarm(None), &said("alarm 8: x (a.arl:6)\n")).is_err());
+        let alarmed = |text: &str| Outcome { stderr: text.into(), ..outcome(3) };
+        assert_eq!(judge(&alarm(Some(7)), &alarmed("alarm 7: x (a.arl:5)\n")), Ok(()));
+        assert_eq!(judge(&alarm(None), &alarmed("alarm 8: x (a.arl:5)\n")), Ok(()));
+        assert!(judge(&alarm(Some(7)), &alarmed("alarm 8: x (a.arl:5)\n")).is_err());
+        assert!(judge(&alarm(None), &alarmed("alarm 8: x (a.arl:6)\n")).is_err());
         assert!(judge(&alarm(None), &outcome(0)).unwrap_err().contains("but it ended"));
     }
 }

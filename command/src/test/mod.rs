@@ -126,10 +126,10 @@ fn checking(case: &Case) -> Checking {
 }
 
 fn options(checking: &Checking) -> Result<CheckOptions, String> {
-    check_options(checking).map_err(said)
+    check_options(checking).map_err(message_of)
 }
 
-fn said(failure: Failure) -> String {
+fn message_of(failure: Failure) -> String {
     match failure {
         Failure::Usage(text) | Failure::Other(text) => text,
         Failure::Shown => String::new(),
@@ -142,10 +142,10 @@ fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
     let cell = case.cell.as_deref();
     let first = rust(&case.source, &checking, emitting)?;
     let mut others = Vec::new();
-    for other in cell_programs::named(cell, checking.robot.as_deref()).map_err(said)? {
+    for other in cell_programs::named(cell, checking.robot.as_deref()).map_err(message_of)? {
         let rust = rust(&other.path, &other.checking(&checking), emitting)
             .map_err(|problem| format!("{}: {problem}", other.file))?;
-        let folder = other.folder(&case.source).map_err(said)?;
+        let folder = other.folder(&case.source).map_err(message_of)?;
         others.push(EmittedOther { file: other.file, folder, rust });
     }
     let kind = if emitting.watched { Kind::Watched } else { Kind::Program };

@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// A case that was looked at, or could not be.
-struct Told<'a> {
+struct CaseReport<'a> {
     /// Its path, as short as possible from here.
     path: &'a Path,
     verdict: &'a Verdict,
@@ -22,40 +22,40 @@ struct Told<'a> {
 
 /// Reports how the cases went; fails if one failed.
 pub(super) fn report(found: &[Found], done: &[Done], format: TestFormat) -> Result<Exit, Failure> {
-    let told: Vec<Told<'_>> = found
+    let reports: Vec<CaseReport<'_>> = found
         .iter()
         .zip(done)
-        .map(|(found, done)| Told {
+        .map(|(found, done)| CaseReport {
             path: show::path(&found.source),
             verdict: &done.verdict,
             seconds: done.seconds,
             cycle_time: done.cycle_time,
         })
         .collect();
-    let failed = told.iter().filter(|case| case.verdict.is_err()).count();
+    let failed = reports.iter().filter(|case| case.verdict.is_err()).count();
     match format {
-        TestFormat::Human => human(&told, failed)?,
-        TestFormat::Jsonl => told.iter().try_for_each(|case| answer::write(&format!("{}\n", object(case))))?,
-        TestFormat::Junit => answer::write(&junit(&told, failed))?,
+        TestFormat::Human => human(&reports, failed)?,
+        TestFormat::Jsonl => reports.iter().try_for_each(|case| answer::write(&format!("{}\n", object(case))))?,
+        TestFormat::Junit => answer::write(&junit(&reports, failed))?,
     }
     Ok(if failed == 0 { Exit::SUCCESS } else { Exit::FAILURE })
 }
 
 /// The failures, then the counts.
-fn human(told: &[Told<'_>], failed: usize) -> Result<(), Failure> {
-    for Told { path, verdict, .. } in told {
+fn human(reports: &[CaseReport<'_>], failed: usize) -> Result<(), Failure> {
+    for CaseReport { path, verdict, .. } in reports {
         if let Err(problem) = verdict {
             answer::write_coloured(&format!("FAILED {}\n{}\n\n", path.display(), indented(problem)))?;
         }
     }
-    answer::write_coloured(&format!("{} passed, {failed} failed\n", told.len() - failed))
+    answer::write_coloured(&format!("{} passed, {failed} failed\n", reports.len() - failed))
 }
 
 fn indented(text: &str) -> String {
     text.lines().map(|line| format!("  {line}")).collect::<Vec<_>>().join("\n")
 }
 
-fn object(case: &Told<'_>) -> serde_json::Value {
+fn object(case: &CaseReport<'_>) -> serde_json::Value {
     json!({
         "name": case.path.display().to_string(),
         "outcome": if case.verdict.is_ok() { "passed" } else { "failed" },
@@ -66,15 +66,15 @@ fn object(case: &Told<'_>) -> serde_json::Value {
 }
 
 /// The XML of JUnit, which test tools read: a suite, a case for each program.
-fn junit(told: &[Told<'_>], failed: usize) -> String {
-    let time = told.iter().map(|case| case.seconds).fold(0.0, |sum, seconds| sum + seconds);
+fn junit(reports: &[CaseReport<'_>], failed: usize) -> String {
+    let time = reports.iter().map(|case| case.seconds).fold(0.0, |sum, seconds| sum + seconds);
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let _ = writeln!(
         text,
         "<testsuite name=\"arl2rs\" tests=\"{}\" failures=\"{failed}\" errors=\"0\" time=\"{time:.3}\">",
-        told.len()
+        reports.len()
     );
-    for Told { path, verdict, seconds, .. } in told {
+    for CaseReport { path, verdict, seconds, .. } in reports {
         let folder = escaped(&path.parent().unwrap_or(Path::new("")).display().to_string());
         let name = escaped(&path.file_stem().unwrap_or_default().to_string_lossy());
         let _ = write!(text, "  <testcase classname=\"{folder}\" name=\"{name}\" time=\"{seconds:.3}\"");
@@ -112,10 +112,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn xml_holds_what_came() {
+    fn xml_contains_what_came() {
         let wrong = Err("other <output>:\n-\"a\"\n+\u{1b}b & c".to_owned());
-        let told = |verdict| Told { path: Path::new("tests/a b.arl"), verdict, seconds: 0.5, cycle_time: None };
-        let text = junit(&[told(&Ok(())), told(&wrong)], 1);
+        let report_of =
+            |verdict| CaseReport { path: Path::new("tests/a b.arl"), verdict, seconds: 0.5, cycle_time: None };
+        let text = junit(&[report_of(&Ok(())), report_of(&wrong)], 1);
         assert!(text.contains("tests=\"2\" failures=\"1\" errors=\"0\" time=\"1.000\""), "{text}");
         assert!(text.contains("<testcase classname=\"tests\" name=\"a b\" time=\"0.500\"/>"), "{text}");
         let failure =

@@ -113,8 +113,8 @@ fn a_program_that_is_damaged_is_compiled_anew() {
             let answer = cached.arl2rs(&["run", "a.arl"]);
             answer.is(0, "ran\n");
             // An empty file was no stamp.
-            let told = answer.err.contains("is damaged: the program is compiled anew");
-            assert!(told || (words[1] == "/stamp" && at == 0), "{words:?}: {}", answer.err);
+            let reports_damage = answer.err.contains("is damaged: the program is compiled anew");
+            assert!(reports_damage || (words[1] == "/stamp" && at == 0), "{words:?}: {}", answer.err);
             assert_eq!(cached.arl2rs(&["run", "a.arl"]).err, "", "{words:?}");
         }
     }
@@ -198,7 +198,7 @@ fn builds_depend_on_nothing_around_them() {
 }
 
 #[test]
-fn who_looks_at_no_terminal_is_told_what_takes_long() {
+fn without_a_terminal_a_message_says_what_takes_long() {
     let cached = Cached::new("told");
     cached.0.write("b.arl", PRINTS);
     let first = cached.arl2rs(&["run", "a.arl"]);
@@ -208,7 +208,7 @@ fn who_looks_at_no_terminal_is_told_what_takes_long() {
 }
 
 #[test]
-fn a_cache_that_cannot_be_written_is_told() {
+fn a_cache_that_cannot_be_written_is_reported() {
     let cached = Cached::new("unwritable");
     // A file in a folder's place: also for a user who may write everything.
     cached.0.write("cache/programs", "");

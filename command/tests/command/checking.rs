@@ -74,7 +74,7 @@ fn modules_of_a_given_program_need_no_main_but_programs_do() {
 }
 
 #[test]
-fn a_mistake_in_a_module_of_two_programs_is_told_once() {
+fn a_mistake_in_a_module_of_two_programs_is_reported_once() {
     let program = "import \"m.arl\"\nfunc void main()\n    m::go()\nendfunc\n";
     let folder = Folder::new("once")
         .with("a.arl", program)

@@ -109,12 +109,12 @@ fn a_kill_leaves_the_old_or_the_new_value_whole() {
         }
         child.wait().expect("it has ended");
         // What was being written lies beside its file until the next start.
-        let left = beside(&folder, "state");
-        assert!(left.len() <= 2, "{kill}: {left:?}, but one was being written, and where the program stood");
-        states += left.len();
-        let left = beside(&folder, ".");
-        assert!(left.len() <= 1, "{kill}: {left:?}, but one file was being written");
-        files += left.len();
+        let leftover = beside(&folder, "state");
+        assert!(leftover.len() <= 2, "{kill}: {leftover:?}, but one was being written, and where the program stood");
+        states += leftover.len();
+        let leftover = beside(&folder, ".");
+        assert!(leftover.len() <= 1, "{kill}: {leftover:?}, but one file was being written");
+        files += leftover.len();
         // In each round the pose is saved before the joint, and the joint before the copy.
         let [joint, pose] = points(&folder.read("points_data.arl"));
         assert!(pose >= joint && joint >= saved, "{kill}: {joint} and {pose}, but {saved} was saved");

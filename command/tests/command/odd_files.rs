@@ -20,7 +20,7 @@ fn on_a_full_disk(folder: &Folder, arguments: &[&str], error: bool) -> Answer {
 }
 
 #[test]
-fn output_that_cannot_be_written_is_told_once() {
+fn output_that_cannot_be_written_is_reported_once() {
     let folder =
         Folder::new("full_disk").with("a.arl", PRINTS).with("wrong.arl", "func void main()\n    x = 1\nendfunc\n");
     let ran = on_a_full_disk(&folder, &["run", "a.arl"], false);
@@ -29,8 +29,8 @@ fn output_that_cannot_be_written_is_told_once() {
     for tells in
         [&["emit", "a.arl"][..], &["doc", "movej"], &["robots", "six-10"], &["check", "--format", "json", "wrong.arl"]]
     {
-        let told = on_a_full_disk(&folder, tells, false);
-        told.is(1, "").says("error: cannot write to standard output: No space left on device");
+        let answer = on_a_full_disk(&folder, tells, false);
+        answer.is(1, "").says("error: cannot write to standard output: No space left on device");
     }
     on_a_full_disk(&folder, &["check", "wrong.arl"], true).is(1, "");
     on_a_full_disk(&folder, &["run", "a.arl", "--max-time", "0.05"], true).is(4, "part 1\n");

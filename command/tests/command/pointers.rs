@@ -12,7 +12,7 @@ func void main()
     print 1 / zero
 endfunc
 ";
-const WAY: &str = "\
+const PATH_MODULE: &str = "\
 func void along()
     movej j:{10,-90,90,0,45,0},vp:100%
 endfunc
@@ -35,7 +35,7 @@ endfunc
 
 #[test]
 fn a_run_knows_where_the_one_before_stood() {
-    let folder = Folder::new("pointers").with("moves.arl", MOVES).with("way.arl", WAY).with("asks.arl", ASKS);
+    let folder = Folder::new("pointers").with("moves.arl", MOVES).with("way.arl", PATH_MODULE).with("asks.arl", ASKS);
     folder.write("second.arl", SECOND);
     folder.write("third.arl", SECOND);
     folder.write("cell.toml", "[[channel]]\nprogram = \"second.arl\"\n");

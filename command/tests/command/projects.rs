@@ -105,7 +105,7 @@ fn a_scenario_tells_where_it_names_what_is_not_there() {
 }
 
 #[test]
-fn what_arl_toml_names_and_is_not_there_is_told_with_its_line() {
+fn what_arl_toml_names_and_is_not_there_is_reported_with_its_line() {
     let folder = Folder::new("typos").with("a.arl", WAITS);
     for (text, words) in [
         (

@@ -56,9 +56,9 @@ fn a_program_goes_on_where_its_recording_cannot_be_written() {
     std::os::unix::fs::symlink("/dev/full", folder.path.join("full.mcap")).expect("a link");
     let mut command = folder.command(&["run", "a.arl", "--record", "full.mcap"]);
     let answer = command.stdin(Stdio::null()).output().expect("the command starts");
-    let said = String::from_utf8_lossy(&answer.stderr);
-    assert_eq!((answer.status.code(), &*answer.stdout), (Some(0), &b"go\nthere\n"[..]), "{said}");
-    assert!(said.contains("the recording full.mcap is incomplete"), "{said}");
+    let stderr = String::from_utf8_lossy(&answer.stderr);
+    assert_eq!((answer.status.code(), &*answer.stdout), (Some(0), &b"go\nthere\n"[..]), "{stderr}");
+    assert!(stderr.contains("the recording full.mcap is incomplete"), "{stderr}");
 }
 
 #[cfg(unix)]
@@ -76,14 +76,14 @@ fn a_program_ends_when_who_records_it_is_killed() {
     out.read_exact(&mut bytes[..100]).expect("it runs");
     recorder.kill().expect("it is killed");
     recorder.wait().expect("it has ended");
-    let mut left = 0;
+    let mut remaining = 0;
     loop {
         let count = out.read(&mut bytes).expect("the rest");
         if count == 0 {
             break;
         }
-        left += count;
-        assert!(left < 500_000_000, "it goes on");
+        remaining += count;
+        assert!(remaining < 500_000_000, "it goes on");
     }
 }
 

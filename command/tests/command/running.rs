@@ -94,8 +94,8 @@ fn real_time_is_asked_for_and_the_report_says_how_late_cycles_began() {
     let answer = folder.arl2rs(&["run", "a.arl", "--realtime=1023", "--report=r.jsonl"]);
     answer.is(0, "7\n").says("--realtime has no full effect: no core of its own: core 1023: ");
     let report = std::fs::read_to_string(folder.path.join("r.jsonl")).expect("a report");
-    let said = report.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
-    let clock = said.map(|object| object["clock"].clone()).find(|clock| !clock.is_null()).expect("the clock");
+    let objects = report.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
+    let clock = objects.map(|object| object["clock"].clone()).find(|clock| !clock.is_null()).expect("the clock");
     let cycles = clock["cycles"].as_u64().expect("a number");
     let steps = clock["histogram"].as_array().expect("steps").iter().filter_map(|step| step[1].as_u64());
     assert!(cycles >= 50 && steps.sum::<u64>() == cycles, "{clock}");
@@ -131,7 +131,7 @@ fn built_programs_stand_alone() {
 }
 
 #[test]
-fn a_plot_shows_the_way_the_speeds_and_the_lines() {
+fn a_plot_shows_the_path_the_speeds_and_the_lines() {
     let program = "func void main()\n    joint a = {30,40,50,30}\n    movej a,vp:50%\n    waittime 0\n    \
                    pose p = cpose($FLANGE,$WORLD)\n    p.x = p.x - 100\n    lin p,vl:200\nendfunc\n";
     let folder =
@@ -291,8 +291,8 @@ fn a_report_is_in_the_order_of_execution_and_counts_no_zone_that_was_not_reached
     assert!(starts.len() > 5 && starts.is_sorted(), "{text}");
     let numbers: Vec<i64> = motions.iter().filter_map(|motion| motion["motion"].as_i64()).collect();
     assert!(!numbers.is_sorted(), "the interrupt's motion was planned later: {text}");
-    let left = motions.iter().find(|motion| motion["line"] == 20).expect("the line that was left");
-    assert_eq!((&left["blend"]["asked"], &left["blend"]["used"]), (&20.0.into(), &0.0.into()), "{text}");
+    let exited = motions.iter().find(|motion| motion["line"] == 20).expect("the line that was left");
+    assert_eq!((&exited["blend"]["asked"], &exited["blend"]["used"]), (&20.0.into(), &0.0.into()), "{text}");
 }
 
 #[test]

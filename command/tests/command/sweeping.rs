@@ -9,7 +9,7 @@ const PROGRAM: &str = "double pitch = 80\nint divisor = 3\npose place = {x 1, y 
 #[test]
 fn single_values_are_others_for_a_run() {
     let folder = Folder::new("set").with("p.arl", PROGRAM).with("s.toml", "[[event]]\nat = 1\ndi.1 = true\n");
-    let said = |changes: &[&str]| {
+    let run_with = |changes: &[&str]| {
         let set = changes.iter().flat_map(|change| ["--set", change]);
         let arguments: Vec<&str> =
             ["run", "p.arl", "--robot", "six-10", "--io", "s.toml"].into_iter().chain(set).collect();
@@ -17,10 +17,10 @@ fn single_values_are_others_for_a_run() {
         (code, out, err)
     };
     assert_eq!(
-        said(&["global.pitch=100", "global.place={y 9}", "global.name=\"b\""]).1.lines().next(),
+        run_with(&["global.pitch=100", "global.place={y 9}", "global.name=\"b\""]).1.lines().next(),
         Some("b 100 1 9")
     );
-    let slow = said(&["robot.axis.1.vel=1", "io.event.1.at=2.5"]);
+    let slow = run_with(&["robot.axis.1.vel=1", "io.event.1.at=2.5"]);
     assert_eq!((slow.0, slow.1.lines().next()), (Some(0), Some("a 80 1 2")), "{slow:?}");
     // A picture shows shares of the limits that the run had.
     folder
@@ -38,7 +38,7 @@ fn single_values_are_others_for_a_run() {
         ("cell.io.di=4", "--set cell.io.di: name the file with --cell"),
         ("pitch=1", "expected a place and a value"),
     ] {
-        let (code, _, error) = said(&[change]);
+        let (code, _, error) = run_with(&[change]);
         assert!(code == Some(2) && error.contains(words), "{change}: {code:?} {error}");
     }
 }
@@ -117,7 +117,7 @@ fn runs_that_do_not_come_to_an_end_say_why() {
 }
 
 #[test]
-fn mistakes_are_told_before_anything_runs() {
+fn mistakes_are_reported_before_anything_runs() {
     let folder = Folder::new("sweep-wrong").with("p.arl", "func void main()\n    movej 5\nendfunc\n");
     let run = |table: &str| {
         folder.write("s.toml", table);
@@ -282,7 +282,7 @@ fn robots_of_other_channels_go_along_with_the_runs() {
 }
 
 #[test]
-fn a_slip_in_the_name_of_a_variable_is_told_before_anything_runs() {
+fn a_slip_in_the_name_of_a_variable_is_reported_before_anything_runs() {
     let folder = Folder::new("sweep-slip").with("p.arl", PROGRAM);
     let sweep = |table: &str| {
         folder.write("s.toml", &format!("program = \"p.arl\"\n{table}"));

@@ -166,7 +166,7 @@ fn program() -> String {
 }
 
 /// What was told at a time: the text behind the name of each variable.
-fn told<'a>(out: &'a str, when: &str) -> BTreeMap<&'a str, &'a str> {
+fn reported_values<'a>(out: &'a str, when: &str) -> BTreeMap<&'a str, &'a str> {
     let lines = out.lines().filter_map(|line| line.strip_prefix(when)?.strip_prefix(' ')?.split_once(' '));
     lines.collect()
 }
@@ -174,13 +174,13 @@ fn told<'a>(out: &'a str, when: &str) -> BTreeMap<&'a str, &'a str> {
 /// Compares what was told with what the table says; `written` says for which rows the written value is expected.
 #[track_caller]
 fn compare(out: &str, when: &str, written: impl Fn(Restored, &str) -> bool) {
-    let told = told(out, when);
+    let reported = reported_values(out, when);
     let mut wrong = String::new();
     for (name, ty, _, default, _, value, restored) in TABLE {
         let value = if *restored != ReadOnly && written(*restored, name) { value } else { default };
         // The external control is not active any more, or a row of outputs is dark: only what was asked counts.
         let expected = format!("{ty} {value}");
-        let found = told.get(name).copied().unwrap_or("nothing");
+        let found = reported.get(name).copied().unwrap_or("nothing");
         if found != expected {
             let _ = writeln!(wrong, "{when} ${name}: {found:?} instead of {expected:?}");
         }

@@ -59,23 +59,25 @@ const COUNTS: &str = "func int half(int n)\n  if(n < 0)\n    return -1\n  endif\
                       func void main()\n  for(int i=0;i<3;i++)\n    print half(i)\n  endfor\nendfunc\n";
 
 #[test]
-fn results_are_told_in_the_form_that_is_asked_for() {
+fn results_are_reported_in_the_form_that_is_asked_for() {
     let folder = Folder::new("test_formats")
         .with("good.arl", "func void main()\n  waittime 0.5\n  print 1\nendfunc\n")
         .with("good.out", "1\n")
         .with("bad.arl", "func void main()\n  print 2\nendfunc\n")
         .with("bad.out", "<3>\n");
-    let told = folder.arl2rs(&["test", ".", "--format", "jsonl"]);
-    assert_eq!(told.code, Some(1));
+    let answer = folder.arl2rs(&["test", ".", "--format", "jsonl"]);
+    assert_eq!(answer.code, Some(1));
     let lines: Vec<serde_json::Value> =
-        told.out.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
-    let [bad, good] = lines.as_slice() else { panic!("two cases: {}", told.out) };
+        answer.out.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let [bad, good] = lines.as_slice() else { panic!("two cases: {}", answer.out) };
     assert_eq!((&bad["name"], &bad["outcome"]), (&"bad.arl".into(), &"failed".into()));
     assert!(bad["detail"].as_str().is_some_and(|detail| detail.contains("-<3>\n+2")), "{bad}");
     assert_eq!((&good["outcome"], &good["detail"]), (&"passed".into(), &serde_json::Value::Null));
     assert!(good["seconds"].as_f64() > Some(0.0) && good["cycle_time"].as_f64() >= Some(0.5), "{good}");
-    let told = folder.arl2rs(&["test", ".", "--format", "junit"]);
-    assert!(told.code == Some(1) && told.out.contains("tests=\"2\" failures=\"1\"") && told.out.contains("&lt;3&gt;"));
+    let answer = folder.arl2rs(&["test", ".", "--format", "junit"]);
+    assert!(
+        answer.code == Some(1) && answer.out.contains("tests=\"2\" failures=\"1\"") && answer.out.contains("&lt;3&gt;")
+    );
     // Parts are disjoint, and together all.
     folder.arl2rs(&["test", ".", "--shard", "2/2"]).is(0, "1 passed, 0 failed\n");
     let first = folder.arl2rs(&["test", ".", "--shard", "1/2"]);
@@ -121,12 +123,12 @@ fn coverage_counts_lines_and_functions() {
         .with("twice.arl", TWICE)
         .with("twice.out", "1\n2\n");
     folder.arl2rs(&["test", ".", "--coverage", "lcov.info"]).is(0, "3 passed, 0 failed\n");
-    let told = folder.read("lcov.info");
-    let records: Vec<&str> = told.split("end_of_record\n").map(str::trim).filter(|one| !one.is_empty()).collect();
-    assert_eq!(records.len(), 4, "{told}");
-    assert!(records[0].contains("SF:counts.arl\n"), "{told}");
+    let lcov = folder.read("lcov.info");
+    let records: Vec<&str> = lcov.split("end_of_record\n").map(str::trim).filter(|one| !one.is_empty()).collect();
+    assert_eq!(records.len(), 4, "{lcov}");
+    assert!(records[0].contains("SF:counts.arl\n"), "{lcov}");
     for line in ["FNDA:3,half", "FNDA:1,main", "DA:2,3", "DA:3,0", "DA:5,3", "DA:9,3", "FNH:2"] {
-        assert!(records[0].lines().any(|found| found == line), "{line}\n{told}");
+        assert!(records[0].lines().any(|found| found == line), "{line}\n{lcov}");
     }
     let other = records.iter().find(|one| one.contains("SF:lib/other.arl\n")).expect("the module");
     assert!(other.contains("FNDA:0,never") && other.contains("DA:2,1") && other.contains("DA:5,0"), "{other}");

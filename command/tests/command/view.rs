@@ -132,9 +132,9 @@ fn two_runs_are_compared_by_line() {
         assert!(differs.out.contains(part), "{part}: {}", differs.out);
     }
     assert!(!differs.out.contains("a.arl:2 "), "the motion is the same: {}", differs.out);
-    let told = folder.arl2rs(&["compare", "a.mcap", "b.json", "--format", "json"]);
-    let told: serde_json::Value = serde_json::from_str(&told.out).expect("an object");
-    assert_eq!(told["lines"][0]["line"], 3);
+    let answer = folder.arl2rs(&["compare", "a.mcap", "b.json", "--format", "json"]);
+    let answer: serde_json::Value = serde_json::from_str(&answer.out).expect("an object");
+    assert_eq!(answer["lines"][0]["line"], 3);
     folder.arl2rs(&["compare", "a.json", "none.json"]).is(1, "").says("cannot read none.json");
     let folder = folder.with("wrong.json", "{\"version\":1}").with("wrong.mcap", "nothing");
     folder.arl2rs(&["compare", "a.json", "wrong.json"]).is(1, "").says("wrong.json is not a report of a whole run");
@@ -151,8 +151,8 @@ fn a_report_has_other_forms() {
         assert!(page.contains(part), "{part}: {page}");
     }
     // Without a file it goes where the table goes.
-    let told = folder.arl2rs(&["run", "a.arl", "--report", "--format", "json"]);
-    told.is(0, "<there>\n").says("\"way\"");
+    let answer = folder.arl2rs(&["run", "a.arl", "--report", "--format", "json"]);
+    answer.is(0, "<there>\n").says("\"way\"");
     folder.arl2rs(&["run", "a.arl", "--report", "--format", "human"]).is(0, "<there>\n").says("cycle time");
     folder.arl2rs(&["run", "a.arl", "--format", "json"]).is(2, "");
     folder.arl2rs(&["run", "a.arl", "--report=no/a.json", "--format", "json"]).is(1, "").says("cannot write no/a.json");

@@ -42,7 +42,7 @@ pub(crate) struct Client {
     /// What the program printed.
     pub(crate) printed: String,
     /// Everything else that was shown.
-    pub(crate) said: String,
+    pub(crate) other_output: String,
 }
 
 impl Client {
@@ -56,8 +56,15 @@ impl Client {
             .expect("the command starts");
         let input = child.stdin.take();
         let output = messages(child.stdout.take().expect("its output"));
-        let mut client =
-            Self { child, input, output, sent: 0, events: Vec::new(), printed: String::new(), said: String::new() };
+        let mut client = Self {
+            child,
+            input,
+            output,
+            sent: 0,
+            events: Vec::new(),
+            printed: String::new(),
+            other_output: String::new(),
+        };
         client.ask("initialize", json!({"adapterID": "arl"}));
         client
     }
@@ -93,7 +100,8 @@ impl Client {
         let message = self.output.recv_timeout(LONGEST).expect("the adapter says something");
         if message["event"] == "output" {
             let text = message["body"]["output"].as_str().expect("a text");
-            if message["body"]["category"] == "stdout" { &mut self.printed } else { &mut self.said }.push_str(text);
+            if message["body"]["category"] == "stdout" { &mut self.printed } else { &mut self.other_output }
+                .push_str(text);
         }
         message
     }
@@ -113,7 +121,7 @@ impl Client {
     /// What a request gives.
     pub(crate) fn ask(&mut self, command: &str, arguments: Value) -> Value {
         let answer = self.answer(command, arguments);
-        assert_eq!(answer["success"], true, "{command}: {answer}\n{}", self.said);
+        assert_eq!(answer["success"], true, "{command}: {answer}\n{}", self.other_output);
         answer["body"].clone()
     }
 

@@ -118,7 +118,7 @@ fn breakpoints_have_conditions_counts_and_messages() {
     let folder = counts("breakpoints");
     let mut client = Client::new();
     client.ask("launch", json!({"program": folder.path("main.arl")}));
-    let told = client.set_breakpoints(
+    let answer = client.set_breakpoints(
         &folder,
         "main.arl",
         json!([
@@ -132,7 +132,7 @@ fn breakpoints_have_conditions_counts_and_messages() {
         ]),
     );
     let lines: Vec<_> =
-        told.as_array().unwrap().iter().map(|one| (one["verified"] == true, one["line"].as_u64())).collect();
+        answer.as_array().unwrap().iter().map(|one| (one["verified"] == true, one["line"].as_u64())).collect();
     assert_eq!(
         lines,
         [
@@ -156,7 +156,7 @@ fn breakpoints_have_conditions_counts_and_messages() {
     client.ask("continue", json!({"threadId": 1}));
     client.ended();
     for message in ["sum is 0\n", "sum is 1\n", "sum is 3\n"] {
-        assert!(client.said.contains(message), "{}", client.said);
+        assert!(client.other_output.contains(message), "{}", client.other_output);
     }
 }
 
@@ -230,7 +230,7 @@ fn it_halts_in_the_action_of_an_interrupt_while_the_robot_moves() {
     assert_eq!(client.value("none"), "0");
     client.ask("continue", json!({"threadId": 1}));
     assert_eq!(client.ended(), ("7 true\n".into(), json!(3)));
-    assert!(client.said.contains("alarm 20001"), "{}", client.said);
+    assert!(client.other_output.contains("alarm 20001"), "{}", client.other_output);
     // The same run without a debugger, to the last bit.
     let ran = Command::new(env!("CARGO_BIN_EXE_arl2rs"))
         .args(["run", "main.arl", "--io", "io.toml", "--trace", "alone.csv"])
@@ -301,7 +301,7 @@ fn in_real_time_the_robot_stops_on_its_path() {
 }
 
 #[test]
-fn mistakes_are_told() {
+fn mistakes_are_reported() {
     let mut client = Client::new();
     assert!(client.refused("launch", json!({})).contains("has no `program`"));
     assert!(client.refused("launch", json!({"program": "a.arl", "clock": "fast"})).contains("virtual or real"));
@@ -309,7 +309,7 @@ fn mistakes_are_told() {
     assert!(client.refused("fly", json!({})).contains("no request `fly`"));
     let folder = Folder::new("mistakes").with("main.arl", "func void main()\n    movej 5\nendfunc\n");
     assert!(client.refused("launch", json!({"program": folder.path("main.arl")})).contains("error"));
-    assert!(client.said.contains("error[ARL"), "{}", client.said);
+    assert!(client.other_output.contains("error[ARL"), "{}", client.other_output);
     client.ask("disconnect", json!({}));
     // A program that does not begin ends the session.
     let folder = Folder::new("no_scenario").with("main.arl", "func void main()\nendfunc\n");
@@ -317,20 +317,20 @@ fn mistakes_are_told() {
     client.ask("launch", json!({"program": folder.path("main.arl"), "io": "nowhere.toml"}));
     client.refused("configurationDone", json!({}));
     client.event("terminated");
-    assert!(client.said.contains("nowhere.toml"), "{}", client.said);
+    assert!(client.other_output.contains("nowhere.toml"), "{}", client.other_output);
 }
 
 #[test]
 fn what_killed_adapters_left_is_taken_away() {
     let folder = Folder::new("left").with("main.arl", "func void main()\nendfunc\n");
     // No process of Linux has such a number; this one is there.
-    let left =
+    let leftovers =
         [4_194_305, std::process::id()].map(|process| std::env::temp_dir().join(format!("arl2rs-debug-{process}-9")));
-    left.iter().for_each(|path| std::fs::write(path, "").unwrap());
+    leftovers.iter().for_each(|path| std::fs::write(path, "").unwrap());
     let mut client = Client::running(&folder, json!({}), &[]);
     client.ended();
-    let there = left.each_ref().map(|path| path.exists());
-    left.iter().for_each(|path| drop(std::fs::remove_file(path)));
+    let there = leftovers.each_ref().map(|path| path.exists());
+    leftovers.iter().for_each(|path| drop(std::fs::remove_file(path)));
     assert_eq!(there, [!std::path::Path::new("/proc/self").exists(), true]);
 }
 
@@ -342,7 +342,7 @@ fn a_run_that_cannot_go_on_says_who_waits() {
     // Nothing was changed: the run ends. An input that is set lets it go on.
     client.ask("continue", json!({"threadId": 1}));
     assert_eq!(client.ended().1, json!(4));
-    assert!(client.said.contains("nothing can change any more"), "{}", client.said);
+    assert!(client.other_output.contains("nothing can change any more"), "{}", client.other_output);
     let mut client = Client::running(&folder, json!({}), &[]);
     client.halt();
     let (signals, _) = client.scope("Signals");
@@ -382,7 +382,7 @@ fn in_real_time_conditions_go_on_while_the_program_is_halted() {
 }
 
 #[test]
-fn the_way_back_of_an_endless_program_ends() {
+fn the_steps_back_of_an_endless_program_end() {
     let folder = Folder::new("endless").with(
         "main.arl",
         "func void main()\n    int k = 1\n    while(k > 0)\n        k = k + 1\n        waittime 0.1\n    endwhile\nendfunc\n",

@@ -25,7 +25,7 @@ impl Client {
     }
 }
 
-const WAYS: &str = "\
+const BRANCHES: &str = "\
 int total = 0
 func int add(int a, int b)
     int sum = a + b
@@ -73,7 +73,7 @@ endfunc
 
 #[test]
 fn the_pointer_goes_where_it_is_set_to() {
-    let folder = Folder::new("pointer").with("main.arl", WAYS);
+    let folder = Folder::new("pointer").with("main.arl", BRANCHES);
     let mut client = Client::running(&folder, json!({}), &[11]);
     assert_eq!(reason_and_top(client.halt()), "breakpoint: main 11");
     client.set_breakpoints(&folder, "main.arl", json!([]));
@@ -115,7 +115,7 @@ fn the_pointer_goes_where_it_is_set_to() {
 
 #[test]
 fn a_program_that_waits_goes_on_elsewhere() {
-    let folder = Folder::new("pointer_waits").with("main.arl", WAYS);
+    let folder = Folder::new("pointer_waits").with("main.arl", BRANCHES);
     let mut client = Client::running(&folder, json!({}), &[]);
     // Nothing sets the input: the run would end there.
     assert_eq!(reason_and_top(client.halt()), "pause: main 34");
@@ -330,7 +330,7 @@ fn events_go_on_while_it_is_set() {
         assert_eq!(client.go("arl/nextMotion"), ("step".into(), vec!["main 13".into()]), "{clock}");
         assert_eq!(reason_and_top(client.go_to(&folder, 15)), "goto: main 15", "{clock}");
         assert_eq!(reason_and_top(client.go_to(&folder, 16)), "goto: main 16", "{clock}");
-        assert_eq!(client.run_out(&folder), ("b\n".into(), json!(0)), "{clock}: {}", client.said);
+        assert_eq!(client.run_out(&folder), ("b\n".into(), json!(0)), "{clock}: {}", client.other_output);
     }
 }
 
@@ -396,7 +396,7 @@ fn variables_stay_in_functions_of_parts() {
 
 #[test]
 fn a_step_back_undoes_it_with_what_was_set_since() {
-    let folder = Folder::new("pointer_edits").with("main.arl", WAYS);
+    let folder = Folder::new("pointer_edits").with("main.arl", BRANCHES);
     let mut client = Client::running(&folder, json!({}), &[11]);
     client.halt();
     client.value("seen = 8");

@@ -40,7 +40,7 @@ pub(crate) struct Client {
     last: i64,
     versions: BTreeMap<String, i64>,
     /// The last diagnostics of each file.
-    told: BTreeMap<String, Value>,
+    published: BTreeMap<String, Value>,
     /// What the server answered to `initialize`.
     pub(crate) offered: Value,
     /// Messages to the user.
@@ -87,8 +87,8 @@ impl Client {
             .expect("the server starts");
         let input = child.stdin.take();
         let output = messages(child.stdout.take().expect("its output"));
-        let (versions, told) = (BTreeMap::new(), BTreeMap::new());
-        Self { child, input, output, last: 0, versions, told, offered: Value::Null, shown: Vec::new() }
+        let (versions, published) = (BTreeMap::new(), BTreeMap::new());
+        Self { child, input, output, last: 0, versions, published, offered: Value::Null, shown: Vec::new() }
     }
 
     pub(crate) fn send_text(&mut self, body: &str) {
@@ -148,7 +148,7 @@ impl Client {
         match message["method"].as_str() {
             Some("textDocument/publishDiagnostics") => {
                 let uri = message["params"]["uri"].as_str().expect("an address").to_string();
-                self.told.insert(uri, message["params"].clone());
+                self.published.insert(uri, message["params"].clone());
             }
             Some("window/showMessage") => {
                 self.shown.push(message["params"]["message"].as_str().expect("a text").to_string());
@@ -180,7 +180,7 @@ impl Client {
     }
 
     /// The diagnostics of a file that are told next.
-    pub(crate) fn told_again(&mut self, uri: &str) -> Value {
+    pub(crate) fn next_diagnostics(&mut self, uri: &str) -> Value {
         loop {
             let message = self.message().expect("the server tells it");
             if message["params"]["uri"] == uri {
@@ -191,7 +191,7 @@ impl Client {
 
     pub(crate) fn close(&mut self, uri: &str) {
         self.versions.remove(uri);
-        self.told.remove(uri);
+        self.published.remove(uri);
         self.tell("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
     }
 
@@ -199,10 +199,10 @@ impl Client {
     pub(crate) fn diagnostics(&mut self, uri: &str) -> Vec<Value> {
         let version = self.versions.get(uri).copied();
         loop {
-            if let Some(told) = self.told.get(uri)
-                && (version.is_none() || told["version"].as_i64() == version)
+            if let Some(published) = self.published.get(uri)
+                && (version.is_none() || published["version"].as_i64() == version)
             {
-                return told["diagnostics"].as_array().expect("a list").clone();
+                return published["diagnostics"].as_array().expect("a list").clone();
             }
             self.message().expect("the server tells of each version");
         }

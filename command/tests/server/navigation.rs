@@ -121,8 +121,8 @@ fn names_that_would_mean_something_else_are_refused() {
         params["newName"] = json!(name);
         client.refused("textDocument/rename", params)
     };
-    for (name, said) in [("while", "word of the language"), ("2nd", "is not a name"), ("a b", "is not a name")] {
-        assert!(refused("int ", "count", name).contains(said), "{name}");
+    for (name, reason) in [("while", "word of the language"), ("2nd", "is not a name"), ("a b", "is not a name")] {
+        assert!(refused("int ", "count", name).contains(reason), "{name}");
     }
     // A local would hide a global; one of the same name is there already.
     assert!(refused("int ", "count", "home").contains("already has a meaning"));
@@ -211,7 +211,10 @@ fn a_parameter_that_labels_an_argument_behind_a_mistake_stays() {
         let answer = client.answer(id);
         match refused {
             true => {
-                assert!(answer["error"]["message"].as_str().is_some_and(|said| said.contains("line 6")), "{answer}")
+                assert!(
+                    answer["error"]["message"].as_str().is_some_and(|message| message.contains("line 6")),
+                    "{answer}"
+                )
             }
             false => assert_eq!(answer["result"]["changes"][&uri].as_array().map(Vec::len), Some(3), "{answer}"),
         }
@@ -250,8 +253,8 @@ fn signals_have_the_names_of_the_cell_that_arl_toml_names() {
     let changed = json!({"changes": [{"uri": folder.uri("cell.toml"), "type": 2}]});
     client.tell("workspace/didChangeWatchedFiles", changed);
     client.set(&uri, &format!("{program}\n"));
-    let told = client.diagnostics(&uri);
-    assert_eq!(told[0]["code"], "ARL0805", "{told:?}");
+    let diagnostics = client.diagnostics(&uri);
+    assert_eq!(diagnostics[0]["code"], "ARL0805", "{diagnostics:?}");
 }
 
 #[test]
@@ -324,7 +327,7 @@ fn addresses_come_back_as_the_client_spells_them() {
         }
         // What was told of a file is taken back under the same address.
         client.tell("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
-        assert_eq!(client.told_again(&uri), json!([]));
+        assert_eq!(client.next_diagnostics(&uri), json!([]));
         assert!(client.leave());
     }
 }

@@ -23,8 +23,8 @@ fn a_program_is_typed_in_neovim() {
         .env("ARL_FILE", folder.path.join("main.arl"))
         .output()
         .expect("Neovim starts");
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
     let expected = "mistake ARL0211 2\nline     waittime 1\noffered home\nhover '''arl\nline     movej rest,vp:50%\n\
         line     movej rest, vp:50%\n";
-    assert_eq!(said.replace("\r", ""), expected, "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(printed.replace("\r", ""), expected, "{}", String::from_utf8_lossy(&output.stderr));
 }

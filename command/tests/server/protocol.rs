@@ -10,9 +10,12 @@ fn diagnostics_carry_the_version_that_they_are_about() {
     let folder = Folder::new("versions");
     let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
     client.set(&uri, "func void main()\n    moevj {j1 0}\nendfunc\n");
-    let told = client.diagnostics(&uri);
-    assert_eq!(told[0]["code"], "ARL0211");
-    assert_eq!(told[0]["range"], json!({"start": {"line": 1, "character": 4}, "end": {"line": 1, "character": 9}}));
+    let diagnostics = client.diagnostics(&uri);
+    assert_eq!(diagnostics[0]["code"], "ARL0211");
+    assert_eq!(
+        diagnostics[0]["range"],
+        json!({"start": {"line": 1, "character": 4}, "end": {"line": 1, "character": 9}})
+    );
     client.set(&uri, "func void main()\nendfunc\n");
     assert!(client.diagnostics(&uri).is_empty());
     assert!(client.leave());
@@ -57,12 +60,12 @@ fn positions_count_utf16_or_bytes() {
         assert_eq!(client.offered["capabilities"]["positionEncoding"], name);
         let uri = folder.uri("main.arl");
         client.set(&uri, text);
-        let told = client.diagnostics(&uri);
-        assert_eq!(told[0]["range"]["start"]["character"], start, "{name}");
+        let diagnostics = client.diagnostics(&uri);
+        assert_eq!(diagnostics[0]["range"]["start"]["character"], start, "{name}");
         let change = json!([{"range": {"start": {"line": 1, "character": start}, "end": {"line": 1, "character": start + 10}}, "text": "\"x\""}]);
         client.edit(&uri, change);
-        let told = client.diagnostics(&uri);
-        assert!(told.iter().all(|one| one["severity"] == 2), "{told:?}");
+        let diagnostics = client.diagnostics(&uri);
+        assert!(diagnostics.iter().all(|one| one["severity"] == 2), "{diagnostics:?}");
     }
 }
 
@@ -73,8 +76,8 @@ fn files_of_other_encodings_are_read_from_the_disk() {
     let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
     let (text, position) = cursor("import \"rack.arl\"\nfunc void main()\n    lin rack::pa|rt\nendfunc\n");
     client.set(&uri, &text);
-    let told = client.diagnostics(&uri);
-    assert!(told.iter().all(|one| one["severity"] == 2), "{told:?}");
+    let diagnostics = client.diagnostics(&uri);
+    assert!(diagnostics.iter().all(|one| one["severity"] == 2), "{diagnostics:?}");
     let place = json!({"textDocument": {"uri": uri}, "position": position});
     let hover = client.ask("textDocument/hover", place);
     assert!(hover["contents"]["value"].as_str().unwrap().contains('\u{70b9}'), "{hover}");
@@ -88,13 +91,13 @@ fn unsaved_modules_go_before_those_of_the_disk() {
     assert_eq!(client.diagnostics(&uri)[0]["code"], "ARL0213");
     client.set(&module, "int total\n");
     client.diagnostics(&module);
-    assert_eq!(client.told_again(&uri), json!([]));
+    assert_eq!(client.next_diagnostics(&uri), json!([]));
     client.close(&module);
-    assert_eq!(client.told_again(&uri)[0]["code"], "ARL0213");
+    assert_eq!(client.next_diagnostics(&uri)[0]["code"], "ARL0213");
 }
 
 #[test]
-fn programs_that_are_not_open_are_told_of_where_a_change_breaks_them() {
+fn errors_that_a_change_causes_in_programs_that_are_not_open_are_reported() {
     let main = "import \"rack.arl\"\nfunc void main()\n    rack::count = 1\nendfunc\n";
     let folder = Folder::new("importers").with("rack.arl", "int count\n").with("main.arl", main);
     let (mut client, module, uri) = (Client::new(&folder), folder.uri("rack.arl"), folder.uri("main.arl"));
@@ -103,7 +106,7 @@ fn programs_that_are_not_open_are_told_of_where_a_change_breaks_them() {
     // Looks at the whole workspace.
     client.ask("workspace/symbol", json!({"query": ""}));
     client.set(&module, "int total\n");
-    assert_eq!(client.told_again(&uri)[0]["code"], "ARL0213");
+    assert_eq!(client.next_diagnostics(&uri)[0]["code"], "ARL0213");
 }
 
 #[test]
@@ -120,7 +123,7 @@ fn modules_need_no_main_and_data_files_belong_to_their_program() {
 }
 
 #[test]
-fn settings_name_the_robot_and_are_told_where_they_are_wrong() {
+fn settings_name_the_robot_and_mistakes_in_them_are_reported() {
     let folder = Folder::new("settings");
     let mut client = Client::with(&folder, json!({"robot": "hsr065"}), json!({}));
     let uri = folder.uri("main.arl");
@@ -152,7 +155,7 @@ fn a_robot_file_that_changes_is_read_again() {
     let folder = folder.with("robot.toml", robot("hsr065"));
     let changes = json!([{"uri": folder.uri("robot.toml"), "type": 2}]);
     client.tell("workspace/didChangeWatchedFiles", json!({"changes": changes}));
-    assert_eq!(client.told_again(&uri)[0]["code"], "ARL0208");
+    assert_eq!(client.next_diagnostics(&uri)[0]["code"], "ARL0208");
 }
 
 #[test]
@@ -180,8 +183,8 @@ fn a_change_of_a_range_that_is_none_is_refused() {
         let range = json!({"start": {"line": line, "character": 0}, "end": {"line": line, "character": 1}});
         client.edit(&uri, json!([{"range": range, "text": ""}]));
         client.ask("workspace/symbol", json!({"query": ""}));
-        let told = client.shown.pop().unwrap_or_default();
-        assert!(told.contains("an invalid range"), "{line}: {told}");
+        let message = client.shown.pop().unwrap_or_default();
+        assert!(message.contains("an invalid range"), "{line}: {message}");
     }
     // The text is still there.
     let symbols = client.ask("textDocument/documentSymbol", json!({"textDocument": {"uri": uri}}));
@@ -203,8 +206,8 @@ fn pipes_and_devices_in_the_workspace_stop_nothing() {
     }
     let (mut client, uri) = (Client::new(&folder), folder.uri("uses.arl"));
     client.set(&uri, "import \"pipe.arl\"\nimport \"zero.arl\"\nfunc void main()\nendfunc\n");
-    let told = client.diagnostics(&uri);
-    let messages: Vec<&str> = told.iter().filter_map(|one| one["message"].as_str()).collect();
+    let diagnostics = client.diagnostics(&uri);
+    let messages: Vec<&str> = diagnostics.iter().filter_map(|one| one["message"].as_str()).collect();
     assert_eq!(messages.iter().filter(|text| text.contains("not a regular file")).count(), 2, "{messages:?}");
     let main = folder.uri("main.arl");
     client.set(&main, "func void main()\nendfunc\n");

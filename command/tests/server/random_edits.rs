@@ -100,13 +100,13 @@ fn the_server_says_what_check_says() {
             client.edit(&uri, changes);
             text = changed;
             std::fs::write(folder.path.join("program.arl"), &text).unwrap();
-            let mut told: Vec<(String, u64)> = client
+            let mut published: Vec<(String, u64)> = client
                 .diagnostics(&uri)
                 .iter()
                 .map(|one| (one["code"].as_str().unwrap().to_string(), one["range"]["start"]["line"].as_u64().unwrap()))
                 .collect();
-            told.sort();
-            assert_eq!(told, expected(&folder.path.join("program.arl")), "{}:\n{text}", source.display());
+            published.sort();
+            assert_eq!(published, expected(&folder.path.join("program.arl")), "{}:\n{text}", source.display());
             let line = random.below(text.lines().count() + 1);
             let position = json!({"line": line, "character": random.below(40)});
             let request = requests[random.below(requests.len())];

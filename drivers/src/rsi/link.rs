@@ -16,7 +16,7 @@ const ANEW: Duration = Duration::from_millis(500);
 /// The most packets examined in a cycle, so that a sender of more cannot keep it from ending.
 const MOST: usize = 64;
 
-/// The state shared by the driver and the beat.
+/// The state shared by the driver and the clock.
 #[derive(Debug)]
 pub(super) struct Link {
     listen: String,

@@ -171,8 +171,8 @@ impl Answer {
         let mut place = &mut bytes[..];
         // Numbers are within the ranges of axes, so that everything fits, which a test checks.
         let _ = self.write(&mut place);
-        let left = place.len();
-        AnswerBytes { bytes, length: LONGEST_ANSWER - left }
+        let unused = place.len();
+        AnswerBytes { bytes, length: LONGEST_ANSWER - unused }
     }
 
     fn write(&self, to: &mut &mut [u8]) -> std::io::Result<()> {

@@ -1,8 +1,8 @@
 //! A KUKA robot whose controller runs RobotSensorInterface (RSI): it sends the positions of the axes in each of its
-//! cycles, 4 ms or 12 ms long, and accepts corrections of the axes in the answer. So it sets the beat: the runtime's
+//! cycles, 4 ms or 12 ms long, and accepts corrections of the axes in the answer. So it sets the pace: the runtime's
 //! cycles are those of the robot.
 
-mod beat;
+mod clock;
 mod link;
 pub mod message;
 mod sender;
@@ -14,7 +14,7 @@ use std::time::Duration;
 use arl_rt::motion::Joints;
 use arl_rt::robot_driver::{DriverError, Drives, Feedback, Power, RobotDriver, Setpoint, Start};
 
-pub use beat::RsiBeat;
+pub use clock::RsiClock;
 use link::Link;
 use message::Message;
 
@@ -32,14 +32,14 @@ const STANDS: f64 = 0.1;
 /// The number of answers that tell a robot to stop, as a packet may be lost.
 const STOPS: u32 = 5;
 
-/// A robot that uses RSI. Its [beat](RsiArm::beat) has to be the clock of the controller, whose cycles are as long as
+/// A robot that uses RSI. Its [clock](RsiArm::clock) has to be the clock of the controller, whose cycles are as long as
 /// those of the robot.
 ///
 /// ```no_run
 /// use arl_drivers::rsi::RsiArm;
 ///
 /// let arm = RsiArm::new("0.0.0.0:49152");
-/// let builder = arl_rt::Controller::builder().clock(arm.beat()).robot_driver(arm);
+/// let builder = arl_rt::Controller::builder().clock(arm.clock()).robot_driver(arm);
 /// # let _ = builder;
 /// ```
 #[derive(Debug)]
@@ -83,8 +83,8 @@ impl RsiArm {
     }
 
     /// The clock whose cycles begin when a message arrives.
-    pub fn beat(&self) -> RsiBeat {
-        RsiBeat::new(Rc::clone(&self.link))
+    pub fn clock(&self) -> RsiClock {
+        RsiClock::new(Rc::clone(&self.link))
     }
 
     /// The feedback of a message.
@@ -191,9 +191,9 @@ impl RobotDriver for RsiArm {
 }
 
 /// The longest time, in ms, between the message answered last and the next one. A robot without an answer for longer
-/// than the beat waits for a message has given up.
+/// than the clock waits for a message has given up.
 fn given_up_ms(period: f64) -> u64 {
-    ((beat::longest_wait(period).as_secs_f64() + period) * 1e3).ceil() as u64
+    ((clock::longest_wait(period).as_secs_f64() + period) * 1e3).ceil() as u64
 }
 
 /// Checks that the cycles of the robot, whose time counts in ms, are as long as those of the controller. Messages may

@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_one_is_told_and_followed() {
+    fn the_first_one_is_reported_and_followed() {
         let mut sender = Sender::new(None);
         sender.resolve().unwrap();
         assert!(sender.is_robot(at("10.0.0.1:5")) && sender.is_robot(at("10.0.0.2:5")));
@@ -127,10 +127,10 @@ mod tests {
         sender.follow(at("10.0.0.1:5"));
         sender.follow(at("10.0.0.2:5"));
         assert!(sender.is_robot(at("10.0.0.1:6")) && !sender.is_robot(at("10.0.0.2:5")));
-        let told = sender.take_warning("*:1").unwrap();
+        let warning = sender.take_warning("*:1").unwrap();
         assert!(
-            told.starts_with("the robot at 10.0.0.1:5 is used") && told.contains("address = \"10.0.0.1\""),
-            "{told}"
+            warning.starts_with("the robot at 10.0.0.1:5 is used") && warning.contains("address = \"10.0.0.1\""),
+            "{warning}"
         );
         assert_eq!(sender.take_warning("*:1"), None);
         sender.note_other(at("10.0.0.2:7"));

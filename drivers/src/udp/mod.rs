@@ -153,11 +153,11 @@ impl Link {
             self.send(&hello, false);
             let Some(state) = self.answer(Instant::now() + AGAIN, 1) else { continue };
             if state.axes != self.axes {
-                let said = |(own, external): (u8, u8)| format!("{own} axes and {external} external ones");
+                let axes_text = |(own, external): (u8, u8)| format!("{own} axes and {external} external ones");
                 return Err(format!(
                     "the arm at {address} has {}, but the robot file has {}",
-                    said(state.axes),
-                    said(self.axes)
+                    axes_text(state.axes),
+                    axes_text(self.axes)
                 ));
             }
             return Ok(state);

@@ -91,11 +91,11 @@ impl Breakpoints {
             return wanted.iter().map(|_| unknown("the program is not known yet")).collect();
         };
         let (files, functions) = (programs.files(Path::new(path)), programs.functions(Path::new(path)));
-        let mut told = Vec::new();
+        let mut answers = Vec::new();
         for value in wanted {
             let wanted: Wanted = serde_json::from_value(value.clone()).unwrap_or_default();
             let line = functions.iter().filter_map(|lines| lines.range(wanted.line..).next()).min().copied();
-            told.push(match (line, self.made(&wanted)) {
+            answers.push(match (line, self.made(&wanted)) {
                 _ if files.is_empty() => unknown("this file does not belong to the program"),
                 (None, _) => unknown("there is no statement here or below"),
                 (_, Err(why)) => unknown(&why),
@@ -107,18 +107,18 @@ impl Breakpoints {
                 }
             });
         }
-        told
+        answers
     }
 
     /// Sets the breakpoints of functions, and no others. Returns what the editor is told of each.
     pub(super) fn set_functions(&mut self, wanted: &[Value], programs: Option<&Programs>) -> Vec<Value> {
         self.wanted_functions = wanted.to_vec();
         self.of_functions.clear();
-        let mut told = Vec::new();
+        let mut answers = Vec::new();
         for value in wanted {
             let wanted: Wanted = serde_json::from_value(value.clone()).unwrap_or_default();
             let entries = programs.map(|programs| programs.entries(&wanted.name));
-            told.push(match (entries, self.made(&wanted)) {
+            answers.push(match (entries, self.made(&wanted)) {
                 (None, _) => unknown("the program is not known yet"),
                 (Some(entries), _) if entries.is_empty() => {
                     unknown("there is no function of this name that has a statement")
@@ -133,7 +133,7 @@ impl Breakpoints {
                 }
             });
         }
-        told
+        answers
     }
 
     fn made(&mut self, wanted: &Wanted) -> Result<Breakpoint, String> {
@@ -163,12 +163,12 @@ impl Breakpoints {
     /// Finds their places, now that the program is known; returns what the editor is told of each.
     pub(super) fn find_places(&mut self, programs: &Programs) -> Vec<Value> {
         let wanted: Vec<(String, Vec<Value>)> = self.wanted.clone().into_iter().collect();
-        let mut told = Vec::new();
+        let mut answers = Vec::new();
         for (path, wanted) in wanted {
-            told.extend(self.set_lines(&path, &wanted, Some(programs)));
+            answers.extend(self.set_lines(&path, &wanted, Some(programs)));
         }
-        told.extend(self.set_functions(&self.wanted_functions.clone(), Some(programs)));
-        told
+        answers.extend(self.set_functions(&self.wanted_functions.clone(), Some(programs)));
+        answers
     }
 
     /// The breakpoint lines of each file, also of files that no longer have any.
@@ -216,15 +216,15 @@ mod tests {
 
     #[test]
     fn hit_counts_are_read() {
-        let holding = |text: &str| {
+        let hits_that_fit = |text: &str| {
             let condition = HitCondition::parse(text).unwrap();
             (1..=6).filter(|hits| condition.holds(*hits)).collect::<Vec<_>>()
         };
-        assert_eq!(holding("5"), [5, 6]);
-        assert_eq!(holding(" > 4 "), [5, 6]);
-        assert_eq!(holding(">=6"), [6]);
-        assert_eq!(holding("== 3"), [3]);
-        assert_eq!(holding("%2"), [2, 4, 6]);
+        assert_eq!(hits_that_fit("5"), [5, 6]);
+        assert_eq!(hits_that_fit(" > 4 "), [5, 6]);
+        assert_eq!(hits_that_fit(">=6"), [6]);
+        assert_eq!(hits_that_fit("== 3"), [3]);
+        assert_eq!(hits_that_fit("%2"), [2, 4, 6]);
         assert_eq!(HitCondition::parse("often"), None);
         assert_eq!(HitCondition::parse("0"), None);
     }

@@ -15,7 +15,7 @@ const LONGEST_START: Duration = Duration::from_secs(20);
 /// News of a program.
 pub(super) enum News {
     /// A message that it sends by itself.
-    Said(Value),
+    Message(Value),
     /// What it prints, on `stdout` or `stderr`.
     Output(&'static str, String),
     /// It is gone; its exit code, if it ended before that could be requested.
@@ -64,7 +64,7 @@ impl Process {
                 let Ok(value) = serde_json::from_str::<Value>(&line) else { continue };
                 let taken = match value.get("answer") {
                     Some(_) => sender.send(value).is_ok(),
-                    None => events.send(Event::Process(number, News::Said(value))).is_ok(),
+                    None => events.send(Event::Process(number, News::Message(value))).is_ok(),
                 };
                 if !taken {
                     return;

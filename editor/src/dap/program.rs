@@ -48,8 +48,8 @@ pub struct FileKey {
 
 impl Key {
     /// The program that a message on a channel, a stack or a motion names.
-    pub(super) fn of(told: &serde_json::Value) -> Self {
-        let text = |key: &str| told.get(key).and_then(serde_json::Value::as_str).unwrap_or_default().to_owned();
+    pub(super) fn of(message: &serde_json::Value) -> Self {
+        let text = |key: &str| message.get(key).and_then(serde_json::Value::as_str).unwrap_or_default().to_owned();
         Self { folder: text("folder"), main: text("program") }
     }
 }
@@ -87,18 +87,18 @@ impl Programs {
     /// # Errors
     /// A program has errors, or cannot be checked.
     pub fn check(main: &Path, options: &RunOptions, report: &dyn Fn(&str)) -> Result<Self, String> {
-        let said = |failure: Failure| match failure {
+        let message_of = |failure: Failure| match failure {
             Failure::Usage(text) | Failure::Other(text) => text,
             Failure::Shown => String::new(),
         };
         let checking = options.checking();
         let mut all = vec![(main.to_path_buf(), checking.clone(), String::new())];
-        for other in cell_programs::named(options.cell.as_deref(), checking.robot.as_deref()).map_err(said)? {
-            all.push((other.path.clone(), other.checking(&checking), other.folder(main).map_err(said)?));
+        for other in cell_programs::named(options.cell.as_deref(), checking.robot.as_deref()).map_err(message_of)? {
+            all.push((other.path.clone(), other.checking(&checking), other.folder(main).map_err(message_of)?));
         }
         let mut programs = Vec::new();
         for (path, checking, folder) in all {
-            let options = check_options(&checking).map_err(said)?;
+            let options = check_options(&checking).map_err(message_of)?;
             let compiled = check_program(&path, &FileSystem, &options).map_err(|bug| bug.to_string())?;
             let files = compiled.shown_files();
             for diagnostic in &compiled.checked.diagnostics {

@@ -243,11 +243,11 @@ impl Session {
     fn wait_for(&mut self, event: &str) -> Answer {
         loop {
             match self.events.recv().map_err(|_| "the program is gone")? {
-                Event::Process(run, News::Said(value)) if run == self.run => {
+                Event::Process(run, News::Message(value)) if run == self.run => {
                     if value.get("event").and_then(Value::as_str) == Some(event) {
                         return Ok(value);
                     }
-                    self.waiting.push_back(Event::Process(run, News::Said(value)));
+                    self.waiting.push_back(Event::Process(run, News::Message(value)));
                 }
                 Event::Process(run, News::Ended(code)) if run == self.run => {
                     self.waiting.push_back(Event::Process(run, News::Ended(code)));
@@ -286,17 +286,17 @@ impl Session {
             arguments.pointer("/source/path").and_then(Value::as_str).ok_or("the source has no path")?.to_owned();
         let wanted = arguments.get("breakpoints").and_then(Value::as_array).cloned().unwrap_or_default();
         let programs = self.launched.as_ref().map(|launched| &launched.programs);
-        let told = self.breakpoints.set_lines(&path, &wanted, programs);
+        let answers = self.breakpoints.set_lines(&path, &wanted, programs);
         self.send_breakpoints()?;
-        Ok(json!({"breakpoints": told}))
+        Ok(json!({"breakpoints": answers}))
     }
 
     fn set_function_breakpoints(&mut self, arguments: &Value) -> Answer {
         let wanted = arguments.get("breakpoints").and_then(Value::as_array).cloned().unwrap_or_default();
         let programs = self.launched.as_ref().map(|launched| &launched.programs);
-        let told = self.breakpoints.set_functions(&wanted, programs);
+        let answers = self.breakpoints.set_functions(&wanted, programs);
         self.send_breakpoints()?;
-        Ok(json!({"breakpoints": told}))
+        Ok(json!({"breakpoints": answers}))
     }
 
     fn set_kinds(&mut self, arguments: &Value) -> Answer {
@@ -367,7 +367,7 @@ impl Session {
                 self.out.event("exited", json!({"exitCode": code.unwrap_or(-1)}));
                 self.out.event("terminated", json!({}));
             }
-            News::Said(value) => match value.get("event").and_then(Value::as_str) {
+            News::Message(value) => match value.get("event").and_then(Value::as_str) {
                 Some("stopped") if self.arrive(&value) => self.say_halt(),
                 Some("motion") => self.tell_motion(&value),
                 _ => {}

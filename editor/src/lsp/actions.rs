@@ -24,11 +24,11 @@ pub(super) fn actions(server: &Server, params: CodeActionParams) -> Result<Optio
             let place = server.location(&file.program, fix.at)?;
             let edit = TextEdit { range: place.range, new_text: fix.text.clone() };
             let code = Some(Code::String(found.code.to_string()));
-            let told = params.context.diagnostics.iter().filter(|told| told.code == code);
+            let sent = params.context.diagnostics.iter().filter(|sent| sent.code == code);
             Some(CodeActionResponse::CodeAction(CodeAction {
                 title: format!("write `{}`", fix.text),
                 kind: Some(CodeActionKind::QuickFix),
-                diagnostics: Some(told.cloned().collect()),
+                diagnostics: Some(sent.cloned().collect()),
                 is_preferred: Some(true),
                 edit: Some(WorkspaceEdit {
                     changes: Some(HashMap::from([(place.uri, vec![edit])])),

@@ -9,7 +9,7 @@ use gen_lsp_types::*;
 use std::path::Path;
 
 /// The most diagnostics that are sent for a file: nobody reads more, and thousands make editors slow.
-pub(super) const MOST_TOLD: usize = 1000;
+pub(super) const MOST_SENT: usize = 1000;
 
 /// The diagnostics of a file, errors first where there are too many.
 pub(super) fn of(server: &Server, path: &Path) -> Vec<Diagnostic> {
@@ -19,9 +19,9 @@ pub(super) fn of(server: &Server, path: &Path) -> Vec<Diagnostic> {
     let Some(file) = server.file(path) else { return Vec::new() };
     let here = |found: &&Found| found.primary.at.file == file.id;
     let mut found: Vec<&Found> = file.program.checked.diagnostics.iter().filter(here).collect();
-    if found.len() > MOST_TOLD {
+    if found.len() > MOST_SENT {
         found.sort_by_key(|one| std::cmp::Reverse(one.severity));
-        found.truncate(MOST_TOLD);
+        found.truncate(MOST_SENT);
     }
     found.into_iter().filter_map(|one| diagnostic(server, &file.program, one)).collect()
 }

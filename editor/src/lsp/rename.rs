@@ -185,9 +185,9 @@ impl<'a> Edited<'a> {
         if errors(&after) > errors(program) {
             let known = |at: Location| after.checked.files.line(at);
             let new = after.checked.diagnostics.iter().find(|one| one.message.contains(&format!("`{name}`")));
-            let said =
+            let detail =
                 new.map_or_else(String::new, |one| format!(" (line {}: {})", known(one.primary.at), one.message));
-            return Err(Refusal::new(format!("`{name}` would cause an error{said}")));
+            return Err(Refusal::new(format!("`{name}` would cause an error{detail}")));
         }
         Ok(())
     }

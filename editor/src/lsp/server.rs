@@ -75,7 +75,7 @@ pub(super) struct Server {
     /// Files whose diagnostics have to be sent, the most urgent ones first, each once.
     stale: VecDeque<PathBuf>,
     /// Files of which the client has diagnostics.
-    told: BTreeSet<PathBuf>,
+    published: BTreeSet<PathBuf>,
 }
 
 impl Server {
@@ -95,7 +95,7 @@ impl Server {
             programs: CheckedPrograms::default(),
             workspace: Workspace::default(),
             stale: VecDeque::new(),
-            told: BTreeSet::new(),
+            published: BTreeSet::new(),
         }
     }
 
@@ -224,7 +224,7 @@ impl Server {
                 self.projects.forget();
                 self.programs.forget_all();
                 self.workspace.look_again();
-                let all: Vec<PathBuf> = self.documents.paths().chain(&self.told).cloned().collect();
+                let all: Vec<PathBuf> = self.documents.paths().chain(&self.published).cloned().collect();
                 self.stale.extend(all);
                 let mut seen = BTreeSet::new();
                 self.stale.retain(|path| seen.insert(path.clone()));
@@ -325,7 +325,7 @@ impl Server {
         let of_roots = |open: &&PathBuf| roots.contains(&self.programs.root(open, &self.documents));
         let mut stale: BTreeSet<PathBuf> = self.documents.paths().filter(of_roots).cloned().collect();
         stale.extend(roots.into_iter().filter(|root| self.is_shown(root)));
-        if self.told.contains(path) || self.is_shown(path) {
+        if self.published.contains(path) || self.is_shown(path) {
             // The file that is being edited goes before what depends on it.
             stale.remove(path);
             self.stale.retain(|other| other != path);
@@ -365,7 +365,7 @@ impl Server {
         if let Some(program) = self.programs.known(&root) {
             self.workspace.learn(&root, &program);
         }
-        let had = if found.is_empty() { self.told.remove(&path) } else { !self.told.insert(path.clone()) };
+        let had = if found.is_empty() { self.published.remove(&path) } else { !self.published.insert(path.clone()) };
         if version.is_some() || had || !found.is_empty() {
             let params = PublishDiagnosticsParams { uri: self.documents.uri(&path), version, diagnostics: found };
             self.send(notification("textDocument/publishDiagnostics", &params));

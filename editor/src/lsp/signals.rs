@@ -21,6 +21,6 @@ pub(super) fn named<'a>(file: &'a File, argument: &Argument) -> Option<(Signal, 
 
 /// The argument at an offset, the innermost of nested ones.
 pub(super) fn argument_at(file: &File, offset: u32) -> Option<&Argument> {
-    let holds = |one: &&Argument| (one.at.span.start..=one.at.span.end).contains(&offset);
-    file.index().arguments(file.id).filter(holds).min_by_key(|one| one.at.span.end - one.at.span.start)
+    let contains_offset = |one: &&Argument| (one.at.span.start..=one.at.span.end).contains(&offset);
+    file.index().arguments(file.id).filter(contains_offset).min_by_key(|one| one.at.span.end - one.at.span.start)
 }

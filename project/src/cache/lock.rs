@@ -49,7 +49,7 @@ impl Lock {
 /// The reason why a file or folder of the cache cannot be used, and what to do.
 fn unusable(doing: &str, path: &Path, error: &std::io::Error) -> Failure {
     match Failure::io(doing, path, error) {
-        Failure::Other(said) => Failure::Other(build_failure::of(&said).unwrap_or(said)),
+        Failure::Other(text) => Failure::Other(build_failure::of(&text).unwrap_or(text)),
         other => other,
     }
 }
@@ -117,15 +117,18 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn what_cannot_be_used_is_told_with_what_to_do() {
+    fn what_cannot_be_used_is_reported_with_what_to_do() {
         for (code, help) in [
             (13, "set ARL2RS_CACHE to a folder that can be written"),
             (30, "set ARL2RS_CACHE to a folder that can be written"),
             (28, "free some space; `arl2rs clean` removes what was compiled"),
         ] {
             let error = std::io::Error::from_raw_os_error(code);
-            let told = unusable("lock", Path::new("/cache/lock"), &error).to_string();
-            assert!(told.contains("cannot lock /cache/lock") && told.ends_with(&format!("help: {help}")), "{told}");
+            let message = unusable("lock", Path::new("/cache/lock"), &error).to_string();
+            assert!(
+                message.contains("cannot lock /cache/lock") && message.ends_with(&format!("help: {help}")),
+                "{message}"
+            );
         }
     }
 }

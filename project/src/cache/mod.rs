@@ -156,7 +156,7 @@ impl Place {
     }
 
     /// The file with the messages shown when the program was checked.
-    pub fn said(&self) -> PathBuf {
+    pub fn messages(&self) -> PathBuf {
         self.folder.join("said")
     }
 

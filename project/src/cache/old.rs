@@ -240,8 +240,8 @@ mod tests {
         let removed = cache.clean(day * 2);
         let kept = vec![root.join("programs/arl-c-00000003")];
         assert_eq!(removed, Removed { programs: 1, runtimes: 0, results: 1, bytes: 16, kept });
-        let left: Vec<_> = entries(&root.join("runtime/r/target/debug/deps")).collect();
-        assert_eq!(left.len(), 2, "{left:?}");
+        let remaining: Vec<_> = entries(&root.join("runtime/r/target/debug/deps")).collect();
+        assert_eq!(remaining.len(), 2, "{remaining:?}");
 
         drop(used);
         let removed = cache.clean(Duration::ZERO);

@@ -1,6 +1,6 @@
 // Requests to the server of the view about points and poses.
 
-import { trouble } from "../live.js";
+import { showProblem } from "../live.js";
 
 /** The components of a pose, as ARL names them: mm along, deg about. */
 export const COMPONENTS = ["x", "y", "z", "a", "b", "c"];
@@ -24,7 +24,7 @@ export async function ask(what, order) {
   const body = order === undefined ? {} : { method: "POST", body: JSON.stringify(order) };
   const answer = await fetch(`/api/teach/${what}`, body);
   if (answer.ok) return answer.json();
-  trouble(await answer.text());
+  showProblem(await answer.text());
   return undefined;
 }
 

@@ -40,7 +40,7 @@ after(() => rmSync(path, { recursive: true, force: true }));
 
 test("a body goes with the external axes that move it", { skip }, async (test) => {
   const { url } = await serve(test, path, "a.mcap");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   const at = async (/** @type {number} */ time) => {
     await page.evaluate((time) => window.page.seek(time), time);
     // Two pictures later it is shown.
@@ -59,5 +59,5 @@ test("a body goes with the external axes that move it", { skip }, async (test) =
   near(before.at, [1.01, -0.3, 0.25]);
   const after = await at(await page.evaluate(() => window.page.end));
   near(after.at, [0.9, -0.3 + 0.1 + 0.01 + 0.2, 0.25]);
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });

@@ -10,7 +10,7 @@ const page = await browser.newPage({ viewport: { width: 1400, height: 850 } });
 const begin = performance.now();
 await page.goto(url);
 await page.waitForFunction(() => window.page?.tracks.rows && window.page.scene.fitted);
-const motions = await page.evaluate(() => window.page.run.told.motions.length);
+const motions = await page.evaluate(() => window.page.run.answer.motions.length);
 console.log(`motions ${motions}, ${await page.evaluate(() => window.page.run.end)} s of the robot's time`);
 console.log(`shown after ${((performance.now() - begin) / 1000).toFixed(2)} s`);
 /** Pictures while it plays, each at a time of its own: what they take the page, and how far they are apart. @param {boolean} scrubs */

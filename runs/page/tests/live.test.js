@@ -25,7 +25,7 @@ test("a program is started, paused, told inputs, and stopped with the command", 
   writeFileSync(join(path, "a.arl"), PROGRAM);
   writeFileSync(join(path, "cell.toml"), '[names]\n"di.5" = "door_open"\n');
   const { url, server, ended } = await serve(test, path, "a.arl", "--cell", "cell.toml");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   // Nothing moves before somebody says so.
   await says(page, "paused");
   await page.getByRole("button", { name: "Start" }).click();
@@ -51,7 +51,7 @@ test("a program is started, paused, told inputs, and stopped with the command", 
   await page.evaluate(() => fetch("/api/order", { method: "POST", body: "di.1 = maybe" }));
   await page.getByRole("tab", { name: "Events" }).click();
   await page.locator("#panel .warning", { hasText: "di.1 = maybe" }).waitFor();
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
   // Ctrl-C stops the robot and the command, and the page says so.
   server.kill("SIGINT");
   assert.equal(await ended, 130);
@@ -64,8 +64,8 @@ test("motions are told as they end, with what they did", { skip }, async (test) 
   const { url } = await serve(test, path, "a.arl");
   const { page } = await visit(test, url);
   await page.getByRole("button", { name: "Start" }).click();
-  await page.waitForFunction(() => window.page.run.told.motions.length > 0);
-  const motion = await page.evaluate(() => window.page.run.told.motions[0]);
+  await page.waitForFunction(() => window.page.run.answer.motions.length > 0);
+  const motion = await page.evaluate(() => window.page.run.answer.motions[0]);
   assert.equal(motion.kind, "movej");
   assert.ok(motion.duration > 0.01 && motion.vel[1] > 0, JSON.stringify(motion));
 });

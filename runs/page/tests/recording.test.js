@@ -51,7 +51,7 @@ endfunc
 `;
   record(path, "tools", program);
   const { url } = await serve(test, path, "tools.mcap");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   await page.waitForFunction(() => document.querySelector("#legend")?.textContent?.includes("mm/s"));
   const seen = await page.evaluate(() => {
     const { run, tracks } = /** @type {any} */ (window).page;
@@ -65,12 +65,12 @@ endfunc
   assert.equal(seen.jumps, 2, "there and back");
   assert.ok(seen.fastest < 5000, `${seen.fastest} mm/s`);
   assert.match(seen.legend ?? "", /^0 to \d{2,4} mm\/s/);
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });
 
 test("a recording plays, scrubs and tells where the program is", { skip }, async (test) => {
   const { url } = await serve(test, path, "a.mcap");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   assert.equal(await page.title(), "a.mcap – arl2rs view");
   // Play.
   const before = await state(page);
@@ -93,25 +93,25 @@ test("a recording plays, scrubs and tells where the program is", { skip }, async
   await page.locator(".source .motion .number", { hasText: "5" }).waitFor();
   await page.locator("#now", { hasText: "movej in line 5" }).waitFor();
   // The robot of the page stands where the recording says.
-  const [flange, said] = await page.evaluate(() => {
+  const [flange, tcp] = await page.evaluate(() => {
     const { frames, runs } = window.page.scene;
     const arm = frames[0].arms[0];
     const [flange, tcp] = [arm.links.at(-1).made, arm.tcp].map((frame) => frame.getWorldPosition(frame.position.clone()).toArray());
     return [flange, tcp];
   });
-  flange.forEach((value, at) => assert.ok(Math.abs(value - said[at]) < 1e-5, `${flange} and ${said}`));
+  flange.forEach((value, at) => assert.ok(Math.abs(value - tcp[at]) < 1e-5, `${flange} and ${tcp}`));
   // A line that is clicked is gone to.
   await page.locator(".source .code", { hasText: "j:{0,-70" }).click();
   await page.locator("#now", { hasText: "movej in line 8" }).waitFor();
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });
 
 test("what is carried is there while it is, signals have their names, contacts are marked", { skip }, async (test) => {
   const { url } = await serve(test, path, "a.mcap");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   const shown = () => page.evaluate(() => [...window.page.scene.frames[0].entities.keys()].filter((id) => id.startsWith("body/")));
   assert.deepEqual(await shown(), ["body/post"]);
-  const contacts = await page.evaluate(() => window.page.run.told.contacts);
+  const contacts = await page.evaluate(() => window.page.run.answer.contacts);
   assert.ok(contacts.length > 0, "the arm goes through the post");
   await page.evaluate((time) => window.page.seek(time), contacts[0].time);
   await page.waitForFunction(() => [...window.page.scene.frames[0].entities.keys()].includes("body/part"));
@@ -125,12 +125,12 @@ test("what is carried is there while it is, signals have their names, contacts a
   assert.match(await page.locator("#panel").innerText(), /go[\s\S]*touches post[\s\S]*there/);
   await page.getByRole("tab", { name: "Lines" }).click();
   assert.match(await page.locator("#panel").innerText(), /6\s+0\.000\s+0\.5\d+/, "line 6 waits");
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });
 
 test("a link opens at its moment, a reload stays there, and the colours are chosen", { skip }, async (test) => {
   const { url } = await serve(test, path, "a.mcap");
-  const { page, troubles } = await visit(test, `${url}#t=0.500&color=blend`);
+  const { page, problems } = await visit(test, `${url}#t=0.500&color=blend`);
   assert.equal((await state(page)).time, 0.5);
   assert.match(await page.locator("#legend").innerText(), /stops at the target/);
   for (const [key, word] of [
@@ -150,12 +150,12 @@ test("a link opens at its moment, a reload stays there, and the colours are chos
   const before = await light();
   await page.keyboard.press("d");
   assert.equal(await light(), !before);
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });
 
 test("a phone shows it below each other, nothing is cut off", { skip }, async (test) => {
   const { url } = await serve(test, path, "a.mcap");
-  const { page, troubles } = await visit(test, url, { width: 390, height: 844 });
+  const { page, problems } = await visit(test, url, { width: 390, height: 844 });
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   assert.ok(width <= 390, `${width} wide`);
   await page
@@ -163,7 +163,7 @@ test("a phone shows it below each other, nothing is cut off", { skip }, async (t
     .tap()
     .catch(() => page.locator("#play").click());
   await page.waitForFunction(() => window.page.time > 0);
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });
 
 test("without WebGL everything else is shown", { skip }, async (test) => {
@@ -186,7 +186,7 @@ test("a recording that is cut off is shown as far as it goes", { skip }, async (
 test("two recordings are in one cell, and what differs is a table", { skip }, async (test) => {
   record(path, "b", PROGRAM.replace("waittime 0.5", "waittime 0.9"), { options: ["--cell", "cell.toml"] });
   const { url } = await serve(test, path, "a.mcap", "b.mcap");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   assert.equal(await page.evaluate(() => window.page.scene.frames.length), 2);
   await page.getByRole("tab", { name: "Differences" }).click();
   const panel = page.locator("#panel");
@@ -196,5 +196,5 @@ test("two recordings are in one cell, and what differs is a table", { skip }, as
   await page.keyboard.press("End");
   const { time, end } = await state(page);
   assert.ok(time === end && end > (await page.evaluate(() => window.page.run.end)) + 0.3);
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });

@@ -61,7 +61,7 @@ after(() => rmSync(path, { recursive: true, force: true }));
 
 test("a part goes along with the robot, whose shape is that of its URDF", { skip }, async (test) => {
   const { url } = await serve(test, path, "a.mcap");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   const part = () =>
     page.evaluate(() => {
       const { of, group } = window.page.scene.frames[0].entities.get("body/part");
@@ -82,17 +82,17 @@ test("a part goes along with the robot, whose shape is that of its URDF", { skip
   // Axis 1 turned by 60 degrees with it, the other way round than the world's.
   const turned = [0.803 * Math.cos(Math.PI / 3), -0.803 * Math.sin(Math.PI / 3), 0.5];
   assert.ok(Math.hypot(...turned.map((value, axis) => value - after.at[axis])) < 1e-3, `${after.at} and ${turned}`);
-  const way = await page.evaluate(() => {
-    const { motions } = window.page.run.told;
+  const middle = await page.evaluate(() => {
+    const { motions } = window.page.run.answer;
     const [, second] = motions;
     return second.start + second.duration / 2;
   });
-  assert.equal((await at(way)).frame, "flange");
+  assert.equal((await at(middle)).frame, "flange");
   const arm = await page.evaluate(() => {
     const { group, of } = window.page.scene.frames[0].entities.get("the upper arm");
     const sides = group.children[0].geometry.attributes.position.count;
     return { frame: of.frame, sides, meshes: group.children.length };
   });
   assert.deepEqual(arm, { frame: "link_2", sides: 12, meshes: 1 });
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });

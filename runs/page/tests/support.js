@@ -52,12 +52,12 @@ export async function visit(test, url, { width = 1400, height = 850, args = [] }
   test.after(() => browser.close());
   const page = await browser.newPage({ viewport: { width, height } });
   /** @type {string[]} */
-  const troubles = [];
+  const problems = [];
   page.on("console", (message) => {
-    if (["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text())) troubles.push(message.text());
+    if (["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text())) problems.push(message.text());
   });
-  page.on("pageerror", (error) => troubles.push(String(error)));
+  page.on("pageerror", (error) => problems.push(String(error)));
   await page.goto(url);
   await page.waitForFunction(() => /** @type {any} */ (window).page?.tracks.rows);
-  return { page, troubles };
+  return { page, problems };
 }

@@ -38,7 +38,7 @@ const field = (page, name) => page.getByLabel(name, { exact: true });
 test("a point is moved by 50 mm: git diff shows it, and the program goes there", { skip }, async (test) => {
   const { path, git, points } = project(test);
   const { url } = await serve(test, path, "a.arl", "--teach");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   await page.getByRole("tab", { name: "Teach" }).click();
   await page.getByText("feeder", { exact: true }).click();
   await page.waitForFunction(() => document.querySelector('[aria-label="x"]').value === "900");
@@ -64,17 +64,17 @@ test("a point is moved by 50 mm: git diff shows it, and the program goes there",
   await page.getByRole("button", { name: "Reset" }).click();
   await page.locator("#now h2", { hasText: /stopped|ended/ }).waitFor();
   await page.getByRole("button", { name: "Reset" }).click();
-  await page.waitForFunction(() => window.page.run.told.log.some((log) => log.text === "950"), undefined, { timeout: 20000 });
+  await page.waitForFunction(() => window.page.run.answer.log.some((log) => log.text === "950"), undefined, { timeout: 20000 });
   await page.getByRole("button", { name: "Undo" }).click();
   await page.waitForFunction(() => window.page.teach.data.undo === 0);
   assert.equal(points(), POINTS);
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });
 
 test("groups are shifted and mirrored, configurations offered, the TCP dragged", { skip }, async (test) => {
   const { path, points } = project(test);
   const { url } = await serve(test, path, "a.arl", "--teach");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   await page.getByRole("tab", { name: "Teach" }).click();
   for (const name of ["feeder", "pallet"]) await page.getByRole("checkbox", { name }).click();
   await page.getByLabel("by z").fill("25");
@@ -105,13 +105,13 @@ test("groups are shifted and mirrored, configurations offered, the TCP dragged",
   await page.waitForFunction(() => window.page.teach.place?.nearest !== null);
   await page.getByRole("button", { name: "Map" }).click();
   await page.waitForFunction(() => window.page.teach.mapped?.group.children.length === 1);
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });
 
 test("the robot moves while a button is held, and no longer", { skip }, async (test) => {
   const { path } = project(test);
   const { url } = await serve(test, path, "a.arl", "--teach");
-  const { page, troubles } = await visit(test, url);
+  const { page, problems } = await visit(test, url);
   await page.getByRole("tab", { name: "Teach" }).click();
   const axes = () =>
     page.evaluate(() =>
@@ -141,7 +141,7 @@ test("the robot moves while a button is held, and no longer", { skip }, async (t
   await page.waitForFunction(() => window.page?.tracks.rows);
   const lost = await rests();
   assert.ok(lost[0] > held[0] && lost[0] < 165, `${held} ${lost}`);
-  assert.deepEqual(troubles, []);
+  assert.deepEqual(problems, []);
 });
 
 test("without --teach nothing is written", { skip }, async (test) => {

@@ -123,11 +123,11 @@ fn counts(limbs: &[&Item], one: &Item, other: &Item) -> bool {
 
 /// Whether the second item, on the flange or the last limb, takes the first one along: they are meant to touch.
 fn takes(limbs: &[&Item], part: &Item, gripper: &Item) -> bool {
-    let holds = |by: usize| match gripper.limb {
+    let grips = |by: usize| match gripper.limb {
         Some(limb) => gripper.holder.arm() == Some(by) && is_last(limbs, gripper, limb),
         None => gripper.holder == Holder::Flange { arm: by } && gripper.part.is_none(),
     };
-    part.part.is_some_and(|part| holds(part.by))
+    part.part.is_some_and(|part| grips(part.by))
 }
 
 /// Whether both are forms of one part, standing or held.

@@ -35,7 +35,7 @@ pub(super) struct Part {
     place: Place,
     was_taken: bool,
     /// What was last reported of it, if anything was.
-    pub(super) said: Option<Placing>,
+    pub(super) reported: Option<Placing>,
 }
 
 impl Parts {
@@ -50,7 +50,7 @@ impl Parts {
             let wrong = |problem| Failure::Usage(format!("body `{}`: {problem}", body.name));
             let forms = item::hulls(looks).map_err(wrong)?;
             let place = Place { held_by: None, at: body.at };
-            parts.push(Part { body: number, grip, when: body.when, forms, place, was_taken: false, said: None });
+            parts.push(Part { body: number, grip, when: body.when, forms, place, was_taken: false, reported: None });
         }
         Ok((!parts.is_empty()).then_some(Self { parts, runs: Vec::new() }))
     }
@@ -76,7 +76,7 @@ impl Parts {
         let all = self.parts.iter_mut().zip(there);
         all.filter_map(|(part, there)| {
             let placing = Placing { body: part.body, place: there.then_some(part.place) };
-            (part.said.as_ref() != Some(&placing)).then(|| part.said.insert(placing).clone())
+            (part.reported.as_ref() != Some(&placing)).then(|| part.reported.insert(placing).clone())
         })
         .collect()
     }

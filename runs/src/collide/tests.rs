@@ -82,7 +82,7 @@ fn motion(robot: &Robot, random: &mut Random) -> impl Fn(u32) -> Vec<f64> + use<
 
 /// For each pair of a cell, the first cycle in which it touches, and its closest approach before that, looked for in
 /// each cycle.
-fn by_looking_always(collisions: &mut Collisions, cycles: &[Cycle]) -> Vec<(String, String, Option<f64>, f64)> {
+fn by_checking_each_cycle(collisions: &mut Collisions, cycles: &[Cycle]) -> Vec<(String, String, Option<f64>, f64)> {
     let mut found: Vec<(String, String, Option<f64>, f64)> = collisions
         .pairs
         .iter()
@@ -124,7 +124,7 @@ fn no_contact_is_missed_and_the_nearest_is_near() {
         let motions: Vec<_> = robots.iter().map(|name| motion(&Robot::load(name).unwrap(), &mut random)).collect();
         let at = |step| cycle(step, &motions.iter().map(|motion| motion(step)).collect::<Vec<_>>());
         let cycles: Vec<Cycle> = (0..1500).map(at).collect();
-        let expected = by_looking_always(&mut begun(&text, CLEARANCE, &robots), &cycles);
+        let expected = by_checking_each_cycle(&mut begun(&text, CLEARANCE, &robots), &cycles);
         let mut collisions = begun(&text, CLEARANCE, &robots);
         let contacts: Vec<Contact> = cycles.iter().flat_map(|cycle| collisions.cycle(cycle)).collect();
         let own: Vec<bool> = collisions.pairs.iter().map(Pair::is_own).collect();
@@ -188,7 +188,7 @@ fn what_external_axes_move_counts_in_each_cycle() {
         cycle_with_table(step, robot(step), external)
     };
     let cycles: Vec<Cycle> = (0..4000).map(at).collect();
-    let expected = by_looking_always(&mut begun_with_table(CLEARANCE), &cycles);
+    let expected = by_checking_each_cycle(&mut begun_with_table(CLEARANCE), &cycles);
     let mut collisions = begun_with_table(CLEARANCE);
     let contacts: Vec<Contact> = cycles.iter().flat_map(|cycle| collisions.cycle(cycle)).collect();
     let nearest = collisions.nearest();
@@ -332,7 +332,7 @@ fn robots_do_not_touch_themselves_where_they_stand_at_home() {
 }
 
 #[test]
-fn what_is_wrong_with_bodies_is_said() {
+fn what_is_wrong_with_bodies_is_reported() {
     let folder = std::env::temp_dir().join(format!("arl2rs-bodies-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join("a.stl");
@@ -456,21 +456,21 @@ fn parts_go_along_with_the_robot_and_stay_where_they_are_put() {
     let scenery = scenery(&format!("{}{}{}", part("far", 30.0), part("near", 12.0), part("farther", 17.0)));
     let mut parts = Parts::of(&scenery).unwrap().unwrap();
     parts.receive(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
-    let said = |placings: Vec<Placing>| -> Vec<(usize, Option<Option<usize>>)> {
+    let holders = |placings: Vec<Placing>| -> Vec<(usize, Option<Option<usize>>)> {
         placings.iter().map(|placing| (placing.body, placing.place.map(|place| place.held_by))).collect()
     };
-    assert_eq!(said(received(&mut parts, state(here, "0"))), [(0, Some(None)), (1, Some(None)), (2, Some(None))]);
+    assert_eq!(holders(received(&mut parts, state(here, "0"))), [(0, Some(None)), (1, Some(None)), (2, Some(None))]);
     // The nearest one alone: 12 mm away in the middle, 2 mm at its side.
-    assert_eq!(said(received(&mut parts, state(here, "1"))), [(1, Some(Some(0)))]);
-    assert_eq!(said(received(&mut parts, state(here, "1"))), []);
-    assert_eq!(said(received(&mut parts, state(there, "1"))), []);
+    assert_eq!(holders(received(&mut parts, state(here, "1"))), [(1, Some(Some(0)))]);
+    assert_eq!(holders(received(&mut parts, state(here, "1"))), []);
+    assert_eq!(holders(received(&mut parts, state(there, "1"))), []);
     let put = received(&mut parts, state(there, "0"));
-    assert_eq!(said(put.clone()), [(1, Some(None))]);
+    assert_eq!(holders(put.clone()), [(1, Some(None))]);
     let wanted = robot.kinematics.forward(&there) * robot.kinematics.forward(&here).inverse() * scenery.bodies[1].0.at;
     assert!((put[0].place.unwrap().at.translation.vector - wanted.translation.vector).norm() < 1e-9);
     // On again where nothing is near: nothing; it is taken once it is near enough, not when the gripper goes on.
-    assert_eq!(said(received(&mut parts, state([120.0, -70.0, 100.0, 0.0, 60.0, 0.0], "1"))), []);
-    assert_eq!(said(received(&mut parts, state(there, "1"))), [(1, Some(Some(0)))]);
+    assert_eq!(holders(received(&mut parts, state([120.0, -70.0, 100.0, 0.0, 60.0, 0.0], "1"))), []);
+    assert_eq!(holders(received(&mut parts, state(there, "1"))), [(1, Some(Some(0)))]);
 }
 
 #[test]
@@ -486,7 +486,7 @@ fn parts_of_a_kind_come_after_each_other_with_their_signal() {
     parts.receive(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
     let mut there_are = |axes, dout| {
         received(&mut parts, state(axes, dout));
-        let places = parts.parts.iter().map(|part| part.said.as_ref().unwrap().place.map(|place| place.held_by));
+        let places = parts.parts.iter().map(|part| part.reported.as_ref().unwrap().place.map(|place| place.held_by));
         places.collect::<Vec<_>>()
     };
     assert_eq!(there_are(here, "00"), [None, None]);
@@ -621,7 +621,7 @@ fn a_part_may_be_near_what_it_lay_on_until_it_has_left_it() {
         y = at.y
     );
     // Up by 10 deg, and down again onto the table where that is asked for.
-    let told = |comes_back: bool| {
+    let distances = |comes_back: bool| {
         let mut collisions = begun(&text, 20.0, &["kr10-r1420"]);
         let mut parts = Parts::of(&scenery(&text)).unwrap().unwrap();
         parts.receive(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
@@ -638,12 +638,12 @@ fn a_part_may_be_near_what_it_lay_on_until_it_has_left_it() {
         let of_part = found.into_iter().filter(|contact| contact.one == "part" || contact.other == "part");
         of_part.map(|contact| contact.distance).collect::<Vec<_>>()
     };
-    assert_eq!(told(false), [0.0; 0]);
-    assert!(matches!(told(true)[..], [distance] if distance < 0.1), "{:?}", told(true));
+    assert_eq!(distances(false), [0.0; 0]);
+    assert!(matches!(distances(true)[..], [distance] if distance < 0.1), "{:?}", distances(true));
 }
 
 #[test]
-fn what_has_parted_and_touches_again_is_told_again() {
+fn what_has_parted_and_touches_again_is_reported_again() {
     let text = "[[body]]\nname = \"post\"\nbox = [60, 60, 60]\nat = [900, 0, 1080]\n";
     let touched = |swing: &dyn Fn(f64) -> f64| {
         let mut collisions = begun(text, 50.0, &["kr10-r1420"]);

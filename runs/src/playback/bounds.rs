@@ -224,13 +224,13 @@ mod tests {
     #[test]
     fn many_files_and_names_cost_by_their_number() {
         let mut store = Store::default();
-        let said = |number: usize| Channel { file: format!("f{number}.arl"), ..Channel::default() }.encode_to_vec();
+        let channel = |number: usize| Channel { file: format!("f{number}.arl"), ..Channel::default() }.encode_to_vec();
         // One of the names is that of no file.
         for number in 0..usize::from(u16::MAX) {
-            store.take("/arl/channel_1", 0, &said(number)).unwrap();
+            store.take("/arl/channel_1", 0, &channel(number)).unwrap();
         }
         assert_eq!(store.tracks[0].files.len(), usize::from(u16::MAX) + 1);
-        let problem = store.take("/arl/channel_1", 0, &said(usize::from(u16::MAX))).unwrap_err();
+        let problem = store.take("/arl/channel_1", 0, &channel(usize::from(u16::MAX))).unwrap_err();
         assert!(problem.contains("the program has more than 65536 files"), "{problem}");
     }
 }

@@ -7,4 +7,4 @@ mod store;
 #[cfg(any(test, feature = "fuzzing"))]
 pub(crate) use read::of;
 pub(crate) use read::read;
-pub(crate) use store::{Signal, Store, TOLD_AGAIN, Took, Track};
+pub(crate) use store::{REPORTED_AGAIN, Signal, Store, Took, Track};

@@ -17,7 +17,7 @@ use arl_wire::{LinkJoint, placed as placed_frame, written};
 /// Between messages that are farther apart than this, in s, the robot was at rest: a moving robot reports more often.
 const GAP_S: f64 = 0.06;
 /// A motion up to this many before the last one may be reported again.
-pub(crate) const TOLD_AGAIN: usize = 64;
+pub(crate) const REPORTED_AGAIN: usize = 64;
 /// The interval of messages while a robot moves, in s.
 const STEP_S: f64 = 0.004;
 /// A TCP whose place on the flange differs by more than this, in mm, is that of another tool.
@@ -53,7 +53,7 @@ pub(crate) struct Store {
     /// Whether a running program adds to it.
     pub(crate) goes_on: bool,
     /// What of the recording could not be read, and the reason.
-    pub(crate) trouble: Option<String>,
+    pub(crate) problem: Option<String>,
     /// Counts the messages that were added.
     pub(crate) version: u64,
     /// The present inputs and outputs.
@@ -199,7 +199,7 @@ impl Store {
 
     /// A motion that is reported again has continued since.
     fn motion(&mut self, motion: Motion) {
-        let mut late = self.motions.iter_mut().rev().take(TOLD_AGAIN);
+        let mut late = self.motions.iter_mut().rev().take(REPORTED_AGAIN);
         let again = late.find(|late| (late.channel, late.motion) == (motion.channel, motion.motion));
         match again {
             Some(last) => *last = motion,
@@ -207,57 +207,57 @@ impl Store {
         }
     }
 
-    fn channel(&mut self, at: usize, said: Channel) -> Result<(), String> {
+    fn channel(&mut self, at: usize, message: Channel) -> Result<(), String> {
         if self.tracks.len() <= at {
             self.tracks.resize_with(at + 1, Track::default);
         }
         let links = self.cell.channels.get(at).map(|runs| &runs.links[..]).unwrap_or_default();
-        self.tracks.get_mut(at).map_or(Ok(()), |track| track.take(said, links))
+        self.tracks.get_mut(at).map_or(Ok(()), |track| track.take(message, links))
     }
 }
 
 impl Track {
-    fn take(&mut self, said: Channel, links: &[Link]) -> Result<(), String> {
-        let (file, motion_file) = (self.file(&said.file)?, self.file(&said.motion_file)?);
+    fn take(&mut self, message: Channel, links: &[Link]) -> Result<(), String> {
+        let (file, motion_file) = (self.file(&message.file)?, self.file(&message.motion_file)?);
         if self.times.is_empty() {
-            self.width = said.axes.len();
+            self.width = message.axes.len();
         }
-        if self.states.last().is_none_or(|(_, last)| *last != said.state) {
-            self.states.push((said.time, said.state.clone()));
+        if self.states.last().is_none_or(|(_, last)| *last != message.state) {
+            self.states.push((message.time, message.state.clone()));
         }
-        let base = placed(&said.base);
-        if !said.base.is_empty() && self.bases.last().is_none_or(|(_, last)| *last != base) {
-            self.bases.push((said.time, base));
+        let base = placed(&message.base);
+        if !message.base.is_empty() && self.bases.last().is_none_or(|(_, last)| *last != base) {
+            self.bases.push((message.time, base));
         }
-        let tcp = placed(&said.tcp);
-        let (speed, before) = (self.speed_to(said.time, &tcp), self.speed.last().copied().unwrap_or_default());
+        let tcp = placed(&message.tcp);
+        let (speed, before) = (self.speed_to(message.time, &tcp), self.speed.last().copied().unwrap_or_default());
         let jumps = self.last.as_ref().is_some_and(|last| {
             // The kinematics are computed last: a motion seldom begins.
-            let may_jump = last.motion != said.motion && way(&last.tcp, &said.tcp) > OTHER_TOOL_MM;
+            let may_jump = last.motion != message.motion && distance(&last.tcp, &message.tcp) > OTHER_TOOL_MM;
             may_jump
-                && flange_tool(last, links).zip(flange_tool(&said, links)).map_or_else(
+                && flange_tool(last, links).zip(flange_tool(&message, links)).map_or_else(
                     || f64::from(speed - before) > OTHER_TOOL_ACC * STEP_S,
                     |(one, other)| (one - other).norm() > OTHER_TOOL_MM,
                 )
         });
         self.jumps.push(jumps);
         self.speed.push(if jumps { before } else { speed });
-        self.axes.extend((0..self.width).map(|axis| said.axes.get(axis).copied().unwrap_or_default() as f32));
+        self.axes.extend((0..self.width).map(|axis| message.axes.get(axis).copied().unwrap_or_default() as f32));
         self.tcp.push(tcp);
         let pointers = Pointers {
             file,
-            line: said.line,
+            line: message.line,
             motion_file,
-            motion_line: said.motion_line,
-            motion: u32::try_from(said.motion).unwrap_or(u32::MAX),
+            motion_line: message.motion_line,
+            motion: u32::try_from(message.motion).unwrap_or(u32::MAX),
         };
-        self.count(said.time, pointers);
+        self.count(message.time, pointers);
         if pointers.motion != 0 && self.pointers.last().is_none_or(|last| last.motion != pointers.motion) {
             self.motion_files.insert(pointers.motion, pointers.motion_file);
         }
-        self.times.push(said.time);
+        self.times.push(message.time);
         self.pointers.push(pointers);
-        self.last = Some(said);
+        self.last = Some(message);
         Ok(())
     }
 
@@ -282,10 +282,10 @@ impl Track {
     /// The speed at which the TCP came from its last place, in mm/s.
     fn speed_to(&self, time: f64, tcp: &[f32; 7]) -> f32 {
         let (Some(before), Some(last)) = (self.times.last(), self.tcp.last()) else { return 0.0 };
-        let way = (0..3).map(|at| f64::from(tcp[at] - last[at]).powi(2)).sum::<f64>().sqrt();
+        let distance = (0..3).map(|at| f64::from(tcp[at] - last[at]).powi(2)).sum::<f64>().sqrt();
         let apart = time - before;
         // A robot at rest does not report until its first step.
-        (way / if apart > GAP_S { STEP_S } else { apart.max(1e-6) }) as f32
+        (distance / if apart > GAP_S { STEP_S } else { apart.max(1e-6) }) as f32
     }
 
     /// The number of a file.
@@ -302,18 +302,18 @@ impl Track {
 }
 
 /// The distance between two places, in mm.
-fn way(from: &[f64], to: &[f64]) -> f64 {
+fn distance(from: &[f64], to: &[f64]) -> f64 {
     from.iter().zip(to).take(3).map(|(from, to)| (to - from).powi(2)).sum::<f64>().sqrt()
 }
 
 /// Where the TCP is on the flange, in mm, if the recording has the robot's links.
-fn flange_tool(said: &Channel, links: &[Link]) -> Option<Vector3<f64>> {
-    let (base, tcp) = (<[f64; 6]>::try_from(&said.base[..]).ok()?, <[f64; 6]>::try_from(&said.tcp[..]).ok()?);
+fn flange_tool(message: &Channel, links: &[Link]) -> Option<Vector3<f64>> {
+    let (base, tcp) = (<[f64; 6]>::try_from(&message.base[..]).ok()?, <[f64; 6]>::try_from(&message.tcp[..]).ok()?);
     let mut flange = frame(base);
     for (at, link) in links.iter().enumerate() {
         let origin = <[f64; 7]>::try_from(&link.origin[..]).ok()?;
         flange *= match <[f64; 3]>::try_from(&link.axis[..]) {
-            Ok(axis) => LinkJoint { origin, axis, linear: link.linear }.joint().at(*said.axes.get(at)?),
+            Ok(axis) => LinkJoint { origin, axis, linear: link.linear }.joint().at(*message.axes.get(at)?),
             Err(_) => placed_frame(&origin),
         };
     }

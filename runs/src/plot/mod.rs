@@ -83,16 +83,16 @@ fn draw(outline: &Outline, robot: &Robot, ran: &Ran, rows: Rows) -> Result<Strin
     let axes = charts(speed.bottom() + 34.0, 240.0);
 
     let mut picture = Picture::default();
-    let mut ways = Views::new(outline, &views, 46.0);
+    let mut paths = Views::new(outline, &views, 46.0);
     let mut times = Times::new(outline, robot, band, speed, axes);
     let mut movement = Movement::default();
     for row in rows {
         let moved = movement.next(row?);
-        ways.push(outline, &moved);
+        paths.push(outline, &moved);
         times.push(&moved);
     }
     head(outline, robot, ran, &mut picture);
-    ways.draw(outline, &mut picture);
+    paths.draw(outline, &mut picture);
     times.draw(&mut picture);
     let signals = charts(axes.bottom() + 60.0, lanes::height(&ran.lanes));
     lanes::draw(&ran.lanes, outline.time, &signals, &mut picture);

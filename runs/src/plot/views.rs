@@ -18,7 +18,7 @@ const LEAST: f64 = 10.0;
 
 /// Of more lines than this, neighbours are drawn as one: they could not be told apart, and each is an element of the
 /// picture.
-const MOST_WAYS: usize = 1000;
+const MOST_PATHS: usize = 1000;
 
 /// One view.
 struct View {
@@ -32,7 +32,7 @@ struct View {
     /// How many lines are drawn as one.
     together: usize,
     /// The path so far, by line of the program: the first of those that are drawn as one.
-    ways: BTreeMap<ProgramLine, Line>,
+    paths: BTreeMap<ProgramLine, Line>,
     current: Option<ProgramLine>,
     last: Option<[f64; 2]>,
     /// Pieces of path that are already drawn: a loop of the program draws its path once.
@@ -70,8 +70,8 @@ impl Views {
                 ranges,
                 across: Scale::new(ranges[0], area.x, area.right()),
                 upward: Scale::new(ranges[1], area.bottom(), area.y),
-                together: outline.lines.len().div_ceil(MOST_WAYS).max(1),
-                ways: BTreeMap::new(),
+                together: outline.lines.len().div_ceil(MOST_PATHS).max(1),
+                paths: BTreeMap::new(),
                 current: None,
                 last: None,
                 drawn: HashSet::new(),
@@ -111,23 +111,23 @@ impl View {
         let from = if moved.speed.is_some() { before.unwrap_or(point) } else { point };
         // Quarters of a pixel: what is already drawn there is not drawn again.
         let rounded = |value: f64| (value * 4.0).round() as i32;
-        let way = self.ways.entry(line).or_default();
+        let path = self.paths.entry(line).or_default();
         let [begin, end] = [from, point].map(|[x, y]| [rounded(x), rounded(y)]);
-        if begin == end && way.is_down() {
+        if begin == end && path.is_down() {
             // Too short to be visible by itself.
-            way.push(point);
+            path.push(point);
             return;
         }
         let new = self.drawn.insert((line, [begin[0], begin[1], end[0], end[1]]));
         if !new {
-            way.lift();
+            path.lift();
             return;
         }
         if moved.speed.is_none() {
-            way.lift();
+            path.lift();
         }
-        way.push(from);
-        way.push(point);
+        path.push(from);
+        path.push(point);
     }
 
     /// The first of the lines that are drawn as one with this line.
@@ -138,9 +138,9 @@ impl View {
 
     fn lift(&mut self) {
         if let Some(line) = self.current.take()
-            && let Some(way) = self.ways.get_mut(&line)
+            && let Some(path) = self.paths.get_mut(&line)
         {
-            way.lift();
+            path.lift();
         }
     }
 
@@ -148,8 +148,8 @@ impl View {
         self.ground(step, picture);
         // Colours repeat after some lines: neighbouring lines differ however many lines are drawn as one.
         for (at, line) in outline.lines.iter().step_by(self.together).enumerate() {
-            let Some(way) = self.ways.remove(line) else { continue };
-            let points = way.finish();
+            let Some(path) = self.paths.remove(line) else { continue };
+            let points = path.finish();
             picture.path(&points, "way", colour(at));
             if let Some(place) = longest(&points) {
                 self.marks.push((*line, place));
@@ -245,7 +245,7 @@ mod tests {
     fn many_lines_are_drawn_together() {
         assert_eq!(drawn(300, 1.0).matches("<path").count(), 3 * 300, "each line for itself");
         let many = drawn(50_000, 50.0);
-        assert!(many.matches("<path").count() <= 3 * MOST_WAYS);
+        assert!(many.matches("<path").count() <= 3 * MOST_PATHS);
         assert!(many.len() < 1_000_000, "{} bytes", many.len());
     }
 }

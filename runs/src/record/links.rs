@@ -151,21 +151,21 @@ impl RecordedArm {
     }
 
     /// All frames at a moment.
-    pub(super) fn transforms(&self, said: &Channel, now: Timestamp) -> Vec<FrameTransform> {
+    pub(super) fn transforms(&self, reported: &Channel, now: Timestamp) -> Vec<FrameTransform> {
         let mut all = Vec::with_capacity(self.links.len() + 3);
         let mut add = |parent: String, child: String, frame: &Frame| all.push(transform(now, parent, child, frame));
-        add(WORLD.into(), self.base(), &components(&said.base));
+        add(WORLD.into(), self.base(), &components(&reported.base));
         let mut before = self.base();
-        for (number, (link, value)) in (1..).zip(self.links.iter().zip(&said.axes)) {
+        for (number, (link, value)) in (1..).zip(self.links.iter().zip(&reported.axes)) {
             let name = self.link(number);
             add(before, name.clone(), &link.joint().at(*value));
             before = name;
         }
         add(before, self.flange_frame(), &placed(&self.flange));
-        add(WORLD.into(), self.tcp_frame(), &components(&said.tcp));
-        add(WORLD.into(), self.workpiece_frame(), &components(&said.workpiece));
+        add(WORLD.into(), self.tcp_frame(), &components(&reported.tcp));
+        add(WORLD.into(), self.workpiece_frame(), &components(&reported.workpiece));
         for Carried { frame, parent, joint, axis } in &self.carriers {
-            add(parent.clone(), frame.clone(), &joint.at(said.axes.get(*axis).copied().unwrap_or_default()));
+            add(parent.clone(), frame.clone(), &joint.at(reported.axes.get(*axis).copied().unwrap_or_default()));
         }
         all
     }

@@ -46,19 +46,19 @@ impl RecordedParts {
     pub(super) fn place(&mut self, placing: &Placing, frame: String, now: Timestamp) -> Option<FrameTransform> {
         self.held.remove(&placing.body);
         let place = placing.place?;
-        let told = self.told(&frame, place, now);
+        let transform = self.transform_of(&frame, place, now);
         if place.held_by.is_some() {
             self.held.insert(placing.body, (frame, place));
         }
-        Some(told)
+        Some(transform)
     }
 
     /// The parts that move along with a robot.
     pub(super) fn held(&self, now: Timestamp) -> impl Iterator<Item = FrameTransform> {
-        self.held.values().map(move |(frame, place)| self.told(frame, *place, now))
+        self.held.values().map(move |(frame, place)| self.transform_of(frame, *place, now))
     }
 
-    fn told(&self, frame: &str, Place { held_by, at }: Place, now: Timestamp) -> FrameTransform {
+    fn transform_of(&self, frame: &str, Place { held_by, at }: Place, now: Timestamp) -> FrameTransform {
         let flange = held_by.and_then(|channel| self.flanges.get(channel));
         let world = flange.map_or(at, |flange| flange * at);
         transform(now, WORLD.to_owned(), frame.to_owned(), &world)

@@ -73,8 +73,8 @@ impl<S: Sink> Recorder<S> {
             Line::Hello(hello) => self.begin(hello),
             Line::State(state) => self.state(state),
             Line::Message(arl_wire::Message { time, channel, text, .. }) => {
-                let said = log(Level::Info, text.trim_end_matches('\n'));
-                self.log(*time, Log { name: channel.clone(), ..said })
+                let entry = log(Level::Info, text.trim_end_matches('\n'));
+                self.log(*time, Log { name: channel.clone(), ..entry })
             }
             Line::Warning(text) => self.log(self.time, log(Level::Warning, text)),
             Line::Alarm(arl_wire::Alarm { text, file, line, .. }) => {
@@ -160,8 +160,8 @@ impl<S: Sink> Recorder<S> {
             }
             self.last.io = Some(io);
         }
-        for (at, said) in state.channels.iter().enumerate() {
-            self.channel(at, said, time)?;
+        for (at, reported) in state.channels.iter().enumerate() {
+            self.channel(at, reported, time)?;
         }
         self.parts.robots_are(&state.channels);
         if time < self.frames_due {
@@ -173,19 +173,19 @@ impl<S: Sink> Recorder<S> {
         self.frames(state)
     }
 
-    fn channel(&mut self, at: usize, said: &arl_wire::Channel, time: f64) -> McapResult<()> {
+    fn channel(&mut self, at: usize, reported: &arl_wire::Channel, time: f64) -> McapResult<()> {
         let line = |line: usize| u32::try_from(line).unwrap_or_default();
         let channel = Channel {
             time,
-            state: said.state.clone(),
-            file: said.file.clone(),
-            line: line(said.line),
-            motion_file: said.motion_file.clone(),
-            motion_line: line(said.motion_line),
-            motion: said.motion,
-            axes: said.axes.clone(),
-            tcp: said.tcp.clone(),
-            base: said.base.clone(),
+            state: reported.state.clone(),
+            file: reported.file.clone(),
+            line: line(reported.line),
+            motion_file: reported.motion_file.clone(),
+            motion_line: line(reported.motion_line),
+            motion: reported.motion,
+            axes: reported.axes.clone(),
+            tcp: reported.tcp.clone(),
+            base: reported.base.clone(),
         };
         let Some(last) = self.last.channels.get_mut(at) else { return Ok(()) };
         if (Channel { time: last.time, ..channel.clone() }) == *last {
@@ -199,17 +199,21 @@ impl<S: Sink> Recorder<S> {
     fn frames(&mut self, state: &State) -> McapResult<()> {
         let time = state.time;
         let places = state.channels.iter();
-        let places = places.map(|said| [&said.axes[..], &said.tcp, &said.base, &said.workpiece].concat()).collect();
+        let places = places
+            .map(|reported| [&reported.axes[..], &reported.tcp, &reported.base, &reported.workpiece].concat())
+            .collect();
         if self.last.places == places {
             return Ok(());
         }
         self.last.places = places;
         let (mut transforms, mut joints) = (Vec::new(), Vec::new());
-        for (arm, said) in self.arms.iter_mut().zip(&state.channels) {
+        for (arm, reported) in self.arms.iter_mut().zip(&state.channels) {
             let Some(arm) = arm else { continue };
-            arm.stands_on(&said.base);
-            transforms.extend(arm.transforms(said, timestamp(time)));
-            joints.extend(arm.joints(&said.axes).map(|(name, position)| JointState { name, position: Some(position) }));
+            arm.stands_on(&reported.base);
+            transforms.extend(arm.transforms(reported, timestamp(time)));
+            joints.extend(
+                arm.joints(&reported.axes).map(|(name, position)| JointState { name, position: Some(position) }),
+            );
         }
         transforms.extend(self.parts.held(timestamp(time)));
         if transforms.is_empty() {

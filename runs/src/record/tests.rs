@@ -101,7 +101,7 @@ fn frames_lead_from_the_world_to_the_flange_in_metres() {
 }
 
 #[test]
-fn what_is_said_and_what_motions_did_is_there() {
+fn messages_and_what_motions_did_are_there() {
     let lines = [
         HELLO,
         &state(1.5, 0.0, "10", 7),
@@ -114,8 +114,8 @@ fn what_is_said_and_what_motions_did_is_there() {
     ];
     let topics = recorded(&lines.map(str::to_owned));
     let logs: Vec<Log> = topics["/log"].iter().map(|(_, data)| Log::decode(&data[..]).unwrap()).collect();
-    let said: Vec<_> = logs.iter().map(|log| (log.level(), log.message.as_str(), log.line)).collect();
-    assert_eq!(said, [(Level::Info, "part 1", 0), (Level::Warning, "slow", 0), (Level::Error, "alarm 20003: no", 9)]);
+    let logged: Vec<_> = logs.iter().map(|log| (log.level(), log.message.as_str(), log.line)).collect();
+    assert_eq!(logged, [(Level::Info, "part 1", 0), (Level::Warning, "slow", 0), (Level::Error, "alarm 20003: no", 9)]);
     assert_eq!(logs[0].timestamp.unwrap(), Timestamp { seconds: 1, nanos: 250_000_000 });
     let [(time, motion)] = &topics["/arl/motions"][..] else { panic!("one motion") };
     let motion = Motion::decode(&motion[..]).unwrap();
@@ -151,8 +151,8 @@ fn what_external_axes_move_is_a_frame_with_its_bodies() {
     let bodies = SceneUpdate::decode(&topics["/scene"][1].1[..]).unwrap();
     assert_eq!((bodies.entities[0].id.as_str(), bodies.entities[0].frame_id.as_str()), ("body/disc", "ej2"));
     let runs = Cell::decode(&topics["/arl/cell"][0].1[..]).unwrap().channels.remove(0);
-    let told = runs.carriers.iter().map(|link| (link.frame.as_str(), link.moved_by.as_str(), link.linear));
-    assert_eq!(told.collect::<Vec<_>>(), [("ej1", "ej1", false), ("ej2", "ej2", true)]);
+    let carriers = runs.carriers.iter().map(|link| (link.frame.as_str(), link.moved_by.as_str(), link.linear));
+    assert_eq!(carriers.collect::<Vec<_>>(), [("ej1", "ej1", false), ("ej2", "ej2", true)]);
     assert_eq!(runs.links.iter().map(|link| &*link.moved_by).collect::<Vec<_>>(), ["j1", "j2", ""]);
     let mut bytes = Vec::new();
     let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &scenery);
@@ -229,15 +229,15 @@ fn bodies_come_and_go_with_their_signal() {
     let topics = recorded_in(&lines, &scenery);
     let updates: Vec<SceneUpdate> =
         topics["/scene"].iter().map(|(_, data)| SceneUpdate::decode(&data[..]).unwrap()).collect();
-    let told = |update: &SceneUpdate| {
+    let changes = |update: &SceneUpdate| {
         let there: Vec<_> = update.entities.iter().map(|one| (one.id.clone(), one.frame_id.clone())).collect();
         (there, update.deletions.iter().map(|gone| gone.id.clone()).collect::<Vec<_>>())
     };
     let entity = |id: &str, frame: &str| vec![(id.to_owned(), frame.to_owned())];
-    assert_eq!(told(&updates[0]), (entity("arm 1", "link_1"), Vec::new()));
-    assert_eq!(told(&updates[1]), (entity("body/table", "world"), Vec::new()));
-    assert_eq!(told(&updates[2]), (entity("body/part", "flange"), Vec::new()));
-    assert_eq!(told(&updates[3]), (Vec::new(), vec!["body/part".to_owned()]));
+    assert_eq!(changes(&updates[0]), (entity("arm 1", "link_1"), Vec::new()));
+    assert_eq!(changes(&updates[1]), (entity("body/table", "world"), Vec::new()));
+    assert_eq!(changes(&updates[2]), (entity("body/part", "flange"), Vec::new()));
+    assert_eq!(changes(&updates[3]), (Vec::new(), vec!["body/part".to_owned()]));
     let size = updates[1].entities[0].cubes[0].size.unwrap();
     assert_eq!((size.x, size.y, size.z), (0.8, 0.6, 0.04));
 }

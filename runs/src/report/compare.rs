@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use super::summary::{OfChannel, OfLine, Said, Summary};
+use super::summary::{OfChannel, OfLine, Summary, TimedText};
 
 /// Times and path lengths that differ by less are the same, in s and mm: they were written with a limited number of
 /// digits.
@@ -88,8 +88,8 @@ fn rows(before: &OfChannel, after: &OfChannel) -> Vec<LineDifference> {
 }
 
 /// The first text that differs.
-fn texts(what: &str, one: &[Said], other: &[Said]) -> Option<String> {
-    let differs = |(one, other): (&Said, &Said)| one.text != other.text;
+fn texts(what: &str, one: &[TimedText], other: &[TimedText]) -> Option<String> {
+    let differs = |(one, other): (&TimedText, &TimedText)| one.text != other.text;
     let at = one.iter().zip(other).position(differs).unwrap_or(one.len().min(other.len()));
     let number = at + 1;
     match (one.get(at), other.get(at)) {
@@ -162,10 +162,10 @@ impl fmt::Display for Differences {
         for row in &self.lines {
             let cell = |time: Option<f64>| time.map_or_else(|| "-".to_owned(), |time| format!("{time:.3}"));
             let by = row.other.unwrap_or(0.0) - row.one.unwrap_or(0.0);
-            let way = row.way[1] - row.way[0];
-            let way = if way.abs() < SAME { String::new() } else { format!("{way:+.3}") };
+            let distance = row.way[1] - row.way[0];
+            let distance = if distance.abs() < SAME { String::new() } else { format!("{distance:+.3}") };
             let text = format!(
-                "{:width$}  {:>10}  {:>10}  {by:>+10.3}  {way:>12}",
+                "{:width$}  {:>10}  {:>10}  {by:>+10.3}  {distance:>12}",
                 place(row),
                 cell(row.one),
                 cell(row.other)

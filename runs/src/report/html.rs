@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::summary::{OfChannel, OfLine, Said, Summary};
+use super::summary::{OfChannel, OfLine, Summary, TimedText};
 
 const HEAD: &str = "<!doctype html>
 <html lang=\"en\">
@@ -27,14 +27,14 @@ td.bar i + i { background: #4d94d0; }
 pub(super) fn page(summary: &Summary) -> String {
     let mut out = HEAD.to_owned();
     let _ = writeln!(out, "<h1>{:.3} s</h1>", summary.time);
-    for said in &summary.alarms {
-        let _ = writeln!(out, "<p class=\"alarm\">After {:.3} s: {}</p>", said.time, escaped(&said.text));
+    for alarm in &summary.alarms {
+        let _ = writeln!(out, "<p class=\"alarm\">After {:.3} s: {}</p>", alarm.time, escaped(&alarm.text));
     }
     summary.channels.iter().for_each(|channel| add_channel(&mut out, channel));
     add_signals(&mut out, summary);
     add_contacts(&mut out, summary);
-    add_said(&mut out, "Warnings", &summary.warnings);
-    add_said(&mut out, "Messages", &summary.messages);
+    add_texts(&mut out, "Warnings", &summary.warnings);
+    add_texts(&mut out, "Messages", &summary.messages);
     out.push_str("</html>\n");
     out
 }
@@ -63,11 +63,11 @@ fn add_channel(out: &mut String, channel: &OfChannel) {
         let closest =
             line.closest.as_ref().map(|limit| format!("{} {} {} %", limit.of, limit.rate, percent(limit.percent)));
         let runs = if line.motions > 0 { line.motions.to_string() } else { String::new() };
-        let way = if line.motions > 0 { format!("{:.1}", line.way) } else { String::new() };
+        let distance = if line.motions > 0 { format!("{:.1}", line.way) } else { String::new() };
         let _ = writeln!(
             out,
             "<tr><td>{}:{}<td class=\"text\">{}<td>{runs}<td>{:.3}<td>{:.3}<td class=\"bar text\"><i style=\"width:{:.1}%\"></i>\
-             <i style=\"width:{:.1}%\"></i><td>{way}<td class=\"text\">{}<td class=\"text\">{}</tr>",
+             <i style=\"width:{:.1}%\"></i><td>{distance}<td class=\"text\">{}<td class=\"text\">{}</tr>",
             escaped(&line.file),
             line.line,
             escaped(&line.kinds.join(", ")),
@@ -120,12 +120,12 @@ fn add_contacts(out: &mut String, summary: &Summary) {
     out.push_str("</table>\n");
 }
 
-fn add_said(out: &mut String, title: &str, said: &[Said]) {
-    if said.is_empty() {
+fn add_texts(out: &mut String, title: &str, texts: &[TimedText]) {
+    if texts.is_empty() {
         return;
     }
     let _ = writeln!(out, "<h2>{title}</h2>\n<table><tr><th>after s<th></tr>");
-    for Said { time, text } in said {
+    for TimedText { time, text } in texts {
         let _ = writeln!(out, "<tr><td>{time:.3}<td class=\"text\">{}</tr>", escaped(text));
     }
     out.push_str("</table>\n");

@@ -18,9 +18,9 @@ pub(crate) struct Summary {
     pub(super) signals: Vec<OfSignal>,
     pub(super) contacts: Vec<OfContact>,
     /// What was printed, each with its time, and warnings and alarms.
-    pub(super) messages: Vec<Said>,
-    pub(super) warnings: Vec<Said>,
-    pub(super) alarms: Vec<Said>,
+    pub(super) messages: Vec<TimedText>,
+    pub(super) warnings: Vec<TimedText>,
+    pub(super) alarms: Vec<TimedText>,
 }
 
 /// What the program of a channel took, and what its robot did.
@@ -97,7 +97,7 @@ pub(super) struct OfContact {
 
 /// A text, and the time at which it came.
 #[derive(Clone, PartialEq, Default, Serialize, Deserialize, Debug)]
-pub(super) struct Said {
+pub(super) struct TimedText {
     pub(super) time: f64,
     pub(super) text: String,
 }
@@ -108,9 +108,9 @@ const VERSION: u32 = 1;
 impl Summary {
     /// Sums up the messages of a run.
     pub(crate) fn of(store: &Store) -> Self {
-        let said = |level: fn(Level) -> bool| {
+        let texts_at = |level: fn(Level) -> bool| {
             let of_level = store.log.iter().filter(move |(_, log)| level(log.level()));
-            of_level.map(|(time, log)| Said { time: *time, text: log.message.clone() }).collect()
+            of_level.map(|(time, log)| TimedText { time: *time, text: log.message.clone() }).collect()
         };
         let channels = (1..).zip(&store.cell.channels).map(|(channel, runs)| OfChannel {
             channel,
@@ -132,9 +132,9 @@ impl Summary {
             channels: channels.collect(),
             signals: signals(store),
             contacts: contacts.collect(),
-            messages: said(|level| level < Level::Warning),
-            warnings: said(|level| level == Level::Warning),
-            alarms: said(|level| level > Level::Warning),
+            messages: texts_at(|level| level < Level::Warning),
+            warnings: texts_at(|level| level == Level::Warning),
+            alarms: texts_at(|level| level > Level::Warning),
         }
     }
 }

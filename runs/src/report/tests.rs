@@ -2,7 +2,7 @@
 
 use super::compare::Differences;
 use super::html;
-use super::summary::{OfChannel, OfContact, OfLine, OfSignal, Said, Summary};
+use super::summary::{OfChannel, OfContact, OfLine, OfSignal, Summary, TimedText};
 
 fn line(line: u32, moving: f64, standing: f64, way: f64) -> OfLine {
     OfLine {
@@ -18,7 +18,7 @@ fn line(line: u32, moving: f64, standing: f64, way: f64) -> OfLine {
 }
 
 fn run() -> Summary {
-    let said = |text: &str| Said { time: 1.0, text: text.into() };
+    let timed = |text: &str| TimedText { time: 1.0, text: text.into() };
     let lines = vec![line(3, 1.0, 0.0, 100.0), line(4, 0.0, 0.5, 0.0)];
     let channel =
         OfChannel { channel: 1, program: "a.arl".into(), state: "ended".into(), lines, ..OfChannel::default() };
@@ -28,7 +28,7 @@ fn run() -> Summary {
         time: 1.5,
         channels: vec![channel],
         signals: vec![signal],
-        messages: vec![said("one"), said("two")],
+        messages: vec![timed("one"), timed("two")],
         ..Summary::default()
     }
 }
@@ -41,18 +41,18 @@ fn the_same_run_does_not_differ() {
 }
 
 #[test]
-fn what_differs_is_told_by_line_and_in_words() {
+fn what_differs_is_reported_by_line_and_in_words() {
     let mut now = run();
     now.time = 1.7;
     now.channels[0].state = "alarm".into();
     now.channels[0].lines = vec![line(3, 1.2, 0.0, 150.0), line(9, 0.0, 0.5, 0.0)];
     now.signals[0].changes = 3;
     now.messages[1].text = "three".into();
-    now.alarms.push(Said { time: 1.0, text: "alarm 20001".into() });
+    now.alarms.push(TimedText { time: 1.0, text: "alarm 20001".into() });
     now.contacts.push(OfContact { one: "arm 1".into(), other: "post".into(), ..OfContact::default() });
-    let told = Differences::between(&run(), &now).to_string();
+    let text = Differences::between(&run(), &now).to_string();
     assert_eq!(
-        told.lines().collect::<Vec<_>>(),
+        text.lines().collect::<Vec<_>>(),
         [
             "the run took 1.500 s, now 1.700 s (+0.200 s, +13.3 %)",
             "state at the end of channel 1: `ended` became `alarm`",
@@ -69,13 +69,13 @@ fn what_differs_is_told_by_line_and_in_words() {
 }
 
 #[test]
-fn a_pair_that_touches_more_often_is_told() {
+fn a_pair_that_touches_more_often_is_reported() {
     let contact = || OfContact { one: "arm 1".into(), other: "post".into(), ..OfContact::default() };
     let of = |times: usize| Summary { contacts: vec![contact(); times], ..run() };
-    let told = |before, now| Differences::between(&of(before), &of(now)).to_string();
-    assert!(told(3, 1).contains("arm 1 came near post 3 times, now once"), "{}", told(3, 1));
-    assert!(told(3, 0).contains("arm 1 no longer comes near post"));
-    assert_eq!(told(2, 2), "nothing differs: 1.500 s\n");
+    let text = |before, now| Differences::between(&of(before), &of(now)).to_string();
+    assert!(text(3, 1).contains("arm 1 came near post 3 times, now once"), "{}", text(3, 1));
+    assert!(text(3, 0).contains("arm 1 no longer comes near post"));
+    assert_eq!(text(2, 2), "nothing differs: 1.500 s\n");
 }
 
 #[test]

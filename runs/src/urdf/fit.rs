@@ -147,7 +147,7 @@ fn shoulder([n1, n2, n3]: [&str; 3], [l1, l2, l3]: [&Line; 3]) -> Result<(f64, f
 
 /// The point where axes 4 to 6, which have these names, meet.
 fn wrist_centre([n4, n5, n6]: [&str; 3], [l4, l5, l6]: [&Line; 3]) -> Result<Vector, String> {
-    let Some(centre) = meeting(l5, l6) else {
+    let Some(centre) = intersection(l5, l6) else {
         return Err(format!("axes 5 and 6 (`{n5}`, `{n6}`) do not meet at a right angle: no spherical wrist"));
     };
     if distance(centre, l4) > NEAR {
@@ -168,7 +168,7 @@ fn wrapped(angle: f64) -> f64 {
 }
 
 /// Where two lines at right angles meet.
-fn meeting(a: &Line, b: &Line) -> Option<Vector> {
+fn intersection(a: &Line, b: &Line) -> Option<Vector> {
     if dot(a.along, b.along).abs() > PARALLEL {
         return None;
     }

@@ -18,7 +18,7 @@ use std::path::Path;
 pub use tree::Tree;
 
 /// The most joints that are named where there are too many.
-const TOLD: usize = 8;
+const MOST_NAMED: usize = 8;
 /// The values that no URDF has, as in the built-in robots: mm and deg, per s, s2, s3.
 const TCP: &str = "\
 [tcp]  # mm/s, mm/s2, mm/s3, deg/s, deg/s2, deg/s3
@@ -61,8 +61,8 @@ pub fn robot_file(text: &str, from: &str) -> Result<String, String> {
             ("scara", scara(&fit), joints)
         }
         count => {
-            let mut names: Vec<&str> = chain.joints.iter().take(TOLD).map(|joint| joint.name.as_str()).collect();
-            if count > TOLD {
+            let mut names: Vec<&str> = chain.joints.iter().take(MOST_NAMED).map(|joint| joint.name.as_str()).collect();
+            if count > MOST_NAMED {
                 names.push("..");
             }
             let names = if names.is_empty() { String::new() } else { format!(" ({})", names.join(", ")) };

@@ -116,7 +116,7 @@ fn scara_robots_fit_too() {
 }
 
 #[test]
-fn what_does_not_fit_is_told() {
+fn what_does_not_fit_is_reported() {
     let refused = |text: &str, words: &str| {
         let problem = robot_file(text, "x.urdf").expect_err(words);
         assert!(problem.contains(words), "{problem}\ninstead of {words}");

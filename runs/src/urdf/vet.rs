@@ -12,7 +12,7 @@ const LARGEST_M: f64 = LARGEST_MM / 1000.0;
 /// No other number is larger: angles, speeds, scales, masses.
 const LARGEST: f64 = 1e6;
 /// How much of a wrong value is shown.
-const TOLD: usize = 40;
+const SHOWN_CHARS: usize = 40;
 /// What a robot is made of; everything else in it belongs to other programs.
 const PARTS: [&str; 3] = ["link", "joint", "material"];
 
@@ -85,7 +85,7 @@ fn look_at(tag: &BytesStart<'_>, depth: usize, part: &mut Option<String>, line: 
         let Some(value) = attribute(tag, key) else { continue };
         if !are_numbers(&value, *count, *most) {
             let wanted = if *count == 1 { "a number".to_owned() } else { format!("{count} numbers") };
-            let value: String = value.chars().take(TOLD).collect();
+            let value: String = value.chars().take(SHOWN_CHARS).collect();
             return Err(format!(
                 "line {line}: `{key}` of `{element}`{part}: expected {wanted} from -{most} to {most}, found `{}`",
                 value.escape_debug()

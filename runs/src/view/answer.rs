@@ -6,7 +6,7 @@ use super::api::{
     Entity, Levels, Logged, Mode, News, PageChannel, PageContact, PageLine, PageModel, PageMotion, PageSceneUpdate,
     PageSolid, PageTrack, RunAnswer, SignalChanges, SourceText,
 };
-use crate::playback::{Signal, Store, TOLD_AGAIN, Track};
+use crate::playback::{REPORTED_AGAIN, Signal, Store, Track};
 use crate::record::messages;
 
 /// How much of a run the page knows already, by the counts of what it has.
@@ -42,7 +42,7 @@ pub(super) fn run(store: &Store, about: About<'_>) -> RunAnswer {
         sources: store.sources.iter().map(source).collect(),
         keywords: arl_lang::language_words().collect(),
         teaches: about.teaches,
-        trouble: store.trouble.clone(),
+        trouble: store.problem.clone(),
         news: news(store, &Known::default()),
     }
 }
@@ -59,7 +59,12 @@ pub(super) fn news(store: &Store, known: &Known) -> News {
         controller: store.controller.iter().skip(known.controller).map(Mode::from).collect(),
         log: store.log.iter().skip(known.log).map(|(time, log)| Logged::new(*time, log)).collect(),
         contacts: store.contacts.iter().skip(known.contacts).map(PageContact::from).collect(),
-        motions: store.motions.iter().skip(known.motions.saturating_sub(TOLD_AGAIN)).map(PageMotion::from).collect(),
+        motions: store
+            .motions
+            .iter()
+            .skip(known.motions.saturating_sub(REPORTED_AGAIN))
+            .map(PageMotion::from)
+            .collect(),
         tracks: store.tracks.iter().map(|track| track_news(track, known)).collect(),
         signals: signals(store, known.signals),
         levels: Levels::from(&store.io),

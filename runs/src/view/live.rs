@@ -69,7 +69,7 @@ impl Live {
                 };
                 (ended, lines)
             };
-            lines.into_iter().for_each(|line| listen::pass_on(told(line), &mut subscribers));
+            lines.into_iter().for_each(|line| listen::pass_on(for_page(line), &mut subscribers));
             if let Some(code) = ended {
                 listen::end(subscribers, true);
                 store.lock().unwrap_or_else(PoisonError::into_inner).goes_on = false;
@@ -82,7 +82,7 @@ impl Live {
 
 /// Turns lines that concern the users of the page into warnings there; other output is also printed where the command
 /// was started.
-fn told(line: Line) -> Line {
+fn for_page(line: Line) -> Line {
     match line {
         Line::Refused(refused) => Line::Warning(format!("{}: {}", refused.order, refused.why)),
         Line::Other(text) => {

@@ -123,8 +123,8 @@ fn serve(shown: &Arc<Shown>, page: Page) -> Result<JoinHandle<()>, Failure> {
 
 fn recording(file: &Path) -> Result<Store, Failure> {
     let store = playback::read(file)?;
-    if let Some(trouble) = &store.trouble {
-        show::warning(&format!("{}: {trouble}", file.display()));
+    if let Some(problem) = &store.problem {
+        show::warning(&format!("{}: {problem}", file.display()));
     }
     Ok(store)
 }

@@ -41,7 +41,7 @@ fn run() -> Store {
 }
 
 /// What `samples` returns: how many rows, and their times, first axes and speeds.
-fn told(bytes: &[u8]) -> (u32, Vec<f64>, Vec<f32>, Vec<f32>) {
+fn decoded(bytes: &[u8]) -> (u32, Vec<f64>, Vec<f32>, Vec<f32>) {
     let u32_at = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
     let (rows, width) = (u32_at(0) as usize, u32_at(4) as usize);
     let f64s = |at: usize| (0..rows).map(move |row| f64::from_le_bytes(bytes[at + row * 8..][..8].try_into().unwrap()));
@@ -58,13 +58,13 @@ fn told(bytes: &[u8]) -> (u32, Vec<f64>, Vec<f32>, Vec<f32>) {
 #[test]
 fn a_stretch_of_time_has_the_row_before_it() {
     let store = run();
-    let (rows, times, axes, speed) = told(&answer::samples(&store.tracks[0], [0.101, 0.11], 1000));
+    let (rows, times, axes, speed) = decoded(&answer::samples(&store.tracks[0], [0.101, 0.11], 1000));
     assert_eq!(rows, 3);
     assert_eq!((times[0], times[2], axes[0]), (0.1, 0.108, 100.0));
     assert!(speed.iter().all(|speed| (speed - 1000.0).abs() < 1.0), "{speed:?}");
     // Beyond the end there is the last row.
-    assert_eq!(told(&answer::samples(&store.tracks[0], [9.0, 10.0], 10)).0, 1);
-    assert_eq!(told(&answer::samples(&Store::default().tracks.pop().unwrap_or_default(), [0.0, 1.0], 10)).0, 0);
+    assert_eq!(decoded(&answer::samples(&store.tracks[0], [9.0, 10.0], 10)).0, 1);
+    assert_eq!(decoded(&answer::samples(&Store::default().tracks.pop().unwrap_or_default(), [0.0, 1.0], 10)).0, 0);
 }
 
 /// A robot of one axis that turns, and its flange 500 mm above it.
@@ -80,7 +80,7 @@ fn turning() -> Cell {
 fn another_tool_is_no_motion() {
     // It is at rest in motion 1; motion 2 has a tool that is 45 mm longer, or a hundredth of that.
     for (longer, cell) in [(45.0, turning()), (0.45, turning()), (45.0, Cell::default())] {
-        let said = |at: u32, motion, z| Channel {
+        let message = |at: u32, motion, z| Channel {
             axes: vec![f64::from(at) * 0.01],
             tcp: vec![0.0, 0.0, z, 0.0, 0.0, 0.0],
             base: vec![0.0; 6],
@@ -89,14 +89,14 @@ fn another_tool_is_no_motion() {
         let mut store = Store { cell, ..Store::default() };
         for at in 0..100 {
             let (motion, z) = if at < 50 { (1, 500.0) } else { (2, 500.0 + longer) };
-            store.take("/arl/channel_1", 0, &said(at, motion, z).encode_to_vec()).unwrap();
+            store.take("/arl/channel_1", 0, &message(at, motion, z).encode_to_vec()).unwrap();
         }
         let track = &store.tracks[0];
         assert!(track.speed.iter().all(|speed| *speed == 0.0), "{longer}: {:?}", track.speed);
         assert!(track.jumps.iter().enumerate().all(|(row, jumps)| *jumps == (row == 50)));
         for most in [1000, 9] {
             let bytes = answer::samples(track, [0.0, 9.0], most);
-            let rows = told(&bytes).0 as usize;
+            let rows = decoded(&bytes).0 as usize;
             assert_eq!(bytes[bytes.len() - rows..].iter().map(|jumps| u32::from(*jumps)).sum::<u32>(), 1);
         }
     }
@@ -107,7 +107,7 @@ fn fewer_rows_keep_the_last_one_and_the_highest_speed() {
     let mut messages: Vec<Channel> = (0..1000).map(|at| channel(f64::from(at) * 0.004, 5, 1, 0.0)).collect();
     messages[501].tcp[0] = 8.0;
     messages[502].tcp[0] = 8.0;
-    let (rows, times, _, speed) = told(&answer::samples(&store(&messages).tracks[0], [0.0, 9.0], 50));
+    let (rows, times, _, speed) = decoded(&answer::samples(&store(&messages).tracks[0], [0.0, 9.0], 50));
     assert!(rows <= 51, "{rows}");
     assert_eq!(times.last(), Some(&3.996));
     assert!(speed.iter().any(|speed| (speed - 2000.0).abs() < 1.0), "{speed:?}");
@@ -127,7 +127,7 @@ fn time_is_counted_by_the_line_that_moves_or_waits() {
 }
 
 #[test]
-fn signals_are_told_from_where_they_changed() {
+fn signals_are_reported_from_where_they_changed() {
     let mut store = Store::default();
     for (time, on) in [(0, false), (1, true), (2, true), (3, false)] {
         let io = Io { time: f64::from(time), di: vec![false, on], ai: vec![f64::from(time)], ..Io::default() };
@@ -139,8 +139,8 @@ fn signals_are_told_from_where_they_changed() {
     let news = serde_json::json!(answer::news(&store, &Known { signals: 2, ..Known::default() }));
     let analog = serde_json::json!({"signal": "ai.1", "changes": [2.0, 2.0, 3.0, 3.0]});
     let digital = serde_json::json!({"signal": "di.2", "changes": [3.0, 0.0]});
-    let told = news["signals"].as_array().unwrap();
-    assert!(told.contains(&analog) && told.contains(&digital), "{told:?}");
+    let signals = news["signals"].as_array().unwrap();
+    assert!(signals.contains(&analog) && signals.contains(&digital), "{signals:?}");
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn what_is_no_number_is_none_of_the_page() {
 }
 
 #[test]
-fn a_motion_that_goes_on_is_told_again() {
+fn a_motion_that_goes_on_is_reported_again() {
     let mut store = Store::default();
     for (motion, duration) in [(1, 0.5), (2, 0.2), (2, 0.7)] {
         let motion = Motion { channel: 1, motion, duration, ..Motion::default() };

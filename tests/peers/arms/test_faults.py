@@ -48,8 +48,8 @@ def ends_well(run, code=0):
 
 def alarms(run, *numbers):
     ends_well(run, 3)
-    said = re.search(r"alarm (\d+): .* \(turn\.arl:4\)", run.err)
-    assert said and int(said[1]) in numbers, run.err
+    reported = re.search(r"alarm (\d+): .* \(turn\.arl:4\)", run.err)
+    assert reported and int(reported[1]) in numbers, run.err
 
 
 def test_nothing_goes_wrong(bench, driver):

@@ -15,14 +15,14 @@ def test_the_torques_that_programs_see(bench):
     cell = f'[[channel]]\nprogram = "{PROGRAMS / "watch.arl"}"\nbackground = true\n'
     run = bench.run(peer, PROGRAMS / "torques.arl", cell=cell)
     assert run.code == 0, run.err
-    said = np.array([[float(word) for word in line.split()] for line in run.out.splitlines()])
-    assert said.shape[0] > 80
+    printed = np.array([[float(word) for word in line.split()] for line in run.out.splitlines()])
+    assert printed.shape[0] > 80
     asked = np.array([peer.arm.asks(it.position, it.velocity, it.acceleration) for it in peer.commands])
     largest = np.abs(asked).max(axis=0)
     given = np.array(peer.motor)
     # The robot moved meanwhile: each axis needed much of what it needs at most.
-    assert np.all(np.ptp(said[:, :6], axis=0) > 0.5 * largest)
-    for found, computed in (said[:, :6], asked), (said[:, 6:], given):
+    assert np.all(np.ptp(printed[:, :6], axis=0) > 0.5 * largest)
+    for found, computed in (printed[:, :6], asked), (printed[:, 6:], given):
         off = [best(row, computed, largest) for row in found]
         assert max(part for _, part in off) < 0.01, off
         # Ten cycles from one to the next.

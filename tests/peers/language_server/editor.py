@@ -24,7 +24,7 @@ class Client(LanguageClient):
 
     def __init__(self):
         super().__init__(converter_factory=default_converter)
-        self.told = []
+        self.published = []
         self.news = asyncio.Condition()
         self.registrations = []
         # What the server sent and the client could not read.
@@ -41,7 +41,7 @@ class Client(LanguageClient):
 
 
 async def publish(client: Client, params: types.PublishDiagnosticsParams):
-    await client.note(client.told, params)
+    await client.note(client.published, params)
 
 
 async def show(client: Client, params: types.ShowMessageParams):
@@ -199,18 +199,18 @@ class Editor:
         return found()
 
     def mark(self):
-        """Now, for `told`."""
-        return len(self.client.told)
+        """Now, for `first_diagnostics`."""
+        return len(self.client.published)
 
-    async def told(self, uri, since=0):
+    async def first_diagnostics(self, uri, since=0):
         """The diagnostics of a file that came first since a mark."""
-        find = lambda: [one for one in self.client.told[since:] if same_file(one.uri, uri)]
+        find = lambda: [one for one in self.client.published[since:] if same_file(one.uri, uri)]
         return list((await self.until(find))[0].diagnostics)
 
     async def diagnostics(self, uri):
         """The diagnostics of an open file as it is now."""
         version = self.buffers[uri].version
-        find = lambda: [one for one in self.client.told if same_file(one.uri, uri) and one.version == version]
+        find = lambda: [one for one in self.client.published if same_file(one.uri, uri) and one.version == version]
         return list((await self.until(find))[-1].diagnostics)
 
     async def becomes(self, uri, *codes):
@@ -220,8 +220,10 @@ class Editor:
         """
 
         def last():
-            told = [one for one in self.client.told if same_file(one.uri, uri)]
-            return told and told[-1].version == self.buffers[uri].version and [one.code for one in told[-1].diagnostics]
+            published = [one for one in self.client.published if same_file(one.uri, uri)]
+            if not published or published[-1].version != self.buffers[uri].version:
+                return None
+            return [one.code for one in published[-1].diagnostics]
 
         await self.until(lambda: last() == list(codes))
 

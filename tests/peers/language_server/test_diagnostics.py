@@ -7,15 +7,15 @@ RIGHT = "func void main()\n    print 1\nendfunc\n"
 WRONG = RIGHT.replace("print", "pritn")
 
 
-async def test_a_mistake_is_told_where_it_stands_and_cleared_when_mended(editor):
+async def test_a_mistake_is_reported_where_it_stands_and_cleared_when_mended(editor):
     uri = editor.open("main.arl", WRONG, version=7)
     (found,) = await editor.diagnostics(uri)
     assert (found.code, found.source, found.severity) == ("ARL0211", "arl2rs", types.DiagnosticSeverity.Error)
     assert editor.buffers[uri].cut(found.range) == "pritn"
-    assert editor.client.told[-1].version == 7
+    assert editor.client.published[-1].version == 7
     editor.edit(uri, ("pritn", "print"))
     assert await editor.diagnostics(uri) == []
-    assert editor.client.told[-1].version == 8
+    assert editor.client.published[-1].version == 8
 
 
 async def test_whole_texts_and_parts_may_come_in_turn(editor):
@@ -47,12 +47,12 @@ async def test_the_whole_text_and_a_part_may_come_in_one_message(editor):
     assert await editor.codes(uri) == []
 
 
-async def test_the_last_version_is_told_behind_many_keys(editor):
+async def test_the_last_version_is_reported_behind_many_keys(editor):
     uri = editor.open("main.arl", "")
     for at, one in enumerate(WRONG):
         editor.splice(uri, at, at, one)
     assert await editor.codes(uri) == ["ARL0211"]
-    versions = [one.version for one in editor.client.told]
+    versions = [one.version for one in editor.client.published]
     assert versions == sorted(set(versions))
 
 
@@ -79,7 +79,7 @@ async def test_other_places_explain_a_mistake(editor):
     assert editor.buffers[uri].cut(related.location.range) == "a"
 
 
-async def test_a_mistake_of_a_module_is_told_at_the_module(cell):
+async def test_a_mistake_of_a_module_is_reported_at_the_module(cell):
     cell.write("rack.arl", "int count = nothing\nfunc bool full(int number)\n    return number > count\nendfunc\n")
     uri, module = cell.open("cell.arl"), cell.open("rack.arl")
     assert await cell.errors(module) == ["ARL0201"]
@@ -93,23 +93,23 @@ async def test_a_data_file_is_seen_by_its_program(cell):
     assert await cell.diagnostics(program) == []
     mark = cell.mark()
     cell.edit(data, ("gap =", "space ="))
-    found = await cell.told(program, mark)
+    found = await cell.first_diagnostics(program, mark)
     assert [(one.code, cell.buffers[program].cut(one.range)) for one in found] == [("ARL0201", "gap")]
     mark = cell.mark()
     cell.edit(data, ("space =", "gap ="))
-    assert await cell.told(program, mark) == []
+    assert await cell.first_diagnostics(program, mark) == []
 
 
 @pytest.mark.parametrize("name", ["new.arl", "untitled:new.arl", "untitled:Untitled-1"])
-async def test_closing_clears_what_was_told_of_a_buffer_without_a_file(editor, name):
+async def test_closing_clears_what_was_reported_of_a_buffer_without_a_file(editor, name):
     uri = editor.open(name, WRONG)
     assert await editor.codes(uri) == ["ARL0211"]
     mark = editor.mark()
     editor.close(uri)
-    assert await editor.told(uri, mark) == []
+    assert await editor.first_diagnostics(uri, mark) == []
 
 
-async def test_a_thousand_mistakes_are_told_at_most(editor):
+async def test_a_thousand_mistakes_are_reported_at_most(editor):
     text = "func void main()\n" + "    pritn 1\n" * 1200 + "endfunc\n"
     uri = editor.open("main.arl", text)
     assert len(await editor.diagnostics(uri)) == 1000

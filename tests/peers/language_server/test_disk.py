@@ -25,7 +25,7 @@ async def test_an_unsaved_module_of_a_folder_beside_goes_before_that_of_the_disk
     assert await editor.errors(uri) == ["ARL0213"]
     mark = editor.mark()
     editor.open("shared/rack.arl", "int count\n")
-    assert await editor.told(uri, mark) == []
+    assert await editor.first_diagnostics(uri, mark) == []
 
 
 async def test_a_module_of_a_folder_beside_that_changes_outside_is_read_again(editor):
@@ -89,7 +89,7 @@ async def test_a_file_that_is_deleted_is_missed(editor):
     mark = editor.mark()
     editor.path(module).unlink()
     editor.happened(DELETED, module)
-    assert [one.code for one in await editor.told(uri, mark)][0] == "ARL0601"
+    assert [one.code for one in await editor.first_diagnostics(uri, mark)][0] == "ARL0601"
 
 
 async def test_a_file_that_is_renamed_is_missed_under_its_old_name(editor):
@@ -101,7 +101,7 @@ async def test_a_file_that_is_renamed_is_missed_under_its_old_name(editor):
     editor.path(module).rename(editor.path(shelf))
     editor.happened(DELETED, module)
     editor.happened(CREATED, shelf)
-    assert [one.code for one in await editor.told(uri, mark)][0] == "ARL0601"
+    assert [one.code for one in await editor.first_diagnostics(uri, mark)][0] == "ARL0601"
     editor.set(uri, MAIN.replace("rack", "shelf"))
     await editor.becomes(uri)
 
@@ -152,11 +152,11 @@ async def test_diagnostics_of_a_closed_program_are_cleared_when_it_is_deleted(ed
     assert await editor.client.workspace_symbol_async(types.WorkspaceSymbolParams(query="main"))
     mark = editor.mark()
     editor.set(module, "int total\n")
-    assert [one.code for one in await editor.told(program, mark)] == ["ARL0213"]
+    assert [one.code for one in await editor.first_diagnostics(program, mark)] == ["ARL0213"]
     mark = editor.mark()
     editor.path(program).unlink()
     editor.happened(DELETED, program)
-    assert await editor.told(program, mark) == []
+    assert await editor.first_diagnostics(program, mark) == []
 
 
 async def test_a_file_in_a_national_encoding_is_read_from_the_disk(editor):
@@ -212,7 +212,7 @@ async def test_closing_an_unsaved_text_leaves_what_the_disk_has(editor):
     assert await editor.errors(uri) == ["ARL0201"]
     mark = editor.mark()
     editor.close(uri)
-    assert await editor.told(uri, mark) == []
+    assert await editor.first_diagnostics(uri, mark) == []
 
 
 async def test_a_file_that_is_deleted_while_it_is_open_is_clear_once_it_is_closed(editor):
@@ -223,7 +223,7 @@ async def test_a_file_that_is_deleted_while_it_is_open_is_clear_once_it_is_close
     editor.happened(DELETED, uri)
     mark = editor.mark()
     editor.close(uri)
-    assert await editor.told(uri, mark) == []
+    assert await editor.first_diagnostics(uri, mark) == []
 
 
 async def test_a_file_that_the_editor_renames_is_clear_under_its_old_name(editor):
@@ -237,7 +237,8 @@ async def test_a_file_that_the_editor_renames_is_clear_under_its_old_name(editor
     editor.happened(DELETED, old)
     editor.happened(CREATED, new)
     assert await editor.errors(new) == ["ARL0201"]
-    await editor.until(lambda: [one for one in editor.client.told[mark:] if one.uri == old and not one.diagnostics])
+    cleared = lambda one: one.uri == old and not one.diagnostics
+    await editor.until(lambda: [one for one in editor.client.published[mark:] if cleared(one)])
 
 
 async def test_a_data_file_that_is_deleted_is_missed_by_its_program(cell):

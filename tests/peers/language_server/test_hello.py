@@ -82,7 +82,7 @@ async def test_goodbye_ends_the_server_well(editor):
     assert await editor.leave() == 0
 
 
-async def test_exit_without_shutdown_is_told(silent):
+async def test_exit_without_shutdown_is_reported(silent):
     await silent.hello()
     silent.client.exit(None)
     assert await silent.client._server.wait() == 1
@@ -118,7 +118,7 @@ async def test_settings_change_later(editor):
     mark = editor.mark()
     settings = {"arl2rs": {"robot": "hsr065"}}
     editor.client.workspace_did_change_configuration(types.DidChangeConfigurationParams(settings=settings))
-    assert (await editor.told(uri, mark))[0].code == "ARL0208"
+    assert (await editor.first_diagnostics(uri, mark))[0].code == "ARL0208"
     settings = {"arl2rs": {"robot": "no-such-robot"}}
     editor.client.workspace_did_change_configuration(types.DidChangeConfigurationParams(settings=settings))
     await editor.until(lambda: editor.client.messages)

@@ -10,7 +10,7 @@ async def hover(editor, uri, words):
 
 
 @pytest.mark.parametrize(
-    "words, name, said",
+    "words, name, expected",
     [
         ("movej ho|me", "home", "joint home = {0, -90, 90, 0, 90, 0}"),
         ("movej |home", "home", "Where the robot waits."),
@@ -38,11 +38,11 @@ async def hover(editor, uri, words):
         ("con|st", "const", "# variables"),
     ],
 )
-async def test_hover_tells_what_a_word_is(cell, words, name, said):
+async def test_hover_tells_what_a_word_is(cell, words, name, expected):
     uri = cell.open("cell.arl")
     value, under = await hover(cell, uri, words)
     assert under == name
-    assert said.lower() in value.lower()
+    assert expected.lower() in value.lower()
 
 
 @pytest.mark.parametrize("words", ["// Grips| a part", "int placed |= 0", "\n|\nconst int ROWS"])

@@ -147,7 +147,7 @@ async def test_words_of_the_language_have_nothing_to_rename(cell, words):
 
 
 @pytest.mark.parametrize(
-    "words, name, said",
+    "words, name, expected",
     [
         ("movej ho|me", "while", "word of the language"),
         ("movej ho|me", "MoveJ", "word of the language"),
@@ -164,7 +164,7 @@ async def test_words_of_the_language_have_nothing_to_rename(cell, words):
         ("mov|ej", "go", "part of the language"),
     ],
 )
-async def test_names_that_cannot_be_are_refused(cell, words, name, said):
+async def test_names_that_cannot_be_are_refused(cell, words, name, expected):
     uri = cell.open("cell.arl")
     error = await refusal(cell, uri, words, name)
-    assert said in error.message.lower()
+    assert expected in error.message.lower()

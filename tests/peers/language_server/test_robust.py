@@ -30,10 +30,10 @@ async def test_texts_before_hello_count_for_nothing(silent):
     silent.open("main.arl", "nonsense")
     await silent.hello()
     await lives(silent)
-    assert [one for one in silent.client.told if one.uri.endswith("main.arl")] == []
+    assert [one for one in silent.client.published if one.uri.endswith("main.arl")] == []
 
 
-async def test_hello_that_makes_no_sense_may_be_said_again(silent):
+async def test_hello_that_makes_no_sense_may_be_sent_again(silent):
     request = silent.request("initialize", {"capabilities": 5})
     assert (await silent.refused(request)).code == types.ErrorCodes.InvalidParams
     await silent.hello()

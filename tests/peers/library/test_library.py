@@ -103,9 +103,9 @@ def test_a_run_is_that_of_the_command_to_the_last_byte(tmp_path):
     words = [os.fsencode(word) for word in words]
     run = arl.begin((ctypes.c_char_p * len(words))(*words), len(words), 0, IGNORE, None)
     assert arl.go_on(run, 10_000_000, 1) == 0
-    said = [json.loads(line) for line in taken(lambda take: arl.said(run, take, None)).splitlines()]
+    output = [json.loads(line) for line in taken(lambda take: arl.said(run, take, None)).splitlines()]
     arl.end(run)
-    assert [line["message"]["text"] for line in said if "message" in line] == printed.splitlines()
+    assert [line["message"]["text"] for line in output if "message" in line] == printed.splitlines()
     assert (tmp_path / "library.csv").read_bytes() == (tmp_path / "command.csv").read_bytes()
 
 

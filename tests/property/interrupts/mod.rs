@@ -40,17 +40,17 @@ impl Case {
         std::fs::write(file("arl"), &self.text).unwrap();
         let mut run = project.choose(command, at);
         let output = run.arg("--io").arg(file("io.toml")).args(["--max-time", "60"]).output().unwrap();
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
         let end = match output.status.code() {
             Some(0) => "ended".to_string(),
             Some(3) => {
                 // Below the alarm stand the calls that led there.
-                let alarm = told.lines().find(|line| line.starts_with("alarm ")).unwrap_or_default();
+                let alarm = stderr.lines().find(|line| line.starts_with("alarm ")).unwrap_or_default();
                 let (number, rest) = alarm.split_once(": ").unwrap_or((alarm, ""));
                 let place = rest.rsplit_once('(').map_or("", |(_, place)| place.trim_end().trim_end_matches(')'));
                 format!("{number} {place}")
             }
-            other => format!("{other:?} {told}"),
+            other => format!("{other:?} {stderr}"),
         };
         Run { out: output.stdout, end }
     }

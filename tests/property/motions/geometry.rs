@@ -31,9 +31,9 @@ pub(crate) fn turned(a: &Frame, b: &Frame) -> f64 {
 
 /// The share of the piece of line between two points that is nearest to another.
 pub(crate) fn share_of_line(from: &Vector, to: &Vector, at: &Vector) -> f64 {
-    let (way, here) = (to - from, at - from);
-    let square = way.norm_squared();
-    if square > 1e-12 { (here.dot(&way) / square).clamp(0.0, 1.0) } else { 0.0 }
+    let (direction, here) = (to - from, at - from);
+    let square = direction.norm_squared();
+    if square > 1e-12 { (here.dot(&direction) / square).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 /// The circle through three points, from the first to the last.

@@ -168,8 +168,8 @@ impl Grower<'_> {
     /// How far external axes are from where they begin.
     fn external(&mut self) -> Vec<f64> {
         let external = &self.robot.axes[self.robot.own..];
-        let ways: Vec<f64> = external.iter().map(|axis| if axis.linear { 120.0 } else { 25.0 }).collect();
-        ways.into_iter().map(|way| self.about(way)).collect()
+        let travels: Vec<f64> = external.iter().map(|axis| if axis.linear { 120.0 } else { 25.0 }).collect();
+        travels.into_iter().map(|travel| self.about(travel)).collect()
     }
 
     /// A tool and a workpiece frame.
@@ -206,14 +206,14 @@ impl Grower<'_> {
 
     fn zone(&mut self, leads_tool: bool) -> String {
         let mut size = |most: f64| between(self.random, 1.0, most).round();
-        let (part, way, turn, external, linear) = (size(100.0), size(60.0), size(15.0), size(20.0), size(80.0));
+        let (part, distance, turn, external, linear) = (size(100.0), size(60.0), size(15.0), size(20.0), size(80.0));
         match self.random.below(6) {
             0 => "sl:-1".into(),
             1 => format!("sp:{part}"),
-            2 if leads_tool => format!("s:{{perdis -1,pdis {way},odis {turn},ejdis {external},eldis {linear}}}"),
-            2 if self.robot.scara => format!("s:{{perdis -1,pdis {way},ejdis {external},eldis {linear}}}"),
+            2 if leads_tool => format!("s:{{perdis -1,pdis {distance},odis {turn},ejdis {external},eldis {linear}}}"),
+            2 if self.robot.scara => format!("s:{{perdis -1,pdis {distance},ejdis {external},eldis {linear}}}"),
             2 => format!("s:{{perdis -1,jdis {turn},ejdis {external},eldis {linear}}}"),
-            _ => format!("sl:{way}"),
+            _ => format!("sl:{distance}"),
         }
     }
 
@@ -296,12 +296,12 @@ impl Grower<'_> {
         };
         loop {
             let end = self.shift();
-            let way: f64 = (0..3).map(|i| (end[i] - start[i]).powi(2)).sum::<f64>().sqrt();
-            if way > self.room.reach / 2.0 {
+            let chord: f64 = (0..3).map(|i| (end[i] - start[i]).powi(2)).sum::<f64>().sqrt();
+            if chord > self.room.reach / 2.0 {
                 // Out of the line by a tenth to a half of its length, for the axis that the line follows least.
                 let across = (0..3).min_by(|a, b| (end[*a] - start[*a]).abs().total_cmp(&(end[*b] - start[*b]).abs()));
                 let mut via: [f64; 6] = std::array::from_fn(|i| f64::midpoint(start[i], end[i]));
-                via[across.expect("three axes")] += way * between(self.random, 0.1, 0.5);
+                via[across.expect("three axes")] += chord * between(self.random, 0.1, 0.5);
                 return (via.map(rounded), Goal::Shifted(end, self.external()));
             }
         }

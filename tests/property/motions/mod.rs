@@ -102,10 +102,10 @@ impl Case {
     }
 
     /// Whether two programs of a command, the same in other forms, go the same way to the last bit.
-    fn go_the_same_way(&self, project: &Project, command: &Path, [one, other]: [usize; 2]) -> bool {
+    fn move_identically(&self, project: &Project, command: &Path, [one, other]: [usize; 2]) -> bool {
         let trace = |at: usize| {
-            let said = self.run(project, command, at, true).err();
-            (said, std::fs::read(self.file(project, "disturbed.csv")).unwrap())
+            let failure = self.run(project, command, at, true).err();
+            (failure, std::fs::read(self.file(project, "disturbed.csv")).unwrap())
         };
         trace(one) == trace(other)
     }
@@ -131,9 +131,9 @@ impl Case {
         self.write(project);
         let undisturbed = match self.run(project, command, at, false) {
             Ok(rows) => rows,
-            Err(said) => {
-                let Some(turned) = self.turned_out(&said) else {
-                    faults.push(said);
+            Err(failure) => {
+                let Some(turned) = self.turned_out(&failure) else {
+                    faults.push(failure);
                     return None;
                 };
                 let rows = self.examine_turning_freely(&turned, (project, command, at), faults, tally);
@@ -147,7 +147,7 @@ impl Case {
         if !self.scenario.events.is_empty() {
             let found = match self.run(project, command, at, true) {
                 Ok(rows) => check::check(&self.robot, &self.plan, &rows, &self.scenario, Some(&undisturbed), tally),
-                Err(said) => vec![said],
+                Err(failure) => vec![failure],
             };
             faults.extend(found.into_iter().map(|fault| format!("disturbed: {fault}")));
         }
@@ -156,8 +156,8 @@ impl Case {
 
     /// Every passage through the wrist singularity may turn axes 4 and 6 by half a turn, until the range of one of them
     /// ends: with an alarm. Is it one of these, then of which axis, and of which line?
-    fn turned_out(&self, said: &str) -> Option<TurnedOut> {
-        let (_, alarm) = said.split_once("alarm 20020: j")?;
+    fn turned_out(&self, failure: &str) -> Option<TurnedOut> {
+        let (_, alarm) = failure.split_once("alarm 20020: j")?;
         let (axis, rest) = alarm.split_once(" would have to go to ")?;
         let (to, _) = rest.split_once(", but its range is ")?;
         let line = rest.rsplit_once("(main.arl:")?.1.split(')').next()?.parse().ok()?;
@@ -189,22 +189,22 @@ impl Case {
         };
         let (rows, is_its_own) = free.examine(project, command, at, faults, tally)?;
         let range = self.robot.axes[axis].min..=self.robot.axes[axis].max;
-        let left = rows.iter().position(|row| !range.contains(&row.axes[axis]));
+        let exit = rows.iter().position(|row| !range.contains(&row.axes[axis]));
         // Where the free axis turns out already, the other one was turned to the other side: from there on they go
         // apart.
-        let apart = left.map(|at| rows[at].line).filter(|apart| self.comes_before(*apart, line));
-        let apart_from = apart.map(|apart| self.led_into_from(apart));
+        let apart = exit.map(|at| rows[at].line).filter(|apart| self.comes_before(*apart, line));
+        let apart_from = apart.map(|apart| self.blended_from(apart));
         let many = apart_from.and_then(|from| stopped.iter().position(|row| row.line == from)).unwrap_or(stopped.len());
         faults.extend(check::check_stopped(&self.robot, &self.plan, (&stopped, many), &rows, tally));
-        if apart.is_some() || (left.is_none() && !is_its_own) {
+        if apart.is_some() || (exit.is_none() && !is_its_own) {
             return Some(rows);
         }
         let is_there = |at: usize| {
-            rows[at].line == line || self.leads_into(line, &rows, at) || self.is_left_for(line, rows[at].line)
+            rows[at].line == line || self.leads_into(line, &rows, at) || self.blends_into(line, rows[at].line)
         };
-        if !left.is_some_and(is_there) {
-            let (axis, left) = (axis + 1, left.map(|at| rows[at].line));
-            faults.push(format!("the alarm says that j{axis} leaves its range in line {line}; it does in {left:?}"));
+        if !exit.is_some_and(is_there) {
+            let (axis, exit) = (axis + 1, exit.map(|at| rows[at].line));
+            faults.push(format!("the alarm says that j{axis} leaves its range in line {line}; it does in {exit:?}"));
         }
         Some(rows)
     }
@@ -217,7 +217,7 @@ impl Case {
     }
 
     /// The line from which on the way may depend on a motion: that before it, where a blend leads from there.
-    fn led_into_from(&self, line: usize) -> usize {
+    fn blended_from(&self, line: usize) -> usize {
         let motions = &self.plan.motions;
         let at = motions.iter().position(|motion| motion.line == line);
         let before = at.and_then(|at| motions.get(at.checked_sub(1)?)).filter(|before| !before.rests);
@@ -225,7 +225,7 @@ impl Case {
     }
 
     /// Whether a blend leads from one motion to another, which may take away the end of the first one.
-    fn is_left_for(&self, line: usize, next: usize) -> bool {
+    fn blends_into(&self, line: usize, next: usize) -> bool {
         let pairs = self.plan.motions.windows(2);
         pairs.into_iter().any(|pair| pair[0].line == line && !pair[0].rests && pair[1].line == next)
     }
@@ -370,7 +370,7 @@ fn motions_keep_limits_paths_corners_and_targets() {
                 for (at, case) in cases {
                     failures.extend(case.test(project, command, *at, &mut tally));
                     let all_forms = all.len() + at;
-                    if *at < grown_count && !case.go_the_same_way(project, command, [*at, all_forms]) {
+                    if *at < grown_count && !case.move_identically(project, command, [*at, all_forms]) {
                         failures.push(case.failure(project, &["in other forms it goes another way".into()]));
                     }
                 }

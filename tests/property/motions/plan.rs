@@ -60,7 +60,7 @@ pub(crate) enum Zone {
     Percent(f64),
     /// mm of the TCP
     Distance(f64),
-    Several(Slip),
+    Measures(Slip),
 }
 
 /// Programmed speeds, all in effect: velset is in them.
@@ -238,8 +238,8 @@ impl Plan {
 
     /// How many motions are planned ahead from one on: up to where the program waits.
     pub(crate) fn ahead(&self, from: usize) -> usize {
-        let left = self.motions.get(from..).unwrap_or_default();
-        left.iter().position(|motion| motion.waits).map_or(left.len(), |at| at + 1)
+        let remaining = self.motions.get(from..).unwrap_or_default();
+        remaining.iter().position(|motion| motion.waits).map_or(remaining.len(), |at| at + 1)
     }
 }
 
@@ -506,5 +506,5 @@ fn slip(text: &str) -> Zone {
             _ => panic!("{name}"),
         }
     }
-    Zone::Several(slip)
+    Zone::Measures(slip)
 }

@@ -41,8 +41,8 @@ impl Pair {
         };
         let (zones, stops) = match (run(&self.zones, zones), run(&self.stops, stops)) {
             (Ok(zones), Ok(stops)) => (zones, stops),
-            (Err(said), _) => return self.zones.refused(project, said, tally),
-            (_, Err(said)) => return self.stops.refused(project, said, tally),
+            (Err(failure), _) => return self.zones.refused(project, failure, tally),
+            (_, Err(failure)) => return self.stops.refused(project, failure, tally),
         };
         let mut faults = Vec::new();
         let (mut zones_from, mut stops_from) = (0.0, 0.0);
@@ -67,12 +67,12 @@ impl Pair {
 impl Case {
     /// What is wrong with a run that failed: nothing where it went through the wrist by a way that ended an axis's
     /// range.
-    fn refused(&self, project: &Project, said: String, tally: &mut Tally) -> Option<String> {
-        if self.turned_out(&said).is_some() {
+    fn refused(&self, project: &Project, failure: String, tally: &mut Tally) -> Option<String> {
+        if self.turned_out(&failure).is_some() {
             tally.note("promise: not compared, as an axis would leave its range", 0.0);
             return None;
         }
-        Some(self.failure(project, &[said]))
+        Some(self.failure(project, &[failure]))
     }
 }
 

@@ -48,19 +48,19 @@ impl Flow {
     /// Whether control can reach the end of the block.
     fn block(&mut self, block: &Block) -> bool {
         let mut reached = true;
-        let mut told = false;
+        let mut reported = false;
         for stmt in block {
             if let StmtKind::Label(label) = &stmt.kind {
                 reached |= self.labels.contains(&label.0);
                 continue;
             }
-            if !reached && !self.holds_target(stmt) {
-                if !std::mem::replace(&mut told, true) {
+            if !reached && !self.contains_target(stmt) {
+                if !std::mem::replace(&mut reported, true) {
                     self.unreachable.push(stmt.span);
                 }
                 continue;
             }
-            told = false;
+            reported = false;
             reached = self.stmt(stmt);
         }
         reached
@@ -108,7 +108,7 @@ impl Flow {
     }
 
     /// Whether a goto leads into the statement.
-    fn holds_target(&self, stmt: &Stmt) -> bool {
+    fn contains_target(&self, stmt: &Stmt) -> bool {
         let mut found = false;
         each_stmt(stmt, &mut |stmt| {
             found |= matches!(&stmt.kind, StmtKind::Label(label) if self.labels.contains(&label.0));

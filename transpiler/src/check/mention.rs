@@ -141,17 +141,17 @@ impl Checker<'_> {
     }
 
     /// Whether an expression contains the marker word outside the arguments of calls.
-    fn holds_marker(&self, expr: &ast::Expr) -> bool {
+    fn contains_marker(&self, expr: &ast::Expr) -> bool {
         match &expr.kind {
             ast::ExprKind::Name(symbol) | ast::ExprKind::System(symbol) => self.is_marker(*symbol),
             ast::ExprKind::Path { name, .. } => self.is_marker(name.symbol),
-            ast::ExprKind::Field(inner, name) => self.is_marker(name.symbol) || self.holds_marker(inner),
-            ast::ExprKind::Unary(_, inner) | ast::ExprKind::Step(_, inner) => self.holds_marker(inner),
+            ast::ExprKind::Field(inner, name) => self.is_marker(name.symbol) || self.contains_marker(inner),
+            ast::ExprKind::Unary(_, inner) | ast::ExprKind::Step(_, inner) => self.contains_marker(inner),
             ast::ExprKind::Index(both) | ast::ExprKind::Binary(_, both) | ast::ExprKind::Assign(_, both) => {
-                self.holds_marker(&both.0) || self.holds_marker(&both.1)
+                self.contains_marker(&both.0) || self.contains_marker(&both.1)
             }
             ast::ExprKind::Brace(items) => items.iter().any(|item| {
-                item.name.is_some_and(|name| self.is_marker(name.symbol)) || self.holds_marker(&item.value)
+                item.name.is_some_and(|name| self.is_marker(name.symbol)) || self.contains_marker(&item.value)
             }),
             _ => false,
         }
@@ -195,7 +195,7 @@ impl Checker<'_> {
         parameter: Option<usize>,
     ) {
         let label = arg.label.is_some_and(|label| self.is_marker(label.symbol));
-        if !self.is_marked() || !label && !self.holds_marker(&arg.value) {
+        if !self.is_marked() || !label && !self.contains_marker(&arg.value) {
             return;
         }
         let is_name = matches!(arg.value.kind, ast::ExprKind::Name(_));
@@ -264,7 +264,7 @@ impl Checker<'_> {
     /// Records the braces around the marker word, if it is one of their values.
     pub(crate) fn expect_in_braces(&mut self, id: Struct, value: &ast::Expr, taken: impl Iterator<Item = bool>) {
         if self.is_marked()
-            && self.holds_marker(value)
+            && self.contains_marker(value)
             && let Some(recorder) = &mut self.recorder
         {
             recorder.braces = Some((id, taken.collect()));

@@ -168,7 +168,7 @@ impl Checker<'_> {
             // An alarm has been reported already.
             && let Ok(Some(computed)) = operators::compute(op, a, b)
         {
-            let value = self.held(body, computed, span);
+            let value = self.warn_if_wrapped(body, computed, span);
             return Some(Typed::plain(Expr { ty, kind: ExprKind::Const(value), span }));
         }
         let kind = ExprKind::Binary(op, Box::new((left, right)));
@@ -214,7 +214,7 @@ impl Checker<'_> {
     ) -> Option<Typed> {
         let ty = Type::scalar(result);
         if let Some(computed) = operand.value().and_then(|value| operators::compute_unary(op, value)) {
-            let value = self.held(body, computed, span);
+            let value = self.warn_if_wrapped(body, computed, span);
             let complement = op == UnaryOp::Complement && operand.literal == Literal::Pattern;
             let literal = if complement { Literal::Complement } else { Literal::None };
             return Some(Typed { expr: Expr { ty, kind: ExprKind::Const(value), span }, literal });
@@ -223,12 +223,12 @@ impl Checker<'_> {
     }
 
     /// The value, with a warning if it has wrapped.
-    fn held(&mut self, body: &CheckedBody, computed: Computed, span: Span) -> Value {
+    fn warn_if_wrapped(&mut self, body: &CheckedBody, computed: Computed, span: Span) -> Value {
         let Computed { value, wrapped } = computed;
         if wrapped {
-            let held = integer(&value).unwrap_or_default().to_string();
+            let text = integer(&value).unwrap_or_default().to_string();
             let ty = self.base_name(value.base());
-            self.report::<()>(body, span, ConstantProblem::Overflow { ty, value: held });
+            self.report::<()>(body, span, ConstantProblem::Overflow { ty, value: text });
         }
         value
     }

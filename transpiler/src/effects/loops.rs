@@ -305,10 +305,10 @@ fn known_rounds(each: &For) -> Option<u64> {
         BinaryOp::LessEqual => 1,
         _ => return None,
     };
-    let way = (to + beyond - from).max(0);
+    let distance = (to + beyond - from).max(0);
     // The variable must not wrap when it goes beyond the end.
-    let last = from + (way + step - 1) / step * step;
-    let rounds = ((way + step - 1) / step).unsigned_abs();
+    let last = from + (distance + step - 1) / step * step;
+    let rounds = ((distance + step - 1) / step).unsigned_abs();
     (last <= greatest(head.from)?).then_some(rounds)
 }
 

@@ -84,8 +84,8 @@ impl Walks {
             }
             let mut shortest: Option<u64> = None;
             conjuncts(condition, &mut |part| {
-                let way = to_constant(part, walk, *writes).or_else(|| along_array(part, walk.local));
-                shortest = shortest.into_iter().chain(way).min();
+                let distance = to_constant(part, walk, *writes).or_else(|| along_array(part, walk.local));
+                shortest = shortest.into_iter().chain(distance).min();
             });
             Some((walk, shortest? / u64::from(walk.step.unsigned_abs()) + 1))
         })
@@ -150,12 +150,12 @@ fn to_constant(part: &Expr, walk: Walk, writes: Writes) -> Option<u64> {
     let to = loops::whole_number(&sides.1)?;
     // The variable must not wrap beyond the constant.
     let room = i64::from(i32::MAX) - i64::from(walk.step).abs();
-    let way = match op {
+    let distance = match op {
         BinaryOp::Less | BinaryOp::LessEqual if walk.step > 0 && to < room => to.saturating_sub(least),
         BinaryOp::Greater | BinaryOp::GreaterEqual if walk.step < 0 && to > -room => greatest.saturating_sub(to),
         _ => return None,
     };
-    Some(way.max(0).unsigned_abs() + 1)
+    Some(distance.max(0).unsigned_abs() + 1)
 }
 
 /// The length of an array if the condition reads an element of it whose index is the variable, with or without a

@@ -424,7 +424,7 @@ impl<'p> Body<'p, '_> {
             let mut value = self.value_alone(condition);
             if self.form.frame.is_some() {
                 let pointer = if at == 0 { self.pointer() } else { TokenStream::new() };
-                value = self.or_led(block, value.after(pointer));
+                value = self.halt_or_pointer_leads(block, value.after(pointer));
             } else if at == 0 {
                 let pointer = self.pointer();
                 let before = std::mem::take(&mut value.before);
@@ -454,7 +454,7 @@ impl<'p> Body<'p, '_> {
         let otherwise = self.set_state(after);
         let code = if self.form.frame.is_some() {
             let codes = codes.into_iter().map(|(_, code)| code).collect();
-            self.led_switch(subject, arms, codes, otherwise)
+            self.switch_with_pointer(subject, arms, codes, otherwise)
         } else {
             self.chosen(subject, codes, otherwise)
         };
@@ -487,7 +487,7 @@ impl<'p> Body<'p, '_> {
         let (spend, halt) = (self.spend(info), self.halt());
         let condition = condition.filter(|condition| !flow::always(condition));
         let unless = condition.map(|condition| self.unless(condition, after));
-        let round = self.unless_led(body, quote!(#spend #halt #unless));
+        let round = self.unless_pointer_leads(body, quote!(#spend #halt #unless));
         self.append(round);
         self.split_body(body, head, after);
         self.close(head);
@@ -530,7 +530,7 @@ impl<'p> Body<'p, '_> {
         self.open(head);
         if let Some(condition) = each.condition.as_ref().filter(|condition| !flow::always(condition)) {
             let unless = self.unless(condition, after);
-            let unless = self.unless_led(&each.body, unless);
+            let unless = self.unless_pointer_leads(&each.body, unless);
             self.append(unless);
         }
         self.split_body(&each.body, next, after);

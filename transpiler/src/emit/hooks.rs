@@ -109,16 +109,16 @@ impl<'p> Body<'p, '_> {
     }
 
     /// A condition with a halt before it, unless the program pointer was set to a line that the condition leads to.
-    pub(super) fn or_led(&self, block: &[Stmt], condition: Fragment) -> Fragment {
+    pub(super) fn halt_or_pointer_leads(&self, block: &[Stmt], condition: Fragment) -> Fragment {
         let Some(frame) = &self.form.frame else { return condition };
         let line = self.line_number();
         let condition = condition.inline().at(Precedence::And);
-        self.led(block, Fragment::new(quote!(#frame.runs(#line).await && #condition), Precedence::And))
+        self.or_pointer_leads(block, Fragment::new(quote!(#frame.runs(#line).await && #condition), Precedence::And))
     }
 
     /// `frame.leads_to(13, 15) || condition`, if the block after the condition has lines of its own: the block of a
     /// compact `if` shares the line of the condition.
-    pub(super) fn led(&self, block: &[Stmt], condition: Fragment) -> Fragment {
+    pub(super) fn or_pointer_leads(&self, block: &[Stmt], condition: Fragment) -> Fragment {
         let lines = self.lines_of_block(block).map(|(first, last)| (first.max(self.position.line + 1), last));
         match (&self.form.frame, lines.filter(|(first, last)| first <= last)) {
             (Some(frame), Some(lines)) => {
@@ -130,7 +130,7 @@ impl<'p> Body<'p, '_> {
     }
 
     /// Code that runs in a loop unless the program pointer was set to a line of its body.
-    pub(super) fn unless_led(&self, body: &[Stmt], code: TokenStream) -> TokenStream {
+    pub(super) fn unless_pointer_leads(&self, body: &[Stmt], code: TokenStream) -> TokenStream {
         match (&self.form.frame, self.lines_of_block(body)) {
             (Some(frame), Some(lines)) => {
                 let lines = written(lines);
@@ -141,7 +141,7 @@ impl<'p> Body<'p, '_> {
     }
 
     /// `switch(subject)`: the arm is chosen first, by the pointer or by the subject. `codes` is the code of the arms.
-    pub(super) fn led_switch(
+    pub(super) fn switch_with_pointer(
         &mut self,
         subject: &'p Expr,
         arms: &'p [Arm],

@@ -59,9 +59,9 @@ impl<'p> Body<'p, '_> {
         let Counting::Walking(Walk { local, step }) = info.counting else { return turns };
         let name = self.counted(local);
         let first = self.fresh("first");
-        let way = if step > 0 { quote!(#name - #first) } else { quote!(#first - #name) };
+        let distance = if step > 0 { quote!(#name - #first) } else { quote!(#first - #name) };
         let step = Some(step.unsigned_abs()).filter(|step| *step != 1).map(Literal::u32_unsuffixed);
-        let charged = self.charged(way, step.map(|step| quote!(#step)), info);
+        let charged = self.charged(distance, step.map(|step| quote!(#step)), info);
         quote!(let #first = #name; #turns #charged)
     }
 
@@ -82,13 +82,14 @@ impl<'p> Body<'p, '_> {
             facts.changes || !facts.writes.is_empty()
         };
         if pointer.is_empty() && value.before.is_empty() && !once {
-            let value = if halts { self.or_led(body, value) } else { self.led(body, value) };
+            let value =
+                if halts { self.halt_or_pointer_leads(body, value) } else { self.or_pointer_leads(body, value) };
             let tokens = if info.counts_alone() { value.at(Precedence::And) } else { value.tokens };
             return (TokenStream::new(), Some(tokens));
         }
         let Fragment { before, tokens: unmet, .. } = self.negated(condition);
         let halt = if halts { self.halt() } else { TokenStream::new() };
-        (self.unless_led(body, quote!(#halt #pointer #before if #unmet { break; })), None)
+        (self.unless_pointer_leads(body, quote!(#halt #pointer #before if #unmet { break; })), None)
     }
 
     /// `loop`
@@ -290,10 +291,10 @@ impl<'p> Body<'p, '_> {
         let head = loops::Head::of_any(each)?;
         let name = self.counted(head.local);
         let first = self.fresh("first");
-        let way = quote!(#name - #first);
+        let distance = quote!(#name - #first);
         let step = head.step.filter(|step| loops::whole_number(step) != Some(1));
         let step = step.map(|step| self.value_alone(step).tokens);
-        let charged = self.charged(way, step, each.info);
+        let charged = self.charged(distance, step, each.info);
         Some((quote!(let #first = #name;), charged))
     }
 
@@ -303,10 +304,10 @@ impl<'p> Body<'p, '_> {
         if self.is_shared(id) { quote!(#name.get()) } else { quote!(#name) }
     }
 
-    /// The statement that counts the rounds of a loop after it: its variable has changed by `way` in steps of `step`,
-    /// or of 1.
-    fn charged(&self, way: TokenStream, step: Option<TokenStream>, info: LoopInfo) -> TokenStream {
-        let count = step.map_or_else(|| way.clone(), |step| quote!(steps(#way, #step)));
+    /// The statement that counts the rounds of a loop after it: its variable has changed by `distance` in steps of
+    /// `step`, or of 1.
+    fn charged(&self, distance: TokenStream, step: Option<TokenStream>, info: LoopInfo) -> TokenStream {
+        let count = step.map_or_else(|| distance.clone(), |step| quote!(steps(#distance, #step)));
         let count = match info.rounds {
             1 => quote!(#count + 1),
             rounds => {
@@ -378,11 +379,11 @@ impl<'p> Body<'p, '_> {
                 quote!(if !#spent { break; }),
             )
         } else {
-            let several = |written: &[Ident]| match written {
+            let tuple_of = |written: &[Ident]| match written {
                 [one] => quote!(#one),
-                several => quote!((#(#several),*)),
+                many => quote!((#(#many),*)),
             };
-            (TokenStream::new(), several(&written), several(&written), TokenStream::new())
+            (TokenStream::new(), tuple_of(&written), tuple_of(&written), TokenStream::new())
         };
         quote!(loop {
             #let_spent

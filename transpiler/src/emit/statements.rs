@@ -197,7 +197,7 @@ impl<'p> Body<'p, '_> {
             let value = self.value_alone(condition);
             let value = if self.form.frame.is_some() {
                 let pointer = if at == 0 { self.pointer() } else { TokenStream::new() };
-                self.or_led(block, value.after(pointer))
+                self.halt_or_pointer_leads(block, value.after(pointer))
             } else if at == 0 {
                 let pointer = self.pointer();
                 let before = &value.before;

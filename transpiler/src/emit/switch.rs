@@ -17,7 +17,7 @@ impl<'p> Body<'p, '_> {
         self.stand_at(subject.span);
         if self.form.frame.is_some() {
             let codes = arms.iter().map(|arm| self.commented_arm(arm, tail)).collect();
-            return self.led_switch(subject, arms, codes, TokenStream::new());
+            return self.switch_with_pointer(subject, arms, codes, TokenStream::new());
         }
         if is_chain(subject) {
             return self.chain(subject, arms, tail);

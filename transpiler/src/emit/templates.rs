@@ -274,16 +274,16 @@ impl<'p> Template<'p> {
             let ty = rust_type(ty, family);
             Some(quote!(#name: #ty))
         });
-        let [cx, g, led] = ["cx", "g", &line.to_string()].map(|word| uses_variable(&code, word));
+        let [cx, g, uses_line] = ["cx", "g", &line.to_string()].map(|word| uses_variable(&code, word));
         let waits = mentions(&code, "await");
         let life = waits.then(|| quote!('a));
         let cx_param = cx.then(|| quote!(cx: &#life Cx,));
         let g_param = g.then(|| quote!(g: &#life Globals,));
-        let line_param = led.then(|| quote!(#line: u32,));
+        let line_param = uses_line.then(|| quote!(#line: u32,));
         let params = quote!(#cx_param #g_param #line_param #(#constants,)* #(#locals,)*);
         let has_many_params = self.varying.len() + first.locals.len() > MOST_PARAMETERS;
         let item = Head { comment, name, params, result, has_many_params, waits }.with(&code);
-        Code { item, cx, g, line: led, waits }
+        Code { item, cx, g, line: uses_line, waits }
     }
 }
 

@@ -22,13 +22,13 @@ impl<'p> Body<'p, '_> {
                 Some(nothing().after(quote!(return Err(#stop);)))
             }
             Form::WaitUntil => Some(nothing().after(self.waituntil(builtin))),
-            Form::Jump => self.looking(builtin),
+            Form::Jump => self.jump_with_sig(builtin),
             Form::Event => Some(self.event(builtin)),
         }
     }
 
     /// A `jump` that checks its `sig` above the target; `None` if `sig` is always false.
-    fn looking(&mut self, builtin: &'p Builtin) -> Option<Fragment> {
+    fn jump_with_sig(&mut self, builtin: &'p Builtin) -> Option<Fragment> {
         let entry = builtin.entry;
         let is_condition =
             |arg: &&Bound| entry.params.get(arg.param).map(|param| param.mode) == Some(ParamMode::Condition);

@@ -150,9 +150,9 @@ impl<'a> Reader<'a> {
 }
 
 fn give_turns(lines: &mut [LogicalLine<'_>], turns: &[PlacedTurn]) {
-    let mut left = turns.iter().peekable();
+    let mut remaining = turns.iter().peekable();
     for line in lines {
-        while let Some(turn) = left.next_if(|turn| (turn.start as usize) <= line.end) {
+        while let Some(turn) = remaining.next_if(|turn| (turn.start as usize) <= line.end) {
             line.turns.push(*turn);
         }
     }
@@ -160,9 +160,9 @@ fn give_turns(lines: &mut [LogicalLine<'_>], turns: &[PlacedTurn]) {
 
 /// Freezes the lines with errors at these offsets, which are sorted.
 fn freeze(lines: &mut [LogicalLine<'_>], mistakes: Vec<usize>) {
-    let mut left = mistakes.into_iter().peekable();
+    let mut remaining = mistakes.into_iter().peekable();
     for line in lines {
-        while left.next_if(|at| *at <= line.end).is_some() {
+        while remaining.next_if(|at| *at <= line.end).is_some() {
             line.frozen = true;
         }
     }

@@ -248,11 +248,11 @@ impl Index {
 
     /// The function that contains a position.
     pub fn function_at(&self, file: FileId, offset: u32) -> Option<FuncId> {
-        let holds = |function: &FunctionInfo| {
+        let contains_offset = |function: &FunctionInfo| {
             let span = function.span();
             function.at.file == file && (span.start..=span.end).contains(&offset)
         };
-        self.functions.iter().position(holds).map(|at| FuncId(at as u32))
+        self.functions.iter().position(contains_offset).map(|at| FuncId(at as u32))
     }
 
     /// The declaration of a meaning in the program; `None` for built-ins.

@@ -61,9 +61,9 @@ fn duration_with_end_zones(blend_limits: &BlendLimits, [before, behind]: &[Appro
     let (mut own, [entry, exit]) =
         through([first.last(), last.first()].map(|part| part.map_or(0.0, |part| part.speed)));
     let (came, entered) = before.with_end_zone(first.iter().rev(), &outer, entry);
-    let (went, left) = behind.with_end_zone(last.iter(), &outer, exit);
-    if entered < entry || left < exit {
-        (own, _) = through([entered, left]);
+    let (went, exited) = behind.with_end_zone(last.iter(), &outer, exit);
+    if entered < entry || exited < exit {
+        (own, _) = through([entered, exited]);
     }
     own + came + went
 }
@@ -129,9 +129,9 @@ impl Approach {
         }
         let cruise = limits.vel;
         let ramp = Change::new(speed, 0.0, cruise, limits);
-        let way = ramp.distance(speed, 0.0);
-        if way <= *length {
-            return ramp.duration() - way / cruise;
+        let distance = ramp.distance(speed, 0.0);
+        if distance <= *length {
+            return ramp.duration() - distance / cruise;
         }
         let top = reach(speed, *length, limits).min(cruise);
         length / f64::midpoint(speed, top) - length / cruise
@@ -172,15 +172,15 @@ fn bind<'a>(
     fastest: f64,
     limits: &Limits,
 ) {
-    let mut way = 0.0;
+    let mut distance = 0.0;
     for ((speed, free), part) in speeds {
         // From a place that is as slow, what lies behind is limited more strictly.
         if *free <= slow {
             return;
         }
-        way += part.length;
+        distance += part.length;
         if *speed > slow {
-            let most = reach(slow, way, limits);
+            let most = reach(slow, distance, limits);
             *speed = speed.min(most);
             if most >= fastest {
                 return;
@@ -190,17 +190,17 @@ fn bind<'a>(
 }
 
 /// The highest speed that is reached from `speed` within a distance, without acceleration at either end.
-fn reach(speed: f64, way: f64, limits: &Limits) -> f64 {
+fn reach(speed: f64, distance: f64, limits: &Limits) -> f64 {
     let Limits { acc, jerk, .. } = *limits;
     // With the full acceleration for a while: way = (2 speed + gain) / 2 (gain / acc + acc / jerk).
     let ramp = acc * acc / jerk;
     let half = speed + ramp / 2.0;
-    let gain = (half * half + 2.0 * (acc * way - speed * ramp)).max(0.0).sqrt() - half;
+    let gain = (half * half + 2.0 * (acc * distance - speed * ramp)).max(0.0).sqrt() - half;
     if gain >= ramp {
         return speed + gain;
     }
     // Without: way = (2 speed + gain) sqrt(gain / jerk), a cubic equation for the root of the gain.
-    let scaled = way * jerk.sqrt();
+    let scaled = distance * jerk.sqrt();
     let mut root = scaled.cbrt().min(scaled / (2.0 * speed));
     for _ in 0..4 {
         root -= (root * (root * root + 2.0 * speed) - scaled) / (3.0 * root * root + 2.0 * speed);
@@ -214,19 +214,19 @@ mod tests {
     use arl_robot::kinematics::random::Random;
 
     #[test]
-    fn a_change_of_the_speed_takes_the_way_in_which_it_is_reached() {
+    fn a_change_of_the_speed_takes_the_distance_in_which_it_is_reached() {
         let mut random = Random::new(32);
         for _ in 0..2000 {
             let limits = Limits { vel: 1.0, acc: random.between(0.5, 20.0), jerk: random.between(1.0, 500.0) };
-            let (speed, way) = (random.between(0.0, 2.0), 10.0_f64.powf(random.between(-4.0, 1.0)));
-            let goal = reach(speed, way, &limits);
+            let (speed, distance) = (random.between(0.0, 2.0), 10.0_f64.powf(random.between(-4.0, 1.0)));
+            let goal = reach(speed, distance, &limits);
             let found = Change::new(speed, 0.0, goal, &limits).distance(speed, 0.0);
-            assert!((found - way).abs() < 1e-4 * way, "{speed} {goal} {found} {way} {limits:?}");
+            assert!((found - distance).abs() < 1e-4 * distance, "{speed} {goal} {found} {distance} {limits:?}");
         }
     }
 
     #[test]
-    fn a_way_takes_what_its_ramps_and_its_speeds_take() {
+    fn a_path_takes_what_its_ramps_and_its_speeds_take() {
         let limits = Limits { vel: 1.0, acc: 10.0, jerk: 1e9 };
         let part = |length: f64, speed: f64| Part { length, speed };
         // Down from 1 to 0.5 and up again, over 0.0375 each.

@@ -31,8 +31,8 @@ pub(crate) fn try_end_zones(quickest: &mut Quickest<'_>, sites: &[Site], fastest
     }
     let of = |[acc, jerk]: [f64; 2]| Limits { acc: at_rest.acc * acc, jerk: at_rest.jerk * jerk, ..*at_rest };
     let approaches = quickest.approaches;
-    let is_like_a_way = |outer: &Limits| approaches.iter().any(|approach| alike(&approach.limits, outer));
-    let outers: Vec<Limits> = END_ZONE_SHARES.into_iter().map(of).filter(is_like_a_way).collect();
+    let is_like_an_approach = |outer: &Limits| approaches.iter().any(|approach| alike(&approach.limits, outer));
+    let outers: Vec<Limits> = END_ZONE_SHARES.into_iter().map(of).filter(is_like_an_approach).collect();
     if outers.is_empty() {
         return;
     }

@@ -164,17 +164,17 @@ fn lower_speeds(speeds: &mut [f64; PARTS], sites: &[Site], acc: f64, jerk: f64) 
 fn fastest_within(row: &Constraint, speed: f64, acc: f64, jerk: f64) -> f64 {
     let Constraint { first, second, third, .. } = *row;
     let mut speed = if first * speed > row.vel { row.vel / first } else { speed };
-    let left = row.acc - first * acc;
-    if second * speed * speed > left {
-        speed = (left.max(0.0) / second).sqrt();
+    let remaining = row.acc - first * acc;
+    if second * speed * speed > remaining {
+        speed = (remaining.max(0.0) / second).sqrt();
     }
-    let left = (row.jerk - first * jerk).max(0.0);
+    let remaining = (row.jerk - first * jerk).max(0.0);
     let (line, cube) = (3.0 * second * acc, third);
     let taken = |speed: f64| speed * (line + cube * speed * speed);
-    if taken(speed) > left {
+    if taken(speed) > remaining {
         // Newton's steps approach the root from above, since `taken` grows ever faster.
         for _ in 0..40 {
-            let next = speed - (taken(speed) - left) / (line + 3.0 * cube * speed * speed);
+            let next = speed - (taken(speed) - remaining) / (line + 3.0 * cube * speed * speed);
             if next >= speed * (1.0 - 1e-9) {
                 break;
             }
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ends_of_a_hairpin_have_the_limits_of_the_ways_beside() {
+    fn the_ends_of_a_hairpin_have_the_limits_of_the_paths_beside() {
         let even = Constraint::even(1.0, 1.0, 10.0, 1000.0);
         let sharp = Constraint { second: 400.0, third: 40_000.0, ..even };
         let rows = [[even], [sharp]];

@@ -12,8 +12,8 @@ use std::ops::ControlFlow;
 
 use crate::follow::governor::demands::ALL_CELLS;
 use crate::follow::governor::{
-    CELL_SPEED_SLACK, Cells, Governor, RELATIVE_SLACK, Scale, TakeWhileSum, careful, fading, lower, way_of_fading,
-    way_to_speed,
+    CELL_SPEED_SLACK, Cells, Governor, RELATIVE_SLACK, Scale, TakeWhileSum, careful, distance_to_speed, fading,
+    fading_distance, lower,
 };
 use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 
@@ -59,7 +59,7 @@ impl Governor<'_> {
         let mut goal = fading(vel, acc, &limits).max(0.0);
         let mut met = true;
         self.demands(state, scale, cells, |demand| {
-            met = demand.surely_left >= 0.0 || demand.left(state) >= -slack;
+            met = demand.least_remaining >= 0.0 || demand.remaining(state) >= -slack;
             goal = goal.min(demand.goal);
             if met { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
@@ -73,8 +73,8 @@ impl Governor<'_> {
         let peak = fading(state.vel, state.acc.max(0.0), &careful(here, scale));
         let mut excess = peak - cell.limits.vel * scale.vel * (1.0 + CELL_SPEED_SLACK);
         self.demands(state, scale, cells, |demand| {
-            let surely = demand.surely_left;
-            excess = excess.max(if surely > 0.0 { -surely } else { -demand.left(state) });
+            let surely = demand.least_remaining;
+            excess = excess.max(if surely > 0.0 { -surely } else { -demand.remaining(state) });
             ControlFlow::Continue(())
         });
         excess
@@ -83,9 +83,9 @@ impl Governor<'_> {
     /// Whether the acceleration of a state fades at about the end of its stretch or later.
     pub(crate) fn fades_across(&self, state: &State, scale: Scale) -> bool {
         let Some(first) = self.stretches.front() else { return false };
-        let way = way_of_fading(state.vel, state.acc, &careful(first, scale));
-        let end = first.cells.iter().map(|cell| cell.length).take_while_sum(state.at + way);
-        !first.stops && state.at + way + self.cycle * state.vel >= end
+        let distance = fading_distance(state.vel, state.acc, &careful(first, scale));
+        let end = first.cells.iter().map(|cell| cell.length).take_while_sum(state.at + distance);
+        !first.stops && state.at + distance + self.cycle * state.vel >= end
     }
 
     /// The second kind: the acceleration fades across ends of stretches.
@@ -110,18 +110,20 @@ impl Governor<'_> {
                     began = began.or(Some(index));
                     let here = careful(stretch, scale);
                     let limits = found.map_or(here, |(limits, _)| lower(limits, here));
-                    let left = fading(vel, acc, &limits);
-                    if left < 0.0 || acc.abs() * LOOK_AHEAD_MARGIN > limits.acc * (1.0 + RELATIVE_SLACK + slack) {
+                    let faded = fading(vel, acc, &limits);
+                    if faded < 0.0 || acc.abs() * LOOK_AHEAD_MARGIN > limits.acc * (1.0 + RELATIVE_SLACK + slack) {
                         return None;
                     }
-                    let way = way_of_fading(vel, acc, &limits);
-                    found = Some((limits, State { at: at + way, vel: left, acc: 0.0 }));
+                    let distance = fading_distance(vel, acc, &limits);
+                    found = Some((limits, State { at: at + distance, vel: faded, acc: 0.0 }));
                 }
                 let (limits, then) = found?;
                 let speed = cell.limits.vel * scale.vel * (1.0 + CELL_SPEED_SLACK + slack);
                 lowest = lowest.min(speed);
                 // Where the speed is lower in the end, it has to be lower already when the cell begins.
-                if then.vel > lowest || (vel > speed && start - at < way_to_speed(vel, acc, speed, &limits) - slack) {
+                if then.vel > lowest
+                    || (vel > speed && start - at < distance_to_speed(vel, acc, speed, &limits) - slack)
+                {
                     return None;
                 }
                 if then.at < end {

@@ -3,8 +3,8 @@
 use std::ops::{ControlFlow, Range};
 
 use crate::follow::governor::{
-    ENTRY_SPEED_SLACK, Governor, ROUNDING_SLACK, Scale, can_fade, careful, fading, longest_stop, to_rest,
-    way_of_fading, way_to_speed,
+    ENTRY_SPEED_SLACK, Governor, ROUNDING_SLACK, Scale, can_fade, careful, distance_to_speed, fading, fading_distance,
+    longest_stop, to_rest,
 };
 use crate::limits::profile::{Limits, State};
 
@@ -23,7 +23,7 @@ pub(crate) struct Demand {
     room: f64,
     kind: Kind,
     /// A lower bound of the distance left, as far as it is known without a closer look.
-    pub(crate) surely_left: f64,
+    pub(crate) least_remaining: f64,
     /// The cell whose speed it is.
     pub(crate) cell: Option<usize>,
 }
@@ -43,13 +43,13 @@ enum Kind {
 
 impl Demand {
     /// The distance that is left when a robot in this state has reached the speed.
-    pub(crate) fn left(&self, &State { vel, acc, .. }: &State) -> f64 {
+    pub(crate) fn remaining(&self, &State { vel, acc, .. }: &State) -> f64 {
         let limits = &self.limits;
         self.room
             - match self.kind {
-                Kind::Slower => way_to_speed(vel, acc, self.goal, limits),
-                Kind::Faded => way_of_fading(vel, acc, limits),
-                Kind::Rest => to_rest(vel, acc, limits).map_or(f64::INFINITY, |(way, _)| way),
+                Kind::Slower => distance_to_speed(vel, acc, self.goal, limits),
+                Kind::Faded => fading_distance(vel, acc, limits),
+                Kind::Rest => to_rest(vel, acc, limits).map_or(f64::INFINITY, |(distance, _)| distance),
                 Kind::Never => f64::INFINITY,
             }
     }
@@ -85,11 +85,11 @@ impl Governor<'_> {
                 limits,
                 room,
                 kind,
-                surely_left: f64::NEG_INFINITY,
+                least_remaining: f64::NEG_INFINITY,
                 cell: None,
             };
             let (rising, most) = (acc.max(0.0), fading(vel, acc.max(0.0), &limits));
-            let longest_way = |goal: f64| {
+            let longest_distance = |goal: f64| {
                 if goal >= most { 0.0 } else { most * rising / limits.jerk + limits.slowing(most, goal) }
             };
             let mut lowest = f64::INFINITY;
@@ -112,8 +112,8 @@ impl Governor<'_> {
                     return ControlFlow::Continue(());
                 }
                 if inside && speed < lowest && cells.contains(&count) {
-                    let surely_left = room - longest_way(speed);
-                    tell(Demand { surely_left, cell: Some(count), ..demand(speed, room, Kind::Slower) })?;
+                    let least_remaining = room - longest_distance(speed);
+                    tell(Demand { least_remaining, cell: Some(count), ..demand(speed, room, Kind::Slower) })?;
                 }
                 inside = true;
                 lowest = lowest.min(speed);

@@ -152,16 +152,16 @@ impl Governor<'_> {
         if !here.stops || here.cells.len() > 4 {
             return None;
         }
-        let left = length - state.at;
+        let remaining = length - state.at;
         let jerk = limits.jerk.min(limits.acc / self.cycle);
         let nothing = SNAP_SHARE * jerk * self.cycle * self.cycle * self.cycle;
         let end = Step::rest(length);
         if state.rests() {
-            return (left <= nothing).then_some(end);
+            return (remaining <= nothing).then_some(end);
         }
-        let (way, time) = to_rest(state.vel, state.acc, &limits)?;
-        let there = time <= self.cycle * 1.000_001 && (way - left).abs() <= nothing.max(2.0 * ROUNDING_SLACK);
-        (there || left <= 2.0 * ROUNDING_SLACK).then_some(end)
+        let (distance, time) = to_rest(state.vel, state.acc, &limits)?;
+        let there = time <= self.cycle * 1.000_001 && (distance - remaining).abs() <= nothing.max(2.0 * ROUNDING_SLACK);
+        (there || remaining <= 2.0 * ROUNDING_SLACK).then_some(end)
     }
 
     /// The quickest step forward within a cycle; `None` where there is none.
@@ -230,8 +230,8 @@ impl Governor<'_> {
         let mut undone: Option<Cells> = None;
         self.demands(state, scale, &ALL_CELLS, |demand| {
             if let Some(cell) = demand.cell
-                && demand.surely_left < 0.0
-                && demand.left(state) < 0.0
+                && demand.least_remaining < 0.0
+                && demand.remaining(state) < 0.0
             {
                 undone = Some(undone.take().map_or(cell, |cells| cells.start)..cell + 1);
             }
@@ -282,18 +282,18 @@ impl Governor<'_> {
     /// Whether the robot already brakes for a stop.
     fn at_its_end(&self, state: &State) -> bool {
         let mut nearest = f64::INFINITY;
-        let mut way = 0.0;
+        let mut distance = 0.0;
         self.demands(state, FULL_LIMITS, &ALL_CELLS, |demand| {
             if demand.goal == 0.0
-                && let left = demand.left(state)
-                && left < nearest
+                && let remaining = demand.remaining(state)
+                && remaining < nearest
             {
-                nearest = left;
-                way = to_rest(state.vel, state.acc, &demand.limits).map_or(0.0, |(way, _)| way);
+                nearest = remaining;
+                distance = to_rest(state.vel, state.acc, &demand.limits).map_or(0.0, |(distance, _)| distance);
             }
             ControlFlow::Continue(())
         });
-        nearest <= ENDING_STOP_SHARE * way
+        nearest <= ENDING_STOP_SHARE * distance
     }
 
     /// The state a cycle later on the way to the speed that is hardest to reach in time. What was found feasible ahead
@@ -305,10 +305,10 @@ impl Governor<'_> {
         let mut least = f64::INFINITY;
         self.demands(state, scale, &ALL_CELLS, |demand| {
             if demand.goal <= highest
-                && let left = demand.left(state)
-                && left < least
+                && let remaining = demand.remaining(state)
+                && remaining < least
             {
-                (least, found) = (left, (demand.goal, demand.limits));
+                (least, found) = (remaining, (demand.goal, demand.limits));
             }
             ControlFlow::Continue(())
         });
@@ -465,12 +465,12 @@ fn to_rest(vel: f64, acc: f64, limits: &Limits) -> Option<(f64, f64)> {
 }
 
 /// The distance until the acceleration has faded out, or until rest where [`to_rest`] lets it fade a little quicker.
-fn way_of_fading(vel: f64, acc: f64, limits: &Limits) -> f64 {
-    let left = fading(vel, acc, limits);
-    if left < 0.0 {
+fn fading_distance(vel: f64, acc: f64, limits: &Limits) -> f64 {
+    let faded = fading(vel, acc, limits);
+    if faded < 0.0 {
         return 2.0 * vel * vel / (-3.0 * acc);
     }
-    Change::new(vel, acc, left, limits).distance(vel, acc)
+    Change::new(vel, acc, faded, limits).distance(vel, acc)
 }
 
 /// An upper bound of the distance to rest.
@@ -480,9 +480,9 @@ fn longest_stop(vel: f64, acc: f64, limits: &Limits) -> f64 {
 }
 
 /// The distance until the speed has come down to `goal` and stays there.
-fn way_to_speed(vel: f64, acc: f64, goal: f64, limits: &Limits) -> f64 {
-    let left = fading(vel, acc, limits);
-    if left <= goal {
+fn distance_to_speed(vel: f64, acc: f64, goal: f64, limits: &Limits) -> f64 {
+    let faded = fading(vel, acc, limits);
+    if faded <= goal {
         if vel <= goal {
             return 0.0;
         }

@@ -23,8 +23,8 @@ fn run(cells: &[(f64, Limits)], pacing: impl Fn(u32) -> Pacing) -> u32 {
         let pace = pacing(cycle);
         state = Governor { stretches: &timing.stretches, cycle: 0.001 }.next(&state, &mut backup, pace);
         cycle += 1;
-        let told = format!("{cycle}: {done} {before:?} {state:?} {cells:?}");
-        assert!(cycle < 100_000, "{told}");
+        let context = format!("{cycle}: {done} {before:?} {state:?} {cells:?}");
+        assert!(cycle < 100_000, "{context}");
         done += state.at - before.at;
         let stop_scale = if let Pacing::Stop(stop_scale) = pace { stop_scale } else { 1.0 };
         let mut end = 0.0;
@@ -33,19 +33,19 @@ fn run(cells: &[(f64, Limits)], pacing: impl Fn(u32) -> Pacing) -> u32 {
             done - state.vel * 0.001 < end
         });
         let Some((_, Limits { vel, acc, jerk })) = here.and_then(|here| cells.get(here)) else {
-            assert!(state.rests(), "{told}");
+            assert!(state.rests(), "{context}");
             return cycle;
         };
         let before_end = done < end;
         if before_end {
-            assert!(state.vel >= 0.0 && state.vel <= vel * 1.000_2, "{told}");
-            assert!(state.acc.abs() <= acc * stop_scale * 1.001, "{told}");
+            assert!(state.vel >= 0.0 && state.vel <= vel * 1.000_2, "{context}");
+            assert!(state.acc.abs() <= acc * stop_scale * 1.001, "{context}");
             let change = (state.acc - before.acc).abs() / 0.001;
-            assert!(change <= jerk * stop_scale * 1.02, "{change} {told}");
+            assert!(change <= jerk * stop_scale * 1.02, "{change} {context}");
         }
         let mut rest = state;
         if timing.pass(&mut rest) {
-            assert!(state.rests() && (done - whole).abs() < 1e-9, "{told}");
+            assert!(state.rests() && (done - whole).abs() < 1e-9, "{context}");
             return cycle;
         }
         state = rest;
@@ -271,11 +271,11 @@ impl Ride {
         let pacing = self.pacing();
         let (before, mut backup) = (self.state, self.backup);
         let next = self.governor().next(&before, &mut backup, pacing);
-        let told = || format!("{before:?} {next:?} {pacing:?} {:?}", self.timing.stretches);
+        let context = || format!("{before:?} {next:?} {pacing:?} {:?}", self.timing.stretches);
         let (most, stops) = self.most(before.at, next.at);
-        assert!(next.at >= before.at && next.vel >= 0.0 && next.vel <= most.vel * 1.000_02, "{}", told());
-        assert!(stops || next.acc.abs() <= most.acc * 1.001, "{}", told());
-        assert!(stops || (next.acc - before.acc).abs() <= most.jerk * CYCLE * 1.003, "{}", told());
+        assert!(next.at >= before.at && next.vel >= 0.0 && next.vel <= most.vel * 1.000_02, "{}", context());
+        assert!(stops || next.acc.abs() <= most.acc * 1.001, "{}", context());
+        assert!(stops || (next.acc - before.acc).abs() <= most.jerk * CYCLE * 1.003, "{}", context());
         (self.state, self.backup) = (next, backup);
         if self.timing.pass(&mut self.state) {
             self.backup = Change::default();

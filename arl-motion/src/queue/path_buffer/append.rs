@@ -70,7 +70,7 @@ impl PathBuffer {
         if joined.is_none() {
             let whole = self.ready([Segment::part(&end, limits, number, 0.0, 1.0)]);
             // In a stretch of its own, it demands nothing that the stop before it did not.
-            if self.is_led() || !self.lay(&whole, |_| true, cycle) {
+            if self.is_law_driven() || !self.lay(&whole, |_| true, cycle) {
                 self.push(&whole, |_| false);
             }
         }
@@ -110,9 +110,9 @@ impl PathBuffer {
         let Joined { before, segments: count } = tail.joined.as_ref()?;
         let (before, _) = before.as_ref()?;
         let [first, next] = &curved.blends;
-        let (left, last) = (self.segments.get(self.segments.len() - *count)?.number, self.segments.back()?.number);
+        let (exited, last) = (self.segments.get(self.segments.len() - *count)?.number, self.segments.back()?.number);
         let halves = [
-            Segment::half(first, before, &tail.motion, left, true),
+            Segment::half(first, before, &tail.motion, exited, true),
             Segment::half(first, before, &tail.motion, last, false),
             Segment::half(next, &tail.motion, motion, last, true),
             Segment::half(next, &tail.motion, motion, number, false),
@@ -165,7 +165,7 @@ impl PathBuffer {
     /// motion. Up to `same_to`, in s of nominal time since the path began, the segments change nothing.
     fn lay_any(&mut self, segments: &[Arc<Segment>], own: Option<bool>, same_to: f64, cycle: f64) -> bool {
         let may = self.may_change_from(same_to);
-        if self.is_led() {
+        if self.is_law_driven() {
             if may {
                 self.push(segments, |_| true);
             }

@@ -279,7 +279,7 @@ impl PathBuffer {
 
     /// Whether anything depends on the path as it is.
     pub(crate) fn is_watched(&self) -> bool {
-        self.is_led() || self.laws.pending.is_some() || self.laws.next.is_some()
+        self.is_law_driven() || self.laws.pending.is_some() || self.laws.next.is_some()
     }
 
     /// Whether segments may join the path as far as the follower is concerned: where nothing changes up to the end of
@@ -452,14 +452,14 @@ impl PathBuffer {
             }
         }
         if let Some(next) = follower.next(cycle) {
-            let mut way = next.at - self.segments.passed() - self.at;
+            let mut distance = next.at - self.segments.passed() - self.at;
             if follower.rests() {
                 // Rounding must neither keep the robot from a stop nor carry it past one.
                 let stop = self.timing.to_stop() - self.state.at;
-                way = if way > stop - NEAR_STOP_S { stop } else { way };
+                distance = if distance > stop - NEAR_STOP_S { stop } else { distance };
             }
-            self.state = State { at: self.state.at + way, vel: next.vel, acc: next.acc };
-            self.at += way;
+            self.state = State { at: self.state.at + distance, vel: next.vel, acc: next.acc };
+            self.at += distance;
         }
         if follower.rests() {
             self.drop_stop_search();

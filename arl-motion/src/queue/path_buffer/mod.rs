@@ -131,7 +131,7 @@ impl PathBuffer {
     }
 
     /// How a blend leads from a motion into the motion `number`, where one does.
-    pub(crate) fn left_before(&self, number: u64) -> Option<Leaving> {
+    pub(crate) fn leaving_before(&self, number: u64) -> Option<Leaving> {
         let is_own = |segment: &&Arc<Segment>| segment.number == number;
         let before = self.segments.iter().rev().skip_while(|it| !is_own(it)).find(|it| !is_own(it))?;
         let rounded = before.ends && !before.stops && before.parametrization.is_some();
@@ -212,7 +212,7 @@ impl PathBuffer {
     /// Whether laws lead the robot, or will.
     pub(crate) fn wants_laws(&self) -> bool {
         let ends = [self.segments.front(), self.segments.back()];
-        self.is_led() || ends.into_iter().flatten().any(|segment| segment.is_free)
+        self.is_law_driven() || ends.into_iter().flatten().any(|segment| segment.is_free)
     }
 
     /// The motion before the last one, where a blend joins the two.
@@ -221,7 +221,7 @@ impl PathBuffer {
     }
 
     /// Whether laws lead the robot, or would along a draft.
-    fn is_led(&self) -> bool {
+    fn is_law_driven(&self) -> bool {
         self.laws.leader.follower().is_some() || matches!(self.laws.appending, Appending::Draft(_))
     }
 

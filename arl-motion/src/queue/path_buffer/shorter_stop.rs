@@ -36,7 +36,7 @@ impl PathBuffer {
         if self.laws.stop_asked.is_none_or(|asked| asked < stop_scale) {
             self.drop_stop_request();
             self.laws.stop_asked = Some(stop_scale);
-            if !self.stops_on_even_way(stop_scale) {
+            if !self.stops_within_even_segment(stop_scale) {
                 self.request_stop_law(robot, here, cycle, stop_scale);
             }
         } else if let Some(found) = self.take_stop_law()
@@ -55,7 +55,7 @@ impl PathBuffer {
     }
 
     /// Whether the governor's stop stays on a segment that has the same limits everywhere: no stop is shorter.
-    fn stops_on_even_way(&self, stop_scale: f64) -> bool {
+    fn stops_within_even_segment(&self, stop_scale: f64) -> bool {
         let State { vel, acc, .. } = self.state;
         self.segments.front().filter(|segment| segment.is_even()).is_some_and(|segment| {
             let Limits { acc: most, jerk, .. } = segment.limits;

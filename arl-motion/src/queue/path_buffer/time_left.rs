@@ -47,7 +47,7 @@ impl PathBuffer {
             (known, at, stops) = (known + 1, 0.0, segment.stops);
         }
         let legs = legs.get(..known).unwrap_or_default();
-        let way: f64 = legs.iter().map(|leg| leg.length).sum();
+        let distance: f64 = legs.iter().map(|leg| leg.length).sum();
         let exit = if stops {
             0.0
         } else if self.laws.leader.follower().is_some() || (self.state.rests() && self.wants_laws()) {
@@ -55,7 +55,7 @@ impl PathBuffer {
             legs.last().map_or(0.0, |last| last.limits.vel)
         } else {
             self.find_entries();
-            self.timing.highest_speed(self.state.at + way, LOOK_AHEAD_MARGIN, self.cycle)
+            self.timing.highest_speed(self.state.at + distance, LOOK_AHEAD_MARGIN, self.cycle)
         };
         remaining::time_over(legs, exit, self.state.vel, self.state.acc)
     }

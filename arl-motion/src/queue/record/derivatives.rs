@@ -18,9 +18,9 @@ pub(super) struct Derivatives {
     /// Velocities and accelerations of the axes.
     rates: [[f64; ALL]; 2],
     /// What was last moved along a path; `None` where nothing was.
-    led: Option<Carried>,
+    guided: Option<Carried>,
     carried: Option<Carried>,
-    way: Frame,
+    tcp: Frame,
     /// The TCP along its path, and the rotation of the tool in deg.
     moving: PathSpeed,
     turning: PathSpeed,
@@ -32,7 +32,7 @@ pub(super) struct Derivatives {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfTool {
     /// Distance covered, in mm.
-    pub(super) way: f64,
+    pub(super) distance: f64,
     /// Speed of the TCP along its path with two derivatives, in mm/s and so on.
     pub(super) moving: [f64; DERIVATIVES],
     /// Speed of the tool's rotation with two derivatives, in deg/s and so on.
@@ -47,9 +47,9 @@ impl Derivatives {
         Self {
             joints,
             rates: [[0.0; ALL]; 2],
-            led: None,
+            guided: None,
             carried: None,
-            way: Frame::identity(),
+            tcp: Frame::identity(),
             moving: PathSpeed::default(),
             turning: PathSpeed::default(),
             known: DERIVATIVES,
@@ -76,28 +76,28 @@ impl Derivatives {
         self.axes(joints, period);
     }
 
-    /// Finds how a TCP moves in the same cycle; called before `axes`. `led`: what is moved along a path.
+    /// Finds how a TCP moves in the same cycle; called before `axes`. `guided`: what is moved along a path.
     pub(super) fn tool(
         &mut self,
         carried: Carried,
-        led: Option<Carried>,
+        guided: Option<Carried>,
         robot: &Robot,
         joints: &Joints,
         period: f64,
     ) -> OfTool {
-        if self.carried != Some(carried) || self.led != led {
-            self.way = carried.way_at(&robot.kinematics.forward(&self.joints.axes));
+        if self.carried != Some(carried) || self.guided != guided {
+            self.tcp = carried.path_frame_at(&robot.kinematics.forward(&self.joints.axes));
             let rests = self.rates.iter().flatten().all(|rate| *rate == 0.0);
             self.known = if rests { DERIVATIVES } else { 0 };
             (self.moving, self.turning) = (PathSpeed::default(), PathSpeed::default());
-            (self.carried, self.led) = (Some(carried), led);
+            (self.carried, self.guided) = (Some(carried), guided);
         }
-        let way = carried.way_at(&robot.kinematics.forward(&joints.axes));
-        let moved = way.translation.vector - self.way.translation.vector;
-        let turned: Vector3<f64> = (way.rotation * self.way.rotation.inverse()).scaled_axis().map(f64::to_degrees);
-        self.way = way;
+        let tcp = carried.path_frame_at(&robot.kinematics.forward(&joints.axes));
+        let moved = tcp.translation.vector - self.tcp.translation.vector;
+        let turned: Vector3<f64> = (tcp.rotation * self.tcp.rotation.inverse()).scaled_axis().map(f64::to_degrees);
+        self.tcp = tcp;
         self.known = (self.known + 1).min(DERIVATIVES);
         let (moving, turning) = (self.moving.derivatives(moved, period), self.turning.derivatives(turned, period));
-        OfTool { way: moved.norm(), moving, turning, known: self.known }
+        OfTool { distance: moved.norm(), moving, turning, known: self.known }
     }
 }

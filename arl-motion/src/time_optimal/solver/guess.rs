@@ -3,7 +3,7 @@
 use crate::time_optimal::solver::screen::highest_square;
 use crate::time_optimal::solver::warp::Warp;
 use crate::time_optimal::solver::warped_row::WarpedRow;
-use crate::time_optimal::solver::{BoundaryState, Way};
+use crate::time_optimal::solver::{BoundaryState, ConstrainedPath};
 
 /// In the fastest rise from rest with limited jerk, the power 3/4 of the squared speed grows linearly with the
 /// distance, at this rate times the root of the jerk; only a share of it is used, to leave room for accelerations to
@@ -13,7 +13,7 @@ const GUESSED_SHARE_OF_RISE: f64 = 0.5;
 
 /// Estimates how fast the warped parameter can be at the places, given as warped parameters: as the limits permit at an
 /// even speed, and as can be reached from the neighbouring places.
-pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [BoundaryState; 2]) -> Vec<f64> {
+pub(crate) fn guess_speeds(path: &ConstrainedPath, warp: &Warp, places: &[f64], edges: [BoundaryState; 2]) -> Vec<f64> {
     let last = places.len().saturating_sub(1);
     let mut squares = Vec::with_capacity(places.len());
     // Limits of the growth of the square, and of its power 3/4.
@@ -23,7 +23,7 @@ pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Bound
         let edge = edges.iter().zip([0, last]).find(|(edge, at)| *at == index && !edge.rests());
         let given = edge.map_or(f64::INFINITY, |(edge, _)| edge.vel * edge.vel / (place.first * place.first));
         let (mut square, mut even, mut acc, mut jerk) = (given, 0.0_f64, f64::INFINITY, f64::INFINITY);
-        for row in way.rows(index).iter().filter(|row| row.moves()) {
+        for row in path.rows(index).iter().filter(|row| row.moves()) {
             let row = WarpedRow::new(row, place);
             square = square.min(1.0 / row.vel).min(1.0 / row.acc[1].abs());
             even = even.max(row.jerk[2].abs());
@@ -70,11 +70,11 @@ const CHANGE_OF_SPEED: f64 = 1.1;
 const COARSE: Thinning = Thinning { closest: 0.006, change: 1.5, begun: 0.1, keeps_jumps: false };
 
 /// A low estimate of the time that the fastest motion takes from each place to the next, in s.
-pub(crate) fn guess_steps(way: &Way, edges: [BoundaryState; 2]) -> Option<Vec<f64>> {
-    let (from, to) = way.span().ok()?;
+pub(crate) fn guess_steps(path: &ConstrainedPath, edges: [BoundaryState; 2]) -> Option<Vec<f64>> {
+    let (from, to) = path.span().ok()?;
     let warp = Warp::new(from, to, edges[0].rests(), edges[1].rests());
-    let places: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
-    let speeds = guess_speeds(way, &warp, &places, edges);
+    let places: Vec<f64> = path.places().iter().map(|at| warp.find(*at)).collect();
+    let speeds = guess_speeds(path, &warp, &places, edges);
     let step = |(place, speed): (&[f64], &[f64])| (place[1] - place[0]) / f64::midpoint(speed[0], speed[1]);
     Some(places.windows(2).zip(speeds.windows(2)).map(step).collect())
 }
@@ -93,30 +93,30 @@ struct Thinning {
 
 /// The path without places that are closer together than `closest` s by these steps, except those where derivatives
 /// jump or the speed changes much; `None` where it has few places.
-pub(crate) fn thinned(way: &Way, steps: &[f64], closest: f64) -> Option<Way> {
-    keep(way, steps, &Thinning { closest, change: CHANGE_OF_SPEED, begun: 0.0, keeps_jumps: true })
+pub(crate) fn thinned(path: &ConstrainedPath, steps: &[f64], closest: f64) -> Option<ConstrainedPath> {
+    keep(path, steps, &Thinning { closest, change: CHANGE_OF_SPEED, begun: 0.0, keeps_jumps: true })
 }
 
 /// The path with about a third of its places, which is enough for the pace of a law, but not for the law; `None` where
 /// it has few places.
-pub(crate) fn coarse(way: &Way, edges: [BoundaryState; 2]) -> Option<Way> {
-    let steps = guess_steps(way, edges)?;
-    keep(way, &steps, &COARSE)
+pub(crate) fn coarse(path: &ConstrainedPath, edges: [BoundaryState; 2]) -> Option<ConstrainedPath> {
+    let steps = guess_steps(path, edges)?;
+    keep(path, &steps, &COARSE)
 }
 
-fn keep(way: &Way, steps: &[f64], thinning: &Thinning) -> Option<Way> {
+fn keep(path: &ConstrainedPath, steps: &[f64], thinning: &Thinning) -> Option<ConstrainedPath> {
     let Thinning { closest, change, begun, keeps_jumps } = *thinning;
-    if way.places().len() <= FEW_PLACES {
+    if path.places().len() <= FEW_PLACES {
         return None;
     }
-    let lengths = way.places().windows(2).map(|pair| pair[1] - pair[0]);
+    let lengths = path.places().windows(2).map(|pair| pair[1] - pair[0]);
     let speeds: Vec<f64> = lengths.zip(steps).map(|(length, step)| length / step).collect();
     let changes = |from: f64, to: f64| from.max(to) > change * from.min(to);
     // Assumes rest before the start, so that the place behind the start stays, too.
     let (mut time, mut since, mut before, mut keep) = (0.0, 0.0, 0.0, vec![true]);
     for (index, (step, behind)) in (1..).zip(steps.iter().zip(speeds.iter().skip(1))) {
         (time, since) = (time + step, since + step);
-        let stays = time < begun || (keeps_jumps && way.jumps(index));
+        let stays = time < begun || (keeps_jumps && path.jumps(index));
         let is_kept = stays || since >= closest || changes(before, *behind);
         keep.push(is_kept);
         if is_kept {
@@ -124,5 +124,5 @@ fn keep(way: &Way, steps: &[f64], thinning: &Thinning) -> Option<Way> {
         }
     }
     keep.push(true);
-    Some(way.only(&keep))
+    Some(path.only(&keep))
 }

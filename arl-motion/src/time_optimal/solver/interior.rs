@@ -14,7 +14,7 @@ use crate::time_optimal::solver::guess::coarse;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::program::{Beginning, Known, Program, Site, SiteLimits, dot};
-use crate::time_optimal::solver::{BoundaryState, Pace, Refusal, Way};
+use crate::time_optimal::solver::{BoundaryState, ConstrainedPath, Pace, Refusal};
 
 /// Maximum number of steps; 10 to 30 are needed, up to 60 from a given state.
 const STEPS: usize = 80;
@@ -104,19 +104,19 @@ struct Prices {
     price_step: Lanes,
 }
 
-/// Finds the fastest motion within all limits of `way`, behind a law if there is one.
+/// Finds the fastest motion within all limits of `path`, behind a law if there is one.
 ///
 /// Between two places, only the acceleration's slope is free. With a parameter that runs as time does, that is enough;
 /// a guess is not that close. So a law is found over the pace of another one, until that is as good as its own.
-pub(crate) fn solve(way: &Way, edges: [BoundaryState; 2], before: Option<&Law>) -> Result<Law, Refusal> {
-    let Some(before) = before else { return solve_alone(way, edges) };
+pub(crate) fn solve(path: &ConstrainedPath, edges: [BoundaryState; 2], before: Option<&Law>) -> Result<Law, Refusal> {
+    let Some(before) = before else { return solve_alone(path, edges) };
     // A few places give the pace sooner, but not always where the start leaves hardly any possible motion. And where it
     // has to slow down for what the law before has not covered, the pace of that law may fail.
-    let coarse = coarse(way, edges);
+    let coarse = coarse(path, edges);
     let mut best: Result<Law, Refusal> = Err(Refusal::Fast);
     let mut quickest = f64::INFINITY;
-    for sparse in coarse.iter().chain([way]) {
-        match solve_behind(way, edges, before, sparse) {
+    for sparse in coarse.iter().chain([path]) {
+        match solve_behind(path, edges, before, sparse) {
             Ok((law, rough)) => {
                 let is_as_good = law.duration() < MOST_ON_ROUGH * rough.duration();
                 (best, quickest) = (faster(best, Ok(law)), quickest.min(rough.duration()));
@@ -128,7 +128,7 @@ pub(crate) fn solve(way: &Way, edges: [BoundaryState; 2], before: Option<&Law>) 
             Err(refusal) => return Err(refusal),
         }
     }
-    best = faster(best, solve_alone(way, edges));
+    best = faster(best, solve_alone(path, edges));
     // The law before leads to rest: searching again from a later state is better than creeping.
     if best.as_ref().is_ok_and(|law| law.duration() > CREEPING * quickest) { Err(Refusal::Fast) } else { best }
 }
@@ -143,28 +143,33 @@ fn faster(one: Result<Law, Refusal>, other: Result<Law, Refusal>) -> Result<Law,
 }
 
 /// Finds a law from a guess.
-fn solve_alone(way: &Way, edges: [BoundaryState; 2]) -> Result<Law, Refusal> {
-    let mut program = program(way, edges, Known::Nothing)?;
+fn solve_alone(path: &ConstrainedPath, edges: [BoundaryState; 2]) -> Result<Law, Refusal> {
+    let mut program = program(path, edges, Known::Nothing)?;
     let gap = if program.warp.is_even() { GAP } else { ROUGH_GAP };
-    Ok(approach(way, edges, find(&mut program, gap)?))
+    Ok(approach(path, edges, find(&mut program, gap)?))
 }
 
 /// Finds a law from the pace of the law before, as far as that is known; also returns the rough law, over a path with
 /// fewer places, whose pace was used.
-fn solve_behind(way: &Way, edges: [BoundaryState; 2], before: &Law, sparse: &Way) -> Result<(Law, Law), Refusal> {
+fn solve_behind(
+    path: &ConstrainedPath,
+    edges: [BoundaryState; 2],
+    before: &Law,
+    sparse: &ConstrainedPath,
+) -> Result<(Law, Law), Refusal> {
     let rough = solve_roughly(sparse, edges, before)?;
-    let pace = rough.pace_at(way.places()).ok_or(Refusal::Fast)?;
-    let law = solve_near(way, edges, &pace)?;
-    let law = if gain(&rough, &law).abs() < LEAST_GAIN_ON_ROUGH { law } else { approach(way, edges, law) };
+    let pace = rough.pace_at(path.places()).ok_or(Refusal::Fast)?;
+    let law = solve_near(path, edges, &pace)?;
+    let law = if gain(&rough, &law).abs() < LEAST_GAIN_ON_ROUGH { law } else { approach(path, edges, law) };
     Ok((law, rough))
 }
 
 /// Finds a law for its pace alone.
-fn solve_roughly(way: &Way, edges: [BoundaryState; 2], before: &Law) -> Result<Law, Refusal> {
-    let mut rough = find_roughly(program(way, edges, Known::Before(before))?)?;
+fn solve_roughly(path: &ConstrainedPath, edges: [BoundaryState; 2], before: &Law) -> Result<Law, Refusal> {
+    let mut rough = find_roughly(program(path, edges, Known::Before(before))?)?;
     for _ in 0..MOST_ROUGH_APPROACHES {
         let pace = rough.pace().ok_or(Refusal::Fast)?;
-        let nearer = find_roughly(program(way, edges, Known::Pace(&pace))?)?;
+        let nearer = find_roughly(program(path, edges, Known::Pace(&pace))?)?;
         let gain = gain(&rough, &nearer);
         rough = nearer;
         if gain < LEAST_ROUGH_GAIN {
@@ -175,9 +180,9 @@ fn solve_roughly(way: &Way, edges: [BoundaryState; 2], before: &Law) -> Result<L
 }
 
 /// Finds the law again over its own pace, repeatedly.
-fn approach(way: &Way, edges: [BoundaryState; 2], mut law: Law) -> Law {
+fn approach(path: &ConstrainedPath, edges: [BoundaryState; 2], mut law: Law) -> Law {
     for _ in 0..MOST_APPROACHES {
-        let nearer = law.pace().and_then(|pace| solve_near(way, edges, &pace).ok());
+        let nearer = law.pace().and_then(|pace| solve_near(path, edges, &pace).ok());
         let Some(nearer) = nearer.filter(|nearer| nearer.duration() < law.duration()) else { break };
         let gain = gain(&law, &nearer);
         law = nearer;
@@ -194,12 +199,12 @@ fn gain(law: &Law, nearer: &Law) -> f64 {
 }
 
 /// Finds a law where the pace is roughly known.
-pub(crate) fn solve_near(way: &Way, edges: [BoundaryState; 2], pace: &Pace) -> Result<Law, Refusal> {
-    find(&mut program(way, edges, Known::Pace(pace))?, GAP)
+pub(crate) fn solve_near(path: &ConstrainedPath, edges: [BoundaryState; 2], pace: &Pace) -> Result<Law, Refusal> {
+    find(&mut program(path, edges, Known::Pace(pace))?, GAP)
 }
 
-fn program(way: &Way, edges: [BoundaryState; 2], known: Known) -> Result<Program, Refusal> {
-    if way.places().len() < 3 { Err(Refusal::Short) } else { Program::new(way, edges, known) }
+fn program(path: &ConstrainedPath, edges: [BoundaryState; 2], known: Known) -> Result<Program, Refusal> {
+    if path.places().len() < 3 { Err(Refusal::Short) } else { Program::new(path, edges, known) }
 }
 
 /// Finds the fastest motion, from the first beginning that leads to one, whose duration is within `gap` of the shortest
@@ -477,7 +482,7 @@ impl<'a> Climb<'a> {
                         let rate = -(slack_step * each);
                         let less = one - rate;
                         let price_step = -(price * less);
-                        let left = slack_step * price_step;
+                        let product = slack_step * price_step;
                         prices.slack_step = slack_step;
                         forecast.primal = forecast.primal.more(rate);
                         forecast.dual = forecast.dual.more(less);
@@ -485,11 +490,11 @@ impl<'a> Climb<'a> {
                         forecast.excess = forecast.excess.more(here.of(limits) - value);
                         forecast.sums[0] += slack * price_step;
                         forecast.sums[1] += price * slack_step;
-                        forecast.sums[2] += left;
-                        let left = left * each;
-                        to[0] += (slope - limits.square) * left;
-                        to[1] += limits.slope * left;
-                        to[2] += limits.bend * left;
+                        forecast.sums[2] += product;
+                        let product = product * each;
+                        to[0] += (slope - limits.square) * product;
+                        to[1] += limits.slope * product;
+                        to[2] += limits.bend * product;
                     }
                 }
                 let to = [to[0].sum(), -to[1].sum(), -to[2].sum()];
@@ -521,9 +526,9 @@ impl<'a> Climb<'a> {
                         let Prices { slack, price, slack_step, .. } = *prices;
                         let each = slack.inverse();
                         // What the uncorrected step leaves of slack times price.
-                        let left = -(slack_step * price * (one + slack_step * each));
+                        let product = -(slack_step * price * (one + slack_step * each));
                         let slack_step = rise - by.of(limits) + (value - here.of(limits) - slack);
-                        let price_step = (centre - left - price * slack_step) * each - price;
+                        let price_step = (centre - product - price * slack_step) * each - price;
                         prices.slack_step = slack_step;
                         prices.price_step = price_step;
                         primal = primal.more(-(slack_step * each));

@@ -143,26 +143,26 @@ impl LawInterval {
     fn after(&self, time: f64) -> (f64, f64, f64) {
         let Self { vel, acc, bend, .. } = *self;
         let (odd, even) = growth(bend, time);
-        let way = vel * odd + acc * even;
-        (self.at + way, vel * (1.0 + bend * even) + acc * odd, acc + bend * way)
+        let distance = vel * odd + acc * even;
+        (self.at + distance, vel * (1.0 + bend * even) + acc * odd, acc + bend * distance)
     }
 
-    /// The time that it takes to advance by `way`.
-    fn duration(&self, way: f64) -> f64 {
+    /// The time that it takes to advance by `distance`.
+    fn duration(&self, distance: f64) -> f64 {
         let Self { vel, acc, bend, .. } = *self;
-        let then = (vel * vel + way * (2.0 * acc + way * bend)).max(0.0).sqrt();
-        if way <= 0.0 {
+        let then = (vel * vel + distance * (2.0 * acc + distance * bend)).max(0.0).sqrt();
+        if distance <= 0.0 {
             return 0.0;
         }
         if vel + then <= 0.0 {
             // A single stretch from rest to rest without acceleration in between would never end.
             return 1e9;
         }
-        let mut time = 2.0 * way / (vel + then);
+        let mut time = 2.0 * distance / (vel + then);
         let turns = bend * time * time;
         if turns.abs() > 1e-3 {
             let rate = bend.abs().sqrt();
-            let after = acc + bend * way;
+            let after = acc + bend * distance;
             let exact = if bend > 0.0 {
                 ((after + rate * then) / (acc + rate * vel)).ln() / rate
             } else {
@@ -174,7 +174,7 @@ impl LawInterval {
         }
         for _ in 0..2 {
             let (at, now, _) = self.after(time);
-            let step = (at - self.at - way) / now;
+            let step = (at - self.at - distance) / now;
             if now > 0.0 && step.abs() < 0.5 * time {
                 time -= step;
             }

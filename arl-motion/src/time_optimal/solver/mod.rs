@@ -11,6 +11,7 @@
 //! the warped parameter, a first guess of the speed makes a parameter that runs roughly as time does (`paced_warp`).
 
 mod banded;
+mod constrained_path;
 mod error;
 mod guess;
 mod interior;
@@ -25,14 +26,13 @@ mod screen;
 mod tests;
 mod warp;
 mod warped_row;
-mod way;
 
+pub use constrained_path::{ConstrainedPath, Row};
 pub use error::Refusal;
 pub(crate) use guess::{guess_steps, thinned};
 pub(crate) use interior::CREEPING;
 pub use law::{Law, Moment};
 pub(crate) use pace::Pace;
-pub use way::{Row, Way};
 
 use warp::Warp;
 
@@ -55,7 +55,7 @@ impl BoundaryState {
 }
 
 /// Returns `count` path parameters from `from` to `to` that are close together where the motion is slow because it
-/// starts or ends at rest: places for a [`Way`].
+/// starts or ends at rest: places for a [`ConstrainedPath`].
 pub fn places(from: f64, to: f64, count: usize, start: BoundaryState, end: BoundaryState) -> Vec<f64> {
     let warp = Warp::new(from, to, start.rests(), end.rests());
     let last = count.max(2) - 1;
@@ -63,7 +63,7 @@ pub fn places(from: f64, to: f64, count: usize, start: BoundaryState, end: Bound
     (0..=last).map(|index| if index == last { to } else { inner(index) }).collect()
 }
 
-/// Finds the fastest motion along `way` from `start` to `end`.
+/// Finds the fastest motion along `path` from `start` to `end`.
 ///
 /// Limits are kept at the places of the path, and between them as far as the places are close: about 100 where the path
 /// bends once. From rest to rest there always is a motion. Without jerk limits the acceleration jumps, and the
@@ -78,33 +78,38 @@ pub fn places(from: f64, to: f64, count: usize, start: BoundaryState, end: Bound
 /// The path has fewer than two places, or its places are not in order; rows contain values that are not numbers or
 /// limits that are not positive; nothing moves along the path; or no motion within the limits has the given states at
 /// both ends.
-pub fn fastest(way: &Way, start: BoundaryState, end: BoundaryState) -> Result<Law, Refusal> {
-    fastest_behind(way, start, end, None)
+pub fn fastest(path: &ConstrainedPath, start: BoundaryState, end: BoundaryState) -> Result<Law, Refusal> {
+    fastest_behind(path, start, end, None)
 }
 
 /// Finds the fastest motion where a law leads to the start, and on along the same path as far as the law goes.
 pub(crate) fn fastest_behind(
-    way: &Way,
+    path: &ConstrainedPath,
     start: BoundaryState,
     end: BoundaryState,
     before: Option<&Law>,
 ) -> Result<Law, Refusal> {
-    check(way, [start, end])?;
-    if !way.limits_jerk() {
-        return reach::solve(way, start, end);
+    check(path, [start, end])?;
+    if !path.limits_jerk() {
+        return reach::solve(path, start, end);
     }
-    interior::solve(&way.rising_beside_rest([start, end]), [start, end], before)
+    interior::solve(&path.rising_beside_rest([start, end]), [start, end], before)
 }
 
 /// Finds the fastest motion where the pace is roughly known: that of a law ([`Law::pace`]) with other limits at the
 /// same places.
-pub(crate) fn fastest_near(way: &Way, start: BoundaryState, end: BoundaryState, pace: &Pace) -> Result<Law, Refusal> {
-    check(way, [start, end])?;
-    interior::solve_near(&way.rising_beside_rest([start, end]), [start, end], pace)
+pub(crate) fn fastest_near(
+    path: &ConstrainedPath,
+    start: BoundaryState,
+    end: BoundaryState,
+    pace: &Pace,
+) -> Result<Law, Refusal> {
+    check(path, [start, end])?;
+    interior::solve_near(&path.rising_beside_rest([start, end]), [start, end], pace)
 }
 
-fn check(way: &Way, edges: [BoundaryState; 2]) -> Result<(), Refusal> {
-    way.check()?;
+fn check(path: &ConstrainedPath, edges: [BoundaryState; 2]) -> Result<(), Refusal> {
+    path.check()?;
     let is_sound = |edge: &BoundaryState| edge.vel >= 0.0 && edge.vel.is_finite() && edge.acc.is_finite();
     if edges.iter().all(is_sound) { Ok(()) } else { Err(Refusal::Boundary) }
 }

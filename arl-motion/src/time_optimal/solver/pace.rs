@@ -28,16 +28,16 @@ impl Pace {
         let times: Vec<f64> = at.iter().map(|at| law.time_at(*at)).collect();
         let on = |index: usize| Some(law.at(*times.get(index)?).vel / warp.place(*places.get(index)?).first);
         let end = times.iter().position(|time| *time >= law.duration()).unwrap_or(times.len());
-        let mut left = end.min(times.len().checked_sub(1)?);
-        while left > 1 && on(left - 1)? >= on(left)? {
-            left -= 1;
+        let mut exit = end.min(times.len().checked_sub(1)?);
+        while exit > 1 && on(exit - 1)? >= on(exit)? {
+            exit -= 1;
         }
-        let off = on(left)? / guess.get(left)?;
+        let off = on(exit)? / guess.get(exit)?;
         let faded = |(index, guess): (u32, &f64)| guess * off.powf((1.0 - f64::from(index) / FADING_PLACES).max(0.0));
-        let speeds = smooth((0..).zip(guess.get(left..)?).map(faded).collect());
+        let speeds = smooth((0..).zip(guess.get(exit..)?).map(faded).collect());
         let begun = times.first()?;
-        let mut paced: Vec<f64> = times.get(..=left)?.iter().map(|time| time - begun).collect();
-        add_times(&mut paced, places.get(left..)?, &speeds);
+        let mut paced: Vec<f64> = times.get(..=exit)?.iter().map(|time| time - begun).collect();
+        add_times(&mut paced, places.get(exit..)?, &speeds);
         Some(Self { times: paced, ends: [on(0)?, *speeds.last()?] })
     }
 }

@@ -84,13 +84,13 @@ impl PacedWarp {
         let mut at = 0.0;
         let mut knots = Vec::with_capacity(places.len());
         for ((place, slope), width) in places.windows(2).zip(slopes.windows(2)).zip(&widths) {
-            let (way, [from, to]) = ((place[1] - place[0]) / width, [slope[0], slope[1]]);
-            let second = (6.0 * way - 4.0 * from - 2.0 * to) / width;
-            let third = 6.0 * (from + to - 2.0 * way) / (width * width);
+            let (mean, [from, to]) = ((place[1] - place[0]) / width, [slope[0], slope[1]]);
+            let second = (6.0 * mean - 4.0 * from - 2.0 * to) / width;
+            let third = 6.0 * (from + to - 2.0 * mean) / (width * width);
             // The slope is a parabola: its minimum is at an end or where its own slope is zero.
             let turn = (-second / third).clamp(0.0, *width);
             let least = from.min(to).min(from + turn * (second + turn * third / 2.0));
-            if least.is_nan() || least < LEAST_GROWTH * way {
+            if least.is_nan() || least < LEAST_GROWTH * mean {
                 return None;
             }
             knots.push(Knot { at, value: place[0], first: from, second, third });
@@ -170,10 +170,10 @@ fn slopes(values: &[f64], widths: &[f64], [first, last]: [f64; 2]) -> Vec<f64> {
     let mut rows = vec![(0.0, first)];
     for ((value, width), before) in values.windows(3).zip(widths.windows(2)).zip(0..) {
         let [left, right] = [width[0], width[1]];
-        let ways = [(value[1] - value[0]) / left, (value[2] - value[1]) / right];
+        let secants = [(value[1] - value[0]) / left, (value[2] - value[1]) / right];
         let (factor, offset): (f64, f64) = rows[before];
         let pivot = 2.0 * (left + right) - right * factor;
-        let side = 3.0 * (right * ways[0] + left * ways[1]) - right * offset;
+        let side = 3.0 * (right * secants[0] + left * secants[1]) - right * offset;
         rows.push((left / pivot, side / pivot));
     }
     let mut slopes = vec![last; values.len()];

@@ -15,7 +15,7 @@ use crate::time_optimal::solver::paced_warp::PacedWarp;
 use crate::time_optimal::solver::screen::{Screen, highest_square};
 use crate::time_optimal::solver::warp::{Warp, WarpedPoint};
 use crate::time_optimal::solver::warped_row::WarpedRow;
-use crate::time_optimal::solver::{BoundaryState, Refusal, Row, Way, reach};
+use crate::time_optimal::solver::{BoundaryState, ConstrainedPath, Refusal, Row, reach};
 
 /// One end of a stretch, or its middle: factors of the stretch's three coefficients in x and the acceleration here.
 #[derive(Clone, Copy, Default, Debug)]
@@ -149,17 +149,17 @@ const ALMOST_REST: f64 = 1e-9;
 /// Paces the parameter, as known or by a guess of the speeds along the path; also returns what the search begins with.
 fn pace_from(
     known: Known,
-    way: &Way,
+    path: &ConstrainedPath,
     warp: Warp,
     places: &[f64],
     edges: [BoundaryState; 2],
 ) -> Result<(PacedWarp, Option<Beginning>), Refusal> {
-    let guess = || guess_speeds(way, &warp, places, edges);
+    let guess = || guess_speeds(path, &warp, places, edges);
     let (along, beginning) = match known {
         Known::Nothing => (None, None),
         Known::Pace(pace) => (PacedWarp::along(warp, places, pace), Some(Beginning::Known)),
         Known::Before(law) => {
-            let pace = Pace::behind(law, way.places(), places, &warp, &guess());
+            let pace = Pace::behind(law, path.places(), places, &warp, &guess());
             let along = pace.and_then(|pace| PacedWarp::along(warp, places, &pace));
             (Some(along.ok_or(Refusal::Fast)?), Some(Beginning::Expected))
         }
@@ -170,7 +170,12 @@ fn pace_from(
 
 /// The rows over the paced parameter, those before and behind each place and those of the middles, and where each of
 /// these groups ends.
-fn warped_rows(way: &Way, warp: &PacedWarp, places: &[f64], middles: &[Middle]) -> (Vec<WarpedRow>, Vec<usize>) {
+fn warped_rows(
+    path: &ConstrainedPath,
+    warp: &PacedWarp,
+    places: &[f64],
+    middles: &[Middle],
+) -> (Vec<WarpedRow>, Vec<usize>) {
     let mut rows = Vec::new();
     let mut ends = vec![0];
     let mut push = |all: &mut dyn Iterator<Item = Row>, place: WarpedPoint| {
@@ -178,11 +183,11 @@ fn warped_rows(way: &Way, warp: &PacedWarp, places: &[f64], middles: &[Middle]) 
         ends.push(rows.len());
     };
     for (index, at) in places.iter().enumerate() {
-        push(&mut way.rows_before(index).iter().copied(), warp.place(index.saturating_sub(1), *at));
-        push(&mut way.rows_behind(index).iter().copied(), warp.place(index, *at));
+        push(&mut path.rows_before(index).iter().copied(), warp.place(index.saturating_sub(1), *at));
+        push(&mut path.rows_behind(index).iter().copied(), warp.place(index, *at));
     }
     for Middle { stretch, place, limits } in middles {
-        let of_both = way.rows_behind(*stretch).iter().chain(way.rows_before(stretch + 1));
+        let of_both = path.rows_behind(*stretch).iter().chain(path.rows_before(stretch + 1));
         match limits {
             Counting::All => push(&mut of_both.copied(), *place),
             Counting::Speed => push(&mut of_both.map(Row::of_speed), *place),
@@ -192,33 +197,33 @@ fn warped_rows(way: &Way, warp: &PacedWarp, places: &[f64], middles: &[Middle]) 
 }
 
 impl Program {
-    pub(crate) fn new(way: &Way, [start, end]: [BoundaryState; 2], known: Known) -> Result<Self, Refusal> {
-        let (from, to) = way.span()?;
+    pub(crate) fn new(path: &ConstrainedPath, [start, end]: [BoundaryState; 2], known: Known) -> Result<Self, Refusal> {
+        let (from, to) = path.span()?;
         let warp = Warp::new(from, to, start.rests(), end.rests());
-        let last = way.places().len() - 1;
+        let last = path.places().len() - 1;
         let place = |(index, at): (usize, &f64)| match index {
             0 => 0.0,
             _ if index == last => warp.length(),
             _ => warp.find(*at),
         };
-        let places: Vec<f64> = way.places().iter().enumerate().map(place).collect();
+        let places: Vec<f64> = path.places().iter().enumerate().map(place).collect();
         // Without jerk limits it is faster everywhere, except at the start, where a law may have used more than is
         // available.
         let edges = [start, end];
-        let most = reach::squares(way, edges, MOST_EXCESS_AT_START)?;
-        let (warp, beginning) = pace_from(known, way, warp, &places, edges)?;
+        let most = reach::squares(path, edges, MOST_EXCESS_AT_START)?;
+        let (warp, beginning) = pace_from(known, path, warp, &places, edges)?;
         let is_known = beginning == Some(Beginning::Known);
         let places: Vec<f64> = warp.places().collect();
-        let middles = middles(way, &warp, &places, edges, &most);
-        let (mut rows, ends) = warped_rows(way, &warp, &places, &middles);
+        let middles = middles(path, &warp, &places, edges, &most);
+        let (mut rows, ends) = warped_rows(path, &warp, &places, &middles);
         let by_jerk = highest_square(rows.iter().map(|row| row.jerk[2]));
         let unit = rows.iter().fold(by_jerk, |unit, row| unit.min(1.0 / row.vel).min(1.0 / row.acc[1].abs()));
         if !(unit.is_finite() && unit > 0.0) {
             return Err(Refusal::Still);
         }
         let unit = 0.8 * unit;
-        let hold = if start.rests() && end.rests() { RESERVE } else { 1.0 };
-        rows.iter_mut().for_each(|row| row.scale(unit, [RESERVE_OF_SPEED, hold]));
+        let reserve = if start.rests() && end.rests() { RESERVE } else { 1.0 };
+        rows.iter_mut().for_each(|row| row.scale(unit, [RESERVE_OF_SPEED, reserve]));
         let given = given(&warp, &places, edges, unit);
         if !start.rests() {
             let (square, slope) = given_state(start, warp.place(0, 0.0), unit);
@@ -244,7 +249,7 @@ impl Program {
             edges,
             screen,
             middles: middles.iter().map(|middle| middle.stretch).collect(),
-            jumps: (0..=last).map(|index| way.jumps(index)).collect(),
+            jumps: (0..=last).map(|index| path.jumps(index)).collect(),
         };
         program.lay(last);
         program.limit();
@@ -412,9 +417,9 @@ impl Program {
         let (from, to) = (state(start, 0), state(end, last));
         let least = 0.1 * f64::min(from.0, to.0);
         let at = |at: f64| {
-            let (share, left) = (at / length, length - at);
+            let (share, remaining) = (at / length, length - at);
             let blend = share * share * (3.0 - 2.0 * share);
-            let faded = from.1 * at * (-at / from.2).exp() - to.1 * left * (-left / to.2).exp();
+            let faded = from.1 * at * (-at / from.2).exp() - to.1 * remaining * (-remaining / to.2).exp();
             (from.0 + (to.0 - from.0) * blend + faded).max(least)
         };
         self.corners().map(at).collect()
@@ -448,7 +453,13 @@ enum Counting {
 
 /// The stretches with limits in their middles: those close to rest, where rows change very much, and those of the
 /// highest speed; `most` is the highest square of the speed at each place.
-fn middles(way: &Way, warp: &PacedWarp, places: &[f64], [start, end]: [BoundaryState; 2], most: &[f64]) -> Vec<Middle> {
+fn middles(
+    path: &ConstrainedPath,
+    warp: &PacedWarp,
+    places: &[f64],
+    [start, end]: [BoundaryState; 2],
+    most: &[f64],
+) -> Vec<Middle> {
     let last = places.len() - 1;
     let count = MIDDLES.min(last / 2);
     let is_near_rest = |stretch: usize| (start.rests() && stretch < count) || (end.rests() && stretch + count >= last);
@@ -460,7 +471,7 @@ fn middles(way: &Way, warp: &PacedWarp, places: &[f64], [start, end]: [BoundaryS
         if is_near_rest(stretch) {
             return Some(Middle { stretch, place, limits: Counting::All });
         }
-        let ends = [highest(way.rows_behind(stretch)), highest(way.rows_before(stretch + 1))];
+        let ends = [highest(path.rows_behind(stretch)), highest(path.rows_before(stretch + 1))];
         let is_fast = |(end, most): (&f64, &f64)| *most > NEAR_SPEED_LIMIT * end;
         let may_exceed = ends.iter().zip(&most[stretch..]).all(is_fast);
         may_exceed.then_some(Middle { stretch, place, limits: Counting::Speed })

@@ -4,7 +4,7 @@
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::paced_warp::PacedWarp;
 use crate::time_optimal::solver::warp::Warp;
-use crate::time_optimal::solver::{BoundaryState, Refusal, Way};
+use crate::time_optimal::solver::{BoundaryState, ConstrainedPath, Refusal};
 
 /// The half plane `here` x + `next` y <= 1 of the squares of the speed at one place and the next.
 #[derive(Clone, Copy, Debug)]
@@ -13,24 +13,28 @@ struct Half {
     next: f64,
 }
 
-/// Finds the fastest motion within the velocity and acceleration limits of `way`.
-pub(crate) fn solve(way: &Way, start: BoundaryState, end: BoundaryState) -> Result<Law, Refusal> {
-    let (from, to) = way.span()?;
-    if way.places().len() == 2 && start.rests() && end.rests() {
+/// Finds the fastest motion within the velocity and acceleration limits of `path`.
+pub(crate) fn solve(path: &ConstrainedPath, start: BoundaryState, end: BoundaryState) -> Result<Law, Refusal> {
+    let (from, to) = path.span()?;
+    if path.places().len() == 2 && start.rests() && end.rests() {
         // Nothing moves at either place.
         return Err(Refusal::Short);
     }
-    let squares = squares(way, [start, end], ROUNDING)?;
-    let pairs = way.places().windows(2).zip(squares.windows(2));
+    let squares = squares(path, [start, end], ROUNDING)?;
+    let pairs = path.places().windows(2).zip(squares.windows(2));
     let slopes = pairs.map(|(at, square)| (0.5 * (square[1] - square[0]) / (at[1] - at[0]), 0.0));
     let warp = Warp::new(from, to, false, false);
-    let places: Vec<f64> = way.places().iter().map(|at| at - from).collect();
+    let places: Vec<f64> = path.places().iter().map(|at| at - from).collect();
     Ok(Law::new(PacedWarp::even(warp, &places), &places, &squares, slopes))
 }
 
 /// The squares of its speed at the places; that at the start may exceed what is possible by the factor `most_excess`.
-pub(crate) fn squares(way: &Way, [start, end]: [BoundaryState; 2], most_excess: f64) -> Result<Vec<f64>, Refusal> {
-    let caps = caps(way);
+pub(crate) fn squares(
+    path: &ConstrainedPath,
+    [start, end]: [BoundaryState; 2],
+    most_excess: f64,
+) -> Result<Vec<f64>, Refusal> {
+    let caps = caps(path);
     let mut half_planes = Vec::new();
     // The lowest and highest square of the speed at each place from which the end can be reached.
     let mut reach = vec![(0.0, 0.0); caps.len()];
@@ -38,7 +42,7 @@ pub(crate) fn squares(way: &Way, [start, end]: [BoundaryState; 2], most_excess: 
     for (index, slot) in reach.iter_mut().enumerate().rev() {
         let cap = caps.get(index).copied().unwrap_or_default();
         if index + 1 < caps.len() {
-            stretch(way, index, &mut half_planes);
+            stretch(path, index, &mut half_planes);
             let most = extreme(&half_planes, (0.0, cap), (low, high), true).ok_or(Refusal::Fast)?;
             low = if low > 0.0 {
                 extreme(&half_planes, (0.0, cap), (low, high), false).ok_or(Refusal::Fast)?.min(most)
@@ -58,7 +62,7 @@ pub(crate) fn squares(way: &Way, [start, end]: [BoundaryState; 2], most_excess: 
     square = square.clamp(low, high);
     let mut squares = vec![square];
     for (index, (low, high)) in reach.iter().skip(1).enumerate() {
-        stretch(way, index, &mut half_planes);
+        stretch(path, index, &mut half_planes);
         let most = half_planes.iter().filter(|half| half.next > 0.0).fold(*high, |most, half| {
             let next = (1.0 - half.here * square) / half.next;
             most.min(next)
@@ -74,12 +78,12 @@ pub(crate) fn squares(way: &Way, [start, end]: [BoundaryState; 2], most_excess: 
 const ROUNDING: f64 = 1.0 + 1e-6;
 
 /// The highest square of the speed at each place by the velocity limits; where none of them counts, the highest of all.
-fn caps(way: &Way) -> Vec<f64> {
+fn caps(path: &ConstrainedPath) -> Vec<f64> {
     let square = |index: usize| {
-        let speed = way.rows(index).iter().map(|row| row.vel / row.first.abs()).fold(f64::INFINITY, f64::min);
+        let speed = path.rows(index).iter().map(|row| row.vel / row.first.abs()).fold(f64::INFINITY, f64::min);
         speed * speed
     };
-    let mut caps: Vec<f64> = (0..way.places().len()).map(square).collect();
+    let mut caps: Vec<f64> = (0..path.places().len()).map(square).collect();
     let most = caps.iter().copied().filter(|cap| cap.is_finite()).fold(0.0, f64::max);
     for cap in &mut caps {
         *cap = cap.min(most);
@@ -88,11 +92,11 @@ fn caps(way: &Way) -> Vec<f64> {
 }
 
 /// Collects the half planes that the acceleration limits at both ends of the stretch `index` leave.
-fn stretch(way: &Way, index: usize, half_planes: &mut Vec<Half>) {
+fn stretch(path: &ConstrainedPath, index: usize, half_planes: &mut Vec<Half>) {
     half_planes.clear();
-    let (Some(from), Some(to)) = (way.places().get(index), way.places().get(index + 1)) else { return };
+    let (Some(from), Some(to)) = (path.places().get(index), path.places().get(index + 1)) else { return };
     let slope = 0.5 / (to - from);
-    for (rows, turned) in [(way.rows(index), false), (way.rows(index + 1), true)] {
+    for (rows, turned) in [(path.rows(index), false), (path.rows(index + 1), true)] {
         for row in rows.iter().filter(|row| row.acc.is_finite()) {
             let (along, across) = (row.first * slope / row.acc, row.second / row.acc);
             let (here, next) = if turned { (-along, along + across) } else { (across - along, along) };

@@ -5,13 +5,13 @@ use crate::time_optimal::solver::*;
 use arl_robot::kinematics::random::Random;
 use arl_robot::robot::Robot;
 
-fn line(count: usize, limits: Limits) -> Way {
-    let mut way = Way::new();
+fn line(count: usize, limits: Limits) -> ConstrainedPath {
+    let mut path = ConstrainedPath::new();
     for at in places(0.0, 1.0, count, BoundaryState::REST, BoundaryState::REST) {
         let Limits { vel, acc, jerk } = limits;
-        way.push(at, [Row { first: 1.0, second: 0.0, third: 0.0, vel, acc, jerk }]);
+        path.push(at, [Row { first: 1.0, second: 0.0, third: 0.0, vel, acc, jerk }]);
     }
-    way
+    path
 }
 
 /// A cubic spline through random points of all axes of a robot, at rest in its curvature at both ends; its parameter
@@ -73,18 +73,18 @@ impl Spline {
     }
 
     /// Places between `from` and the end, with the points among them.
-    fn way(&self, from: f64, start: BoundaryState, jerk: bool) -> Way {
+    fn path(&self, from: f64, start: BoundaryState, jerk: bool) -> ConstrainedPath {
         let count = 150 * (self.points.len() - 1);
         let mut all = places(from, self.length(), count, start, BoundaryState::REST);
         all.extend((1..self.points.len() - 1).map(|point| point as f64).filter(|point| *point > from));
         all.sort_by(f64::total_cmp);
         // Close ones are as good as one; the points stay.
         all.dedup_by(|next, kept| *next - *kept < 1e-9);
-        let mut way = Way::new();
+        let mut path = ConstrainedPath::new();
         for at in all {
-            way.push(at, self.rows(at, jerk));
+            path.push(at, self.rows(at, jerk));
         }
-        way
+        path
     }
 
     /// The highest share of velocity, acceleration and jerk limits in samples of 1 ms, by differences.
@@ -155,10 +155,11 @@ fn limits_hold_between_the_places_too_and_the_duration_is_close_to_the_lower_bou
         // The more points, the less the acceleration's ramps at both ends count.
         for (count, factor) in [(2, 1.35), (3, 1.2), (4, 1.2), (6, 1.1), (10, 1.05)] {
             let spline = Spline::random(&robot, &mut random, count, 0.5);
-            let law =
-                fastest(&spline.way(0.0, BoundaryState::REST, true), BoundaryState::REST, BoundaryState::REST).unwrap();
-            let bound = fastest(&spline.way(0.0, BoundaryState::REST, false), BoundaryState::REST, BoundaryState::REST)
+            let law = fastest(&spline.path(0.0, BoundaryState::REST, true), BoundaryState::REST, BoundaryState::REST)
                 .unwrap();
+            let bound =
+                fastest(&spline.path(0.0, BoundaryState::REST, false), BoundaryState::REST, BoundaryState::REST)
+                    .unwrap();
             let used = spline.usage(&law, true);
             assert!(used.iter().all(|used| *used < 1.005), "{name}, {count} points: {used:?}");
             // Some limit is always used: the jerk at the start, if no other.
@@ -176,24 +177,24 @@ fn without_jerk_limits_velocity_and_acceleration_limits_hold() {
     for count in [2, 3, 5, 8] {
         let spline = Spline::random(&robot, &mut random, count, 0.5);
         let law =
-            fastest(&spline.way(0.0, BoundaryState::REST, false), BoundaryState::REST, BoundaryState::REST).unwrap();
+            fastest(&spline.path(0.0, BoundaryState::REST, false), BoundaryState::REST, BoundaryState::REST).unwrap();
         let [vel, acc, _] = spline.usage(&law, true);
         assert!(vel < 1.005 && acc < 1.005 && acc > 0.99, "{count} points: {vel} {acc}");
     }
 }
 
 #[test]
-fn a_motion_goes_on_from_states_on_its_way() {
+fn a_motion_goes_on_from_states_on_its_path() {
     let mut random = Random::new(62);
     let robot = Robot::builtin("kr10-r1420").unwrap();
     for _ in 0..6 {
         let spline = Spline::random(&robot, &mut random, 5, 0.4);
         let law =
-            fastest(&spline.way(0.0, BoundaryState::REST, true), BoundaryState::REST, BoundaryState::REST).unwrap();
+            fastest(&spline.path(0.0, BoundaryState::REST, true), BoundaryState::REST, BoundaryState::REST).unwrap();
         for part in [0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97] {
             let moment = law.at(part * law.duration());
             let edge = BoundaryState { vel: moment.vel, acc: moment.acc };
-            let rest = match fastest(&spline.way(moment.at, edge, true), edge, BoundaryState::REST) {
+            let rest = match fastest(&spline.path(moment.at, edge, true), edge, BoundaryState::REST) {
                 Ok(rest) => rest,
                 Err(refusal) => {
                     // Where only braking as hard as possible is left, there is no room for another motion.
@@ -221,44 +222,45 @@ fn a_motion_goes_on_behind_a_law_that_ends_sooner() {
     let robot = Robot::builtin("kr10-r1420").unwrap();
     for _ in 0..4 {
         let spline = Spline::random(&robot, &mut random, 6, 0.4);
-        let way = spline.way(0.0, BoundaryState::REST, true);
-        let whole = fastest(&way, BoundaryState::REST, BoundaryState::REST).unwrap();
+        let path = spline.path(0.0, BoundaryState::REST, true);
+        let whole = fastest(&path, BoundaryState::REST, BoundaryState::REST).unwrap();
         // A law that stops on half of the way, of which about a third is gone: there the two are the same.
-        let half: Vec<bool> = way.places().iter().map(|at| *at <= 0.5 * spline.length()).collect();
-        let short = fastest(&way.only(&half), BoundaryState::REST, BoundaryState::REST).unwrap();
+        let half: Vec<bool> = path.places().iter().map(|at| *at <= 0.5 * spline.length()).collect();
+        let short = fastest(&path.only(&half), BoundaryState::REST, BoundaryState::REST).unwrap();
         let moment = short.at(0.3 * short.duration());
         let edge = BoundaryState { vel: moment.vel, acc: moment.acc };
-        let rest = fastest_behind(&spline.way(moment.at, edge, true), edge, BoundaryState::REST, Some(&short)).unwrap();
+        let rest =
+            fastest_behind(&spline.path(moment.at, edge, true), edge, BoundaryState::REST, Some(&short)).unwrap();
         let now = rest.at(0.0);
         assert!((now.vel / edge.vel - 1.0).abs() < 1e-6, "{} {}", now.vel, edge.vel);
         let used = spline.usage(&rest, false);
         assert!(used.iter().all(|used| *used < 1.01), "{used:?}");
-        let left = whole.duration() - whole.time_at(moment.at);
-        assert!((rest.duration() / left - 1.0).abs() < 0.02, "{} {left}", rest.duration());
+        let remaining = whole.duration() - whole.time_at(moment.at);
+        assert!((rest.duration() / remaining - 1.0).abs() < 0.02, "{} {remaining}", rest.duration());
     }
 }
 
 #[test]
 fn the_pace_behind_a_law_is_its_own_until_it_slows_down_for_its_end() {
-    let way = line(200, Limits { vel: 1.0, acc: 4.0, jerk: 40.0 });
-    let half: Vec<bool> = way.places().iter().map(|at| *at <= 0.5).collect();
-    let short = fastest(&way.only(&half), BoundaryState::REST, BoundaryState::REST).unwrap();
-    let on: Vec<bool> = way.places().iter().map(|at| *at >= 0.1).collect();
-    let (way, from) = (way.only(&on), short.time_at(way.only(&on).places()[0]));
+    let path = line(200, Limits { vel: 1.0, acc: 4.0, jerk: 40.0 });
+    let half: Vec<bool> = path.places().iter().map(|at| *at <= 0.5).collect();
+    let short = fastest(&path.only(&half), BoundaryState::REST, BoundaryState::REST).unwrap();
+    let on: Vec<bool> = path.places().iter().map(|at| *at >= 0.1).collect();
+    let (path, from) = (path.only(&on), short.time_at(path.only(&on).places()[0]));
     let moment = short.at(from);
     let edges = [BoundaryState { vel: moment.vel, acc: moment.acc }, BoundaryState::REST];
-    let warp = Warp::new(way.places()[0], 1.0, false, true);
-    let warped: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
-    let guess = guess::guess_speeds(&way, &warp, &warped, edges);
-    let pace = Pace::behind(&short, way.places(), &warped, &warp, &guess).unwrap();
+    let warp = Warp::new(path.places()[0], 1.0, false, true);
+    let warped: Vec<f64> = path.places().iter().map(|at| warp.find(*at)).collect();
+    let guess = guess::guess_speeds(&path, &warp, &warped, edges);
+    let pace = Pace::behind(&short, path.places(), &warped, &warp, &guess).unwrap();
     assert!(pace.times.windows(2).all(|pair| pair[1] > pair[0]));
-    for (at, time) in way.places().iter().zip(&pace.times) {
+    for (at, time) in path.places().iter().zip(&pace.times) {
         if *at < 0.24 {
             assert!((short.time_at(*at) - from - time).abs() < 1e-9, "{at}");
         }
     }
     let last = pace.times.last().unwrap();
-    let rest = fastest_behind(&way, edges[0], BoundaryState::REST, Some(&short)).unwrap();
+    let rest = fastest_behind(&path, edges[0], BoundaryState::REST, Some(&short)).unwrap();
     assert!((0.7..1.6).contains(&(last / rest.duration())), "{last} {}", rest.duration());
 }
 
@@ -282,7 +284,7 @@ fn state_and_time_fit_together() {
     let spline = Spline::random(&robot, &mut random, 5, 0.5);
     for jerk in [true, false] {
         let law =
-            fastest(&spline.way(0.0, BoundaryState::REST, jerk), BoundaryState::REST, BoundaryState::REST).unwrap();
+            fastest(&spline.path(0.0, BoundaryState::REST, jerk), BoundaryState::REST, BoundaryState::REST).unwrap();
         assert_eq!(law.time_at(spline.length()), law.duration());
         assert_eq!(law.time_at(0.0), 0.0);
         let step = 1e-5;
@@ -305,9 +307,9 @@ fn state_and_time_fit_together() {
 fn what_cannot_be_timed_is_refused() {
     let row = Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 };
     let of = |places: &[f64], row: Row| {
-        let mut way = Way::new();
-        places.iter().for_each(|at| way.push(*at, [row]));
-        fastest(&way, BoundaryState::REST, BoundaryState::REST).map(|law| law.duration())
+        let mut path = ConstrainedPath::new();
+        places.iter().for_each(|at| path.push(*at, [row]));
+        fastest(&path, BoundaryState::REST, BoundaryState::REST).map(|law| law.duration())
     };
     let even = [0.0, 0.25, 0.5, 0.75, 1.0];
     assert!(of(&even, row).is_ok());
@@ -326,10 +328,10 @@ fn what_cannot_be_timed_is_refused() {
         assert_eq!(of(&even, bad), Err(Refusal::Row { place: 0 }), "{bad:?}");
     }
     assert_eq!(of(&even, Row { first: 0.0, ..row }), Err(Refusal::Still));
-    let way = line(50, Limits { vel: 1.0, acc: 4.0, jerk: 40.0 });
+    let path = line(50, Limits { vel: 1.0, acc: 4.0, jerk: 40.0 });
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(
-            fastest(&way, BoundaryState { vel: bad, acc: 0.0 }, BoundaryState::REST).map(|_| ()),
+            fastest(&path, BoundaryState { vel: bad, acc: 0.0 }, BoundaryState::REST).map(|_| ()),
             Err(Refusal::Boundary)
         );
     }
@@ -338,7 +340,7 @@ fn what_cannot_be_timed_is_refused() {
         BoundaryState { vel: 0.99, acc: 3.9 },
         BoundaryState { vel: 0.5, acc: -4.08 },
     ] {
-        assert_eq!(fastest(&way, fast, BoundaryState::REST).map(|_| ()), Err(Refusal::Fast), "{fast:?}");
+        assert_eq!(fastest(&path, fast, BoundaryState::REST).map(|_| ()), Err(Refusal::Fast), "{fast:?}");
     }
 }
 
@@ -348,11 +350,11 @@ fn axes_that_stand_still_and_few_places_do_no_harm() {
     let alone = fastest(&line(200, limits), BoundaryState::REST, BoundaryState::REST).unwrap().duration();
     let Limits { vel, acc, jerk } = limits;
     let row = Row { first: 1.0, second: 0.0, third: 0.0, vel, acc, jerk };
-    let mut way = Way::new();
+    let mut path = ConstrainedPath::new();
     for at in places(0.0, 1.0, 200, BoundaryState::REST, BoundaryState::REST) {
-        way.push(at, [Row { first: 0.0, ..row }, row]);
+        path.push(at, [Row { first: 0.0, ..row }, row]);
     }
-    assert!((fastest(&way, BoundaryState::REST, BoundaryState::REST).unwrap().duration() / alone - 1.0).abs() < 1e-9);
+    assert!((fastest(&path, BoundaryState::REST, BoundaryState::REST).unwrap().duration() / alone - 1.0).abs() < 1e-9);
     for count in 3..8 {
         let law = fastest(&line(count, limits), BoundaryState::REST, BoundaryState::REST).unwrap();
         assert!(law.duration() > 0.9 * alone && law.duration() < 3.0 * alone, "{count} places: {}", law.duration());
@@ -363,7 +365,7 @@ fn axes_that_stand_still_and_few_places_do_no_harm() {
 fn nothing_panics_whatever_the_rows_are() {
     let mut random = Random::new(65);
     for _ in 0..300 {
-        let mut way = Way::new();
+        let mut path = ConstrainedPath::new();
         let count = random.between(3.0, 40.0) as usize;
         let mut some =
             |low: f64, high: f64| 10.0_f64.powf(random.between(low, high)) * random.between(-1.0, 1.0).signum();
@@ -380,12 +382,12 @@ fn nothing_panics_whatever_the_rows_are() {
                     jerk: some(2.0, 4.0).abs(),
                 })
                 .collect();
-            way.push(at, rows);
+            path.push(at, rows);
         }
-        let law = fastest(&way, BoundaryState::REST, BoundaryState::REST).unwrap();
+        let law = fastest(&path, BoundaryState::REST, BoundaryState::REST).unwrap();
         assert!(law.duration().is_finite() && law.duration() > 0.0);
         let edge = BoundaryState { vel: some(-3.0, 2.0).abs(), acc: some(-2.0, 3.0) };
-        if let Ok(law) = fastest(&way, edge, BoundaryState::REST) {
+        if let Ok(law) = fastest(&path, edge, BoundaryState::REST) {
             assert!(law.duration().is_finite() && law.duration() > 0.0);
         }
     }
@@ -394,21 +396,21 @@ fn nothing_panics_whatever_the_rows_are() {
 #[test]
 fn places_where_derivatives_jump_are_not_left_out() {
     let row = |third: f64| Row { first: 1.0, second: 0.0, third, vel: 1.0, acc: 10.0, jerk: 100.0 };
-    let mut way = Way::new();
+    let mut path = ConstrainedPath::new();
     for index in 0..400 {
         let at = f64::from(index) * 1e-3;
-        if index % 50 == 25 { way.push_jump(at, [row(0.0), row(50.0)], 1) } else { way.push(at, [row(0.0)]) }
+        if index % 50 == 25 { path.push_jump(at, [row(0.0), row(50.0)], 1) } else { path.push(at, [row(0.0)]) }
     }
-    let steps = guess_steps(&way, [BoundaryState::REST; 2]).unwrap();
-    let thinned = thinned(&way, &steps, 0.02).unwrap();
-    let jumps = |way: &Way| (0..way.places().len()).filter(|index| way.jumps(*index)).count();
-    assert_eq!((jumps(&way), jumps(&thinned)), (8, 8));
+    let steps = guess_steps(&path, [BoundaryState::REST; 2]).unwrap();
+    let thinned = thinned(&path, &steps, 0.02).unwrap();
+    let jumps = |path: &ConstrainedPath| (0..path.places().len()).filter(|index| path.jumps(*index)).count();
+    assert_eq!((jumps(&path), jumps(&thinned)), (8, 8));
     assert!(thinned.places().len() < 200, "{}", thinned.places().len());
 }
 
 /// A way from one parameter to another, at rest at 0 and at the end, that bends sharply at each half.
-fn sharp(from: f64, to: f64) -> Way {
-    let mut way = Way::new();
+fn sharp(from: f64, to: f64) -> ConstrainedPath {
+    let mut path = ConstrainedPath::new();
     let start = if from > 0.0 { BoundaryState { vel: 1.0, acc: 0.0 } } else { BoundaryState::REST };
     for at in places(from, to, 600, start, BoundaryState::REST) {
         let off = ((at + 0.25).rem_euclid(0.5) - 0.25) / 0.01;
@@ -421,19 +423,21 @@ fn sharp(from: f64, to: f64) -> Way {
             acc: 8.0,
             jerk: 80.0,
         };
-        way.push(at, [row(1.0, 0.0), row(1.0, 3000.0), row(-1.0, 2000.0)]);
+        path.push(at, [row(1.0, 0.0), row(1.0, 3000.0), row(-1.0, 2000.0)]);
     }
-    way
+    path
 }
 
 #[test]
 fn places_beside_a_sharp_bend_are_not_left_out() {
-    let way = sharp(0.0, 2.0);
-    let steps = guess_steps(&way, [BoundaryState::REST; 2]).unwrap();
-    let thinned = thinned(&way, &steps, 0.05).unwrap();
-    let speeds: Vec<f64> = way.places().windows(2).zip(&steps).map(|(pair, step)| (pair[1] - pair[0]) / step).collect();
-    let kept: Vec<usize> = (0..speeds.len()).filter(|index| thinned.places().contains(&way.places()[*index])).collect();
-    assert!(kept.len() < 2 * way.places().len() / 3, "{} of {}", kept.len(), way.places().len());
+    let path = sharp(0.0, 2.0);
+    let steps = guess_steps(&path, [BoundaryState::REST; 2]).unwrap();
+    let thinned = thinned(&path, &steps, 0.05).unwrap();
+    let speeds: Vec<f64> =
+        path.places().windows(2).zip(&steps).map(|(pair, step)| (pair[1] - pair[0]) / step).collect();
+    let kept: Vec<usize> =
+        (0..speeds.len()).filter(|index| thinned.places().contains(&path.places()[*index])).collect();
+    assert!(kept.len() < 2 * path.places().len() / 3, "{} of {}", kept.len(), path.places().len());
     // Behind a place that is left out the motion is about as fast as behind the last one that is kept.
     for pair in kept.windows(2) {
         let most = |range: std::ops::Range<usize>| {
@@ -450,9 +454,9 @@ fn a_law_goes_on_behind_another_one_that_slows_down_for_its_end() {
     for index in 1..40 {
         let moment = before.at(before.duration() * f64::from(index) / 60.0);
         let edge = BoundaryState { vel: moment.vel, acc: moment.acc };
-        let way = sharp(moment.at, 2.3);
-        let alone = fastest(&way, edge, BoundaryState::REST).map(|law| law.duration());
-        match fastest_behind(&way, edge, BoundaryState::REST, Some(&before)) {
+        let path = sharp(moment.at, 2.3);
+        let alone = fastest(&path, edge, BoundaryState::REST).map(|law| law.duration());
+        match fastest_behind(&path, edge, BoundaryState::REST, Some(&before)) {
             Ok(law) => {
                 assert!(
                     law.duration() < 1.01 * alone.unwrap_or(f64::INFINITY),
@@ -478,10 +482,10 @@ fn most_acceleration(law: &Law, acc: f64) -> f64 {
 fn where_jerk_is_hardly_limited_beside_rest_accelerations_keep_their_limits_all_the_same() {
     const RISE_S: f64 = 0.002;
     for (count, acc) in [(50, 4.0), (50, 15.0), (150, 4.0), (150, 15.0), (150, 60.0), (250, 4.0), (250, 60.0)] {
-        let check = |way: &Way, about: &str| {
-            let law = fastest(way, BoundaryState::REST, BoundaryState::REST).unwrap();
+        let check = |path: &ConstrainedPath, about: &str| {
+            let law = fastest(path, BoundaryState::REST, BoundaryState::REST).unwrap();
             let near =
-                law.pace().map(|pace| fastest_near(way, BoundaryState::REST, BoundaryState::REST, &pace).unwrap());
+                law.pace().map(|pace| fastest_near(path, BoundaryState::REST, BoundaryState::REST, &pace).unwrap());
             let least = 1.0 + 1.0 / acc;
             for law in near.into_iter().chain([law]) {
                 let (used, duration) = (most_acceleration(&law, acc), law.duration());
@@ -493,11 +497,11 @@ fn where_jerk_is_hardly_limited_beside_rest_accelerations_keep_their_limits_all_
             check(&line(count, Limits { vel: 1.0, acc, jerk: acc / rise }), &format!("{rise} s"));
         }
         // Jerk is limited on the way alone.
-        let mut way = Way::new();
+        let mut path = ConstrainedPath::new();
         for at in places(0.0, 1.0, count, BoundaryState::REST, BoundaryState::REST) {
             let jerk = if (at - 0.5).abs() < 0.2 { 100.0 * acc } else { f64::INFINITY };
-            way.push(at, [Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc, jerk }]);
+            path.push(at, [Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc, jerk }]);
         }
-        check(&way, "on the way");
+        check(&path, "on the way");
     }
 }

@@ -38,12 +38,12 @@ impl Warp {
     }
 
     pub(crate) fn place(&self, at: f64) -> WarpedPoint {
-        let left = self.length() - at;
+        let remaining = self.length() - at;
         if at < self.first {
             let place = part(at / self.first, self.first);
             WarpedPoint { at: self.from + place.at, ..place }
-        } else if left < self.last {
-            let place = part((left / self.last).max(0.0), self.last);
+        } else if remaining < self.last {
+            let place = part((remaining / self.last).max(0.0), self.last);
             WarpedPoint { at: self.to - place.at, second: -place.second, ..place }
         } else {
             WarpedPoint { at: self.from + at - (1.0 - PART) * self.first, first: 1.0, second: 0.0, third: 0.0 }
@@ -52,11 +52,11 @@ impl Warp {
 
     /// The warped parameter of a path parameter.
     pub(crate) fn find(&self, at: f64) -> f64 {
-        let (done, left) = (at - self.from, self.to - at);
+        let (done, remaining) = (at - self.from, self.to - at);
         if done < PART * self.first {
             self.first * unpart(done / self.first)
-        } else if left < PART * self.last {
-            self.length() - self.last * unpart(left / self.last)
+        } else if remaining < PART * self.last {
+            self.length() - self.last * unpart(remaining / self.last)
         } else {
             done + (1.0 - PART) * self.first
         }
@@ -73,14 +73,14 @@ fn part(u: f64, length: f64) -> WarpedPoint {
     }
 }
 
-/// The share of a warped part of length 1 at which it has covered `way`.
-fn unpart(way: f64) -> f64 {
-    let way = way.max(0.0);
+/// The share of a warped part of length 1 at which it has covered `distance`.
+fn unpart(distance: f64) -> f64 {
+    let distance = distance.max(0.0);
     // From above, where Newton's method approaches the root of a convex function without passing it.
-    let mut u = (way / PART).cbrt().min(1.0);
+    let mut u = (distance / PART).cbrt().min(1.0);
     for _ in 0..60 {
         let WarpedPoint { at, first, .. } = part(u, 1.0);
-        let step = (at - way) / first;
+        let step = (at - distance) / first;
         // Also where the step is not a number, at 0.
         if step.is_nan() || step <= 1e-16 * u {
             break;

@@ -1,7 +1,7 @@
 //! The limits at a place, over the warped parameter.
 
+use crate::time_optimal::solver::constrained_path::Row;
 use crate::time_optimal::solver::warp::WarpedPoint;
-use crate::time_optimal::solver::way::Row;
 
 /// A row of a place over the warped parameter, divided by its limits.
 #[derive(Clone, Copy, Default, Debug)]
@@ -31,10 +31,10 @@ impl WarpedRow {
 
     /// Scales the row to squares of the speed in units of `unit`, with limits stricter by two factors: one for the
     /// square of the speed, and one for acceleration and jerk.
-    pub(crate) fn scale(&mut self, unit: f64, [speed, hold]: [f64; 2]) {
-        let turn = unit * unit.sqrt() * hold;
+    pub(crate) fn scale(&mut self, unit: f64, [speed, reserve]: [f64; 2]) {
+        let turn = unit * unit.sqrt() * reserve;
         self.vel *= unit * speed;
-        self.acc.iter_mut().for_each(|value| *value *= unit * hold);
+        self.acc.iter_mut().for_each(|value| *value *= unit * reserve);
         self.jerk.iter_mut().for_each(|value| *value *= turn);
     }
 

@@ -62,9 +62,9 @@ pub(super) fn through([origin, on_x, beside]: [Point3<f64>; 3]) -> Result<Frame,
 
 /// The unit vector from the first point to another one, which has the number `number`.
 fn direction(first: &Point3<f64>, other: &Point3<f64>, number: u8) -> Result<Vector3<f64>, Flaw> {
-    let way = other - first;
-    let distance = way.norm();
-    if distance < NEAREST { Err(Flaw::Near { points: (1, number), distance }) } else { Ok(way / distance) }
+    let difference = other - first;
+    let distance = difference.norm();
+    if distance < NEAREST { Err(Flaw::Near { points: (1, number), distance }) } else { Ok(difference / distance) }
 }
 
 /// The rotation whose axes point along these unit vectors.

@@ -19,7 +19,7 @@ const RETRY_PAUSE: Duration = Duration::from_millis(100);
 pub(super) struct ConnectionHandle {
     held: RefCell<Option<Held>>,
     /// The last message about failed attempts.
-    told: RefCell<String>,
+    last_warning: RefCell<String>,
 }
 
 /// A connection and what the program knows about it.
@@ -90,7 +90,7 @@ impl ConnectionHandle {
                 // A client that connected, sent and disconnected in between still counts as connected.
                 LinkState::Open | LinkState::Lost(_) => {
                     now.known_open.set(true);
-                    self.told.borrow_mut().clear();
+                    self.last_warning.borrow_mut().clear();
                     return Ok(true);
                 }
                 LinkState::Failed(reason) => {
@@ -104,7 +104,7 @@ impl ConnectionHandle {
         }
         *held = None;
         let connections = cx.connections();
-        if !connections.are_too_many() && (!opening.holds() || connections.are_free()) {
+        if !connections.are_too_many() && (!opening.is_exclusive() || connections.are_free()) {
             *held = self.begin(cx, function, opening);
         }
         Ok(false)
@@ -159,7 +159,7 @@ impl ConnectionHandle {
     /// Closes the connection if it exists.
     pub(super) fn close(&self) {
         self.held.take();
-        self.told.borrow_mut().clear();
+        self.last_warning.borrow_mut().clear();
     }
 
     /// Takes data from the received bytes.
@@ -196,7 +196,7 @@ impl ConnectionHandle {
             match self.try_send(function, bytes)? {
                 Some(found) => return Ok(found),
                 // A condition must be evaluated at once.
-                None if cx.level() == Level::LOOKING => return Ok(Found::NotYet),
+                None if cx.level() == Level::CONDITION => return Ok(Found::NotYet),
                 None => cx.next_cycle().await,
             }
         }
@@ -226,7 +226,7 @@ impl ConnectionHandle {
                 None => return false,
                 Some(Some(stands)) => return stands,
                 // A condition must be evaluated at once.
-                Some(None) if cx.level() == Level::LOOKING => return false,
+                Some(None) if cx.level() == Level::CONDITION => return false,
                 Some(None) => cx.next_cycle().await,
             }
         }
@@ -254,10 +254,10 @@ impl ConnectionHandle {
 
     /// Warns the user, but not of the same thing twice in a row.
     fn tell(&self, cx: &Cx, text: String) {
-        let mut told = self.told.borrow_mut();
-        if *told != text {
+        let mut last_warning = self.last_warning.borrow_mut();
+        if *last_warning != text {
             cx.shared().warn(text.clone());
-            *told = text;
+            *last_warning = text;
         }
     }
 }

@@ -13,4 +13,4 @@ pub mod socket;
 pub(crate) use melsec::answer_size as melsec_answer;
 
 /// The largest number of different messages of a connection, so that they never fill the memory.
-const MAX_TOLD_PROBLEMS: usize = 100;
+const MAX_REPORTED_ERRORS: usize = 100;

@@ -186,7 +186,7 @@ impl ModbusDev {
             match self.tables.try_lock() {
                 Some(mut tables) => return Ok(bytes(&mut tables, start, len).map(act)),
                 // A condition must be evaluated at once.
-                None if cx.level() == Level::LOOKING => return Ok(None),
+                None if cx.level() == Level::CONDITION => return Ok(None),
                 None => cx.next_cycle().await,
             }
         }

@@ -30,7 +30,7 @@ pub async fn setip(cx: &Cx, ip: &Str, gate: &Str, mask: &Str, if_name: &Str) -> 
         Some(set) => set,
         None => keep(cx, port, settings).await,
     };
-    Ok(told(cx, "setip", set).is_some())
+    Ok(or_warning(cx, "setip", set).is_some())
 }
 
 /// Reads the address of a network port. False, and `ip` stays, if the address is not set or the port does not exist.
@@ -43,7 +43,7 @@ pub async fn getip(cx: &Cx, ip: &mut Str, if_name: &Str) -> Result<bool, Fault> 
     let find = |list: Vec<(String, PortSettings)>| list.into_iter().find(|it| it.0 == port).map(|it| it.1);
     let found = with_driver(cx, |driver| driver.get(port));
     let found = found.unwrap_or_else(|| kept(&mut cx.shared().state.borrow_mut()).map(find));
-    let found = told(cx, "getip", found).flatten();
+    let found = or_warning(cx, "getip", found).flatten();
     Ok(found.map(|settings| *ip = settings.address.to_string().into()).is_some())
 }
 
@@ -96,7 +96,7 @@ fn begin_to_keep(state: &mut KeptState, disk: &Disk, port: &str, settings: PortS
 }
 
 /// The value of a result; an error becomes a warning.
-fn told<T>(cx: &Cx, function: &str, result: io::Result<T>) -> Option<T> {
+fn or_warning<T>(cx: &Cx, function: &str, result: io::Result<T>) -> Option<T> {
     result.map_err(|error| cx.shared().warn(format!("{function}: {error}"))).ok()
 }
 

@@ -23,8 +23,8 @@ pub fn elapsed_distance(cx: &Cx, s: f64) -> bool {
 /// `StoEnd`: whether the TCP has at most `s` mm of its line left. Never true on axis motions, nor if the whole line is
 /// shorter.
 pub fn left_distance(cx: &Cx, s: f64) -> bool {
-    let within = |progress: &Progress| s <= progress.elapsed_distance + progress.left_distance + ROUNDING_MM;
-    s >= 0.0 && line(cx).filter(within).is_some_and(|progress| progress.left_distance <= s + ROUNDING_MM)
+    let within = |progress: &Progress| s <= progress.elapsed_distance + progress.remaining_distance + ROUNDING_MM;
+    s >= 0.0 && line(cx).filter(within).is_some_and(|progress| progress.remaining_distance <= s + ROUNDING_MM)
 }
 
 /// `P`: whether `p` % of the motion is done.
@@ -38,5 +38,5 @@ fn progress(cx: &Cx) -> Option<Progress> {
 
 /// The progress of a motion along a line.
 fn line(cx: &Cx) -> Option<Progress> {
-    progress(cx).filter(|progress| progress.elapsed_distance + progress.left_distance > 0.0)
+    progress(cx).filter(|progress| progress.elapsed_distance + progress.remaining_distance > 0.0)
 }

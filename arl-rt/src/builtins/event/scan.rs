@@ -46,7 +46,7 @@ impl Unknown {
 /// Evaluates whether a condition holds. It has the loop budget of a whole cycle for itself, waits for no motion, and
 /// leaves the program pointer unchanged.
 pub(super) fn evaluate(cx: &Cx, code: &dyn Code) -> Result<bool, Unknown> {
-    let (pointer, level) = (cx.pointer(), cx.enter_level(Level::LOOKING));
+    let (pointer, level) = (cx.pointer(), cx.enter_level(Level::CONDITION));
     let budget = cx.renew_budget();
     let held = code.holds(cx);
     cx.restore_budget(budget);

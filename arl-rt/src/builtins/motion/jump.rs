@@ -111,9 +111,9 @@ impl Jump {
 
     fn resolve(&self, cx: &Cx, part: GatePart) -> Result<(Resolved, Target), Fault> {
         let form = &self.form;
-        for (name, way) in [("a", form.rise), ("b", form.sink)] {
-            if !way.is_finite() || way < 0.0 || is_unset(way) {
-                let problem = format!("{name} is {way} mm, but must be 0 or more");
+        for (name, distance) in [("a", form.rise), ("b", form.sink)] {
+            if !distance.is_finite() || distance < 0.0 || is_unset(distance) {
+                let problem = format!("{name} is {distance} mm, but must be 0 or more");
                 return Err(Fault::Domain { function: "jump", problem: problem.into() });
             }
         }

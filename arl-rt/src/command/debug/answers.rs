@@ -124,21 +124,21 @@ const BRIEF_LISTED: usize = 100;
 const BRIEF_ELEMENTS: usize = 64;
 
 fn shown(name: &str, sizes: &[usize], variable: &dyn Teach, detail: Detail) -> String {
-    told(name, type_name(sizes, variable.type_name()), detail, || variable.written())
+    variable_json(name, type_name(sizes, variable.type_name()), detail, || variable.written())
 }
 
 fn shown_handle(cx: &Cx, name: &str, sizes: &[usize], handle: &dyn Shown, detail: Detail) -> String {
-    told(name, type_name(sizes, handle.type_name()), detail, || handle.shown(cx))
+    variable_json(name, type_name(sizes, handle.type_name()), detail, || handle.shown(cx))
 }
 
 /// A variable as an object.
-fn told(name: &str, ty: String, detail: Detail, value: impl FnOnce() -> String) -> String {
-    let value = if is_left_out(&ty, detail) { "..".into() } else { value() };
+fn variable_json(name: &str, ty: String, detail: Detail, value: impl FnOnce() -> String) -> String {
+    let value = if is_omitted(&ty, detail) { "..".into() } else { value() };
     format!("{{\"name\":{},\"type\":{},\"value\":{}}}", quoted(name), quoted(&ty), quoted(&value))
 }
 
 /// Whether a value of this type is too long.
-fn is_left_out(ty: &str, detail: Detail) -> bool {
+fn is_omitted(ty: &str, detail: Detail) -> bool {
     let sizes = ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse::<usize>().ok());
     detail == Detail::Brief && sizes.product::<usize>() > BRIEF_ELEMENTS
 }
@@ -219,7 +219,7 @@ fn teach(variable: &dyn Teach, sizes: &[usize], literal: &str) -> Result<String,
 
 /// Sets the program pointer to a line of a running function: it goes on there.
 fn set_pointer(cx: &Cx, frame: u64, line: u64) -> Result<String, String> {
-    if cx.level().number == Level::LOOKING.number {
+    if cx.level().number == Level::CONDITION.number {
         return Err("the condition of an event is being checked: step out of it first".into());
     }
     let line = u32::try_from(line).ok().filter(|line| *line > 0).ok_or("there is no such line")?;

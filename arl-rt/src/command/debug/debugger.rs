@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::answers;
 use super::link::{DebugLink, DebugRequest};
-use super::plan::{HaltPlan, Point, Statement, Way, Why};
+use super::plan::{HaltPlan, Point, RunMode, Statement, Why};
 use crate::command::json::{number, quoted};
 use crate::context::cx::{Cx, Level};
 use crate::context::watcher::{Go, Watcher};
@@ -23,7 +23,7 @@ pub(super) struct Debugger {
     contexts: RefCell<Vec<Weak<Cx>>>,
     plan: RefCell<HaltPlan>,
     /// How far programs were to go when they were halted.
-    before: Cell<Way>,
+    mode_before: Cell<RunMode>,
     /// How many statements were about to run so far.
     statements: Cell<u64>,
     /// The channel with a halted statement, on the virtual clock.
@@ -38,7 +38,7 @@ pub(super) struct Debugger {
     alarm: RefCell<Option<(Alarm, u64)>>,
     /// The motion of each channel that was last reported to the debugger, and when that was.
     motions: RefCell<Vec<u64>>,
-    told: Cell<Option<Instant>>,
+    last_sent: Cell<Option<Instant>>,
 }
 
 /// A report of a halt to the debugger.
@@ -71,7 +71,7 @@ impl Debugger {
             real,
             contexts: RefCell::default(),
             plan: RefCell::default(),
-            before: Cell::new(Way::On),
+            mode_before: Cell::new(RunMode::Continue),
             statements: Cell::new(0),
             stands_in: Cell::new(None),
             arriving: Cell::new(None),
@@ -79,7 +79,7 @@ impl Debugger {
             halted: Cell::new(false),
             alarm: RefCell::default(),
             motions: RefCell::default(),
-            told: Cell::new(None),
+            last_sent: Cell::new(None),
         }
     }
 
@@ -106,14 +106,14 @@ impl Debugger {
             let cycle = self.context(0).map_or(0, |cx| cx.cycle());
             let why = self.plan.borrow().halts_between(cycle, self.statements.get(), motion);
             if let Some(why) = why {
-                let at = match self.plan.borrow().way() {
-                    Way::Motion(channel, _) => channel,
+                let at = match self.plan.borrow().run_mode() {
+                    RunMode::Motion(channel, _) => channel,
                     _ => 0,
                 };
                 self.halt(&Halt { why, between: true, ..Halt::new(at) });
             }
         }
-        if self.told.get().is_none_or(|told| told.elapsed() >= POINTER_INTERVAL) {
+        if self.last_sent.get().is_none_or(|last_sent| last_sent.elapsed() >= POINTER_INTERVAL) {
             self.tell_pointers();
         }
     }
@@ -124,8 +124,8 @@ impl Debugger {
         let changes = self.changes.get();
         // When the run is repeated up to an earlier point, the changes made here are known: it passes this place again,
         // and goes on.
-        let way = self.plan.borrow().way();
-        if let Way::Until(point) | Way::Search(point) = way {
+        let run_mode = self.plan.borrow().run_mode();
+        if let RunMode::Until(point) | RunMode::Search(point) = run_mode {
             return point.cycle != u64::MAX;
         }
         if self.plan.borrow().alarms {
@@ -156,7 +156,7 @@ impl Debugger {
         }
         *self.alarm.borrow_mut() = Some((alarm.clone(), now));
         // Where cycles go on this must not wait: the alarm ends the program, and the robot stops on its path.
-        let passes = matches!(self.plan.borrow().way(), Way::Until(_));
+        let passes = matches!(self.plan.borrow().run_mode(), RunMode::Until(_));
         if self.plan.borrow().alarms && !self.real && !passes {
             let place = |cx: &Rc<Cx>| cx.frames().all().last().map(|frame| (frame.file, frame.line));
             let all = self.all();
@@ -181,8 +181,8 @@ impl Debugger {
 
     /// Halts the programs: until the debugger lets them go on, or from the next cycle on.
     fn halt(&self, halt: &Halt) {
-        self.before.set(self.plan.borrow().way());
-        self.plan.borrow_mut().go(Way::On);
+        self.mode_before.set(self.plan.borrow().run_mode());
+        self.plan.borrow_mut().go(RunMode::Continue);
         self.tell_pointers();
         // What was printed so far is output before the halt.
         self.context(0).into_iter().for_each(|cx| cx.shared().flush());
@@ -227,7 +227,7 @@ impl Debugger {
 
     fn answer(&self, request: &DebugRequest) -> Reply {
         let channel = request.whole(0) as usize;
-        let way = match request.word.as_str() {
+        let run_mode = match request.word.as_str() {
             "breakpoints" => {
                 self.plan.borrow_mut().set_lines(request);
                 None
@@ -236,20 +236,20 @@ impl Debugger {
                 self.plan.borrow_mut().set_kinds(request);
                 None
             }
-            "go" => Some(Way::On),
-            "again" => Some(self.before.get()),
+            "go" => Some(RunMode::Continue),
+            "again" => Some(self.mode_before.get()),
             "pause" => {
                 // Also where a breakpoint is just being evaluated, and then passed.
-                self.before.set(Way::Pause);
-                self.plan.borrow_mut().go(Way::Pause);
+                self.mode_before.set(RunMode::Pause);
+                self.plan.borrow_mut().go(RunMode::Pause);
                 None
             }
-            "into" => Some(Way::Into(channel)),
-            "over" => Some(Way::Over(channel, self.depth(channel))),
-            "out" => Some(Way::Over(channel, self.depth(channel).saturating_sub(1))),
-            "motion" => Some(Way::Motion(channel, self.context(channel).map_or(0, |cx| answers::motion(&cx)))),
-            "until" => Some(Way::Until(Point { statement: request.whole(0), cycle: request.whole(1) })),
-            "search" => Some(Way::Search(Point { statement: request.whole(0), cycle: request.whole(1) })),
+            "into" => Some(RunMode::Into(channel)),
+            "over" => Some(RunMode::Over(channel, self.depth(channel))),
+            "out" => Some(RunMode::Over(channel, self.depth(channel).saturating_sub(1))),
+            "motion" => Some(RunMode::Motion(channel, self.context(channel).map_or(0, |cx| answers::motion(&cx)))),
+            "until" => Some(RunMode::Until(Point { statement: request.whole(0), cycle: request.whole(1) })),
+            "search" => Some(RunMode::Search(Point { statement: request.whole(0), cycle: request.whole(1) })),
             _ => {
                 let fields = match answers::answer(request, &self.all()) {
                     Ok(fields) => {
@@ -270,9 +270,9 @@ impl Debugger {
             }
         };
         self.link.say(&format!("\"answer\":{},\"done\":true", request.number));
-        match way {
-            Some(way) => {
-                self.plan.borrow_mut().go(way);
+        match run_mode {
+            Some(run_mode) => {
+                self.plan.borrow_mut().go(run_mode);
                 Reply::Go
             }
             None => Reply::Stand,
@@ -299,7 +299,7 @@ impl Debugger {
             let (motion, fields) = answers::motion_pointer(cx);
             if let Some(known) = known.get_mut(at).filter(|known| **known != motion) {
                 *known = motion;
-                self.told.set(Some(Instant::now()));
+                self.last_sent.set(Some(Instant::now()));
                 self.link.say(&format!("\"event\":\"motion\",\"channel\":{at},{fields}"));
             }
         }
@@ -310,7 +310,7 @@ impl Watcher for Debugger {
     fn statement(&self, cx: &Cx, frame: u64) -> Go {
         let number = self.statements.get() + 1;
         self.statements.set(number);
-        let is_condition = cx.level().number == Level::LOOKING.number;
+        let is_condition = cx.level().number == Level::CONDITION.number;
         // Conditions are evaluated while programs are halted, too, and cannot wait. They are not shown.
         if self.real && is_condition {
             return Go::On;

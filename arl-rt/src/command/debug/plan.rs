@@ -7,9 +7,9 @@ use super::link::DebugRequest;
 
 /// How far a program goes until it halts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Way {
+pub(super) enum RunMode {
     /// Until a reason that always halts it.
-    On,
+    Continue,
     /// To the next statement or cycle.
     Pause,
     /// To the channel's next statement, in whichever function.
@@ -82,7 +82,7 @@ pub(super) struct HaltPlan {
     /// Whether it halts at alarms.
     pub(super) alarms: bool,
     /// How far it goes; `None`: until a reason that always halts it.
-    way: Option<Way>,
+    run_mode: Option<RunMode>,
 }
 
 impl HaltPlan {
@@ -101,26 +101,26 @@ impl HaltPlan {
         (self.alarms, self.events) = (has("alarms"), has("events"));
     }
 
-    pub(super) fn go(&mut self, way: Way) {
-        self.way = Some(way).filter(|way| *way != Way::On);
+    pub(super) fn go(&mut self, run_mode: RunMode) {
+        self.run_mode = Some(run_mode).filter(|run_mode| *run_mode != RunMode::Continue);
     }
 
     /// How far it goes.
-    pub(super) fn way(&self) -> Way {
-        self.way.unwrap_or(Way::On)
+    pub(super) fn run_mode(&self) -> RunMode {
+        self.run_mode.unwrap_or(RunMode::Continue)
     }
 
     /// Whether it halts before a statement, and the reason. A debugger may let it pass a breakpoint: then the second
     /// reason counts.
     pub(super) fn halts_at(&self, statement: &Statement<'_>) -> Option<(Why, Option<Why>)> {
         let Statement { number, channel, depth, .. } = *statement;
-        let arrived = match self.way() {
-            Way::Until(end) => return (number >= end.statement).then_some(("step", None)),
-            Way::On | Way::Motion(..) => None,
-            Way::Pause => Some("pause"),
-            Way::Search(end) => (number >= end.statement).then_some("step"),
-            Way::Into(stepped) => (channel == stepped && !statement.is_condition).then_some("step"),
-            Way::Over(stepped, deepest) => (channel == stepped && depth <= deepest).then_some("step"),
+        let arrived = match self.run_mode() {
+            RunMode::Until(end) => return (number >= end.statement).then_some(("step", None)),
+            RunMode::Continue | RunMode::Motion(..) => None,
+            RunMode::Pause => Some("pause"),
+            RunMode::Search(end) => (number >= end.statement).then_some("step"),
+            RunMode::Into(stepped) => (channel == stepped && !statement.is_condition).then_some("step"),
+            RunMode::Over(stepped, deepest) => (channel == stepped && depth <= deepest).then_some("step"),
         };
         let breaks = || self.lines.iter().any(|known| known.has(statement));
         let begins = || (self.events && statement.begins_action).then_some("event");
@@ -131,10 +131,10 @@ impl HaltPlan {
     /// Whether it halts before a cycle, after this many statements, where the robot of the channel executes this
     /// motion. A pause before the first statement halts at that statement: before it there is no place to show.
     pub(super) fn halts_between(&self, cycle: u64, statements: u64, motion_of: impl Fn(usize) -> u64) -> Option<Why> {
-        match self.way() {
-            Way::Pause => (statements > 0).then_some("pause"),
-            Way::Until(end) | Way::Search(end) if cycle >= end.cycle => Some("step"),
-            Way::Motion(channel, from) => {
+        match self.run_mode() {
+            RunMode::Pause => (statements > 0).then_some("pause"),
+            RunMode::Until(end) | RunMode::Search(end) if cycle >= end.cycle => Some("step"),
+            RunMode::Motion(channel, from) => {
                 let motion = motion_of(channel);
                 (motion != from && motion != 0).then_some("step")
             }
@@ -161,9 +161,9 @@ mod tests {
         }
     }
 
-    fn going(way: Way) -> HaltPlan {
+    fn going(run_mode: RunMode) -> HaltPlan {
         let mut plan = HaltPlan::default();
-        plan.go(way);
+        plan.go(run_mode);
         plan
     }
 
@@ -182,40 +182,40 @@ mod tests {
         assert_eq!(plan.halts_at(&here()), Some(("breakpoint", None)));
         assert_eq!(plan.halts_at(&Statement { file: "b.arl", ..here() }), None);
         assert_eq!(plan.halts_at(&Statement { folder: Path::new("two"), ..here() }), None);
-        plan.go(Way::Into(0));
+        plan.go(RunMode::Into(0));
         assert_eq!(plan.halts_at(&here()), Some(("breakpoint", Some("step"))));
-        plan.go(Way::On);
+        plan.go(RunMode::Continue);
         plan.set_lines(&request(&["one", "main.arl", "a.arl"]));
         assert_eq!(plan.halts_at(&here()), None);
     }
 
     #[test]
     fn steps_end_where_they_should() {
-        assert_eq!(going(Way::Into(0)).halts_at(&Statement { depth: 9, ..here() }), Some(("step", None)));
-        assert_eq!(going(Way::Into(1)).halts_at(&here()), None);
-        assert_eq!(going(Way::Into(0)).halts_at(&Statement { is_condition: true, ..here() }), None);
-        assert_eq!(going(Way::Over(0, 1)).halts_at(&here()), None);
-        assert_eq!(going(Way::Over(0, 2)).halts_at(&here()), Some(("step", None)));
-        assert_eq!(going(Way::Until(to(6))).halts_at(&here()), None);
-        assert_eq!(going(Way::Until(to(5))).halts_at(&here()), Some(("step", None)));
-        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, 5, |_| 3), None);
-        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, 5, |_| 4), Some("step"));
-        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, 5, |_| 0), None, "no motion begins");
-        assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(8, 5, |_| 3), None);
-        assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(9, 5, |_| 3), Some("step"));
+        assert_eq!(going(RunMode::Into(0)).halts_at(&Statement { depth: 9, ..here() }), Some(("step", None)));
+        assert_eq!(going(RunMode::Into(1)).halts_at(&here()), None);
+        assert_eq!(going(RunMode::Into(0)).halts_at(&Statement { is_condition: true, ..here() }), None);
+        assert_eq!(going(RunMode::Over(0, 1)).halts_at(&here()), None);
+        assert_eq!(going(RunMode::Over(0, 2)).halts_at(&here()), Some(("step", None)));
+        assert_eq!(going(RunMode::Until(to(6))).halts_at(&here()), None);
+        assert_eq!(going(RunMode::Until(to(5))).halts_at(&here()), Some(("step", None)));
+        assert_eq!(going(RunMode::Motion(0, 3)).halts_between(9, 5, |_| 3), None);
+        assert_eq!(going(RunMode::Motion(0, 3)).halts_between(9, 5, |_| 4), Some("step"));
+        assert_eq!(going(RunMode::Motion(0, 3)).halts_between(9, 5, |_| 0), None, "no motion begins");
+        assert_eq!(going(RunMode::Search(Point { cycle: 9, ..to(6) })).halts_between(8, 5, |_| 3), None);
+        assert_eq!(going(RunMode::Search(Point { cycle: 9, ..to(6) })).halts_between(9, 5, |_| 3), Some("step"));
     }
 
     #[test]
     fn a_pause_halts_where_there_is_something_to_show() {
-        let plan = going(Way::Pause);
+        let plan = going(RunMode::Pause);
         assert_eq!(plan.halts_between(0, 0, |_| 0), None, "nothing has begun");
         assert_eq!(plan.halts_at(&here()), Some(("pause", None)));
         assert_eq!(plan.halts_between(9, 5, |_| 0), Some("pause"));
     }
 
     #[test]
-    fn a_way_back_passes_breakpoints() {
-        let mut plan = going(Way::Until(to(6)));
+    fn a_run_back_to_a_point_passes_breakpoints() {
+        let mut plan = going(RunMode::Until(to(6)));
         plan.set_lines(&request(&["one", "main.arl", "a.arl", "7"]));
         assert_eq!(plan.halts_at(&here()), None);
     }

@@ -87,30 +87,30 @@ mod tests {
     use super::*;
 
     /// The reported motions, by when each began and how long it has taken.
-    fn ended(said: &mut OfRobot, motions: &[(Option<f64>, f64)], moves: bool) -> Vec<usize> {
-        said.ended(motions.len(), |at| motions[at], moves)
+    fn ended(reported: &mut OfRobot, motions: &[(Option<f64>, f64)], moves: bool) -> Vec<usize> {
+        reported.ended(motions.len(), |at| motions[at], moves)
     }
 
     #[test]
-    fn motions_are_said_as_they_end_whatever_comes_between() {
-        let mut said = OfRobot::default();
+    fn motions_are_reported_as_they_end_whatever_comes_between() {
+        let mut reported = OfRobot::default();
         // The first one runs, the second one waits.
         let mut motions = vec![(Some(0.0), 0.2), (None, 0.0)];
-        assert_eq!(ended(&mut said, &motions, true), []);
+        assert_eq!(ended(&mut reported, &motions, true), []);
         // The program is paused within the first one, and the robot jogged.
-        assert_eq!(ended(&mut said, &motions, false), [0]);
+        assert_eq!(ended(&mut reported, &motions, false), [0]);
         motions.push((Some(1.0), 0.3));
-        assert_eq!(ended(&mut said, &motions, true), []);
-        assert_eq!(ended(&mut said, &motions, false), [2]);
+        assert_eq!(ended(&mut reported, &motions, true), []);
+        assert_eq!(ended(&mut reported, &motions, false), [2]);
         // Then the first one goes on, which was reported before its end, and then the second one, which was planned
         // before the jogging.
         motions[0].1 = 0.6;
-        assert_eq!(ended(&mut said, &motions, true), []);
+        assert_eq!(ended(&mut reported, &motions, true), []);
         motions[1] = (Some(2.0), 0.4);
-        assert_eq!(ended(&mut said, &motions, true), []);
-        assert_eq!(ended(&mut said, &motions, false), [0, 1]);
-        assert_eq!(ended(&mut said, &motions, false), []);
+        assert_eq!(ended(&mut reported, &motions, true), []);
+        assert_eq!(ended(&mut reported, &motions, false), [0, 1]);
+        assert_eq!(ended(&mut reported, &motions, false), []);
         // When records begin again, motions are reported again.
-        assert_eq!(ended(&mut said, &[(Some(0.0), 0.1)], false), [0]);
+        assert_eq!(ended(&mut reported, &[(Some(0.0), 0.1)], false), [0]);
     }
 }

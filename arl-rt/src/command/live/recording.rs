@@ -121,7 +121,7 @@ impl Recording {
         self.flush();
         self.writer.state(controller);
         if self.wishes.each_motion {
-            let report = report::all_json(&controller.recorded());
+            let report = report::all_json(&controller.recorded_motions());
             report.lines().for_each(|object| self.writer.report(object));
         }
         self.writer.ended();
@@ -177,7 +177,7 @@ mod tests {
     }
 
     /// The first number behind a word in a line, and the first list behind another.
-    fn said(line: &str, word: &str, list: &str) -> (String, String) {
+    fn values_behind(line: &str, word: &str, list: &str) -> (String, String) {
         let behind = |word: &str| line.split_once(word).map_or("", |(_, rest)| rest);
         let until = |text: &str, end: char| text.split(end).next().unwrap_or_default().to_owned();
         (until(behind(word), ','), until(behind(list), ']'))
@@ -200,7 +200,7 @@ mod tests {
         drop(recording);
         let (mut cycles, mut states) = (0, 0);
         for line in BufReader::new(stream).lines().map(Result::unwrap) {
-            let (time, axes) = said(&line, "\"time\":", "\"axes\":[");
+            let (time, axes) = values_behind(&line, "\"time\":", "\"axes\":[");
             let count = match &line {
                 line if line.starts_with("{\"cycle\"") => &mut cycles,
                 line if line.starts_with("{\"state\"") => &mut states,
@@ -211,7 +211,7 @@ mod tests {
             let row = rows.iter().find(|row| row[0] == time).unwrap_or_else(|| panic!("no row of {time} s"));
             let axes: Vec<f64> = axes.split(',').map(|axis| axis.parse().unwrap()).collect();
             // Numbers have six decimals.
-            assert!(axes.iter().zip(&row[3..9]).all(|(said, axis)| (said - axis).abs() < 1e-6), "{row:?}: {line}");
+            assert!(axes.iter().zip(&row[3..9]).all(|(sent, axis)| (sent - axis).abs() < 1e-6), "{row:?}: {line}");
         }
         assert_eq!((cycles, states), (101, 26), "each cycle, and every fourth one from the first one on");
         assert!(rows[100][3] - rows[99][3] > 1e-3, "it moves, faster than what is compared");

@@ -109,7 +109,7 @@ impl Builder {
             external,
             has_outside: self.has_outside || has_drives,
             calls: HandleCalls::default(),
-            told: RunState::Running,
+            notified_state: RunState::Running,
             pointer_store,
             stores_from: 0,
             awake_until: 0,

@@ -94,8 +94,8 @@ mod tests {
     fn what_happens_while_nobody_listens_is_lost() {
         let seen = rises(&[(1, false, false), (1, true, false), (1, true, true), (1, false, true), (1, true, true)]);
         assert_eq!(seen, [(false, 0), (false, 0), (false, 0), (false, 0), (true, 1)]);
-        let left = rises(&[(1, false, true), (1, true, true), (1, true, false), (1, true, true)]);
-        assert_eq!(left, [(false, 0), (true, 1), (false, 0), (false, 0)], "a pulse does not outlast it");
+        let consumed = rises(&[(1, false, true), (1, true, true), (1, true, false), (1, true, true)]);
+        assert_eq!(consumed, [(false, 0), (true, 1), (false, 0), (false, 0)], "a pulse does not outlast it");
     }
 
     #[test]

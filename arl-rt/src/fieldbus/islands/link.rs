@@ -60,11 +60,11 @@ impl IslandLink {
                 }
                 Received::Garbage => return Err(NO_ANSWER.into()),
             }
-            let left = self.timeout.saturating_sub(start.elapsed());
-            if left.is_zero() {
+            let remaining = self.timeout.saturating_sub(start.elapsed());
+            if remaining.is_zero() {
                 return Err(self.silence());
             }
-            self.stream.set_read_timeout(Some(left)).map_err(|error| error.to_string())?;
+            self.stream.set_read_timeout(Some(remaining)).map_err(|error| error.to_string())?;
             match self.stream.read(self.buffer.get_mut(filled..).unwrap_or_default()) {
                 Ok(0) => return Err("it has closed the connection".into()),
                 Ok(count) => filled += count,

@@ -96,9 +96,9 @@ impl Poller {
     /// Sleeps, unless the thread is to stop.
     fn sleep_until(&self, end: Instant) {
         while !self.shared.stops()
-            && let Some(left) = end.checked_duration_since(Instant::now()).filter(|left| !left.is_zero())
+            && let Some(remaining) = end.checked_duration_since(Instant::now()).filter(|remaining| !remaining.is_zero())
         {
-            std::thread::park_timeout(left);
+            std::thread::park_timeout(remaining);
         }
     }
 }

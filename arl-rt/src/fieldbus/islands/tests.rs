@@ -111,8 +111,8 @@ fn it_is_known_when_the_island_has_an_output() {
 }
 
 #[test]
-fn what_is_lost_is_told_and_comes_back() {
-    for (more, rest, told) in [
+fn what_is_lost_is_reported_and_comes_back() {
+    for (more, rest, warning) in [
         ("", (0, 0.0), None),
         ("lost = \"warning\"\n", (0, 0.0), Some("its inputs go to 0")),
         ("lost = \"warning\"\ninputs = \"hold\"\n", (0b111, 5.0), Some("its inputs stay as they were")),
@@ -127,7 +127,7 @@ fn what_is_lost_is_told_and_comes_back() {
         run.until("the loss", |run| run.islands.fault().is_some() || !run.warnings.is_empty());
         let words = run.islands.fault().map_or_else(|| run.warnings.concat(), str::to_owned);
         assert!(words.contains(&format!("the island valves ({address}) is lost: ")), "{words}");
-        assert!(words.contains(told.unwrap_or_default()) && run.warnings.is_empty() == told.is_none(), "{words}");
+        assert!(words.contains(warning.unwrap_or_default()) && run.warnings.is_empty() == warning.is_none(), "{words}");
         assert_eq!((run.inputs().0, run.inputs().1.round()), rest);
         // Another island, whose outputs are off.
         run.image.set_digitals(Digital::Do, 1, 3, 0b001).unwrap();
@@ -160,7 +160,7 @@ fn at_the_end_outputs_go_to_0_or_stay() {
 }
 
 #[test]
-fn an_island_that_is_not_there_is_told_at_the_start() {
+fn an_island_that_is_not_there_is_reported_at_the_start() {
     let address = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     let error = Islands::start(&settings(address, "")).err().unwrap();
     assert!(error.starts_with(&format!("the island valves ({address}) is not available: cannot connect")), "{error}");

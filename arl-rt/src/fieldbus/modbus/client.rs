@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn exceptions_and_garbage_are_told_apart() {
+    fn exceptions_and_garbage_are_distinguished() {
         let (mut tables, mut request) = (Tables::default(), Vec::new());
         read_request(&mut request, Table::HoldingRegister, 65535, 2);
         let answer = served(&mut tables, &request);

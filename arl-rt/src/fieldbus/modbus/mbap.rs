@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_modbus_is_told_early() {
+    fn what_is_no_modbus_is_reported_early() {
         for bytes in [&b"GET / HTTP"[..], b"GET", &[0, 0, 0, 0, 0, 1], &[0, 0, 0, 0, 0, 255], &[0, 0, 0, 1]] {
             assert_eq!(first(bytes), Received::Garbage, "{bytes:?}");
         }

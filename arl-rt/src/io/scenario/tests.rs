@@ -91,7 +91,7 @@ fn mistakes_name_line_and_what_was_expected() {
 }
 
 #[test]
-fn forces_and_torques_are_told_in_order() {
+fn forces_and_torques_are_reported_in_order() {
     let text = "[[event]]\nat = 0\ntorque.j3 = -20.5\nforce = [1, 2.5, -3]\ntorque.j1 = 7\n";
     let effects = [RobotEffect::Torque(2, -20.5), RobotEffect::Torque(0, 7.0), RobotEffect::Force([1.0, 2.5, -3.0])];
     assert_eq!(play(text, 1, |_, _| {}), effects.map(|robot_effect| Effect::Robot(1, robot_effect)));
@@ -113,20 +113,20 @@ fn events_name_the_channel_of_their_robot() {
 }
 
 #[test]
-fn a_scenario_goes_on_until_nothing_is_on_its_way() {
+fn a_scenario_goes_on_until_nothing_is_pending() {
     let text = "[[event]]\nat = 0.002\ndi.1 = true\n[[event]]\nwhen = \"di.1\"\nafter = 0.003\npendant = \"reset\"\n";
     let scenario = Scenario::parse("io.toml", text).unwrap();
     let mut image = Image::new(&Channels::default());
     let mut playing = Playing::new(scenario, &image, Rate::default());
     assert!(playing.resets());
-    let on_its_way: Vec<bool> = (0..8)
+    let goes_on: Vec<bool> = (0..8)
         .map(|cycle| {
             playing.play(cycle, &mut image, |_| {});
             playing.goes_on(&image)
         })
         .collect();
     // In cycle 2 the input goes on, in cycle 3 this is seen, and 3 ms after cycle 2 the button is pressed.
-    assert_eq!(on_its_way, [true, true, true, true, true, false, false, false]);
+    assert_eq!(goes_on, [true, true, true, true, true, false, false, false]);
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn a_follower_has_the_level_of_what_it_follows_some_time_later() {
 }
 
 #[test]
-fn what_a_cell_does_not_have_is_told_with_its_line() {
+fn what_a_cell_does_not_have_is_reported_with_its_line() {
     let robot = Robot::builtin("kr10-r1420").unwrap();
     let check = |text: &str| Scenario::parse("s.toml", text).unwrap().check(&Channels::default(), &[&robot]);
     let text = "# a comment\n\n[[event]]\nat = 1\ndi.1 = true\n[[event]]\nat = 1\ndi.99 = true\n";

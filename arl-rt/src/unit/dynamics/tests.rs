@@ -62,7 +62,7 @@ fn a_load_can_be_taken_off_and_weighs_what_it_weighs() {
 }
 
 #[test]
-fn a_force_from_outside_is_held_and_told_again() {
+fn a_force_from_outside_is_held_and_found_again() {
     let mut random = Random::new(21);
     for name in Robot::builtin_names() {
         let robot = Robot::builtin(name).unwrap();
@@ -84,14 +84,14 @@ fn a_force_from_outside_is_held_and_told_again() {
             let rest = [0.0; 6];
             let bare = dynamics.torques(&axes, &rest, &rest, &Wrench::default());
             let pushed = dynamics.torques(&axes, &rest, &rest, &outside);
-            let holding = dynamics.holding(&axes, &outside, &flange);
-            for ((pushed, bare), holding) in pushed.iter().zip(bare).zip(holding) {
-                assert!((pushed - bare - holding).abs() < 1e-9 * (1.0 + pushed.abs()), "{name} {axes:?}");
+            let torques = dynamics.holding(&axes, &outside, &flange);
+            for ((pushed, bare), torque) in pushed.iter().zip(bare).zip(torques) {
+                assert!((pushed - bare - torque).abs() < 1e-9 * (1.0 + pushed.abs()), "{name} {axes:?}");
             }
             // The torques beyond those of the model press back.
             let point = flange + vector(100.0);
-            let told = dynamics.pressing(&axes, &dynamics.holding(&axes, &outside, &point), &point).unwrap();
-            assert!((told.force + force).norm() < 1e-7 && (told.torque + torque).norm() < 1e-7, "{name} {told:?}");
+            let found = dynamics.pressing(&axes, &dynamics.holding(&axes, &outside, &point), &point).unwrap();
+            assert!((found.force + force).norm() < 1e-7 && (found.torque + torque).norm() < 1e-7, "{name} {found:?}");
         }
     }
     let dynamics = Dynamics::new(&Robot::builtin("kr10-r1420").unwrap()).unwrap();
@@ -101,9 +101,9 @@ fn a_force_from_outside_is_held_and_told_again() {
     let (outside, point) =
         (Wrench { force: Vector3::new(10.0, -20.0, 30.0), torque: Vector3::zeros() }, Vector3::new(800.0, 50.0, 900.0));
     let felt = dynamics.holding(&singular, &outside, &point);
-    let told = dynamics.felt(&singular, &felt, &point);
-    let again = dynamics.holding(&singular, &Wrench { force: -told.force, torque: -told.torque }, &point);
-    assert!(told.force.norm() + told.torque.norm() > 1.0);
+    let estimated = dynamics.felt(&singular, &felt, &point);
+    let again = dynamics.holding(&singular, &Wrench { force: -estimated.force, torque: -estimated.torque }, &point);
+    assert!(estimated.force.norm() + estimated.torque.norm() > 1.0);
     for (again, felt) in again.iter().zip(felt) {
         assert!((again - felt).abs() < 1e-4, "{again} {felt}");
     }

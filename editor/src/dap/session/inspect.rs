@@ -1,6 +1,6 @@
 //! Frames, scopes, variables and expressions of a halted program.
 
-use super::seen::{Seen, Told, told, variable};
+use super::seen::{ReportedVariable, Seen, reported, variable};
 use super::{Answer, Session};
 use crate::dap::evaluate::{Input, NamedPlace, Root, Source, Value as Found, Variable, evaluate, part_type, place};
 use crate::dap::literal::{Literal, Part};
@@ -84,7 +84,7 @@ impl Session {
                 for (name, variable) in locals {
                     shown.push(self.shown.value(&name, *frame, Target::Local(name.clone()), &variable, Vec::new()));
                 }
-                shown.extend(handles.iter().map(Told::shown));
+                shown.extend(handles.iter().map(ReportedVariable::shown));
                 shown
             }
             Container::Globals(frame) => self.global_variables(*frame)?,
@@ -95,7 +95,7 @@ impl Session {
                     let target = Target::Global(file.clone(), name.clone());
                     shown.push(self.shown.value(&name, *frame, target, &variable, Vec::new()));
                 }
-                shown.extend(handles.iter().map(Told::shown));
+                shown.extend(handles.iter().map(ReportedVariable::shown));
                 shown
             }
             Container::System(frame) => {
@@ -194,8 +194,8 @@ impl Session {
         let process = self.process.as_mut().ok_or("no program runs")?;
         let program = launched.programs.program(&frame.program).ok_or("the program is not known")?;
         let answer = process.ask("variables", &[&frame.channel.to_string(), &frame.id.to_string()])?;
-        let mut locals: Vec<(String, Variable)> = told(&answer, "variables").into_iter().map(variable).collect();
-        let handles = told(&answer, "handles");
+        let mut locals: Vec<(String, Variable)> = reported(&answer, "variables").into_iter().map(variable).collect();
+        let handles = reported(&answer, "handles");
         let func = launched.programs.function(&frame.program, &frame.file, &frame.name);
         for (name, ty, value) in func.map(constants).unwrap_or_default() {
             // A constant of another block does not hide a variable.

@@ -11,7 +11,7 @@ use arl2rs::hir::Program;
 use serde_json::{Value, json};
 
 /// A variable as the program reports it.
-pub(super) struct Told {
+pub(super) struct ReportedVariable {
     pub(super) name: String,
     pub(super) ty: String,
     pub(super) value: String,
@@ -24,11 +24,11 @@ pub(super) struct Seen<'a> {
     pub(super) frame: Frame,
     pub(super) locals: Named,
     /// Clocks and connections.
-    pub(super) handles: Vec<Told>,
+    pub(super) handles: Vec<ReportedVariable>,
     pub(super) module: String,
 }
 
-impl Told {
+impl ReportedVariable {
     /// What cannot be set, as the editor shows it.
     pub(super) fn shown(&self) -> Value {
         let Self { name, ty, value } = self;
@@ -42,33 +42,37 @@ impl Told {
 }
 
 /// The variables of an answer, or its clocks and connections: the list with this name.
-pub(super) fn told(answer: &Value, list: &str) -> Vec<Told> {
+pub(super) fn reported(answer: &Value, list: &str) -> Vec<ReportedVariable> {
     let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
     let all = answer.get(list).and_then(Value::as_array).cloned().unwrap_or_default();
     all.iter()
-        .map(|value| Told { name: text(value, "name"), ty: text(value, "type"), value: text(value, "value") })
+        .map(|value| ReportedVariable {
+            name: text(value, "name"),
+            ty: text(value, "type"),
+            value: text(value, "value"),
+        })
         .collect()
 }
 
 /// A variable with its name. An array of several dimensions, which is reported flat, is in rows.
-pub(super) fn variable(told: Told) -> (String, Variable) {
-    let sizes = told.ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse().ok());
-    let value = Literal::parse(&told.value).in_rows(&sizes.collect::<Vec<usize>>());
-    (told.name, Variable { ty: told.ty, value })
+pub(super) fn variable(reported: ReportedVariable) -> (String, Variable) {
+    let sizes = reported.ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse().ok());
+    let value = Literal::parse(&reported.value).in_rows(&sizes.collect::<Vec<usize>>());
+    (reported.name, Variable { ty: reported.ty, value })
 }
 
 /// The global variables of a file, as the program reports them: the file, variables, clocks and connections.
-type ToldFile = (String, Vec<Told>, Vec<Told>);
+type ReportedFile = (String, Vec<ReportedVariable>, Vec<ReportedVariable>);
 
 /// Variables by their names.
 type Named = Vec<(String, Variable)>;
 
 impl Seen<'_> {
-    fn all_files(&mut self) -> Result<Vec<ToldFile>, String> {
+    fn all_files(&mut self) -> Result<Vec<ReportedFile>, String> {
         let answer = self.process.ask("globals", &[&self.frame.channel.to_string()])?;
         let files = answer.get("files").and_then(Value::as_array).cloned().unwrap_or_default();
         let name = |file: &Value| file.get("file").and_then(Value::as_str).unwrap_or_default().to_owned();
-        Ok(files.iter().map(|file| (name(file), told(file, "variables"), told(file, "handles"))).collect())
+        Ok(files.iter().map(|file| (name(file), reported(file, "variables"), reported(file, "handles"))).collect())
     }
 
     /// The files that have global variables or constants.
@@ -81,9 +85,9 @@ impl Seen<'_> {
     }
 
     /// The variables of a file with its constants, and its clocks and connections.
-    pub(super) fn of_file(&mut self, file: &str) -> Result<(Named, Vec<Told>), String> {
-        let told = self.all_files()?.into_iter().find(|(known, ..)| known == file);
-        let (_, all, handles) = told.unwrap_or_default();
+    pub(super) fn of_file(&mut self, file: &str) -> Result<(Named, Vec<ReportedVariable>), String> {
+        let reported = self.all_files()?.into_iter().find(|(known, ..)| known == file);
+        let (_, all, handles) = reported.unwrap_or_default();
         let mut found: Named = all.into_iter().map(variable).collect();
         for (name, ty, value) in global_constants(self.program, file) {
             if !found.iter().any(|(known, _)| known.eq_ignore_ascii_case(&name)) {
@@ -95,7 +99,7 @@ impl Seen<'_> {
 
     pub(super) fn all_system(&mut self) -> Result<Named, String> {
         let answer = self.process.ask("system", &[&self.frame.channel.to_string()])?;
-        Ok(told(&answer, "variables").into_iter().map(variable).collect())
+        Ok(reported(&answer, "variables").into_iter().map(variable).collect())
     }
 
     /// The file that declares what a name means here: in the module that is named, else in this file, else in its data
@@ -145,7 +149,7 @@ impl Source for Seen<'_> {
         let file = self.file_of(module, name).ok_or_else(missing)?;
         let (variables, handles) = self.of_file(&file)?;
         let variable = variables.into_iter().find(|(known, _)| is(known)).map(|(_, variable)| variable);
-        let handle = || handles.iter().find(|handle| is(&handle.name)).map(Told::as_variable);
+        let handle = || handles.iter().find(|handle| is(&handle.name)).map(ReportedVariable::as_variable);
         variable.or_else(handle).ok_or_else(missing)
     }
 

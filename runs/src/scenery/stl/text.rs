@@ -8,7 +8,7 @@ const SOLID: &[u8] = b"solid";
 /// Where the binary form has the number of triangles; no text has a byte 0 there.
 const COUNT_OF_BYTES: std::ops::Range<usize> = 80..84;
 /// How much of a word is shown.
-const TOLD: usize = 40;
+const SHOWN_CHARS: usize = 40;
 
 /// Whether it is text: the binary form, too, may begin with the word.
 pub(super) fn is_text(bytes: &[u8]) -> bool {
@@ -91,7 +91,7 @@ impl Word<'_> {
     }
 
     fn instead_of(self, wanted: &str) -> String {
-        let text: String = String::from_utf8_lossy(self.text).chars().take(TOLD).collect();
+        let text: String = String::from_utf8_lossy(self.text).chars().take(SHOWN_CHARS).collect();
         let hint = if wanted.contains("endloop") && self.is("vertex") { "; STL has triangles only" } else { "" };
         format!("line {}: expected {wanted}, found `{}`{hint}", self.line, text.escape_debug())
     }
@@ -149,9 +149,9 @@ impl<'a> Words<'a> {
     }
 
     fn take(&mut self, wanted: &str) -> Result<(), String> {
-        let told = format!("`{wanted}`");
-        let word = self.need(&told)?;
-        if word.is(wanted) { Ok(()) } else { Err(word.instead_of(&told)) }
+        let quoted = format!("`{wanted}`");
+        let word = self.need(&quoted)?;
+        if word.is(wanted) { Ok(()) } else { Err(word.instead_of(&quoted)) }
     }
 
     /// Whether this word ends something: `endloop`, or `end loop`, of which it then takes the second word.
@@ -172,8 +172,8 @@ impl<'a> Words<'a> {
     }
 
     fn take_end(&mut self, of: &str) -> Result<(), String> {
-        let told = format!("`end{of}`");
-        let word = self.need(&told)?;
-        if self.is_end(word, of) { Ok(()) } else { Err(word.instead_of(&told)) }
+        let quoted = format!("`end{of}`");
+        let word = self.need(&quoted)?;
+        if self.is_end(word, of) { Ok(()) } else { Err(word.instead_of(&quoted)) }
     }
 }

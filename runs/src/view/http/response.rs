@@ -72,12 +72,12 @@ impl Response {
         let until = Instant::now() + limit;
         for mut piece in std::iter::once(head.as_bytes()).chain(body.chunks(PIECE)) {
             while !piece.is_empty() {
-                let left = until.saturating_duration_since(Instant::now());
-                if left.is_zero() {
+                let remaining = until.saturating_duration_since(Instant::now());
+                if remaining.is_zero() {
                     return Err(io::ErrorKind::TimedOut.into());
                 }
                 // Set for each write: `write_all` would start the time again with every byte that is taken.
-                stream.set_write_timeout(Some(left))?;
+                stream.set_write_timeout(Some(remaining))?;
                 match stream.write(piece) {
                     Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
                     Ok(count) => piece = piece.get(count..).unwrap_or_default(),

@@ -13,8 +13,8 @@ impl Answers for Echo {
     fn answer(&self, request: &Request) -> (Rank, Response) {
         let Request { method, path, query, body, .. } = request;
         let rank = if method == "POST" { Rank::Orders } else { Rank::Reader };
-        let said = format!("{method} {path} {query} {}", String::from_utf8_lossy(body));
-        (rank, Response::text(Status::Ok, &said))
+        let request = format!("{method} {path} {query} {}", String::from_utf8_lossy(body));
+        (rank, Response::text(Status::Ok, &request))
     }
 }
 
@@ -68,7 +68,7 @@ fn requests_come_one_after_the_other_in_pieces_of_any_size() {
 }
 
 #[test]
-fn what_is_no_request_is_told_so() {
+fn what_is_no_request_is_refused() {
     let address = serving();
     let long = format!("GET /{} HTTP/1.1\r\n\r\n", "a".repeat(1 << 15));
     for (text, status) in [

@@ -40,7 +40,7 @@ impl Teacher {
     pub(super) fn answer(&self, path: &[&str], order: Option<&str>) -> Answer {
         let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         let answer = match (path, order) {
-            (["points"], None) => Ok(Answer::json(&points::told(&files))),
+            (["points"], None) => Ok(Answer::json(&points::read_all(&files))),
             (["place"], Some(order)) => read::<AskedPose>(order)
                 .and_then(|asked| place::place(self.robot(asked.channel)?, &asked))
                 .map(|place| Answer::json(&place)),
@@ -49,8 +49,8 @@ impl Teacher {
                 .map(|map| Answer::json(&map)),
             (["save"], Some(order)) => read::<Vec<Change>>(order)
                 .and_then(|changes| files.save(&changes))
-                .map(|()| Answer::json(&points::told(&files))),
-            (["undo"], Some(_)) => files.undo().map(|()| Answer::json(&points::told(&files))),
+                .map(|()| Answer::json(&points::read_all(&files))),
+            (["undo"], Some(_)) => files.undo().map(|()| Answer::json(&points::read_all(&files))),
             _ => return Answer::NotFound,
         };
         answer.unwrap_or_else(Answer::Refused)

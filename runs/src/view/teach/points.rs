@@ -183,10 +183,10 @@ fn expect_known(bytes: &[u8], change: &Change, family: Family) -> Result<(), Str
     // Texts that cannot be read are reported where the value is replaced.
     let Ok(text) = arl_lang::text::decode(bytes) else { return Ok(()) };
     let (name, file) = (&change.name, &change.file);
-    let mut told = Points::default();
-    told.read(file, &text, family);
+    let mut known = Points::default();
+    known.read(file, &text, family);
     let is = |own: &str, asked: &str| own.eq_ignore_ascii_case(asked);
-    let Some(point) = told.points.iter().find(|one| is(&one.name, name) && is(&one.r#type, &change.r#type)) else {
+    let Some(point) = known.points.iter().find(|one| is(&one.name, name) && is(&one.r#type, &change.r#type)) else {
         return Ok(());
     };
     if !point.plain {
@@ -285,19 +285,19 @@ pub(in crate::view) struct Mounted {
 }
 
 /// The points, tools and workpieces of all files.
-pub(super) fn told(files: &Files) -> Points {
-    let mut told = Points { undo: files.steps.len(), ..Points::default() };
+pub(super) fn read_all(files: &Files) -> Points {
+    let mut found = Points { undo: files.steps.len(), ..Points::default() };
     for path in &files.paths {
         let name = files.name(path);
         let text = read(path).and_then(|bytes| {
             arl_lang::text::decode(&bytes).map(std::borrow::Cow::into_owned).map_err(|error| format!("{name}: {error}"))
         });
         match text {
-            Ok(text) => told.read(&name, &text, files.family),
-            Err(why) => told.troubles.push(why),
+            Ok(text) => found.read(&name, &text, files.family),
+            Err(why) => found.troubles.push(why),
         }
     }
-    told
+    found
 }
 
 impl Points {

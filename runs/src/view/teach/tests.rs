@@ -39,7 +39,7 @@ impl Drop for Folder {
     }
 }
 
-fn told(answer: Answer) -> Result<Value, String> {
+fn json_of(answer: Answer) -> Result<Value, String> {
     match answer {
         Answer::Json(text) => Ok(serde_json::from_str(&text).unwrap()),
         Answer::Refused(why) => Err(why),
@@ -48,22 +48,22 @@ fn told(answer: Answer) -> Result<Value, String> {
 }
 
 fn ask(teacher: &Teacher, what: &str, order: &Value) -> Result<Value, String> {
-    told(teacher.answer(&[what], Some(&order.to_string())))
+    json_of(teacher.answer(&[what], Some(&order.to_string())))
 }
 
 #[test]
-fn points_tools_and_workpieces_are_told() {
+fn points_tools_and_workpieces_are_reported() {
     let folder = Folder::new("told");
-    let told = told(folder.teacher().answer(&["points"], None)).unwrap();
-    let feeder = &told["points"][1];
+    let points = json_of(folder.teacher().answer(&["points"], None)).unwrap();
+    let feeder = &points["points"][1];
     assert_eq!((feeder["name"].as_str(), feeder["type"].as_str()), (Some("feeder"), Some("pose")));
     assert_eq!(feeder["values"], json!({"x": 900.0, "y": -500.0, "z": 400.0, "a": 0.0, "b": 180.0, "c": 0.0}));
-    assert_eq!(told["points"][0]["values"]["j2"], -90.0);
-    assert_eq!(told["points"][2]["values"], json!({}));
+    assert_eq!(points["points"][0]["values"]["j2"], -90.0);
+    assert_eq!(points["points"][2]["values"], json!({}));
     let frames: Vec<_> =
-        told["frames"].as_array().unwrap().iter().map(|frame| (&frame["name"], &frame["other"])).collect();
+        points["frames"].as_array().unwrap().iter().map(|frame| (&frame["name"], &frame["other"])).collect();
     assert_eq!(frames, [(&json!("grip"), &json!(false)), (&json!("held"), &json!(true))]);
-    assert_eq!(told["frames"][0]["placed"][2], 120.0);
+    assert_eq!(points["frames"][0]["placed"][2], 120.0);
 }
 
 #[test]
@@ -80,8 +80,8 @@ fn a_point_is_written_where_it_stands_and_taken_back() {
     .unwrap();
     let moved = POINTS.replace("{x 900, y -500, z 400, a 0, b 180, c 0}", "{x 950, y -500, z 0, cfg 1}");
     assert_eq!(folder.text(), moved);
-    let told = ask(&teacher, "save", &change("LATER", json!({}), json!({"x": 1.5}))).unwrap();
-    assert_eq!((folder.text(), told["undo"].as_u64()), (moved.replace("pose later", "pose later = {x 1.5}"), Some(2)));
+    let saved = ask(&teacher, "save", &change("LATER", json!({}), json!({"x": 1.5}))).unwrap();
+    assert_eq!((folder.text(), saved["undo"].as_u64()), (moved.replace("pose later", "pose later = {x 1.5}"), Some(2)));
     ask(&teacher, "undo", &json!({})).unwrap();
     assert_eq!(folder.text(), moved);
     ask(&teacher, "undo", &json!({})).unwrap();

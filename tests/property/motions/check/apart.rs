@@ -33,7 +33,7 @@ pub(super) struct Excursion {
     /// Whether it leads to where the robot was stopped.
     pub(super) returns: bool,
     /// When the input went on, in s.
-    pub(super) told: Option<f64>,
+    pub(super) input_at: Option<f64>,
     /// The part of the program that it interrupted.
     pub(super) section: usize,
 }
@@ -156,7 +156,7 @@ impl<'a> Apart<'a> {
     /// Begins an excursion behind a row.
     fn begin(&mut self, stop: &Row, of: Of, t: f64) {
         let handler = if let Of::Handler(handler) = of { Some(handler) } else { None };
-        let told = handler.and_then(|_| self.scenario.inputs().filter(|(at, _)| *at < t).last());
+        let input = handler.and_then(|_| self.scenario.inputs().filter(|(at, _)| *at < t).last());
         self.open = Some(Excursion {
             stop: stop.clone(),
             rows: Vec::new(),
@@ -165,15 +165,15 @@ impl<'a> Apart<'a> {
             blends: self.current.is_some_and(|current| self.may_blend(current, stop)),
             target: None,
             returns: true,
-            told: told.map(|(at, _)| at),
+            input_at: input.map(|(at, _)| at),
             section: self.parts.sections.len() - 1,
         });
     }
 
     /// Whether another input went on while an excursion was under way.
     fn is_nested(&self, open: &Excursion, end: f64) -> bool {
-        let Some(told) = open.told else { return false };
-        self.scenario.inputs().any(|(at, _)| at > told && at < end)
+        let Some(input_at) = open.input_at else { return false };
+        self.scenario.inputs().any(|(at, _)| at > input_at && at < end)
     }
 
     /// Ends an excursion before `then`; whether the program begins again behind it.
@@ -211,9 +211,9 @@ impl<'a> Apart<'a> {
     /// Says where an excursion of a handler leads to, behind which the program begins again or does not.
     fn skip(&self, open: &mut Excursion, handler: usize, begins: bool) -> Result<bool, String> {
         let handler = &self.plan.handlers[handler];
-        let told = self.scenario.inputs().find(|(at, _)| Some(*at) == open.told).map(|(_, input)| input);
-        if told != Some(handler.input) {
-            return Err(format!("{} s: handler {} moves, but input {told:?} went on", open.stop.t, handler.input));
+        let input = self.scenario.inputs().find(|(at, _)| Some(*at) == open.input_at).map(|(_, input)| input);
+        if input != Some(handler.input) {
+            return Err(format!("{} s: handler {} moves, but input {input:?} went on", open.stop.t, handler.input));
         }
         let next = self.next_at(&open.stop);
         if handler.skip > 0 && next.is_some() {
@@ -266,8 +266,8 @@ impl<'a> Apart<'a> {
         let stopped = self.next_at(stand).map_or([None; 2], |next| self.stopped_at(stand, next));
         // There is always one to drop where a motion was under way.
         let drops_all = |skip: usize| stopped.iter().flatten().any(|at| skip > self.plan.ahead(*at));
-        let told = self.scenario.inputs().filter(|(at, _)| *at < row.t).last();
-        let handler = self.plan.handlers.iter().find(|handler| told.is_some_and(|(_, input)| input == handler.input));
+        let input = self.scenario.inputs().filter(|(at, _)| *at < row.t).last();
+        let handler = self.plan.handlers.iter().find(|handler| input.is_some_and(|(_, input)| input == handler.input));
         match handler {
             Some(handler) if drops_all(handler.skip) => Ok(()),
             _ => Err(format!("{} s: the program begins again", row.t)),

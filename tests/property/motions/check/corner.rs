@@ -38,7 +38,7 @@ impl<'a> Corner<'a> {
             _ if leg.rests => Reach::None,
             Zone::None => Reach::None,
             Zone::Distance(size) => Reach::Tcp(size),
-            Zone::Several(slip) => Reach::OneOf(slip),
+            Zone::Measures(slip) => Reach::OneOf(slip),
             Zone::Percent(_) if is_gate(leg) || is_gate(next) => Reach::Unknown,
             Zone::Percent(part) => {
                 let half = part / 200.0;
@@ -51,11 +51,13 @@ impl<'a> Corner<'a> {
                     (false, false) => {
                         let ends = [at.checked_sub(1), Some(at), Some(at + 1)];
                         let ends: Option<Vec<&Vec<f64>>> = ends.into_iter().map(|at| legs[at?].axes.as_ref()).collect();
-                        let way = |a: &[f64], b: &[f64], i: usize| (a[i] - b[i]).abs() * half;
+                        let half_distance = |a: &[f64], b: &[f64], i: usize| (a[i] - b[i]).abs() * half;
                         match ends.as_deref() {
-                            Some([a, b, c]) => {
-                                Reach::Axes((0..b.len()).map(|i| way(a, b, i).max(way(b, c, i)) + EXACT).collect())
-                            }
+                            Some([a, b, c]) => Reach::Axes(
+                                (0..b.len())
+                                    .map(|i| half_distance(a, b, i).max(half_distance(b, c, i)) + EXACT)
+                                    .collect(),
+                            ),
                             _ => Reach::Unknown,
                         }
                     }
@@ -67,7 +69,7 @@ impl<'a> Corner<'a> {
     }
 
     /// Whether a row of a motion may be off its path for this corner.
-    pub(super) fn holds(&self, row: &Row, of: &Leg) -> bool {
+    pub(super) fn allows_deviation(&self, row: &Row, of: &Leg) -> bool {
         match &self.reach {
             Reach::None => false,
             Reach::Tcp(size) => distance(&row.tcp, &of.own_tcp(self.leg)) <= size + PATH,
@@ -86,7 +88,7 @@ impl<'a> Corner<'a> {
     }
 
     /// What is wrong with a row at which the path is left: the zone is the nearest of what was asked for.
-    pub(super) fn left_too_early(&self, row: &Row, of: &Leg, tally: &mut Tally) -> Option<String> {
+    pub(super) fn exited_too_early(&self, row: &Row, of: &Leg, tally: &mut Tally) -> Option<String> {
         let slip = match &self.reach {
             Reach::Tcp(size) => Slip { pdis: *size, ..Slip::default() },
             Reach::OneOf(slip) => *slip,

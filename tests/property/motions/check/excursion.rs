@@ -33,13 +33,13 @@ impl Account<'_> {
         let mut legs = vec![begin];
         let handler = excursion.handler.map(|handler| &plan.handlers[handler]);
         // Somebody jogged on the way back: nobody knows that way in parts.
-        let ways = motions(&rows);
-        let is_way = |range: &Range<usize>| handler.is_none() && rows[range.start].line != 0;
-        let torn = ways.iter().filter(|range| is_way(range)).count() > 1;
+        let ranges = motions(&rows);
+        let returns = |range: &Range<usize>| handler.is_none() && rows[range.start].line != 0;
+        let torn = ranges.iter().filter(|range| returns(range)).count() > 1;
         let mut own = handler.map_or(&[][..], |handler| &handler.motions).iter();
         // The row up to which its own motions have led.
         let mut moved = PREFIX - 1;
-        for range in ways {
+        for range in ranges {
             let row = &rows[range.end - 1];
             let mut leg = if row.line == 0 {
                 let mut leg = Leg::at(robot, &row.axes, &jogging(robot, &program[excursion.stopped]));
@@ -49,8 +49,8 @@ impl Account<'_> {
                 });
                 let before = &rows[range.start - 1].axes;
                 let is = |(axis, by): (usize, f64)| {
-                    let ways = row.axes.iter().zip(before).enumerate();
-                    largest(ways.map(|(i, (to, from))| to - from - if i == axis { by } else { 0.0 })) < EXACT
+                    let changes = row.axes.iter().zip(before).enumerate();
+                    largest(changes.map(|(i, (to, from))| to - from - if i == axis { by } else { 0.0 })) < EXACT
                 };
                 let jogged = jogged.into_iter().find(|jogged| is(*jogged));
                 if let Some((axis, _)) = jogged.filter(|(axis, _)| *axis >= robot.own) {
@@ -62,7 +62,7 @@ impl Account<'_> {
                 }
                 leg
             } else if handler.is_none_or(|handler| handler.start == row.line) {
-                way(robot, program, excursion, (stopped, row.line))
+                return_leg(robot, program, excursion, (stopped, row.line))
             } else {
                 let mut next = || own.next().map(|motion| Leg::of(robot, plan, motion));
                 let more = || format!("{} s: line {} moves once more", row.t, row.line);
@@ -119,7 +119,7 @@ fn motions(rows: &[Row]) -> Vec<Range<usize>> {
 }
 
 /// The way to the place of the stop, or to a later target: straight for motions of the TCP.
-fn way(robot: &Robot, program: &[Leg], excursion: &Excursion, (stopped, line): (usize, usize)) -> Leg {
+fn return_leg(robot: &Robot, program: &[Leg], excursion: &Excursion, (stopped, line): (usize, usize)) -> Leg {
     let like = &program[excursion.target.unwrap_or(stopped)];
     let mut leg = match excursion.target {
         Some(_) => like.clone(),

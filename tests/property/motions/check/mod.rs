@@ -104,9 +104,9 @@ pub(crate) fn check(
         match Account::of_section(robot, &legs, section) {
             Ok(mut account) => {
                 account.note_fast_stops(&windows);
-                let told: Vec<&Excursion> =
+                let excursions: Vec<&Excursion> =
                     parts.excursions.iter().filter(|excursion| excursion.section == at).collect();
-                account.check(scenario, &told, &mut faults, tally);
+                account.check(scenario, &excursions, &mut faults, tally);
                 if let Some(undisturbed) = undisturbed.filter(|_| at == 0 && scenario.stepped_until().is_none()) {
                     faults.extend(compare(undisturbed, &section.rows, tally));
                 }
@@ -289,14 +289,14 @@ impl<'a> Account<'a> {
     }
 
     /// Looks at everything.
-    fn check(&mut self, scenario: &Scenario, told: &[&Excursion], faults: &mut Vec<String>, tally: &mut Tally) {
+    fn check(&mut self, scenario: &Scenario, excursions: &[&Excursion], faults: &mut Vec<String>, tally: &mut Tally) {
         if !scenario.events.is_empty() {
             let shares = scenario.shares();
             self.disturb(&shares);
             if scenario.stepped_until().is_none() {
                 faults.extend(stops(self, scenario, tally));
             }
-            self.stopmoves(told, faults, tally);
+            self.stopmoves(excursions, faults, tally);
         }
         if self.stray > EXACT {
             faults.push(format!("a tool that stands is {} mm, deg elsewhere", self.stray));
@@ -414,8 +414,9 @@ impl Leg {
 fn turns_back(legs: &[Leg]) -> bool {
     let [before, here, after] = legs else { return false };
     let spline = |leg: &Leg| leg.motion.kind == Kind::Spl && leg.motion.setting == here.motion.setting;
-    let way = |from: &Leg, to: &Leg| here.own_tcp(to).translation.vector - here.own_tcp(from).translation.vector;
-    spline(here) && spline(after) && way(before, here).angle(&way(here, after)).to_degrees() > 150.0
+    let displacement =
+        |from: &Leg, to: &Leg| here.own_tcp(to).translation.vector - here.own_tcp(from).translation.vector;
+    spline(here) && spline(after) && displacement(before, here).angle(&displacement(here, after)).to_degrees() > 150.0
 }
 
 fn largest(values: impl Iterator<Item = f64>) -> f64 {

@@ -15,18 +15,19 @@ type Path<'a> = Box<dyn Fn(&Row) -> f64 + 'a>;
 /// The corners of a motion: where it is entered, and where it is left for the next one.
 struct Corners<'a> {
     entered: Corner<'a>,
-    left: Option<Corner<'a>>,
+    exited: Option<Corner<'a>>,
 }
 
 impl<'a> Corners<'a> {
     fn of(account: &'a Account<'_>, at: usize) -> Self {
-        let left = (at + 1 < account.legs.len()).then(|| Corner::new(account, at));
-        Self { entered: Corner::new(account, at - 1), left }
+        let exited = (at + 1 < account.legs.len()).then(|| Corner::new(account, at));
+        Self { entered: Corner::new(account, at - 1), exited }
     }
 
     /// Whether a row of the motion may be off its path for one of them.
-    fn hold(&self, row: &Row, of: &Leg) -> bool {
-        self.entered.holds(row, of) || self.left.as_ref().is_some_and(|corner| corner.holds(row, of))
+    fn allow_deviation(&self, row: &Row, of: &Leg) -> bool {
+        self.entered.allows_deviation(row, of)
+            || self.exited.as_ref().is_some_and(|corner| corner.allows_deviation(row, of))
     }
 }
 
@@ -43,7 +44,7 @@ impl Account<'_> {
         let place = |at: usize| {
             let leg = &self.legs[at];
             let corners = Corners::of(self, at);
-            let is_on = |row: &Row| row.line == leg.motion.line && !corners.hold(row, leg);
+            let is_on = |row: &Row| row.line == leg.motion.line && !corners.allow_deviation(row, leg);
             let own: Vec<usize> = leg.rows.clone().filter(|at| is_on(&self.rows[*at])).collect();
             own.get(own.len() / 2).copied()
         };
@@ -69,20 +70,20 @@ impl Account<'_> {
                 beside = None;
                 continue;
             }
-            if !corners.hold(row, leg) && fault.is_none_or(|(most, _)| far > most) {
+            if !corners.allow_deviation(row, leg) && fault.is_none_or(|(most, _)| far > most) {
                 fault = Some((far, row));
             }
             beside = beside.or(Some(row));
         }
         tally.note_many(note, on, worst);
         if let Some((far, row)) = fault {
-            let corners = [Some(&corners.entered), corners.left.as_ref()].into_iter().flatten();
+            let corners = [Some(&corners.entered), corners.exited.as_ref()].into_iter().flatten();
             let corners: Vec<String> = corners.map(|corner| corner.tell(row, leg)).collect();
             faults.push(format!("line {line}, {} s: {far} off the path; {}", row.t, corners.join("; ")));
         }
         // Where the path is left for good, all that the zone asks for must be met.
-        if let (Some(row), Some(corner)) = (beside.filter(|_| leg.reached), &corners.left)
-            && let Some(fault) = corner.left_too_early(row, leg, tally)
+        if let (Some(row), Some(corner)) = (beside.filter(|_| leg.reached), &corners.exited)
+            && let Some(fault) = corner.exited_too_early(row, leg, tally)
         {
             faults.push(format!("line {line}, {} s: {fault}", row.t));
         }
@@ -108,11 +109,14 @@ impl Account<'_> {
                         // A way on the spot.
                         (false, turn) if turn > ALONG => (turned(&start, &row.tcp) / turn).min(1.0),
                         _ => {
-                            let ways = before.external.iter().zip(&leg.external).map(|(from, to)| to - from);
+                            let travels = before.external.iter().zip(&leg.external).map(|(from, to)| to - from);
                             let done =
                                 row.axes[self.robot.own..].iter().zip(&before.external).map(|(is, from)| is - from);
-                            let all = ways.zip(done).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-                            all.map_or(0.0, |(way, done)| if way == 0.0 { 0.0 } else { (done / way).clamp(0.0, 1.0) })
+                            let all = travels.zip(done).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+                            all.map_or(
+                                0.0,
+                                |(travel, done)| if travel == 0.0 { 0.0 } else { (done / travel).clamp(0.0, 1.0) },
+                            )
                         }
                     };
                     let mut place = start.lerp_slerp(&end, share);
@@ -182,11 +186,11 @@ impl Account<'_> {
 
 /// How far an axis is off the straight line between two positions of the axes.
 fn off_joint_line(from: &[f64], to: &[f64], at: &[f64]) -> f64 {
-    let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
-    let square: f64 = way.iter().map(|way| way * way).sum();
-    let done: f64 = at.iter().zip(from).zip(&way).map(|((at, from), way)| (at - from) * way).sum();
+    let delta: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+    let square: f64 = delta.iter().map(|delta| delta * delta).sum();
+    let done: f64 = at.iter().zip(from).zip(&delta).map(|((at, from), delta)| (at - from) * delta).sum();
     let share = if square > 0.0 { (done / square).clamp(0.0, 1.0) } else { 0.0 };
-    largest(at.iter().zip(from).zip(&way).map(|((at, from), way)| at - from - way * share))
+    largest(at.iter().zip(from).zip(&delta).map(|((at, from), delta)| at - from - delta * share))
 }
 
 impl Leg {

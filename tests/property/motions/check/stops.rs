@@ -132,9 +132,9 @@ impl Account<'_> {
     }
 
     /// A `stopmove` brakes at once.
-    pub(super) fn stopmoves(&self, told: &[&Excursion], faults: &mut Vec<String>, tally: &mut Tally) {
-        for excursion in told {
-            let Some(at) = excursion.told else { continue };
+    pub(super) fn stopmoves(&self, excursions: &[&Excursion], faults: &mut Vec<String>, tally: &mut Tally) {
+        for excursion in excursions {
+            let Some(at) = excursion.input_at else { continue };
             let (from, to) = (self.row_at(at), self.row_at(excursion.stop.t) + 1);
             let least = self.least_stop(from);
             let moving =
@@ -192,8 +192,8 @@ pub(super) fn stops(account: &Account<'_>, scenario: &Scenario, tally: &mut Tall
         let took = (stands - from) as f64 * CYCLE;
         tally.note("stops: time / least time of an axis alone", took / least);
         tally.note("stops: s", took);
-        let way = largest(rows[stands].axes.iter().zip(&rows[from].axes).map(|(a, b)| a - b));
-        tally.note("stops: way of an axis, deg (mm)", way);
+        let travel = largest(rows[stands].axes.iter().zip(&rows[from].axes).map(|(a, b)| a - b));
+        tally.note("stops: way of an axis, deg (mm)", travel);
         if took > LONGER * least {
             faults.push(format!("{at} s: it stands after {took} s, {least} is the least"));
         }

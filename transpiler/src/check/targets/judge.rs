@@ -2,7 +2,7 @@
 
 use crate::diagnostics::targets::TargetProblem;
 use arl_robot::Robot;
-use arl_robot::frames::{Carried, StraightWay};
+use arl_robot::frames::{Carried, StraightPath};
 use arl_robot::kinematics::{Axes, Frame, RANGE_SLACK, Refusal};
 
 /// Closer to a singular point than this, the pose does not determine all axes; they are then where the path has led
@@ -100,8 +100,8 @@ fn beyond_range(robot: &Robot, axes: &Axes) -> Option<(usize, f64, f64)> {
 
 /// The singular point that a line passes.
 pub(super) fn line(robot: &Robot, line: &TcpLine<'_>) -> Option<TargetProblem> {
-    let start = line.carried.way_at(&robot.kinematics.forward(line.start));
-    let way = StraightWay::new(line.carried, start, &line.end);
-    let (at, axes) = way.singular_point(robot, line.cfg, line.start)?;
+    let start = line.carried.path_frame_at(&robot.kinematics.forward(line.start));
+    let path = StraightPath::new(line.carried, start, &line.end);
+    let (at, axes) = path.singular_point(robot, line.cfg, line.start)?;
     Some(TargetProblem::singular(robot, at, robot.kinematics.nearest_singularity(&axes)))
 }

@@ -16,7 +16,7 @@ use arl_robot::kinematics::Frame;
 
 /// How a motion reaches its target.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Way {
+enum Approach {
     /// By the axes, to the configuration given in the target.
     Axes,
     /// Along a path, in the configuration of the start.
@@ -230,9 +230,9 @@ impl<'a> Walk<'a, '_> {
         }
         match kind {
             Motion::Joint => self.joint_target(motion),
-            Motion::PointToPoint | Motion::Jump => self.pose_target(motion, Way::Axes, before.1),
-            Motion::Line | Motion::Spline => self.pose_target(motion, Way::Path, before.1),
-            Motion::Arc if self.facts.arcs_turn_to_targets => self.pose_target(motion, Way::Path, before.1),
+            Motion::PointToPoint | Motion::Jump => self.pose_target(motion, Approach::Axes, before.1),
+            Motion::Line | Motion::Spline => self.pose_target(motion, Approach::Path, before.1),
+            Motion::Arc if self.facts.arcs_turn_to_targets => self.pose_target(motion, Approach::Path, before.1),
             // The end of such an arc is not known from its instruction alone.
             Motion::Arc | Motion::JoinedArc => {}
         }
@@ -252,7 +252,7 @@ impl<'a> Walk<'a, '_> {
         self.stands(axes);
     }
 
-    fn pose_target(&mut self, motion: &'a Builtin, way: Way, start: Option<[f64; 6]>) {
+    fn pose_target(&mut self, motion: &'a Builtin, approach: Approach, start: Option<[f64; 6]>) {
         if !self.facts.plain_frames || argument(motion, "ca").is_some() {
             return;
         }
@@ -261,10 +261,10 @@ impl<'a> Walk<'a, '_> {
         let Some(pose) = self.scope.pose(target) else { return };
         let setting = Setting::new(tool, wobj, Frame::identity());
         let Ok(flange) = setting.flange_of(&pose.frame) else { return };
-        let cfg = match way {
-            Way::Path => self.state.cfg,
-            Way::Axes if !self.facts.as_taught => None,
-            Way::Axes => match pose.cfg.map(u8::try_from) {
+        let cfg = match approach {
+            Approach::Path => self.state.cfg,
+            Approach::Axes if !self.facts.as_taught => None,
+            Approach::Axes => match pose.cfg.map(u8::try_from) {
                 None => None,
                 Some(Ok(cfg)) => Some(cfg),
                 Some(Err(_)) => {
@@ -289,7 +289,7 @@ impl<'a> Walk<'a, '_> {
                         self.report_target(motion, target, problem);
                     }
                 }
-                if (way == Way::Axes || self.is_plain_line()) && argument(motion, "sig").is_none() {
+                if (approach == Approach::Axes || self.is_plain_line()) && argument(motion, "sig").is_none() {
                     self.stands(axes);
                 }
             }

@@ -189,9 +189,9 @@ impl<'p> Body<'p, '_> {
         numbers: &HashMap<&Shape, usize>,
         lead: Lead<'_>,
     ) -> TokenStream {
-        let led = kinds.iter().any(|kind| uses_variable(&kind.code, &lead.name.to_string()));
-        let lead_type = led.then(|| lead.ty.clone());
-        let lead_name = led.then(|| lead.name.to_token_stream());
+        let uses_lead = kinds.iter().any(|kind| uses_variable(&kind.code, &lead.name.to_string()));
+        let lead_type = uses_lead.then(|| lead.ty.clone());
+        let lead_name = uses_lead.then(|| lead.name.to_token_stream());
         let family = self.family();
         let (declared, row_type, pattern, code) = match kinds {
             [kind] => {
@@ -213,7 +213,7 @@ impl<'p> Body<'p, '_> {
             }
         };
         let text = entries.iter().map(|entry| {
-            let first = led.then(|| entry.lead.to_string());
+            let first = uses_lead.then(|| entry.lead.to_string());
             let kind = numbers.get(entry.shape).and_then(|number| kinds.get(*number));
             let columns = kind.map_or(&[][..], |kind| kind.columns.as_slice());
             let values = columns.iter().filter_map(|(at, _)| Some(self.in_column(entry.holes.get(*at)?.filling)));

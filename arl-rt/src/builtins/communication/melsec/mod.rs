@@ -43,7 +43,7 @@ struct Talk {
     pc: u8,
     asked: Option<Asked>,
     /// The errors of the PLC that have been reported to the user.
-    told: HashSet<String>,
+    reported: HashSet<String>,
 }
 
 /// A request without an answer so far.
@@ -155,7 +155,7 @@ impl MelsecDev {
             }
             if code != 0 {
                 let text = format!("{function}: the PLC refused the request with code {code:04x}h");
-                if talk.told.len() < super::MAX_TOLD_PROBLEMS && talk.told.insert(text.clone()) {
+                if talk.reported.len() < super::MAX_REPORTED_ERRORS && talk.reported.insert(text.clone()) {
                     let (file, line) = cx.place();
                     cx.shared().warn(format!("{text} ({}:{line})", file.name()));
                 }

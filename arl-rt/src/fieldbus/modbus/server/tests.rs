@@ -226,7 +226,7 @@ fn a_port_that_is_taken_is_an_error() {
 }
 
 #[test]
-fn nothing_is_left_of_a_server() {
+fn nothing_remains_of_a_server() {
     let (server, _) = server(1);
     let address = server.address();
     let mut stream = client(&server);

@@ -216,7 +216,7 @@ fn a_spline_through_points_on_a_line_is_a_line() {
 }
 
 #[test]
-fn the_way_of_a_spline_does_not_depend_on_when_its_motions_come() {
+fn the_path_of_a_spline_does_not_depend_on_when_its_motions_come() {
     let robot = robot("kr10-r1420");
     let poses = bends(&robot, 6);
     let slow = |pose: &[f64; 6]| Command { speed: Speed { tcp: 250.0, ..fast() }, ..spl(*pose) };

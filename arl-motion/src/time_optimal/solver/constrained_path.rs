@@ -55,7 +55,7 @@ impl Row {
 /// Where a derivative jumps, the place has the rows of both sides. Limits hold at the places, and between them as far
 /// as the derivatives change linearly from place to place.
 #[derive(Clone, Default, Debug)]
-pub struct Way {
+pub struct ConstrainedPath {
     at: Vec<f64>,
     rows: Vec<Row>,
     ends: Vec<usize>,
@@ -63,7 +63,7 @@ pub struct Way {
     sides: Vec<[usize; 2]>,
 }
 
-impl Way {
+impl ConstrainedPath {
     /// Creates a path without places.
     pub fn new() -> Self {
         Self::default()
@@ -146,11 +146,11 @@ impl Way {
     /// The path with acceleration and jerk limits times `stop_scale`.
     #[must_use]
     pub fn hardened(&self, stop_scale: f64) -> Self {
-        let mut way = self.clone();
-        for row in &mut way.rows {
+        let mut path = self.clone();
+        for row in &mut path.rows {
             (row.acc, row.jerk) = (row.acc * stop_scale, row.jerk * stop_scale);
         }
-        way
+        path
     }
 
     /// Lowers limits that a motion uses too much of. `used` contains stretches from one parameter to another with the
@@ -177,7 +177,7 @@ impl Way {
     /// The path as it is timed with jerk limits: none of its accelerations rises at once near rest. The square of the
     /// warped parameter's speed would have a pole there.
     pub(crate) fn rising_beside_rest(&self, edges: [BoundaryState; 2]) -> Cow<'_, Self> {
-        let mut way = Cow::Borrowed(self);
+        let mut path = Cow::Borrowed(self);
         let last = self.at.len().saturating_sub(1);
         for (index, edge) in [0, last].into_iter().zip(edges) {
             let Some(rest) = self.at.get(index).filter(|_| edge.rests()) else { continue };
@@ -193,11 +193,11 @@ impl Way {
             let behind = self.at.partition_point(|at| *at <= rest + near);
             let start = from.checked_sub(1).and_then(|before| self.ends.get(before)).copied().unwrap_or_default();
             let end = behind.checked_sub(1).and_then(|last| self.ends.get(last)).copied().unwrap_or_default();
-            for row in way.to_mut().rows.get_mut(start..end).unwrap_or_default() {
+            for row in path.to_mut().rows.get_mut(start..end).unwrap_or_default() {
                 row.jerk = row.jerk.min(row.acc / RISE_BESIDE_REST_S);
             }
         }
-        way
+        path
     }
 
     /// The path with only those places that are to be kept.
@@ -254,30 +254,30 @@ mod tests {
 
     #[test]
     fn limits_are_lowered_beside_a_stretch_but_not_at_the_first_place() {
-        let mut way = Way::new();
+        let mut path = ConstrainedPath::new();
         for at in 0..6 {
-            way.push(f64::from(at), [Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 }]);
+            path.push(f64::from(at), [Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 }]);
         }
-        let jerks = |way: &Way| (0..6).map(|index| way.rows(index)[0].jerk).collect::<Vec<f64>>();
-        way.lower(&[([2.5, 2.5], 2.0)], 1.0);
-        assert_eq!(jerks(&way), [1.0, 1.0, 0.5, 0.5, 1.0, 1.0]);
-        way.lower(&[([0.2, 0.3], 2.0)], 1.0);
-        assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.5, 1.0, 1.0]);
-        way.lower(&[([4.0, 5.0], 2.0)], 1.0);
-        assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.25, 0.5, 0.5]);
-        way.lower(&[([9.0, 9.0], 2.0)], 1.0);
-        assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.25, 0.5, 0.25]);
+        let jerks = |path: &ConstrainedPath| (0..6).map(|index| path.rows(index)[0].jerk).collect::<Vec<f64>>();
+        path.lower(&[([2.5, 2.5], 2.0)], 1.0);
+        assert_eq!(jerks(&path), [1.0, 1.0, 0.5, 0.5, 1.0, 1.0]);
+        path.lower(&[([0.2, 0.3], 2.0)], 1.0);
+        assert_eq!(jerks(&path), [1.0, 0.5, 0.5, 0.5, 1.0, 1.0]);
+        path.lower(&[([4.0, 5.0], 2.0)], 1.0);
+        assert_eq!(jerks(&path), [1.0, 0.5, 0.5, 0.25, 0.5, 0.5]);
+        path.lower(&[([9.0, 9.0], 2.0)], 1.0);
+        assert_eq!(jerks(&path), [1.0, 0.5, 0.5, 0.25, 0.5, 0.25]);
     }
 
     #[test]
     fn a_place_has_the_rows_of_both_sides() {
         let row = |first: f64| Row { first, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 };
-        let mut way = Way::new();
-        way.push(0.0, [row(1.0)]);
-        way.push_jump(1.0, [row(2.0), row(3.0), row(4.0)], 1);
-        way.push(2.0, [row(5.0), row(6.0)]);
+        let mut path = ConstrainedPath::new();
+        path.push(0.0, [row(1.0)]);
+        path.push_jump(1.0, [row(2.0), row(3.0), row(4.0)], 1);
+        path.push(2.0, [row(5.0), row(6.0)]);
         let firsts = |rows: &[Row]| rows.iter().map(|row| row.first).collect::<Vec<f64>>();
-        let sides = |index: usize| [way.rows_before(index), way.rows(index), way.rows_behind(index)].map(firsts);
+        let sides = |index: usize| [path.rows_before(index), path.rows(index), path.rows_behind(index)].map(firsts);
         assert_eq!(sides(0), [vec![1.0], vec![1.0], vec![1.0]]);
         assert_eq!(sides(1), [vec![2.0], vec![2.0, 3.0, 4.0], vec![3.0, 4.0]]);
         assert_eq!(sides(2), [vec![5.0, 6.0], vec![5.0, 6.0], vec![5.0, 6.0]]);

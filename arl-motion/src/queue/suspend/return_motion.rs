@@ -34,7 +34,7 @@ pub(crate) struct ReturnMotion {
 
 impl SuspendedMotion {
     /// The motions that have not ended, the stopped one first.
-    pub(crate) fn left(&self) -> impl Iterator<Item = &Asked> {
+    pub(crate) fn remaining(&self) -> impl Iterator<Item = &Asked> {
         let executed = self.layer.path.current().map_or(0, |(segment, _)| segment.number);
         let first = executed.max(self.layer.finished + 1);
         self.layer.requests.asked.iter().chain(&self.layer.requests.anew).filter(move |asked| asked.number >= first)
@@ -42,28 +42,28 @@ impl SuspendedMotion {
 
     /// Whether none of its own motions is left, and something below it is to be continued.
     pub(crate) fn leads_on(&self) -> bool {
-        self.layer.requests.going || (!self.layer.requests.starts.is_empty() && self.left().next().is_none())
+        self.layer.requests.going || (!self.layer.requests.starts.is_empty() && self.remaining().next().is_none())
     }
 
     pub(crate) fn skipped(&self, skip: u32) -> Skipped<'_> {
         let Some(last) = skip.checked_sub(1) else { return Skipped::None };
-        match self.left().nth(last as usize) {
+        match self.remaining().nth(last as usize) {
             Some(last) => Skipped::To(last),
             // Where no motion was left, there is nothing to drop.
-            None if self.left().next().is_none() => Skipped::None,
+            None if self.remaining().next().is_none() => Skipped::None,
             None => Skipped::Beyond,
         }
     }
 
     /// The return motion to the place of the stop; `None` where the robot is there.
-    pub(crate) fn way_back(&self, robot: &Robot, here: &Joints) -> Option<ReturnMotion> {
+    pub(crate) fn return_motion(&self, robot: &Robot, here: &Joints) -> Option<ReturnMotion> {
         if *here == self.joints {
             return None;
         }
         // Where no motion was left, the return motion is like the last one.
-        let asked = self.left().next().or_else(|| self.layer.requests.asked.back());
+        let asked = self.remaining().next().or_else(|| self.layer.requests.asked.back());
         Some(match asked {
-            Some(asked) => asked.way_back_to(robot, &self.joints),
+            Some(asked) => asked.return_motion_to(robot, &self.joints),
             None => ReturnMotion {
                 asked: Settings::default(),
                 command: slowly_to(self.joints, self.layer.execution.rig),
@@ -75,9 +75,9 @@ impl SuspendedMotion {
 
 impl Asked {
     /// The return motion to a place on this motion: straight for a motion of the TCP.
-    pub(crate) fn way_back_to(&self, robot: &Robot, place: &Joints) -> ReturnMotion {
+    pub(crate) fn return_motion_to(&self, robot: &Robot, place: &Joints) -> ReturnMotion {
         let target = if self.goes_straight() {
-            let tcp = self.command.rig.carried.way_at(&robot.kinematics.forward(&place.axes));
+            let tcp = self.command.rig.carried.path_frame_at(&robot.kinematics.forward(&place.axes));
             Target::Line { pose: [0.0; 6], wobj: tcp, external: place.external }
         } else {
             Target::Joints(*place)
@@ -86,10 +86,10 @@ impl Asked {
     }
 
     /// The motion to its target.
-    pub(crate) fn way_to(&self, robot: &Robot) -> ReturnMotion {
+    pub(crate) fn motion_to_target(&self, robot: &Robot) -> ReturnMotion {
         match self.command.target {
             Target::Gate { .. } => ReturnMotion { asked: self.settings, command: self.command.clone(), end: None },
-            _ => self.way_back_to(robot, &self.end),
+            _ => self.return_motion_to(robot, &self.end),
         }
     }
 

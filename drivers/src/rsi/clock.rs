@@ -22,7 +22,7 @@ pub(super) fn longest_wait(period: f64) -> Duration {
 /// A clock whose cycles begin when the robot sends. A missing message is a lost cycle: the motion does not continue
 /// without it. Without a message for 30 ms and three cycles, cycles continue at their own rate: then the controller
 /// notices that positions are missing, and the run ends.
-pub struct RsiBeat {
+pub struct RsiClock {
     link: Rc<RefCell<Link>>,
     /// When the last message was due, or arrived.
     point: Option<Instant>,
@@ -30,13 +30,13 @@ pub struct RsiBeat {
     lateness: Lateness,
 }
 
-impl RsiBeat {
+impl RsiClock {
     pub(super) fn new(link: Rc<RefCell<Link>>) -> Self {
         Self { link, point: None, silent: false, lateness: Lateness::default() }
     }
 }
 
-impl Clock for RsiBeat {
+impl Clock for RsiClock {
     fn wait_for(&mut self, _cycle: u64, period: f64) {
         let mut link = self.link.borrow_mut();
         let now = Instant::now();
@@ -64,10 +64,10 @@ impl Clock for RsiBeat {
             return;
         }
         self.lateness.note(if received.was_there { came.saturating_duration_since(due) } else { Duration::ZERO });
-        let beats = (received.step as f64 / (period * 1e3)).round() as u64;
+        let cycles = (received.step as f64 / (period * 1e3)).round() as u64;
         // Messages that waited together were sent in time, but not taken; the others have not arrived.
-        let waited = received.count.clamp(1, beats.max(1)) - 1;
-        let missing = beats.saturating_sub(1 + waited);
+        let waited = received.count.clamp(1, cycles.max(1)) - 1;
+        let missing = cycles.saturating_sub(1 + waited);
         if waited > 0 {
             self.lateness.note_lost(waited);
         }
@@ -92,8 +92,8 @@ impl Clock for RsiBeat {
     }
 }
 
-impl fmt::Debug for RsiBeat {
+impl fmt::Debug for RsiClock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RsiBeat").finish_non_exhaustive()
+        f.debug_struct("RsiClock").finish_non_exhaustive()
     }
 }
