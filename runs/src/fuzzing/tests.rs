@@ -158,8 +158,21 @@ fn changed_recordings() {
     writer.finish().unwrap();
     drop(writer);
     let store = playback::of(&mut &*bytes, bytes.len() as u64).unwrap();
-    assert_eq!((store.tracks.len(), store.motions.len(), store.trouble), (1, 1, None));
+    assert_eq!((store.tracks.len(), store.motions.len(), store.problem), (1, 1, None));
     rounds(&[bytes], recording);
+}
+
+/// Found by a fuzzer: the head of an attachment takes all its bytes but three.
+#[test]
+fn an_attachment_without_room_for_its_checksum_is_refused() {
+    let mut bytes = b"\x89MCAP0\r\n".to_vec();
+    let attachment = [&[0; 16][..], &[1, 0, 0, 0, b'a'], &[1, 0, 0, 0, b'b'], &[0; 8], &[0; 3]].concat();
+    bytes.push(mcap::records::op::ATTACHMENT);
+    bytes.extend((attachment.len() as u64).to_le_bytes());
+    bytes.extend(attachment);
+    let refused = playback::of(&mut &*bytes, bytes.len() as u64).map(|_| ()).unwrap_err();
+    assert_eq!(refused, "an attachment is shorter than it says");
+    recording(&bytes);
 }
 
 #[test]

@@ -36,12 +36,35 @@ pub(crate) fn read(path: &Path) -> Result<Store, Failure> {
 pub(crate) fn of(file: &mut impl Read, size: u64) -> Result<Store, String> {
     let mut store = Store::default();
     let mut reading = Reading { store: &mut store, topics: HashMap::new() };
-    let trouble = reading.read_all(file, size).err();
+    let problem = reading.read_all(file, size).err();
     if store.cell.channels.is_empty() {
-        return Err(trouble.unwrap_or_else(|| "it has no data about robots or programs (topic /arl/cell)".to_owned()));
+        return Err(problem.unwrap_or_else(|| "it has no data about robots or programs (topic /arl/cell)".to_owned()));
     }
-    store.trouble = trouble.map(|why| format!("the recording ends after {:.3} s: {why}", store.end));
+    store.problem = problem.map(|why| format!("the recording ends after {:.3} s: {why}", store.end));
     Ok(store)
+}
+
+/// The record with this kind and content.
+fn parsed(opcode: u8, data: &[u8]) -> Result<Record<'_>, String> {
+    // The library takes for granted that there is room for a checksum behind the head of an attachment.
+    if opcode == mcap::records::op::ATTACHMENT && !has_room_for_checksum(data) {
+        return Err("an attachment is shorter than it says".to_owned());
+    }
+    mcap::parse_record(opcode, data).map_err(|error| error.to_string())
+}
+
+/// Whether an attachment has 4 bytes behind its head: two times, name and type, each with its length, and the length of
+/// the content.
+fn has_room_for_checksum(data: &[u8]) -> bool {
+    let rest = |data: &'_ [u8]| -> Option<usize> {
+        let mut rest = data.get(2 * size_of::<u64>()..)?;
+        for _ in 0..2 {
+            let (length, behind) = rest.split_first_chunk::<{ size_of::<u32>() }>()?;
+            rest = behind.get(usize::try_from(u32::from_le_bytes(*length)).ok()?..)?;
+        }
+        Some(rest.len())
+    };
+    rest(data).is_some_and(|rest| rest >= size_of::<u64>() + size_of::<u32>())
 }
 
 /// A file that is being read.
@@ -61,12 +84,10 @@ impl Reading<'_> {
                     let read = file.read(reader.insert(wanted)).map_err(|error| error.to_string())?;
                     reader.notify_read(read);
                 }
-                LinearReadEvent::Record { data, opcode } => {
-                    match mcap::parse_record(opcode, data).map_err(|error| error.to_string())? {
-                        Record::Chunk { header, data } => self.chunk(&header.compression, &data)?,
-                        record => self.record(record)?,
-                    }
-                }
+                LinearReadEvent::Record { data, opcode } => match parsed(opcode, data)? {
+                    Record::Chunk { header, data } => self.chunk(&header.compression, &data)?,
+                    record => self.record(record)?,
+                },
             }
         }
         Ok(())
@@ -83,7 +104,7 @@ impl Reading<'_> {
             let [opcode, length @ ..] = *head;
             let length = usize::try_from(u64::from_le_bytes(length)).unwrap_or(usize::MAX);
             let Some((data, behind)) = behind.split_at_checked(length) else { break };
-            self.record(mcap::parse_record(opcode, data).map_err(|error| error.to_string())?)?;
+            self.record(parsed(opcode, data)?)?;
             rest = behind;
         }
         if rest.is_empty() { Ok(()) } else { Err("a record reaches beyond its chunk".to_owned()) }
