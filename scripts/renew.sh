@@ -6,6 +6,8 @@ cd "$(dirname "$0")/.."
 
 # The parser, first: all else is compiled with it.
 cargo run --quiet --package arl-lang --example renew_grammar
+# What brings arguments to the runtime for the engine.
+cargo run --quiet --package arl-engine --example renew_adapters && cargo fmt --package arl-engine
 # The Rust of the emitter's cases and of the examples, the pages of the reference, the words of editors; the types of the
 # page of the view.
 UPDATE_EMITTED=1 UPDATE_GENERATED=1 UPDATE_REFERENCE=1 UPDATE_WORDS=1 \

@@ -4,6 +4,7 @@ use arl_project::listing::MOST_SHOWN;
 use arl_project::options::{Checking, Mode, RunOptions, clearance};
 use arl_terminal::answer::Format;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 /// Robot programs in ARL: checked, turned into Rust, compiled and run.
@@ -162,6 +163,15 @@ pub(crate) enum Command {
         #[arg(long)]
         check: bool,
     },
+    /// Run the code of a program, with the options of a compiled one.
+    #[command(hide = true)]
+    Engine {
+        /// The file with the code.
+        bundle: PathBuf,
+        /// The options.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        words: Vec<OsString>,
+    },
     /// Serve an editor: the language server protocol on standard input and output.
     Lsp,
     /// Debug a program for an editor: the debug adapter protocol on standard input and output.
@@ -260,6 +270,18 @@ pub(crate) struct TestOptions {
     /// Emit programs as for a debugger.
     #[arg(long, hide = true)]
     pub debug: bool,
+    /// How the programs are run.
+    #[arg(long, value_enum)]
+    pub engine: Option<EngineChoice>,
+}
+
+/// How programs are run.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
+pub(crate) enum EngineChoice {
+    /// At once, from their code.
+    Engine,
+    /// Compiled with rustc.
+    Native,
 }
 
 /// How test results are shown.

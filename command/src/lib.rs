@@ -5,6 +5,7 @@ mod check;
 mod clean;
 mod collisions;
 mod emit;
+mod engine;
 mod explain;
 mod fmt;
 pub mod host;
@@ -45,6 +46,10 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
             return u8::try_from(error.exit_code()).unwrap_or(Exit::USAGE.0);
         }
     };
+    if let Command::Engine { bundle, words } = cli.command {
+        interrupt::leave_to_the_program();
+        return engine::run(&bundle, words).unwrap_or_else(|failure: Failure| failure.report()).0;
+    }
     remember_panics();
     interrupt::end_the_command();
     let done = on_large_stack(|| guard(|| dispatch(cli.command)));
@@ -73,6 +78,7 @@ fn dispatch(command: Command) -> Result<Exit, Failure> {
         Command::New { folder } => done(new::new(&folder)),
         Command::Fmt { files, check } => fmt::fmt(&files, check),
         Command::View { files, options } => view::view(&files, &options),
+        Command::Engine { bundle, words } => engine::run(&bundle, words),
         Command::Lsp => Ok(lsp::lsp()),
         Command::Dap => Ok(dap::dap()),
         Command::Robots { import: Some(file), .. } => print(urdf::import(&file)),

@@ -68,6 +68,15 @@ fn all_cases_in_the_forms_of_large_programs() {
     assert!(failures.is_empty(), "{} of the cases failed\n{}", failures.len(), failures.join("\n"));
 }
 
+#[test]
+fn the_engine_does_the_same() {
+    let usual = LazyLock::force(&RUN);
+    let engine = run(&["--engine", "engine"]);
+    assert_eq!(engine.looked_at, usual.looked_at, "{}", engine.output_text);
+    let failures: Vec<String> = engine.failures.iter().map(|(path, why)| format!("{path}\n{why}\n")).collect();
+    assert!(failures.is_empty(), "{} of the cases failed\n{}", failures.len(), failures.join("\n"));
+}
+
 /// The folders whose cases are run as for a debugger, too: those in which functions, loops and events meet.
 const FOR_A_DEBUGGER: [&str; 8] =
     ["arrays", "clocks", "control", "enums", "functions", "interrupts", "scopes", "triggers"];

@@ -59,7 +59,7 @@ fn nobody() -> Box<dyn Program> {
     Box::new(Fill::default())
 }
 
-arl_library::library!(make, [Other { file: "other.arl", folder: "", make: nobody }], ".");
+arl_library::library!(make, [Other { file: "other.arl", folder: "", make: &nobody }], ".");
 
 fn library() -> Library {
     // SAFETY: it is what the function gave, and a static.

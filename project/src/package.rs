@@ -71,7 +71,7 @@ pub fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &Path) -
 /// The entry of an additional program, which became this module.
 pub fn other(other: &EmittedOther, module: &str) -> String {
     let EmittedOther { file, folder, .. } = other;
-    let make = format!("|| Box::new({module}::Globals::new())");
+    let make = format!("&|| Box::new({module}::Globals::new())");
     format!("arl_rt::emit::program_main::Other {{ file: {file:?}, folder: {folder:?}, make: {make} }},")
 }
 

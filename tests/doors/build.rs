@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             *build = std::mem::take(build).program_as(&module, &other.path);
             writeln!(built, "mod {module} {{ arl_rt::include_arl!(\"{module}\"); }}")?;
             writeln!(expanded, "mod {module} {{ arl_rt::arl_file!({:?}, {robot}); }}", other.path)?;
-            let make = format!("|| Box::new({module}::Globals::new())");
+            let make = format!("&|| Box::new({module}::Globals::new())");
             let entry = format!("Other {{ file: {:?}, folder: \"\", make: {make} }},", other.file);
             others.0 += &entry;
             others.1 += &entry;
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let build = builds.entry(scara).or_default();
         *build = std::mem::take(build).program_as(&name, source);
         writeln!(built, "mod {name} {{ arl_rt::include_arl!(\"{name}\"); }}")?;
-        writeln!(tables.0, "    (|| Box::new({name}::Globals::new()), {source:?}, 0, &[{}]),", others.0)?;
+        writeln!(tables.0, "    (&|| Box::new({name}::Globals::new()), {source:?}, 0, &[{}]),", others.0)?;
 
         let text = std::fs::read(source)?;
         let robot = if scara { "scara" } else { "six_axis" };
@@ -60,7 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 0
             }
         };
-        writeln!(tables.1, "    (|| Box::new({name}::Globals::new()), {source:?}, {offset}, &[{}]),", others.1)?;
+        writeln!(tables.1, "    (&|| Box::new({name}::Globals::new()), {source:?}, {offset}, &[{}]),", others.1)?;
     }
     for (scara, build) in builds {
         build.family(if scara { Family::Scara } else { Family::SixAxis }).warnings(false).compile();

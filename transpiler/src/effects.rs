@@ -7,7 +7,9 @@ pub(crate) mod graph;
 pub(crate) mod growth;
 pub(crate) mod loops;
 pub(crate) mod parts;
+pub(crate) mod pointer;
 pub(crate) mod ranges;
+pub(crate) mod recursion;
 mod walks;
 pub(crate) mod watched;
 

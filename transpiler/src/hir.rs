@@ -97,6 +97,25 @@ impl Type {
     pub const fn element(&self) -> Type {
         Type::scalar(self.base)
     }
+
+    /// The approximate size of a value in memory, in bytes.
+    pub fn bytes(&self, family: Family) -> usize {
+        bytes(self.base, family).saturating_mul(self.len())
+    }
+}
+
+fn bytes(base: Base, family: Family) -> usize {
+    match base {
+        Base::Void => 0,
+        Base::Bool | Base::Byte | Base::Enum(_) => 1,
+        Base::Int | Base::Uint => 4,
+        Base::Double => 8,
+        Base::String => 24,
+        Base::Handle(_) => 32,
+        Base::Struct(id) => {
+            id.def(family).components.iter().map(|component| bytes(component.ty, family).next_multiple_of(4)).sum()
+        }
+    }
 }
 
 /// A checked program: one file with a `main` and everything that it uses.

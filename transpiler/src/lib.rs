@@ -14,6 +14,8 @@ pub mod emit;
 pub mod format;
 pub mod hir;
 pub mod index;
+#[cfg(feature = "tools")]
+pub mod lower;
 mod near;
 pub mod operators;
 #[cfg(feature = "tools")]

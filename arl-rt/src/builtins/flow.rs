@@ -81,6 +81,11 @@ impl Wait<'_> {
     pub fn late(&self) -> bool {
         self.over.is_some_and(|over| self.cx.cycle() >= over)
     }
+
+    /// The first cycle in which the longest time is over, if there is one.
+    pub fn over(&self) -> Option<u64> {
+        self.over
+    }
 }
 
 /// `pause`: waits until all planned motion has ended, then until the start button is pressed.

@@ -10,6 +10,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
+use std::time::SystemTime;
 
 use crate::builtins::time;
 use crate::command::between::{Between, CycleOrder};
@@ -18,7 +19,7 @@ use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
 use crate::command::polling::Polling;
 use crate::command::report;
-use crate::command::say::{say, say_condition};
+use crate::command::say::{self, say, say_condition};
 use crate::command::serve;
 use crate::context::output::{Output, Stream};
 use crate::context::program::Program;
@@ -133,13 +134,38 @@ pub fn main_named<P: Program + 'static>(
     start(program, others, script_dir, None)
 }
 
+/// As `main_named`, with the words of a command line that is not that of this process: for programs that are part of
+/// another command. Programs of other files are those of `others`; the sources are as they were at `made`.
+pub fn main_within<P: Program + 'static>(
+    words: Vec<OsString>,
+    program: impl Fn() -> P + Send,
+    others: &[Other],
+    script_dir: &str,
+    made: SystemTime,
+) -> ExitCode {
+    say::made_at(made);
+    if words.iter().eq(["--serve"]) {
+        return serve::serve(move || Box::new(program()) as Box<dyn Program>, others, script_dir);
+    }
+    start_with(words, program, others, script_dir, None)
+}
+
 fn start<P: Program + 'static>(
     program: impl FnOnce() -> P + Send,
     others: &[Other],
     script_dir: &str,
     watching: Option<Watching>,
 ) -> ExitCode {
-    let arguments = std::env::args_os().skip(1);
+    start_with(std::env::args_os().skip(1).collect(), program, others, script_dir, watching)
+}
+
+fn start_with<P: Program + 'static>(
+    arguments: Vec<OsString>,
+    program: impl FnOnce() -> P + Send,
+    others: &[Other],
+    script_dir: &str,
+    watching: Option<Watching>,
+) -> ExitCode {
     let options = match parse(arguments, script_dir) {
         Ok(Some(options)) => options,
         Ok(None) => {

@@ -2,6 +2,8 @@
 //! about.
 
 use std::path::Path;
+use std::sync::OnceLock;
+use std::time::SystemTime;
 
 use crate::command::asked;
 use crate::command::live::Recording;
@@ -76,10 +78,21 @@ pub(super) fn say_condition(controller: &Controller, sources: &Path, waiting: &S
     std::iter::once(line.clone()).chain(lines).collect()
 }
 
+/// When the program was made, if it is not the executable of this process.
+static MADE: OnceLock<SystemTime> = OnceLock::new();
+
+/// Sets when the program was made: lines of files that are newer are not shown.
+pub(super) fn made_at(time: SystemTime) {
+    let _ = MADE.set(time);
+}
+
 /// The text of a file, unless it was changed since the program was compiled.
 fn source(file: &Path) -> Option<String> {
     let about = file.metadata().ok().filter(|about| about.is_file() && about.len() <= LARGEST_FILE)?;
-    let compiled = std::env::current_exe().ok()?.metadata().ok()?.modified().ok()?;
+    let compiled = match MADE.get() {
+        Some(made) => *made,
+        None => std::env::current_exe().ok()?.metadata().ok()?.modified().ok()?,
+    };
     if about.modified().ok()? > compiled {
         return None;
     }

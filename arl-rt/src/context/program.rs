@@ -200,10 +200,10 @@ impl std::ops::BitOr for Beside {
 }
 
 /// Makes a program.
-pub type Make = fn() -> Box<dyn Program>;
+pub type Make = &'static (dyn Fn() -> Box<dyn Program> + Sync);
 
 /// A program in addition to the first one, for the channels of a cell file.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Other {
     /// Its file, by the name in the cell file.
     pub file: &'static str,
@@ -211,4 +211,10 @@ pub struct Other {
     pub folder: &'static str,
     /// The function that makes it.
     pub make: Make,
+}
+
+impl fmt::Debug for Other {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Other").field("file", &self.file).field("folder", &self.folder).finish_non_exhaustive()
+    }
 }

@@ -314,40 +314,63 @@ literals! { put_structure write_structure:
 
 impl<T: Literal + Typed + Clone, const N: usize, S: Store<T, N>> Literal for Array<T, N, S> {
     fn write(&self, out: &mut String) {
-        out.push('{');
-        for (at, element) in self.iter().enumerate() {
-            if at > 0 {
-                out.push(',');
-            }
-            element.write(out);
-        }
-        out.push('}');
+        write_array(self, out);
     }
 
     fn put(&mut self, value: &Expr, names: &Interner) -> Result<(), TeachError> {
-        let Err(error) = put_elements(self, &[N], value, names) else {
-            return Ok(());
-        };
-        // The sizes are not known here; full rows are unambiguous without them.
-        let mut rows: Vec<&BraceItem> = braces::<T>(self, value, names)?.iter().collect();
-        while !rows.is_empty() && rows.len() < N {
-            let Some(inner) = rows.iter().map(|row| row_of(row)).collect::<Option<Vec<_>>>() else {
-                break;
-            };
-            rows = inner.into_iter().flatten().collect();
-        }
-        if rows.len() != N {
-            return Err(error);
-        }
-        for (at, (place, item)) in self.iter_mut().zip(rows).enumerate() {
-            place.put(&item.value, names).map_err(|error| error.inside(&format!("[{at}]")))?;
-        }
-        Ok(())
+        put_array(self, &[], value, names)
     }
 
     fn put_nested(&mut self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        if sizes.is_empty() { self.put(value, names) } else { put_elements(self, sizes, value, names) }
+        put_array(self, sizes, value, names)
     }
+}
+
+/// Writes the elements of an array as a literal that can be read back.
+pub fn write_array<T: Literal>(elements: &[T], out: &mut String) {
+    out.push('{');
+    for (at, element) in elements.iter().enumerate() {
+        if at > 0 {
+            out.push(',');
+        }
+        element.write(out);
+    }
+    out.push('}');
+}
+
+/// Reads the literal of an array of these sizes, outermost first; without sizes, nested rows have to be full. Elements
+/// that it leaves out keep their value.
+///
+/// # Errors
+/// Returns what does not fit, and in which component.
+pub fn put_array<T: Literal + Typed + Clone>(
+    elements: &mut [T],
+    sizes: &[usize],
+    value: &Expr,
+    names: &Interner,
+) -> Result<(), TeachError> {
+    if !sizes.is_empty() {
+        return put_elements(elements, sizes, value, names);
+    }
+    let length = elements.len();
+    let Err(error) = put_elements(elements, &[length], value, names) else {
+        return Ok(());
+    };
+    // The sizes are not known here; full rows are unambiguous without them.
+    let mut rows: Vec<&BraceItem> = braces::<T>(elements, value, names)?.iter().collect();
+    while !rows.is_empty() && rows.len() < length {
+        let Some(inner) = rows.iter().map(|row| row_of(row)).collect::<Option<Vec<_>>>() else {
+            break;
+        };
+        rows = inner.into_iter().flatten().collect();
+    }
+    if rows.len() != length {
+        return Err(error);
+    }
+    for (at, (place, item)) in elements.iter_mut().zip(rows).enumerate() {
+        place.put(&item.value, names).map_err(|error| error.inside(&format!("[{at}]")))?;
+    }
+    Ok(())
 }
 
 /// The values of braces that may be a row.

@@ -17,7 +17,7 @@ mod watched;
 pub use array::{Array, SmallArray, Store};
 pub use cells::{Cells, SmallCells};
 pub use enums::*;
-pub use literal::Literal;
+pub use literal::{Literal, put_array, write_array};
 pub use scara::AsScara;
 pub use shared::Shared;
 pub use str::Str;

@@ -23,6 +23,8 @@ pub(super) struct EmittedCase {
 pub(super) struct Compiled {
     pub(super) program: PathBuf,
     pub(super) name: String,
+    /// The code of the case, where this command runs it.
+    pub(super) code: Option<PathBuf>,
 }
 
 /// The environment variable that names the case to run.
@@ -50,7 +52,7 @@ pub(super) fn compile(
                 .enumerate()
                 .map(|(at, name)| match (refused.get(&at), programs.get(&part_name(place, part(name, parts)))) {
                     (Some(errors), _) => Err(errors.clone()),
-                    (None, Some(program)) => Ok(Compiled { program: program.clone(), name: name.clone() }),
+                    (None, Some(program)) => Ok(Compiled { program: program.clone(), name: name.clone(), code: None }),
                     (None, None) => Err("cargo did not make its program".into()),
                 })
                 .collect());
@@ -98,7 +100,7 @@ fn part_name(place: &Place, part: usize) -> String {
 }
 
 /// A Rust name for a case: readable, and different for every path.
-fn name(source: &Path) -> String {
+pub(super) fn name(source: &Path) -> String {
     let mut hasher = DefaultHasher::new();
     source.hash(&mut hasher);
     let stem = source.file_stem().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
@@ -132,7 +134,7 @@ fn write(
             others += &package::other(other, &beside);
         }
         let folder = case.source.parent().unwrap_or(Path::new("/")).display().to_string();
-        *arms += &format!("        \"{name}\" => (|| Box::new({name}::Globals::new()), &[{others}], {folder:?}),\n");
+        *arms += &format!("        \"{name}\" => (&|| Box::new({name}::Globals::new()), &[{others}], {folder:?}),\n");
     }
     let start = if cases.iter().any(|case| case.rust.kind == Kind::Watched) { "main_watched" } else { "main_with" };
     for (part, (modules, arms)) in &programs {

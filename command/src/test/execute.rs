@@ -51,6 +51,9 @@ pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path, counts: 
         }
     }
     let mut command = Command::new(&compiled.program);
+    if let Some(code) = &compiled.code {
+        command.arg("engine").arg(code);
+    }
     command.env(CASE, &compiled.name).args(arguments(case));
     command.arg("--script-dir").arg(&script).arg("--state-dir").arg(folder.join("state"));
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());

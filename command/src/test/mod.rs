@@ -10,7 +10,9 @@ mod expect;
 mod judge;
 mod report;
 
-use crate::args::{Shard, TestOptions};
+use crate::args::{EngineChoice, Shard, TestOptions};
+use crate::engine;
+use arl_code::{Bundle, BundledProgram};
 use arl_project::cache::{Cache, Kind};
 use arl_project::cell_programs;
 use arl_project::options::Checking;
@@ -70,12 +72,25 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
         found.retain(|_| number.next().is_some_and(|number: usize| number % count == index));
     }
     let progress = Progress::start("checking");
+    let in_engine = options.engine == Some(EngineChoice::Engine);
+    let codes = PrivateFolder::new("arl2rs-test-");
+    let codes =
+        codes.map_err(|error| Failure::Other(format!("cannot make a temporary folder for the cases: {error}")))?;
     let mut done: Vec<Option<Done>> = Vec::new();
     let mut runs: Vec<(usize, &Case)> = Vec::new();
     let mut emitted = Vec::new();
+    let mut compiled = Vec::new();
     for (at, found) in found.iter().enumerate() {
         done.push(match &found.case {
             Err(problem) => Some(Done::failed(problem.clone())),
+            Ok(case) if case.runs() && in_engine => match coded(case, codes.path()) {
+                Ok(coded) => {
+                    runs.push((at, case));
+                    compiled.push(Ok(coded));
+                    None
+                }
+                Err(problem) => Some(Done::failed(problem)),
+            },
             Ok(case) if case.runs() => match emit(case, &emitting) {
                 Ok(rust) => {
                     runs.push((at, case));
@@ -88,7 +103,11 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
         });
     }
     let name = name_of_run(dirs, kept_as);
-    for ((at, _), ran) in runs.iter().zip(run_all(&name, &runs, &emitted, options, &progress)?) {
+    let all = match in_engine {
+        true => run_compiled(&runs, &compiled, options, &progress)?,
+        false => run_all(&name, &runs, &emitted, options, &progress)?,
+    };
+    for ((at, _), ran) in runs.iter().zip(all) {
         if let Some(slot) = done.get_mut(*at) {
             *slot = Some(ran);
         }
@@ -150,6 +169,29 @@ fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
     }
     let kind = if emitting.watched { Kind::Watched } else { Kind::Program };
     Ok(Emitted { first, others, kind })
+}
+
+/// The code of a case that should run, with the programs that its cell names, in a file of this folder.
+fn coded(case: &Case, folder: &Path) -> Result<batch::Compiled, String> {
+    let checking = checking(case);
+    let code = |file: &Path, checking: &Checking| {
+        let (compiled, code) = engine::code(file, &options(checking)?).map_err(message_of)?;
+        code.ok_or_else(|| format!("it does not compile:\n{}", shown_errors(&compiled)))
+    };
+    let main = code(&case.source, &checking)?;
+    let mut others = Vec::new();
+    for other in cell_programs::named(case.cell.as_deref(), checking.robot.as_deref()).map_err(message_of)? {
+        let code = code(&other.path, &other.checking(&checking)).map_err(|why| format!("{}: {why}", other.file))?;
+        let folder = other.folder(&case.source).map_err(message_of)?;
+        others.push(BundledProgram { file: other.file, folder, code });
+    }
+    let script_dir = case.source.parent().unwrap_or(Path::new("/")).display().to_string();
+    let name = batch::name(&case.source);
+    let path = folder.join(&name);
+    let bundle = Bundle { folder: script_dir, main, others };
+    std::fs::write(&path, bundle.to_bytes()).map_err(|error| error.to_string())?;
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    Ok(batch::Compiled { program, name, code: Some(path) })
 }
 
 fn rust(file: &Path, checking: &Checking, emitting: &EmitOptions) -> Result<String, String> {
@@ -218,6 +260,18 @@ fn run_all(
     progress.say(&format!("compiling {} cases", runs.len()));
     let runtime = Runtime::find().unpack(&cache)?;
     let compiled = batch::compile(&place, &runtime, emitted, progress)?;
+    let done = run_compiled(runs, &compiled, options, progress)?;
+    cache.keep_limit(&place, &runtime.give_back());
+    Ok(done)
+}
+
+/// Runs cases, several at once.
+fn run_compiled(
+    runs: &[(usize, &Case)],
+    compiled: &[Result<batch::Compiled, String>],
+    options: &TestOptions,
+    progress: &Progress,
+) -> Result<Vec<Done>, Failure> {
     let scratch = PrivateFolder::new("arl2rs-test-");
     let scratch =
         scratch.map_err(|error| Failure::Other(format!("cannot make a temporary folder for the cases: {error}")))?;
@@ -266,7 +320,6 @@ fn run_all(
             scope.spawn(work);
         }
     });
-    cache.keep_limit(&place, &runtime.give_back());
     if let Some(file) = &options.coverage {
         coverage.into_inner().unwrap_or_default().write(file)?;
     }

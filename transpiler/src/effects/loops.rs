@@ -1,5 +1,6 @@
 //! Determines which loops run a known number of rounds, and which must yield the cycle by themselves.
 
+use super::facts::{self, FactScope};
 use super::ranges::Ranges;
 use super::walks::Walks;
 use super::{flow, parts};
@@ -204,6 +205,13 @@ fn gives_back(stmt: &Stmt) -> bool {
         })
     };
     builtin.entry.effect == Effect::Plans || known_wait()
+}
+
+/// Whether a loop that counts alone takes a round before it evaluates its condition. It evaluates it once more after it
+/// has yielded the cycle, so a condition that changes something comes after.
+pub(crate) fn takes_first(scope: FactScope<'_>, condition: &Expr) -> bool {
+    let facts = facts::of_expr(scope, condition);
+    facts.changes || !facts.writes.is_empty()
 }
 
 /// A `for` that can be written as a Rust range.

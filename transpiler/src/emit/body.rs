@@ -8,6 +8,7 @@ use super::rows::Columns;
 use super::unit::Unit;
 use super::usage::Usage;
 use crate::effects::facts::{self, FactScope, Facts};
+use crate::effects::pointer;
 use crate::effects::ranges::Ranges;
 use crate::hir::{Expr, Func, FuncId, LocalId, ModuleId, Program, Value};
 use arl_lang::catalog::Family;
@@ -157,6 +158,17 @@ impl<'p, 'u> Body<'p, 'u> {
             return TokenStream::new();
         }
         self.line_statement()
+    }
+
+    /// `cx.line(FILE, n);` before a statement that evaluates this expression, if that needs the program pointer.
+    pub(super) fn pointer_for(&mut self, expr: &Expr) -> TokenStream {
+        // Calls that have become functions of their own set the pointer there.
+        debug_assert!(
+            self.unit.templates.are_used()
+                || self.position.acts == pointer::is_needed(self.scope(), &self.unit.movers, expr),
+            "{expr:?}"
+        );
+        self.pointer()
     }
 
     /// `cx.line(FILE, n);`

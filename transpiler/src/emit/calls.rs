@@ -6,7 +6,7 @@ use super::names::{field, ident};
 use super::sequence::{Mode, OrderedOperand};
 use super::types::{differs, is_copy, type_name};
 use super::written_back::Back;
-use crate::effects::facts;
+use crate::effects::pointer;
 use crate::hir::{Bound, Builtin, Expr, FuncId, Passed, Root, Type};
 use arl_lang::catalog::{Base, Effect, Entry, Kind, Mode as ParamMode, ParamType, Presence};
 use proc_macro2::TokenStream;
@@ -107,11 +107,7 @@ impl<'p> Body<'p, '_> {
 
     /// Whether evaluating an argument moves the program pointer away from this line.
     pub(super) fn moves_pointer(&self, arg: &'p Bound) -> bool {
-        let facts = match &arg.value {
-            Passed::Value(value) => self.facts(value),
-            Passed::Out(place) => facts::of_place(self.scope(), place),
-        };
-        facts.calls.iter().any(|id| self.unit.movers.get(id.0 as usize) == Some(&true))
+        pointer::moves(self.scope(), &self.unit.movers, arg)
     }
 
     /// The arguments, evaluated in the order of the program; with `ahead`, everything whose order matters is evaluated

@@ -4,7 +4,7 @@ use super::body::Body;
 use super::control_flow::Tail;
 use super::mentions;
 use super::tokens::mentions;
-use super::types::{base_type, bytes, is_number, rust_type};
+use super::types::{base_type, is_number, rust_type};
 use super::unit::Unit;
 use crate::effects::flow;
 use crate::hir::{Func, FuncId, LocalId, Stmt, StmtKind};
@@ -93,7 +93,7 @@ impl<'p> Body<'p, '_> {
         let ty = func.locals.get(id.0 as usize)?.ty;
         let name = self.local(id);
         if ty.is_array() {
-            let size = Literal::usize_unsuffixed(bytes(ty.base, self.family()).saturating_mul(ty.len()));
+            let size = Literal::usize_unsuffixed(ty.bytes(self.family()));
             return Some(quote!(#size));
         }
         let text = ty.base == Base::String && self.locals.usage.is_read(id);

@@ -76,11 +76,7 @@ impl<'p> Body<'p, '_> {
     ) -> (TokenStream, Option<TokenStream>) {
         let value = self.on_trial(|body| body.value_alone(condition));
         let pointer = self.pointer();
-        // A loop that counts alone evaluates its condition again after it has yielded the cycle.
-        let once = info.counts_alone() && {
-            let facts = self.facts(condition);
-            facts.changes || !facts.writes.is_empty()
-        };
+        let once = info.counts_alone() && loops::takes_first(self.scope(), condition);
         if pointer.is_empty() && value.before.is_empty() && !once {
             let value =
                 if halts { self.halt_or_pointer_leads(body, value) } else { self.or_pointer_leads(body, value) };

@@ -8,8 +8,8 @@ use super::sequence::Mode;
 use super::switch;
 use super::types::{rust_type, shared_type, shared_value, start_value};
 use super::waiting::ending;
-use crate::effects::flow;
-use crate::hir::{Expr, ExprKind, FuncId, LocalId, Stmt, StmtKind, Type, Value};
+use crate::effects::{flow, recursion};
+use crate::hir::{Expr, ExprKind, LocalId, Stmt, StmtKind, Type, Value};
 use arl_lang::catalog::Base;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
@@ -28,10 +28,7 @@ impl<'p> Body<'p, '_> {
 
     /// Whether a statement calls a function that may lead back to the current one.
     pub(super) fn calls_itself(&self, stmt: &Stmt) -> bool {
-        let funcs = &self.program().funcs;
-        let recursive = |id: &FuncId| funcs.get(id.0 as usize).is_some_and(|func| func.effects.recursive);
-        flow::expressions(stmt).any(|expr| self.facts(expr).calls.iter().any(recursive))
-            || flow::blocks(stmt).any(|block| block.iter().any(|stmt| self.calls_itself(stmt)))
+        recursion::leads_back(self.scope(), stmt)
     }
 
     /// An expression; afterwards the caller can ask whether it needs the program pointer.
@@ -184,7 +181,7 @@ impl<'p> Body<'p, '_> {
                 quote!(#before let _ = #tokens;)
             }
         };
-        let pointer = self.pointer();
+        let pointer = self.pointer_for(expr);
         quote!(#pointer #code)
     }
 
@@ -192,14 +189,14 @@ impl<'p> Body<'p, '_> {
     fn branches(&mut self, arms: &'p [(Expr, Vec<Stmt>)], otherwise: Option<&'p [Stmt]>, tail: Tail) -> TokenStream {
         let mut out = TokenStream::new();
         for (at, (condition, block)) in arms.iter().enumerate() {
-            let condition_span = condition.span;
+            let (condition_expr, condition_span) = (condition, condition.span);
             self.stand_at(condition_span);
             let value = self.value_alone(condition);
             let value = if self.form.frame.is_some() {
                 let pointer = if at == 0 { self.pointer() } else { TokenStream::new() };
                 self.halt_or_pointer_leads(block, value.after(pointer))
             } else if at == 0 {
-                let pointer = self.pointer();
+                let pointer = self.pointer_for(condition_expr);
                 let before = &value.before;
                 out = quote!(#pointer #before);
                 Fragment { before: TokenStream::new(), ..value }

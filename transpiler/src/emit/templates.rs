@@ -130,6 +130,11 @@ impl<'p> Templates<'p> {
         self.codes.push(OnceCell::new());
     }
 
+    /// Whether there are any.
+    pub(super) fn are_used(&self) -> bool {
+        !self.all.is_empty()
+    }
+
     /// Whether a call becomes a call of a template.
     pub(super) fn have(&self, expr: &Expr) -> bool {
         self.calls.contains_key(&std::ptr::from_ref(expr))

@@ -73,23 +73,8 @@ pub(super) fn differs(base: Base, family: Family) -> bool {
 
 /// `Array` or `SmallArray`.
 pub(super) fn array_type(ty: Type, family: Family) -> Ident {
-    let small = bytes(ty.base, family).saturating_mul(ty.len()) <= SMALL;
+    let small = ty.bytes(family) <= SMALL;
     ident(if small { "SmallArray" } else { "Array" })
-}
-
-/// The approximate size of a value in memory, in bytes.
-pub(super) fn bytes(base: Base, family: Family) -> usize {
-    match base {
-        Base::Void => 0,
-        Base::Bool | Base::Byte | Base::Enum(_) => 1,
-        Base::Int | Base::Uint => 4,
-        Base::Double => 8,
-        Base::String => 24,
-        Base::Handle(_) => 32,
-        Base::Struct(id) => {
-            id.def(family).components.iter().map(|component| bytes(component.ty, family).next_multiple_of(4)).sum()
-        }
-    }
 }
 
 /// The type of a global variable of this type: `Cell<i32>`, `Shared<Str>`, or the handle itself.

@@ -6,7 +6,8 @@ use super::calls::instruction_call;
 use super::fragment::{Fragment, Precedence};
 use super::places::{Calm, Written};
 use super::sequence::Mode;
-use crate::hir::{Bound, Builtin, Expr, ExprKind, Passed, Place, Value};
+use crate::effects::pointer;
+use crate::hir::{Builtin, Expr, Passed, Place};
 use arl_lang::catalog::{Form, Mode as ParamMode};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -30,13 +31,7 @@ impl<'p> Body<'p, '_> {
     /// A `jump` that checks its `sig` above the target; `None` if `sig` is always false.
     fn jump_with_sig(&mut self, builtin: &'p Builtin) -> Option<Fragment> {
         let entry = builtin.entry;
-        let is_condition =
-            |arg: &&Bound| entry.params.get(arg.param).map(|param| param.mode) == Some(ParamMode::Condition);
-        let sig = builtin.args.iter().find(is_condition)?;
-        let Passed::Value(condition) = &sig.value else { return None };
-        if matches!(condition.kind, ExprKind::Const(Value::Bool(false))) {
-            return None;
-        }
+        let condition = pointer::condition(builtin)?;
         let moved = builtin.args.iter().any(|arg| self.moves_pointer(arg));
         let (before, arguments) = self.arguments(builtin, moved);
         let line = moved.then(|| self.line_statement());

@@ -1,0 +1,145 @@
+//! The frames of running functions.
+
+use crate::engine::Engine;
+use crate::handles::Handle;
+use crate::reach::Reach;
+use arl_code::{Call, Extent, Function};
+use arl_rt::emit::{Cell, Cx, Rc, Str};
+use std::cell::RefCell;
+
+/// How many registers a function has.
+pub(crate) const REGISTERS: usize = 256;
+
+/// The most functions that may be nested.
+pub(crate) const MOST_CALLS: usize = 20_000;
+
+/// A variable that events see.
+pub(crate) struct Boxed {
+    pub(crate) words: Box<[Cell<u64>]>,
+    pub(crate) texts: Box<[RefCell<Str>]>,
+}
+
+impl Boxed {
+    pub(crate) fn new(extent: Extent) -> Self {
+        Self {
+            words: (0..extent.words).map(|_| Cell::new(0)).collect(),
+            texts: (0..extent.texts).map(|_| RefCell::default()).collect(),
+        }
+    }
+}
+
+/// Where a function runs: its next operation, and where its frame begins.
+#[derive(Clone, Copy, Default, Debug)]
+pub(crate) struct Position {
+    pub(crate) at: usize,
+    pub(crate) function: usize,
+    pub(crate) register: usize,
+    pub(crate) word: usize,
+    pub(crate) text: usize,
+    pub(crate) handle: usize,
+    pub(crate) boxed: usize,
+}
+
+/// A function that waits for another one to return.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Caller {
+    pub(crate) position: Position,
+    /// The line of the call.
+    pub(crate) line: u32,
+    /// What the called function holds.
+    pub(crate) held: usize,
+}
+
+/// The frames of the functions of one thread of execution: a program, a condition, an action.
+#[derive(Default)]
+pub(crate) struct State {
+    pub(crate) registers: Vec<u64>,
+    pub(crate) words: Vec<u64>,
+    pub(crate) texts: Vec<Str>,
+    pub(crate) handles: Vec<Option<Rc<Handle>>>,
+    pub(crate) boxes: Vec<Option<Rc<Boxed>>>,
+    pub(crate) callers: Vec<Caller>,
+    pub(crate) position: Position,
+    /// What the running function holds.
+    pub(crate) held: usize,
+    /// How much all of them hold.
+    pub(crate) held_in_all: usize,
+    /// Words on their way from place to place.
+    pub(crate) passing: Vec<u64>,
+    /// The `jump` that waits above its target.
+    pub(crate) above: Option<crate::args::Above>,
+}
+
+impl State {
+    /// Makes the state ready for a function. What it had is kept, so that nothing is allocated again.
+    pub(crate) fn begin(&mut self, number: usize, function: &Function) {
+        self.callers.clear();
+        (self.held, self.held_in_all) = (0, 0);
+        self.above = None;
+        self.position = Position { at: function.start as usize, function: number, ..Position::default() };
+        self.make_room(function);
+    }
+
+    /// Makes room for the frame of the function at the current position.
+    pub(crate) fn make_room(&mut self, function: &Function) {
+        fn grow<T: Clone>(row: &mut Vec<T>, needed: usize, filler: T) {
+            if row.len() < needed {
+                row.resize(needed.next_power_of_two(), filler);
+            }
+        }
+        let position = &self.position;
+        grow(&mut self.registers, position.register + REGISTERS, 0);
+        grow(&mut self.words, position.word + function.frame.words as usize, 0);
+        grow(&mut self.texts, position.text + function.frame.texts as usize, Str::new());
+        grow(&mut self.handles, position.handle + function.frame.handles as usize, None);
+        grow(&mut self.boxes, position.boxed + usize::from(function.boxes), None);
+    }
+
+    /// Enters a function.
+    pub(crate) fn call(&mut self, call: &Call, function: &Function, back: usize) {
+        let caller = Position { at: back, ..self.position };
+        self.callers.push(Caller { position: caller, line: call.line, held: self.held });
+        self.held = 0;
+        let here = &mut self.position;
+        here.at = function.start as usize;
+        here.function = call.function as usize;
+        here.register += usize::from(call.register);
+        here.word += call.at.words as usize;
+        here.text += call.at.texts as usize;
+        here.handle += call.at.handles as usize;
+        here.boxed += usize::from(call.boxes);
+        self.make_room(function);
+    }
+
+    /// Leaves a function; `false` if it was the first one.
+    pub(crate) fn leave(&mut self, function: &Function) -> bool {
+        self.held_in_all = self.held_in_all.saturating_sub(self.held);
+        // What the function shared with its events is theirs alone from now on, and so are its connections.
+        let here = &self.position;
+        let boxes = here.boxed..here.boxed + usize::from(function.boxes);
+        self.boxes.get_mut(boxes).into_iter().flatten().for_each(|one| *one = None);
+        let handles = here.handle..here.handle + function.frame.handles as usize;
+        self.handles.get_mut(handles).into_iter().flatten().for_each(|one| *one = None);
+        let Some(caller) = self.callers.pop() else { return false };
+        self.position = caller.position;
+        self.held = caller.held;
+        true
+    }
+}
+
+impl State {
+    /// What the running function can reach; `None` if the code is damaged.
+    pub(crate) fn reach<'a>(&'a mut self, engine: &'a Engine, cx: &'a Cx) -> Option<Reach<'a>> {
+        let position = self.position;
+        let registers = self.registers.get_mut(position.register..position.register + REGISTERS)?;
+        Some(Reach {
+            engine,
+            cx,
+            registers: registers.try_into().ok()?,
+            words: self.words.get_mut(position.word..)?,
+            texts: self.texts.get_mut(position.text..)?,
+            handles: self.handles.get_mut(position.handle..)?,
+            boxes: self.boxes.get(position.boxed..)?,
+        })
+    }
+}

@@ -1,0 +1,146 @@
+// Written from the catalog: `cargo run -p arl-engine --example renew_adapters`.
+//! Reads and writes system variables.
+
+use crate::handles::damaged;
+use crate::values::{Source, Target, Value};
+use arl_rt::emit::*;
+
+/// Reads a system variable, or an element of one.
+///
+/// # Errors
+/// It does not exist: the code is damaged.
+pub(crate) fn get(cx: &Cx, number: u16, element: usize, to: &mut Target) -> Result<(), Fault> {
+    let system = cx.system();
+    match number {
+        0 => system.i.item(element).store(to),
+        1 => system.i_name.item(element).store(to),
+        2 => system.b.item(element).store(to),
+        3 => system.b_name.item(element).store(to),
+        4 => system.d.item(element).store(to),
+        5 => system.d_name.item(element).store(to),
+        6 => system.p.item(element).store(to),
+        7 => system.j.item(element).store(to),
+        8 => system.tools.item(element).store(to),
+        9 => system.tools_name.item(element).store(to),
+        10 => system.wobjs.item(element).store(to),
+        11 => system.wobjs_name.item(element).store(to),
+        12 => system.base.item(element).store(to),
+        13 => system.flange.get().store(to),
+        14 => system.world.get().store(to),
+        15 => system.tool_inertia.item(element).store(to),
+        16 => system.wrist.get().store(to),
+        17 => system.config_check.get().store(to),
+        18 => system.dfspeed.get().store(to),
+        19 => system.dfslip.get().store(to),
+        20 => system.dftool.get().store(to),
+        21 => system.dfwobj.get().store(to),
+        22 => system.ignore_ori.get().store(to),
+        23 => system.ori_ref_path.get().store(to),
+        24 => system.vel_profile.get().store(to),
+        25 => system.traj_elapse_time.get().store(to),
+        26 => system.traj_left_time.get().store(to),
+        27 => system.traj_elapse_dis.get().store(to),
+        28 => system.traj_left_dis.get().store(to),
+        29 => system.cjoint.get().store(to),
+        30 => system.rpp_enable.get().store(to),
+        31 => system.at_home.item(element).store(to),
+        32 => system.ext_ctl_act.get().store(to),
+        33 => system.pgno_req.get().store(to),
+        34 => system.pgno.get().store(to),
+        35 => system.pi.get().store(to),
+        36 => system.ctl_mode.get().store(to),
+        37 => system.wobj_offset.item(element).store(to),
+        38 => system.tool_offset.item(element).store(to),
+        39 => system.reset_pos_type.item(element).store(to),
+        40 => system.reset_pos_threshold.item(element).store(to),
+        41 => system.detect_socket_close.get().store(to),
+        42 => system.err_socket_closed.get().store(to),
+        43 => system.ext_ctl_act_di.get().store(to),
+        44 => system.servo_on_di.get().store(to),
+        45 => system.servo_off_di.get().store(to),
+        46 => system.start_prog_di.get().store(to),
+        47 => system.pause_prog_di.get().store(to),
+        48 => system.reset_prog_di.get().store(to),
+        49 => system.clear_alarm_di.get().store(to),
+        50 => system.pgno_type.get().store(to),
+        51 => system.pgno_length.get().store(to),
+        52 => system.pgno_fbit_di.get().store(to),
+        53 => system.pgno_parity_di.get().store(to),
+        54 => system.pgno_valid_di.get().store(to),
+        55 => system.ext_ctl_act_conf_do.get().store(to),
+        56 => system.servo_on_do.get().store(to),
+        57 => system.pgno_req_do.get().store(to),
+        58 => system.at_home_do.item(element).store(to),
+        59 => system.at_t1_do.get().store(to),
+        60 => system.at_t2_do.get().store(to),
+        61 => system.at_aut_do.get().store(to),
+        62 => system.pgno_ack_fbit_do.get().store(to),
+        63 => system.chan_state_do.get().store(to),
+        _ => return Err(damaged()),
+    }
+    Ok(())
+}
+
+/// Writes a system variable, or an element of one.
+///
+/// # Errors
+/// It does not take the value.
+pub(crate) fn set(cx: &Cx, number: u16, element: usize, from: &mut Source<'_>) -> Result<(), Fault> {
+    let system = cx.system();
+    match number {
+        0 => system.i.set_item(element, i32::load(from)),
+        1 => system.i_name.set_item(element, Str::load(from)),
+        2 => system.b.set_item(element, bool::load(from)),
+        3 => system.b_name.set_item(element, Str::load(from)),
+        4 => system.d.set_item(element, f64::load(from)),
+        5 => system.d_name.set_item(element, Str::load(from)),
+        6 => system.p.set_item(element, Pose::load(from)),
+        7 => system.j.set_item(element, Joint::load(from)),
+        8 => system.tools.set_item(element, Tool::load(from)),
+        9 => system.tools_name.set_item(element, Str::load(from)),
+        10 => system.wobjs.set_item(element, Wobj::load(from)),
+        11 => system.wobjs_name.set_item(element, Str::load(from)),
+        12 => system.base.set_item(element, Wobj::load(from)),
+        15 => system.tool_inertia.set_item(element, ToolInertiaPara::load(from)),
+        16 => system.wrist.set(bool::load(from)),
+        17 => system.config_check.set(bool::load(from)),
+        18 => system.dfspeed.set(Speed::load(from)),
+        19 => system.dfslip.set(Slip::load(from)),
+        20 => system.dftool.set(Tool::load(from)),
+        21 => system.dfwobj.set(Wobj::load(from)),
+        22 => system.ignore_ori.set(bool::load(from)),
+        23 => system.ori_ref_path.set(bool::load(from)),
+        24 => system.vel_profile.set(VelProfile::load(from)),
+        30 => system.rpp_enable.set(bool::load(from)),
+        33 => system.pgno_req.set(bool::load(from)),
+        34 => system.pgno.set(i32::load(from)),
+        37 => system.wobj_offset.set_item(element, f64::load(from)),
+        38 => system.tool_offset.set_item(element, f64::load(from)),
+        39 => system.reset_pos_type.set_item(element, one_of(Str::load(from), &["", "feedback", "cmd"])?),
+        40 => system.reset_pos_threshold.set_item(element, in_range(f64::load(from), 0.0, 0.5)?),
+        41 => system.detect_socket_close.set(bool::load(from)),
+        43 => system.ext_ctl_act_di.set(i32::load(from)),
+        44 => system.servo_on_di.set(i32::load(from)),
+        45 => system.servo_off_di.set(i32::load(from)),
+        46 => system.start_prog_di.set(i32::load(from)),
+        47 => system.pause_prog_di.set(i32::load(from)),
+        48 => system.reset_prog_di.set(i32::load(from)),
+        49 => system.clear_alarm_di.set(i32::load(from)),
+        50 => system.pgno_type.set(in_range(i32::load(from), 0.0, 2.0)?),
+        51 => system.pgno_length.set(in_range(i32::load(from), 1.0, 16.0)?),
+        52 => system.pgno_fbit_di.set(i32::load(from)),
+        53 => system.pgno_parity_di.set(i32::load(from)),
+        54 => system.pgno_valid_di.set(i32::load(from)),
+        55 => system.ext_ctl_act_conf_do.set(i32::load(from)),
+        56 => system.servo_on_do.set(i32::load(from)),
+        57 => system.pgno_req_do.set(i32::load(from)),
+        58 => system.at_home_do.set_item(element, i32::load(from)),
+        59 => system.at_t1_do.set(i32::load(from)),
+        60 => system.at_t2_do.set(i32::load(from)),
+        61 => system.at_aut_do.set(i32::load(from)),
+        62 => system.pgno_ack_fbit_do.set(i32::load(from)),
+        63 => system.chan_state_do.set(i32::load(from)),
+        _ => return Err(damaged()),
+    }
+    Ok(())
+}
