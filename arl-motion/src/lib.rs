@@ -81,6 +81,8 @@
 //! `junction`, `queue`. Each imports only from those before it. [`beside`] starts the threads that find blends and time
 //! laws.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 pub mod beside;
 mod blend;
 mod command;

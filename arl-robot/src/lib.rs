@@ -7,6 +7,8 @@
 //! Without it the crate has only values and kinematics, robots come from [`Robot::new`], and neither a TOML parser nor
 //! the language is compiled.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 // The runtime and the command write files with this module; it is not part of the purpose of this crate.
 #[cfg(feature = "files")]
 #[doc(hidden)]

@@ -60,6 +60,8 @@
 //! The features: `macros` provides `arl!` and `arl_file!`; `serial` (on by default) provides serial lines; `realtime`
 //! provides [`clock::Realtime`] on Linux.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 mod builtins;
 mod command;
 mod communication;

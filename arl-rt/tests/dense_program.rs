@@ -1,5 +1,7 @@
 //! A program of very many very short motions: it reaches its speed, and memory does not grow with its length.
 
+#![allow(clippy::disallowed_methods)]
+
 mod common;
 
 use std::cell::RefCell;

@@ -1,5 +1,7 @@
 //! What the controller records of motions.
 
+#![allow(clippy::disallowed_methods)]
+
 mod common;
 
 use arl_rt::Controller;

@@ -1,5 +1,7 @@
 //! How fast emitted programs run, and how fast programs are checked. See `docs/speed.md` for the figures.
 
+#![allow(clippy::disallowed_methods)]
+
 pub mod cell;
 pub mod chains;
 pub mod command;

@@ -90,7 +90,7 @@ arl-rt = { opt-level = \"s\", codegen-units = 8 }
 arl-drivers = { opt-level = \"s\" }
 encoding_rs = { opt-level = 0 }
 libc = { opt-level = 0 }
-libm = { opt-level = 0 }
+libm = { opt-level = 2, codegen-units = 1 }
 nalgebra = { opt-level = 0 }
 quick-xml = { opt-level = \"s\" }
 rustix = { opt-level = 0 }

@@ -4,6 +4,8 @@
 //! A program reports what it does, a line at a time ([`arl_wire`]); this crate has the receivers of these lines.
 //! Nothing here compiles or checks programs.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 pub mod collide;
 #[cfg(any(test, feature = "fuzzing"))]
 pub mod fuzzing;

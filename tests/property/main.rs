@@ -1,6 +1,8 @@
 //! Properties of the compiler that hold for random programs.
 //!
 //! `ARL_PROPERTY_COUNT` multiplies the number of cases, `ARL_PROPERTY_SEED` moves on to others.
+
+#![allow(clippy::disallowed_methods)]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests stop where something is wrong")]
 
 mod corpus;

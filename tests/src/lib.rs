@@ -4,6 +4,8 @@
 //! [`mod@write`] turns them into ARL, and [`machine`] executes them. None of it uses the compiler or the runtime: it is
 //! written from the language's rules alone, so that both sides must be wrong in the same way for a test to pass by
 //! mistake. [`project`] compiles what the compiler emits and runs it.
+
+#![allow(clippy::disallowed_methods)]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests stop where something is wrong")]
 
 pub mod builtins;

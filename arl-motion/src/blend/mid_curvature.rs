@@ -159,7 +159,8 @@ impl Lengths {
         scale: f64,
     ) -> SVector<f64, N> {
         let [before, here, after] = self.0;
-        let (a, b, e) = (first.norm_squared(), second.norm_squared(), (GENTLE_DIFFERENCE * scale / here).powi(2));
+        let gentle = GENTLE_DIFFERENCE * scale / here;
+        let (a, b, e) = (first.norm_squared(), second.norm_squared(), gentle * gentle);
         let sum = a + b + 2.0 * e;
         if sum <= 0.0 {
             return SVector::zeros();

@@ -482,6 +482,6 @@ pub(crate) fn is_free(motion: &Motion) -> bool {
 fn on_grid(vel: f64) -> f64 {
     const STEP: f64 = 1.003;
     // A speed must not lose a step due to rounding.
-    let steps = (vel.ln() / STEP.ln() + 1e-6).floor();
-    if steps.is_finite() { STEP.powf(steps) } else { vel }
+    let steps = (libm::log(vel) / libm::log(STEP) + 1e-6).floor();
+    if steps.is_finite() { libm::pow(STEP, steps) } else { vel }
 }

@@ -42,7 +42,7 @@ impl Circle {
         let across = from - self.centre;
         let along = self.normal.cross(&across);
         let from_centre = to - self.centre;
-        let angle = from_centre.dot(&along).atan2(from_centre.dot(&across));
+        let angle = libm::atan2(from_centre.dot(&along), from_centre.dot(&across));
         let sweep = if angle < 0.0 { angle + std::f64::consts::TAU } else { angle };
         Arc { centre: self.centre, across, along, sweep }
     }

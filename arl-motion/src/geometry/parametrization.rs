@@ -1,6 +1,7 @@
 //! The parameter of a blend as a function of time, such that the TCP's speed changes smoothly from that of one motion
 //! to that of the other, whatever the shape of the blend.
 
+use std::iter::repeat_n;
 use std::sync::Arc;
 
 use nalgebra::SVector;
@@ -207,7 +208,7 @@ impl Parametrization {
     pub(crate) fn derivative(&self, order: usize, share: f64) -> f64 {
         let (part, place, parts) = self.part(share);
         let [value] = part.derivative(order, place);
-        value * parts.powi(order as i32)
+        value * repeat_n(parts, order).product::<f64>()
     }
 }
 

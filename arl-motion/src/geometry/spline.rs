@@ -160,6 +160,6 @@ fn polynomial<const N: usize>(
 fn gait(moved: &Quintic<3>, chord: f64, at: f64) -> [f64; 2] {
     let (first, second) = (Vector3::from(moved.derivative(1, at)), Vector3::from(moved.derivative(2, at)));
     let least = LEAST_SHARE_OF_CHORD * chord;
-    let length = (first.norm_squared().powi(2) + least.powi(4)).sqrt().sqrt();
-    [length, first.norm_squared() * first.dot(&second) / length.powi(3)]
+    let length = (first.norm_squared() * first.norm_squared() + least * least * least * least).sqrt().sqrt();
+    [length, first.norm_squared() * first.dot(&second) / (length * length * length)]
 }

@@ -1,5 +1,7 @@
 //! The positions of a point: by polynomials or along a circle, with derivatives and length.
 
+use std::iter::repeat_n;
+
 use nalgebra::Vector3;
 
 use crate::geometry::paced_quintic::PacedQuintic;
@@ -34,7 +36,7 @@ impl Track {
         match self {
             Track::Poly(poly) => poly.at(at).into(),
             Track::Arc(arc) => {
-                let (sine, cosine) = (arc.sweep * at).sin_cos();
+                let (sine, cosine) = libm::sincos(arc.sweep * at);
                 arc.centre + arc.across * cosine + arc.along * sine
             }
         }
@@ -45,13 +47,13 @@ impl Track {
         match self {
             Track::Poly(poly) => poly.derivative(order, at).into(),
             Track::Arc(arc) => {
-                let (sine, cosine) = (arc.sweep * at).sin_cos();
+                let (sine, cosine) = libm::sincos(arc.sweep * at);
                 let (x, y) = match order {
                     1 => (-sine, cosine),
                     2 => (-cosine, -sine),
                     _ => (sine, -cosine),
                 };
-                (arc.across * x + arc.along * y) * arc.sweep.powi(order as i32)
+                (arc.across * x + arc.along * y) * repeat_n(arc.sweep, order).product::<f64>()
             }
         }
     }

@@ -40,7 +40,7 @@ pub(crate) fn highest_speed(constraints: &[Constraint]) -> f64 {
         [
             constraint.vel / constraint.first,
             (constraint.acc / constraint.second).sqrt(),
-            (constraint.jerk / constraint.third).cbrt(),
+            libm::cbrt(constraint.jerk / constraint.third),
         ]
     }))
 }

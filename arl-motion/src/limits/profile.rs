@@ -40,7 +40,7 @@ impl Limits {
         let ramp = acc / jerk;
         // The speed whose two ramps take up the whole distance: with the full acceleration, else without it.
         let full = 0.5 * acc * ((ramp * ramp + 4.0 * distance / acc).sqrt() - ramp);
-        let peak = if full >= acc * ramp { full } else { (0.25 * distance * distance * jerk).cbrt() };
+        let peak = if full >= acc * ramp { full } else { libm::cbrt(0.25 * distance * distance * jerk) };
         peak.min(vel)
     }
 

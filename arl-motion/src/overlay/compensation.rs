@@ -225,7 +225,7 @@ fn least_time(by: f64, limits: &[f64]) -> f64 {
     let [vel, acc, jerk] = EASING_PEAKS;
     match limits {
         [most_vel, most_acc, most_jerk] => {
-            (vel * by / most_vel).max((acc * by / most_acc).sqrt()).max((jerk * by / most_jerk).cbrt())
+            (vel * by / most_vel).max((acc * by / most_acc).sqrt()).max(libm::cbrt(jerk * by / most_jerk))
         }
         _ => 0.0,
     }

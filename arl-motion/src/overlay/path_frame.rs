@@ -62,7 +62,7 @@ impl PathFrame {
         let start = UnitQuaternion::from_matrix(&nalgebra::Matrix3::from_columns(&[x, y, z]));
         let carried = UnitQuaternion::from_scaled_axis(turning);
         let (y, z) = (carried * y, carried * z);
-        let roll = last_y.dot(&z).atan2(last_y.dot(&y));
+        let roll = libm::atan2(last_y.dot(&z), last_y.dot(&y));
         Ok(Some(Self { start, turns: Turns::Evenly { path: turning, roll } }))
     }
 

@@ -51,7 +51,7 @@ impl Pattern {
 
     fn cornered(weave: &Weave, turned: &Rotation3<f64>, rounding: f64) -> Self {
         let half = if weave.shape == WeaveShape::Simple { 90.0 } else { weave.angle / 2.0 };
-        let (sine, cosine) = half.to_radians().sin_cos();
+        let (sine, cosine) = libm::sincos(half.to_radians());
         let side = |sign: f64| {
             let cosine = if weave.shape == WeaveShape::Simple { 0.0 } else { cosine };
             turned * Vector3::new(0.0, sign * sine, cosine) * weave.amplitude
@@ -113,7 +113,7 @@ impl Pattern {
     pub(crate) fn at(&self, time: f64) -> Rates {
         match &self.figure {
             Figure::Smooth { rate, sine, cosine, double } => {
-                let ((s, c), (s2, c2)) = ((rate * time).sin_cos(), (2.0 * rate * time).sin_cos());
+                let ((s, c), (s2, c2)) = (libm::sincos(rate * time), libm::sincos(2.0 * rate * time));
                 let r = 2.0 * rate;
                 [
                     sine * s + cosine * (c - 1.0) + double * s2,

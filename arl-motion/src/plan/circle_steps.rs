@@ -29,7 +29,7 @@ pub fn circle_steps(
     }
     // A point on the rest of the circle.
     let between = 0.5 * (first + whole.sweep);
-    let seen = whole.centre + whole.across * between.cos() + whole.along * between.sin();
+    let seen = whole.centre + whole.across * libm::cos(between) + whole.along * libm::sin(between);
     let seen = wobj.inverse() * nalgebra::Point3::from(seen);
     let mut halfway = *external;
     for (there, from) in halfway.iter_mut().zip(&start.external) {

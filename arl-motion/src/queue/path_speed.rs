@@ -27,8 +27,8 @@ impl PathSpeed {
         let acc = (vel - self.vel) / period;
         let jerk = (acc - self.acc) / period;
         let along = [
-            second_difference_along([&second, &step]) / period.powi(2),
-            third_difference_along([&first, &second, &step]) / period.powi(3),
+            second_difference_along([&second, &step]) / (period * period),
+            third_difference_along([&first, &second, &step]) / (period * period * period),
         ];
         *self = Self { steps: [second, step], vel, acc };
         [vel, nearer_to_zero(along[0], acc), nearer_to_zero(along[1], jerk)]

@@ -433,7 +433,7 @@ fn law_within_limits(
         if used.beyond.is_empty() || used.most > MOST_TEMPERED_USE {
             break;
         }
-        limits.lower(&used.beyond, TEMPERED_SHARE.powi(1 + 2 * round) * TEMPERED_USE);
+        limits.lower(&used.beyond, libm::pow(TEMPERED_SHARE, f64::from(1 + 2 * round)) * TEMPERED_USE);
     }
     best
 }

@@ -21,7 +21,7 @@ pub fn frame([x, y, z, a, b, c]: [f64; 6]) -> Frame {
 }
 
 fn half(angle: f64) -> (f64, f64) {
-    (angle.to_radians() * 0.5).sin_cos()
+    libm::sincos(angle.to_radians() * 0.5)
 }
 
 /// The components x, y, z (mm), a, b, c (deg) of a frame: a and c above -180 to 180, b within -90..90, c = 0 where b is
@@ -29,15 +29,15 @@ fn half(angle: f64) -> (f64, f64) {
 pub fn frame_components(frame: &Frame) -> [f64; 6] {
     let rotation = frame.rotation.to_rotation_matrix();
     let r = |row: usize, column: usize| rotation[(row, column)];
-    let level = r(0, 0).hypot(r(1, 0));
-    let b = (-r(2, 0)).atan2(level);
+    let level = libm::hypot(r(0, 0), r(1, 0));
+    let b = libm::atan2(-r(2, 0), level);
     let (a, c) = if level < GIMBAL_LOCK {
-        ((-r(0, 1)).atan2(r(1, 1)), 0.0)
+        (libm::atan2(-r(0, 1), r(1, 1)), 0.0)
     } else {
         // c is measured after a is turned back, so that an imprecise a near the lock does not spoil the rotation.
-        let a = r(1, 0).atan2(r(0, 0));
-        let (sa, ca) = a.sin_cos();
-        (a, (sa * r(0, 2) - ca * r(1, 2)).atan2(ca * r(1, 1) - sa * r(0, 1)))
+        let a = libm::atan2(r(1, 0), r(0, 0));
+        let (sa, ca) = libm::sincos(a);
+        (a, libm::atan2(sa * r(0, 2) - ca * r(1, 2), ca * r(1, 1) - sa * r(0, 1)))
     };
     let [x, y, z] = frame.translation.vector.into();
     [x, y, z, half_turn(a.to_degrees()), b.to_degrees(), half_turn(c.to_degrees())]

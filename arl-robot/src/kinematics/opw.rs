@@ -141,10 +141,10 @@ impl Opw {
             c2: m(p.c2),
             c3,
             c4: m(p.c4),
-            k: a2.hypot(c3),
-            psi: a2.atan2(c3).to_degrees(),
-            psi_sin_cos: a2.atan2(c3).sin_cos(),
-            by_arms: 0.5 / (m(p.c2) * a2.hypot(c3)),
+            k: libm::hypot(a2, c3),
+            psi: libm::atan2(a2, c3).to_degrees(),
+            psi_sin_cos: libm::sincos(libm::atan2(a2, c3)),
+            by_arms: 0.5 / (m(p.c2) * libm::hypot(a2, c3)),
             parameters,
         }
     }
@@ -349,14 +349,14 @@ impl Opw {
     pub fn beyond_reach(&self, flange: &Frame) -> f64 {
         let rotation = flange.rotation.to_rotation_matrix().into_inner();
         let centre = self.wrist_centre(flange, &rotation);
-        let across = centre.x.hypot(centre.y);
+        let across = libm::hypot(centre.x, centre.y);
         let beside = self.b.abs() - across;
         if beside > 0.0 {
             return beside * 1000.0;
         }
         let depth = (across * across - self.b * self.b).max(0.0).sqrt();
         let miss = |x: f64| {
-            let distance = (x - self.a1).hypot(centre.z - self.c1);
+            let distance = libm::hypot(x - self.a1, centre.z - self.c1);
             (distance - (self.c2 + self.k)).max((self.c2 - self.k).abs() - distance).max(0.0)
         };
         miss(depth).min(miss(-depth)) * 1000.0

@@ -154,7 +154,7 @@ impl<F: Fn(f64) -> Frame> PassageSearch<'_, F> {
     /// The absolute sine of the wrist's middle axis.
     fn wrist_sine(&self, axes: &Axes) -> f64 {
         let [_, _, _, _, fifth, _] = self.opw.inner(axes);
-        fifth.to_radians().sin().abs()
+        libm::sin(fifth.to_radians()).abs()
     }
 
     fn is_inside(&self, at: f64, cfg: u8, near: &Axes) -> bool {

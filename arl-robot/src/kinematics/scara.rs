@@ -66,7 +66,7 @@ impl Scara {
     pub fn tilt(&self, flange: &Frame) -> f64 {
         let q = flange.rotation.quaternion();
         let half = (q.i * q.i + q.j * q.j).sqrt();
-        if half <= UPRIGHT { 0.0 } else { 2.0 * half.atan2((q.w * q.w + q.k * q.k).sqrt()).to_degrees() }
+        if half <= UPRIGHT { 0.0 } else { 2.0 * libm::atan2(half, (q.w * q.w + q.k * q.k).sqrt()).to_degrees() }
     }
 
     /// The distance, in mm, of the pose outside or inside the ring that the arms reach.
@@ -78,6 +78,6 @@ impl Scara {
     /// How clear the axes are of the singular points, where the arm is stretched or folded: the sine at the elbow.
     pub fn clearance(&self, axes: &Axes) -> f64 {
         let [_, j2, ..] = *axes;
-        j2.to_radians().sin().abs()
+        libm::sin(j2.to_radians()).abs()
     }
 }

@@ -44,7 +44,7 @@ const GIMBAL_LOCK: f64 = 1e-10;
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     let turned = angle % 360.0;
     let quarter = (turned / 90.0).round();
-    let (sin, cos) = (turned - 90.0 * quarter).to_radians().sin_cos();
+    let (sin, cos) = libm::sincos((turned - 90.0 * quarter).to_radians());
     match (quarter as i32).rem_euclid(4) {
         0 => (sin, cos),
         1 => (cos, -sin),
@@ -68,14 +68,14 @@ pub fn rotation([a, b, c]: [f64; 3]) -> Matrix3<f64> {
 /// The angles a, b, c of a rotation, deg: a and c above -180 to 180, b from -90 to 90, c = 0 where b is 90 or -90.
 pub fn angles(rotation: &Matrix3<f64>) -> [f64; 3] {
     let r = |row: usize, column: usize| rotation[(row, column)];
-    let level = r(0, 0).hypot(r(1, 0));
+    let level = libm::hypot(r(0, 0), r(1, 0));
     let (a, b, c) = if level < GIMBAL_LOCK {
-        ((-r(0, 1)).atan2(r(1, 1)), (-r(2, 0)).signum() * std::f64::consts::FRAC_PI_2, 0.0)
+        (libm::atan2(-r(0, 1), r(1, 1)), (-r(2, 0)).signum() * std::f64::consts::FRAC_PI_2, 0.0)
     } else {
         // As a is turned back first, an imprecise a near the lock does not spoil the rotation.
-        let a = r(1, 0).atan2(r(0, 0));
-        let (sa, ca) = a.sin_cos();
-        (a, (-r(2, 0)).atan2(level), (sa * r(0, 2) - ca * r(1, 2)).atan2(ca * r(1, 1) - sa * r(0, 1)))
+        let a = libm::atan2(r(1, 0), r(0, 0));
+        let (sa, ca) = libm::sincos(a);
+        (a, libm::atan2(-r(2, 0), level), libm::atan2(sa * r(0, 2) - ca * r(1, 2), ca * r(1, 1) - sa * r(0, 1)))
     };
     [a, b, c].map(|angle| tidy(angle.to_degrees()))
 }

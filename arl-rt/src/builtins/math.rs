@@ -18,7 +18,7 @@ pub fn abs_double(x: f64) -> f64 {
     x.abs()
 }
 
-/// Functions of Rust that are defined everywhere.
+/// Functions that are defined everywhere.
 macro_rules! everywhere {
     ($($(#[$doc:meta])* $name:ident($first:ident $(, $second:ident)?) = $how:expr;)*) => { $(
         $(#[$doc])*
@@ -30,33 +30,33 @@ macro_rules! everywhere {
 
 everywhere! {
     /// The sine of an angle in rad.
-    sin(x) = x.sin();
+    sin(x) = libm::sin(x);
     /// The cosine of an angle in rad.
-    cos(x) = x.cos();
+    cos(x) = libm::cos(x);
     /// The tangent of an angle in rad.
-    tan(x) = x.tan();
+    tan(x) = libm::tan(x);
     /// The angle with this tangent, -PI/2 to PI/2 rad.
-    atan(x) = x.atan();
+    atan(x) = libm::atan(x);
     /// The angle of the point (x, y), -PI to PI rad.
-    atan2(y, x) = y.atan2(x);
+    atan2(y, x) = libm::atan2(y, x);
     /// The hyperbolic sine.
-    sinh(x) = x.sinh();
+    sinh(x) = libm::sinh(x);
     /// The hyperbolic cosine.
-    cosh(x) = x.cosh();
+    cosh(x) = libm::cosh(x);
     /// The hyperbolic tangent.
-    tanh(x) = x.tanh();
+    tanh(x) = libm::tanh(x);
     /// e to the power of x.
-    exp(x) = x.exp();
+    exp(x) = libm::exp(x);
     /// x to the power of y.
-    pow(x, y) = x.powf(y);
+    pow(x, y) = libm::pow(x, y);
     /// 10 to the power of x.
-    pow10(x) = 10f64.powf(x);
+    pow10(x) = libm::exp10(x);
     /// The largest whole number that is not above x.
     floor(x) = x.floor();
     /// The smallest whole number that is not below x.
     ceil(x) = x.ceil();
     /// The hypotenuse of two legs.
-    hypot(x, y) = x.hypot(y);
+    hypot(x, y) = libm::hypot(x, y);
 }
 
 /// The angle with this sine, -PI/2 to PI/2 rad.
@@ -64,7 +64,7 @@ everywhere! {
 /// # Errors
 /// [`Fault::Domain`] outside -1 to 1.
 pub fn asin(x: f64) -> Result<f64, Fault> {
-    unit("asin", x).map(f64::asin)
+    unit("asin", x).map(libm::asin)
 }
 
 /// The angle with this cosine, 0 to PI rad.
@@ -72,7 +72,7 @@ pub fn asin(x: f64) -> Result<f64, Fault> {
 /// # Errors
 /// [`Fault::Domain`] outside -1 to 1.
 pub fn acos(x: f64) -> Result<f64, Fault> {
-    unit("acos", x).map(f64::acos)
+    unit("acos", x).map(libm::acos)
 }
 
 fn unit(function: &'static str, x: f64) -> Result<f64, Fault> {
@@ -84,7 +84,7 @@ fn unit(function: &'static str, x: f64) -> Result<f64, Fault> {
 /// # Errors
 /// [`Fault::Domain`] for 0 and less.
 pub fn log(x: f64) -> Result<f64, Fault> {
-    positive("log", x).map(f64::ln)
+    positive("log", x).map(libm::log)
 }
 
 /// The logarithm to base 10.
@@ -92,7 +92,7 @@ pub fn log(x: f64) -> Result<f64, Fault> {
 /// # Errors
 /// [`Fault::Domain`] for 0 and less.
 pub fn log10(x: f64) -> Result<f64, Fault> {
-    positive("log10", x).map(f64::log10)
+    positive("log10", x).map(libm::log10)
 }
 
 fn positive(function: &'static str, x: f64) -> Result<f64, Fault> {
@@ -124,11 +124,12 @@ pub fn frexp_double(val: f64, exp: &mut f64) -> f64 {
 fn split(val: f64) -> (f64, i32) {
     const EXPONENT: u64 = 0x7ff << 52;
     const HALF: u64 = 0x3fe << 52;
+    const TWO_TO_64: f64 = 18_446_744_073_709_551_616.0;
     if val == 0.0 || !val.is_finite() {
         return (val, 0);
     }
     if val.is_subnormal() {
-        let (fraction, power) = split(val * 2f64.powi(64));
+        let (fraction, power) = split(val * TWO_TO_64);
         return (fraction, power - 64);
     }
     let bits = val.to_bits();
@@ -137,21 +138,7 @@ fn split(val: f64) -> (f64, i32) {
 
 /// `val` times 2 to the power of `exp`, rounded once.
 pub fn ldexp(val: f64, exp: i32) -> f64 {
-    // A factor can only have exponents -1022 to 1023. Steps down leave 53 bits of room, so that only the last one
-    // rounds.
-    const UP: i32 = 1023;
-    const DOWN: i32 = -1022 + 53;
-    let (mut scaled, mut remaining) = (val, exp);
-    for _ in 0..2 {
-        let step = match remaining {
-            1024.. => UP,
-            ..-1022 => DOWN,
-            _ => 0,
-        };
-        scaled *= 2f64.powi(step);
-        remaining -= step;
-    }
-    scaled * 2f64.powi(remaining.clamp(-1022, 1023))
+    libm::ldexp(val, exp)
 }
 
 /// The remainder of the quotient truncated towards zero, with the sign of `x`.
@@ -183,7 +170,7 @@ pub fn modf_double(x: f64, y: &mut f64) -> f64 {
 
 /// The distance of a point from the origin, mm.
 pub fn norm(p: Pos) -> f64 {
-    p.x.hypot(p.y).hypot(p.z)
+    libm::hypot(libm::hypot(p.x, p.y), p.z)
 }
 
 /// Keeps `n` digits after the decimal point; the rest is cut off or, with `round`, rounded half away from zero.

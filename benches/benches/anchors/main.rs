@@ -5,6 +5,8 @@
 //! the least of rounds in which the contenders take turns; the references run in the same process, so that ratios
 //! count. `scripts/anchors-python.py` measures what is not to be had from crates.io.
 
+#![allow(clippy::disallowed_methods)]
+
 mod changes;
 mod corners;
 mod dense;

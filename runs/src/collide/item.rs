@@ -180,7 +180,7 @@ fn form(piece: &Piece, meshes: Meshes) -> Result<(SharedShape, Pose, f64), Strin
             // The library's cylinder is along y.
             let upright = Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2);
             let at = at * Pose::from_parts(Vector::ZERO, upright);
-            (SharedShape::new(Cylinder::new(0.5 * length, *radius)), at, radius.hypot(0.5 * length))
+            (SharedShape::new(Cylinder::new(0.5 * length, *radius)), at, libm::hypot(*radius, 0.5 * length))
         }
         Solid::Sphere(radius) => (SharedShape::new(Ball::new(*radius)), at, *radius),
         Solid::Mesh { file, scale } => {

@@ -153,7 +153,7 @@ fn axis_lines(runs: &Runs, channel: &Channel, form: Form) -> Vec<Line<'static>> 
 /// A number in its columns, without a minus before zero.
 fn decimals(value: f64, form: Form) -> String {
     let (width, decimals) = form.number;
-    let value = if value.abs() < 0.5 * 10_f64.powi(-(decimals as i32)) { 0.0 } else { value };
+    let value = if value.abs() < 0.5 * libm::exp10(-(decimals as f64)) { 0.0 } else { value };
     format!("{value:width$.decimals$}")
 }
 

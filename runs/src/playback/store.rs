@@ -282,7 +282,7 @@ impl Track {
     /// The speed at which the TCP came from its last place, in mm/s.
     fn speed_to(&self, time: f64, tcp: &[f32; 7]) -> f32 {
         let (Some(before), Some(last)) = (self.times.last(), self.tcp.last()) else { return 0.0 };
-        let distance = (0..3).map(|at| f64::from(tcp[at] - last[at]).powi(2)).sum::<f64>().sqrt();
+        let distance = distance(&last.map(f64::from), &tcp.map(f64::from));
         let apart = time - before;
         // A robot at rest does not report until its first step.
         (distance / if apart > GAP_S { STEP_S } else { apart.max(1e-6) }) as f32
@@ -303,7 +303,7 @@ impl Track {
 
 /// The distance between two places, in mm.
 fn distance(from: &[f64], to: &[f64]) -> f64 {
-    from.iter().zip(to).take(3).map(|(from, to)| (to - from).powi(2)).sum::<f64>().sqrt()
+    from.iter().zip(to).take(3).map(|(from, to)| (to - from) * (to - from)).sum::<f64>().sqrt()
 }
 
 /// Where the TCP is on the flange, in mm, if the recording has the robot's links.

@@ -24,7 +24,7 @@ impl Scale {
 /// A step of 1, 2 or 5 times a power of ten that fits about `count` times into the range.
 pub(super) fn step(range: f64, count: f64) -> f64 {
     let rough = (range / count).max(1e-9);
-    let power = 10f64.powf(rough.log10().floor());
+    let power = libm::exp10(libm::log10(rough).floor());
     let factor = [1.0, 2.0, 5.0].into_iter().find(|factor| factor * power >= rough * 0.999).unwrap_or(10.0);
     factor * power
 }
@@ -38,7 +38,7 @@ pub(super) fn ticks([low, high]: [f64; 2], step: f64) -> impl Iterator<Item = f6
 
 /// A tick's number, with as many decimals as its step needs.
 pub(super) fn label(value: f64, step: f64) -> String {
-    let places = if step >= 1.0 { 0 } else { (-step.log10() - 1e-9).ceil() as usize };
+    let places = if step >= 1.0 { 0 } else { (-libm::log10(step) - 1e-9).ceil() as usize };
     let text = format!("{value:.places$}");
     if value == 0.0 { text.trim_start_matches('-').to_owned() } else { text }
 }

@@ -25,13 +25,13 @@ impl Line {
             return;
         };
         let [dx, dy] = [point[0] - anchor[0], point[1] - anchor[1]];
-        let distance = dx.hypot(dy);
+        let distance = libm::hypot(dx, dy);
         if distance <= TOLERANCE && self.cone.is_none() {
             self.last = Some(point);
             return;
         }
-        let direction = dy.atan2(dx);
-        let half = (TOLERANCE / distance.max(TOLERANCE)).asin();
+        let direction = libm::atan2(dy, dx);
+        let half = libm::asin(TOLERANCE / distance.max(TOLERANCE));
         let (first, low, high) = self.cone.unwrap_or((direction, -half, half));
         let off = wrapped(direction - first);
         // Turning back towards the anchor is another line: the turning point must stay.

@@ -165,7 +165,8 @@ impl Movement {
         for (axis, before) in axes.iter_mut().zip(before.axes) {
             *axis = (*axis - before) / period;
         }
-        let distance = row.tcp.iter().zip(before.tcp).map(|(now, before)| (now - before).powi(2)).sum::<f64>().sqrt();
+        let distance =
+            row.tcp.iter().zip(before.tcp).map(|(now, before)| (now - before) * (now - before)).sum::<f64>().sqrt();
         let speed = distance / period;
         let other_tool = row.motion != before.motion && speed - speed_before > TOOL_CHANGE * period;
         self.last = Some((row, if other_tool { speed_before } else { speed }));

@@ -210,7 +210,7 @@ impl View {
 /// The middle of the longest straight piece of a path; of a dot, the dot.
 fn longest(points: &[Option<[f64; 2]>]) -> Option<[f64; 2]> {
     let pairs = points.windows(2).filter_map(|pair| Some((*pair.first()?.as_ref()?, *pair.last()?.as_ref()?)));
-    let length = |(from, to): &([f64; 2], [f64; 2])| (to[0] - from[0]).hypot(to[1] - from[1]);
+    let length = |(from, to): &([f64; 2], [f64; 2])| libm::hypot(to[0] - from[0], to[1] - from[1]);
     let best = pairs.max_by(|a, b| length(a).total_cmp(&length(b)));
     match best {
         Some((from, to)) => Some([f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])]),

@@ -48,8 +48,8 @@ fn parallel(a: Vector, b: Vector) -> bool {
 
 /// The angle that brings one of two directions, this one or its opposite, nearest to 0; and whether it is the opposite.
 fn nearest(sine: f64, cosine: f64) -> (f64, f64) {
-    let angle = sine.atan2(cosine);
-    if angle.abs() <= FRAC_PI_2 + PARALLEL { (angle, 1.0) } else { ((-sine).atan2(-cosine), -1.0) }
+    let angle = libm::atan2(sine, cosine);
+    if angle.abs() <= FRAC_PI_2 + PARALLEL { (angle, 1.0) } else { (libm::atan2(-sine, -cosine), -1.0) }
 }
 
 /// The distance of a point from a line.
@@ -71,28 +71,29 @@ pub(super) fn six_axes(chain: &Chain) -> Result<SixAxes, String> {
     let [l2, l3, l4, l5, l6] = [l2, l3, l4, l5, l6].map(into);
     let flange = back.then(&flange);
     let ([a1, _, c1], [x3, _, z3]) = (l2.at, l3.at);
-    let c2 = (x3 - a1).hypot(z3 - c1);
+    let c2 = libm::hypot(x3 - a1, z3 - c1);
     if c2 < NEAR {
         return Err(format!("axes 2 and 3 (`{n2}`, `{n3}`) are the same line: this arm does not fit"));
     }
-    let t2 = (x3 - a1).atan2(z3 - c1);
+    let t2 = libm::atan2(x3 - a1, z3 - c1);
 
     let centre = wrist_centre([n4, n5, n6], [&l4, &l5, &l6])?;
     let [fx, _, fz] = l4.along;
     let [wx, b, wz] = centre;
-    let (mut sign4, mut t23) = (1.0, fx.atan2(fz));
-    let along = |t: f64| (wx - x3) * t.sin() + (wz - z3) * t.cos();
+    let (mut sign4, mut t23) = (1.0, libm::atan2(fx, fz));
+    let along = |t: f64| (wx - x3) * libm::sin(t) + (wz - z3) * libm::cos(t);
     if along(t23) < 0.0 {
-        (sign4, t23) = (-1.0, (-fx).atan2(-fz));
+        (sign4, t23) = (-1.0, libm::atan2(-fx, -fz));
     }
-    let (c3, a2) = (along(t23), (wx - x3) * t23.cos() - (wz - z3) * t23.sin());
+    let (sine, cosine) = libm::sincos(t23);
+    let (c3, a2) = (along(t23), (wx - x3) * cosine - (wz - z3) * sine);
     if c3 < NEAR {
         return Err(format!("the wrist is not beyond axis 3 (`{n3}`) along axis 4 (`{n4}`): this arm does not fit"));
     }
     // In the forearm's frame.
     let forearm = |v: Vector| {
         let [x, y, z] = v;
-        [x * t23.cos() - z * t23.sin(), y, x * t23.sin() + z * t23.cos()]
+        [x * cosine - z * sine, y, x * sine + z * cosine]
     };
     let [x5, y5, z5] = forearm(l5.along);
     if z5.abs() > PARALLEL {
@@ -110,10 +111,10 @@ pub(super) fn six_axes(chain: &Chain) -> Result<SixAxes, String> {
     };
     let hand = |v: Vector| Transform::about(UP, -t4).turned(forearm(v));
     let [hx, _, hz] = hand(l6.along.map(|component| component * sign6));
-    let t5 = hx.atan2(hz);
+    let t5 = libm::atan2(hx, hz);
     // Where the flange's z does not point outwards along axis 6, its x has no meaning.
     let [px, py, _] = Transform::about([0.0, 1.0, 0.0], -t5).turned(hand(flange.column(0)));
-    let t6 = if faces * sign6 > 1.0 - PARALLEL { py.atan2(px) } else { 0.0 };
+    let t6 = if faces * sign6 > 1.0 - PARALLEL { libm::atan2(py, px) } else { 0.0 };
     let side = |v: Vector| {
         let [_, y, _] = v;
         y.signum()

@@ -35,7 +35,7 @@ impl Transform {
 
     /// A rotation by `angle` (rad) about `axis`, a unit vector.
     pub(super) fn about(axis: Vector, angle: f64) -> Self {
-        let ([x, y, z], (s, c)) = (axis, angle.sin_cos());
+        let ([x, y, z], (s, c)) = (axis, libm::sincos(angle));
         let t = 1.0 - c;
         let turn = [
             [t * x * x + c, t * x * y - s * z, t * x * z + s * y],

@@ -201,7 +201,7 @@ fn reach(speed: f64, distance: f64, limits: &Limits) -> f64 {
     }
     // Without: way = (2 speed + gain) sqrt(gain / jerk), a cubic equation for the root of the gain.
     let scaled = distance * jerk.sqrt();
-    let mut root = scaled.cbrt().min(scaled / (2.0 * speed));
+    let mut root = libm::cbrt(scaled).min(scaled / (2.0 * speed));
     for _ in 0..4 {
         root -= (root * (root * root + 2.0 * speed) - scaled) / (3.0 * root * root + 2.0 * speed);
     }

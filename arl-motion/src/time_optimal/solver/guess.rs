@@ -38,7 +38,7 @@ pub(crate) fn guess_speeds(path: &ConstrainedPath, warp: &Warp, places: &[f64], 
     let mut bind = |from: usize, to: usize| {
         let width = (places[to] - places[from]).abs();
         let [by_acc, by_jerk] = [0, 1].map(|order: usize| rises[from][order].min(rises[to][order]) * width);
-        let by_jerk = (squares[from].powf(0.75) + by_jerk).powf(4.0 / 3.0);
+        let by_jerk = libm::pow(libm::pow(squares[from], 0.75) + by_jerk, 4.0 / 3.0);
         squares[to] = squares[to].min(squares[from] + by_acc).min(by_jerk);
     };
     (1..places.len()).for_each(|to| bind(to - 1, to));

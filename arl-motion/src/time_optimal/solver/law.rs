@@ -164,9 +164,9 @@ impl LawInterval {
             let rate = bend.abs().sqrt();
             let after = acc + bend * distance;
             let exact = if bend > 0.0 {
-                ((after + rate * then) / (acc + rate * vel)).ln() / rate
+                libm::log((after + rate * then) / (acc + rate * vel)) / rate
             } else {
-                ((acc / rate).atan2(vel) - (after / rate).atan2(then)) / rate
+                (libm::atan2(acc / rate, vel) - libm::atan2(after / rate, then)) / rate
             };
             if exact.is_finite() && exact > 0.0 {
                 time = exact;
@@ -194,8 +194,8 @@ fn growth(bend: f64, time: f64) -> (f64, f64) {
         let rate = bend.abs().sqrt();
         let angle = rate * time;
         // By the half angle, to avoid subtracting 1 from the cosine.
-        let (odd, half) =
-            if bend > 0.0 { (angle.sinh(), (0.5 * angle).sinh()) } else { (angle.sin(), (0.5 * angle).sin()) };
+        let function = if bend > 0.0 { libm::sinh } else { libm::sin };
+        let (odd, half) = (function(angle), function(0.5 * angle));
         (odd / rate, 2.0 * half * half / bend.abs())
     }
 }

@@ -33,7 +33,8 @@ impl Pace {
             exit -= 1;
         }
         let off = on(exit)? / guess.get(exit)?;
-        let faded = |(index, guess): (u32, &f64)| guess * off.powf((1.0 - f64::from(index) / FADING_PLACES).max(0.0));
+        let faded =
+            |(index, guess): (u32, &f64)| guess * libm::pow(off, (1.0 - f64::from(index) / FADING_PLACES).max(0.0));
         let speeds = smooth((0..).zip(guess.get(exit..)?).map(faded).collect());
         let begun = times.first()?;
         let mut paced: Vec<f64> = times.get(..=exit)?.iter().map(|time| time - begun).collect();

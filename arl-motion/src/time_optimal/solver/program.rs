@@ -419,7 +419,7 @@ impl Program {
         let at = |at: f64| {
             let (share, remaining) = (at / length, length - at);
             let blend = share * share * (3.0 - 2.0 * share);
-            let faded = from.1 * at * (-at / from.2).exp() - to.1 * remaining * (-remaining / to.2).exp();
+            let faded = from.1 * at * libm::exp(-at / from.2) - to.1 * remaining * libm::exp(-remaining / to.2);
             (from.0 + (to.0 - from.0) * blend + faded).max(least)
         };
         self.corners().map(at).collect()
@@ -429,7 +429,7 @@ impl Program {
     fn at_pace(&self) -> Vec<f64> {
         let length = self.warp.length();
         let by_edge = |edge: &BoundaryState, away: f64| {
-            if edge.rests() { 1.0 } else { 1.0 - (-(away / GIVEN_STATE_S) * (away / GIVEN_STATE_S)).exp() }
+            if edge.rests() { 1.0 } else { 1.0 - libm::exp(-(away / GIVEN_STATE_S) * (away / GIVEN_STATE_S)) }
         };
         let [start, end] = &self.edges;
         let slower = |at: f64| (1.0 - SHARE_OF_KNOWN) * by_edge(start, at) * by_edge(end, length - at);
@@ -464,7 +464,8 @@ fn middles(
     let count = MIDDLES.min(last / 2);
     let is_near_rest = |stretch: usize| (start.rests() && stretch < count) || (end.rests() && stretch + count >= last);
     // The highest square of the speed by speed limits alone.
-    let highest = |rows: &[Row]| rows.iter().map(|row| (row.vel / row.first).powi(2)).fold(f64::INFINITY, f64::min);
+    let square = |row: &Row| (row.vel / row.first) * (row.vel / row.first);
+    let highest = |rows: &[Row]| rows.iter().map(square).fold(f64::INFINITY, f64::min);
     let middle = |stretch: usize| {
         let [from, to] = [places[stretch], places[stretch + 1]];
         let place = warp.place(stretch, f64::midpoint(from, to));

@@ -111,7 +111,7 @@ impl Screen {
 /// The highest x at which no jerk exceeds 1 at an even speed, with these factors of x.
 pub(crate) fn highest_square(jerks: impl Iterator<Item = f64>) -> f64 {
     let most = jerks.map(f64::abs).fold(0.0, f64::max);
-    1.0 / (most * most).cbrt()
+    1.0 / libm::cbrt(most * most)
 }
 
 /// Keeps the limits that bound the acceleration at x, and those that bound the bend at some accelerations.

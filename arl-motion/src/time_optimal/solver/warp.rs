@@ -77,7 +77,7 @@ fn part(u: f64, length: f64) -> WarpedPoint {
 fn unpart(distance: f64) -> f64 {
     let distance = distance.max(0.0);
     // From above, where Newton's method approaches the root of a convex function without passing it.
-    let mut u = (distance / PART).cbrt().min(1.0);
+    let mut u = libm::cbrt(distance / PART).min(1.0);
     for _ in 0..60 {
         let WarpedPoint { at, first, .. } = part(u, 1.0);
         let step = (at - distance) / first;

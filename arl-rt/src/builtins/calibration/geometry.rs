@@ -53,8 +53,8 @@ pub(super) fn through([origin, on_x, beside]: [Point3<f64>; 3]) -> Result<Frame,
     let across = direction(&origin, &beside, 3)?;
     let normal = x.cross(&across);
     let sine = normal.norm();
-    if sine < FLATTEST.to_radians().sin() {
-        return Err(Flaw::InLine { angle: sine.min(1.0).asin().to_degrees() });
+    if sine < libm::sin(FLATTEST.to_radians()) {
+        return Err(Flaw::InLine { angle: libm::asin(sine.min(1.0)).to_degrees() });
     }
     let z = normal / sine;
     Ok(Frame::from_parts(Translation3::from(origin), axes(x, z.cross(&x), z)))
@@ -108,7 +108,7 @@ pub(super) fn fitted(known: [Point3<f64>; 3], found: [Point3<f64>; 3]) -> Result
     let pairs = || from.iter().zip(&to);
     let cosine: f64 = pairs().map(|(a, b)| a.x * b.x + a.y * b.y).sum();
     let sine: f64 = pairs().map(|(a, b)| a.x * b.y - a.y * b.x).sum();
-    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), sine.atan2(cosine));
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), libm::atan2(sine, cosine));
     let between = Translation3::from(to_middle) * turn * Translation3::from(-from_middle);
     let frame = found_plane * between * known_plane.inverse();
     let off = known.iter().zip(&found).map(|(a, b)| (frame * a - b).norm()).fold(0.0, f64::max);

@@ -11,7 +11,7 @@ const MOST_DIGITS: u32 = 800;
 /// the even digit; minus zero is `0`.
 pub(crate) fn push_double(out: &mut Str, value: f64, precision: u32) {
     let precision = precision.clamp(1, MOST_DIGITS);
-    if value.abs() < 10f64.powi(precision.min(15) as i32) {
+    if value.abs() < 10_u64.pow(precision.min(15)) as f64 {
         let whole = value as i64;
         if whole as f64 == value {
             return push_int(out, whole);

@@ -110,7 +110,7 @@ impl Where {
 
 /// Checks that the quaternion of a place is a rotation.
 fn expect_turned([.., i, j, k, w]: &Placed) -> Result<(), String> {
-    let length = [i, j, k, w].iter().map(|part| part.powi(2)).sum::<f64>();
+    let length = [i, j, k, w].iter().map(|part| *part * *part).sum::<f64>();
     if length > 0.0 { Ok(()) } else { Err("the quaternion of a pose must not be 0".to_owned()) }
 }
 
