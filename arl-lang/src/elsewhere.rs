@@ -36,6 +36,10 @@ a `clock` with `clkstart` and `clkread` measures";
 
 /// Instructions, functions and words of control structures of other languages, and what ARL has in their place.
 const WORDS: &[(&str, &str)] = &[
+    ("arcend", "`setdo` for the output of the welding machine"),
+    ("arcoff", "`setdo` for the output of the welding machine"),
+    ("arcon", "`setdo` for the output of the welding machine"),
+    ("arcstart", "`setdo` for the output of the welding machine"),
     ("atoi", "`toint(text, dec)`"),
     ("begin", "no word for the beginning of a block: the line that opens it is enough"),
     ("calcjointt", "`getjoint(p1, $FLANGE, $WORLD)`"),
@@ -144,6 +148,7 @@ const WORDS: &[(&str, &str)] = &[
     ("sptp", "`ptp`"),
     ("static", "global variables, which keep their values while the program runs; `$I` with `savesv` between runs"),
     ("stop", "`pause`, and `exit` to end the program"),
+    ("stopweave", "`endweave`"),
     ("strtoint", "`toint(text, dec)`"),
     ("strtoval", "`toint(text, dec)`, and `scan` for several numbers"),
     ("struct", "no user-defined structures: use separate variables, or arrays"),
@@ -171,6 +176,11 @@ const WORDS: &[(&str, &str)] = &[
     ("waitdi", "`waituntil getdi(1)`"),
     ("waitdo", "`waituntil getdo(1)`"),
     ("waitfor", "`waituntil getdi(1)`"),
+    ("weave", "`startweave` with a `weavedata`, and `endweave`"),
+    ("weaveend", "`endweave`"),
+    ("weaveoff", "`endweave`"),
+    ("weaveon", "`startweave` with a `weavedata`"),
+    ("weavestart", "`startweave` with a `weavedata`"),
 ];
 
 /// System variables of other languages.

@@ -8,6 +8,7 @@ use crate::ast::BinaryOp;
 use crate::span::Span;
 use crate::symbol::Symbol;
 use crate::syntax_error::{Bracket, Hint, SyntaxError, SyntaxErrorKind};
+use crate::syntax_words::is_unit;
 use crate::token::{Placed, Token, open_brackets};
 
 /// A line and the place where the grammar refuses it.
@@ -289,6 +290,8 @@ impl Refused<'_> {
             && before.iter().any(|token| token.1 == Token::Semicolon);
         let kind = if events {
             self.unexpected(found, Hint::Events, complete)
+        } else if self.before().is_some_and(|before| is_number(before.1)) && is_unit(&self.text(found)) {
+            self.unexpected(found, Hint::Units, complete)
         } else if self.expects(Token::Comma) && found.1 != Token::Semicolon {
             SyntaxErrorKind::MissingComma(self.show(found).into())
         } else if let Some((bracket, opened)) = self.open.last()
@@ -337,6 +340,7 @@ impl Refused<'_> {
             (Some(Token::For), ..) if !self.open.is_empty() => Hint::For,
             (Some(Token::Import), ..) if self.at == 1 => Hint::ImportQuotes,
             (Some(Token::Case), _, Token::Comma) => Hint::OneCase,
+            (_, Some(Token::Unit(_)), Token::Operator(BinaryOp::Divide)) => Hint::Units,
             (Some(Token::Type(_)), _, Token::Comma) if self.is_in(Bracket::Paren) && self.is_behind_equals() => {
                 Hint::Braces
             }

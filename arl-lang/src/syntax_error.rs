@@ -174,6 +174,8 @@ pub enum Hint {
     TypeBehindFunc,
     /// `case 1, 2:`: several values in a case.
     OneCase,
+    /// `vl:100mm/sec`, `sl:20 cm`: units that ARL does not have, or a space before one.
+    Units,
     /// `double d = 3,5`: a decimal comma.
     DecimalPoint,
     /// `pose p = (1, 2, 3)`: the values of a structure in parentheses.

@@ -50,6 +50,7 @@ impl Hint {
             }
             Hint::TypeBehindFunc => "The type of the result follows `func`: `func void name()`.",
             Hint::OneCase => "A `case` has one value; for several values use `if`, or a function that each case calls.",
+            Hint::Units => "The units are %, mm, mm/s, deg, deg/s and s, right after the number: `vl:100mm/s`.",
             Hint::DecimalPoint => "A number has a decimal point: `3.5`.",
             Hint::Braces => "The values of a structure are written in braces: `{700, 0, 600, 0, 180, 0}`.",
             Hint::ImportQuotes => "The path of a module is written in quotes: `import \"rack.arl\"`.",
@@ -331,6 +332,12 @@ const OTHER_UNITS: [(&str, f64, &str); 8] = [
     ("ms", 0.001, "s"),
     ("min", 60.0, "s"),
 ];
+
+/// Whether a word is a unit somewhere.
+pub(crate) fn is_unit(word: &str) -> bool {
+    let units = ["mm", "deg", "s", "sec", "inch", "grad"].into_iter();
+    units.chain(OTHER_UNITS.map(|(other, ..)| other)).any(|unit| unit.eq_ignore_ascii_case(word))
+}
 
 /// A number with a unit that ARL does not have, converted to the unit that it has.
 fn other_unit(text: &str) -> Option<String> {

@@ -1,6 +1,7 @@
 //! Several programs in one: the program on the command line and those that its cell file names.
 
 use crate::options::Checking;
+use crate::program_path::missing;
 use crate::robots;
 use arl_robot::Family;
 use arl_robot::cell::{Cell, CellChannel};
@@ -41,7 +42,7 @@ impl Other {
 /// The programs that a cell file names; `robot` is the robot of the first program.
 ///
 /// # Errors
-/// The file cannot be read, or its channels are not valid.
+/// The file cannot be read, or a channel is not valid: its robot or one of its programs does not exist.
 pub fn named(cell: Option<&Path>, robot: Option<&str>) -> Result<Vec<Other>, Failure> {
     let Some(cell) = cell else { return Ok(Vec::new()) };
     let programs = Cell::load(cell).map_err(|error| Failure::Usage(error.to_string()))?.programs;
@@ -51,6 +52,11 @@ pub fn named(cell: Option<&Path>, robot: Option<&str>) -> Result<Vec<Other>, Fai
         all.add(file, Some(robot), None)?;
     }
     for CellChannel { line, program, robot, background, load, .. } in programs.channels {
+        let refused = |what: String| Failure::Usage(format!("{}:{line}: {what}", cell.display()));
+        if let Some(what) = [&program].into_iter().chain(&load).find_map(|file| missing(&folder.join(file))) {
+            return Err(refused(what));
+        }
+        robots::family(robot.as_deref()).map_err(|error| refused(format!("robot: {error}")))?;
         all.add(program, (!background).then_some(robot.as_deref()), Some(line))?;
         for file in load {
             all.add(file, Some(robot.as_deref()), Some(line))?;
@@ -120,14 +126,25 @@ pub fn absolute(path: &Path) -> Result<PathBuf, Failure> {
 mod tests {
     use super::*;
 
+    /// What a cell file names that stands in a folder with some programs.
+    fn named_by(name: &str, text: &str, robot: Option<&str>) -> Result<Vec<Other>, Failure> {
+        let folder = std::env::temp_dir().join(format!("arl2rs-cell-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        for file in ["a.arl", "b.arl", "r.arl", "s.arl", "w.arl"] {
+            std::fs::write(folder.join(file), "func void main()\nendfunc\n").expect("written");
+        }
+        let path = folder.join("cell.toml");
+        std::fs::write(&path, text).expect("written");
+        let found = named(Some(&path), robot);
+        std::fs::remove_dir_all(&folder).expect("removed");
+        found
+    }
+
     #[test]
     fn a_cell_names_programs_once() {
-        let path = std::env::temp_dir().join(format!("arl2rs-several-{}.toml", std::process::id()));
         let text = "load = [\"r.arl\"]\n[io]\ndi = 3\n[[channel]]\nprogram = \"a.arl\"\nrobot = \"hsr065\"\nload = [\"s.arl\"]\n\
                     [[channel]]\nprogram = \"w.arl\"\nbackground = true\n[[channel]]\nprogram = \"a.arl\"\nrobot = \"cobra600\"\n";
-        std::fs::write(&path, text).expect("written");
-        let found = named(Some(&path), Some("six-10")).expect("a cell");
-        std::fs::remove_file(&path).expect("removed");
+        let found = named_by("several", text, Some("six-10")).expect("a cell");
         let short: Vec<_> = found.iter().map(|it| (it.file.as_str(), it.robot.as_deref(), it.background)).collect();
         let expected = [
             ("r.arl", Some("six-10"), false),
@@ -144,13 +161,7 @@ mod tests {
     fn a_program_is_for_one_build_of_robot() {
         let channel = |file: &str, more: &str| format!("[[channel]]\nprogram = \"{file}\"\n{more}\n");
         let (scara, background) = ("robot = \"hsr065\"", "background = true");
-        let named = |name: &str, text: &str| {
-            let path = std::env::temp_dir().join(format!("arl2rs-builds-{name}-{}.toml", std::process::id()));
-            std::fs::write(&path, text).expect("written");
-            let found = named(Some(&path), None);
-            std::fs::remove_file(&path).expect("removed");
-            found
-        };
+        let named = |name: &str, text: &str| named_by(name, text, None);
         for (name, text, line) in [
             ("channels", channel("a.arl", scara) + &channel("a.arl", "robot = \"six-10\""), ":4: "),
             ("default", channel("a.arl", "") + &channel("a.arl", scara), ":4: "),
@@ -167,5 +178,20 @@ mod tests {
         let same =
             channel("a.arl", "robot = \"six-10\"") + &channel("a.arl", "") + &channel("a.arl", "robot = \"kr6-r700\"");
         assert_eq!(named("same", &same).expect("a cell").len(), 1);
+    }
+
+    #[test]
+    fn what_does_not_exist_is_named_with_its_line() {
+        let refused = |name: &str, text: &str| match named_by(name, text, None) {
+            Err(Failure::Usage(text)) => text,
+            other => format!("{other:?}"),
+        };
+        let text = refused("file", "\n[[channel]]\nprogram = \"aa.arl\"\n");
+        assert!(
+            text.contains("cell.toml:2: there is no file ") && text.ends_with("aa.arl; did you mean `a.arl`?"),
+            "{text}"
+        );
+        let text = refused("robot", "[[channel]]\nprogram = \"a.arl\"\nrobot = \"six10\"\n");
+        assert!(text.contains("cell.toml:1: robot: six10: no robot of this name is built in"), "{text}");
     }
 }

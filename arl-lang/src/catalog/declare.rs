@@ -290,6 +290,7 @@ impl Entry {
             motion: None,
             shift: None,
             changes: None,
+            ended_by: None,
             connects: false,
             uses_disk: false,
             teaches: false,
@@ -328,6 +329,8 @@ setters! { Entry:
     shifts(axes: PoseShift) { shift = Some(axes) }
     /// Changes what motion depends on.
     changes(role: Role) { changes = Some(role) }
+    /// Begins what another instruction ends.
+    until(name: &'static str) { ended_by = Some(name) }
     /// Opens a connection.
     connects() { connects = true }
     /// Waits for the disk.

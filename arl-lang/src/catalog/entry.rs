@@ -164,6 +164,8 @@ pub struct Entry {
     pub shift: Option<PoseShift>,
     /// Which of the things that motion depends on it changes.
     pub changes: Option<Role>,
+    /// The instruction that ends what it begins, by name.
+    pub ended_by: Option<&'static str>,
     /// Whether it opens a connection.
     pub connects: bool,
     /// Whether it waits for the disk.

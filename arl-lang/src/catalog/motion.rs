@@ -120,7 +120,7 @@ entries! { pub(super) MOTION =
     /// Lays a weave over the lines, circles and splines that follow, up to endweave. It begins and ends on the path;
     /// what is too fast for the robot slows the path down.
     instr startweave(weave: weavedata "the pattern")
-        { "3.2.7.1", motion::startweave, acts, fails, foreground, only(Family::SixAxis),
+        { "3.2.7.1", motion::startweave, acts, fails, foreground, until("endweave"), only(Family::SixAxis),
           alias(&["startweavelin", "startweavespa"]);
           "weavedata zigzag = {weaveshape simple,frequency 2,amplitude 5}\nstartweave zigzag\nendweave" }
     /// Ends the weave.
@@ -129,7 +129,8 @@ entries! { pub(super) MOTION =
           "weavedata zigzag = {weaveshape simple,frequency 2,amplitude 5}\nstartweave zigzag\nendweave" }
     /// Begins to compensate the lines, circles and splines that follow, up to endcompen. All limits must be above 0.
     instr startcompen(data: compendata "how fast the compensation may grow")
-        { "3.2.11.1", motion::startcompen, acts, fails, foreground, changes(Role::Compensation), only(Family::SixAxis);
+        { "3.2.11.1", motion::startcompen, acts, fails, foreground, until("endcompen"), changes(Role::Compensation),
+          only(Family::SixAxis);
           "compendata limits = {200,600,1000,200,50,1000}\nstartcompen data:limits\nendcompen" }
     /// Shifts and turns the lines, circles and splines that follow, up to endcompen, cumulatively. At most 90 deg in
     /// all about each axis.

@@ -382,6 +382,8 @@ fn forms_and_effects_fit_each_other() {
         assert_eq!(ends, entry.effect == Effect::Ends, "{name}: only `exit` and `restart` end the program");
         assert_eq!(entry.motion.is_some(), entry.effect == Effect::Plans, "{name}: what plans is a motion");
         assert!(!(entry.connects || entry.uses_disk) || entry.effect == Effect::Waits, "{name}: it takes its time");
+        let known = |ends: &str| all_entries().iter().any(|entry| entry.name == ends);
+        assert!(entry.ended_by.is_none_or(known), "{name}: {:?} ends it, which is no instruction", entry.ended_by);
         let delays = entry.params.iter().any(|param| param.delays);
         assert!(!delays || entry.effect == Effect::Waits, "{name}: what delays waits");
     }

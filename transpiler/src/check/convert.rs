@@ -1,6 +1,7 @@
 //! Which values fit where: constants by their value, everything else by Table 2-1 and its extensions.
 
 use super::context::{CheckedBody, Checker};
+use super::name::constants;
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, Type, Value};
@@ -63,6 +64,7 @@ pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
         (Base::String, Base::Int) => "`toint(text, dec)` reads a number from a text",
         (Base::String, Base::Double) => "`scan` reads numbers from a text",
         (Base::Void | Base::Handle(_), _) => return None,
+        (_, Base::Enum(id)) => return Some(format!("its constants are {}", constants(id))),
         (Base::Bool, Base::Int | Base::Uint | Base::Byte | Base::Double) => {
             "a bool is not a number: choose one with `if`"
         }

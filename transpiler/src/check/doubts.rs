@@ -197,7 +197,32 @@ pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Locati
     endless_handlers(program, &mut |func, span, handler| {
         out.push(Doubt::EndlessHandler { handler }.at(locate(func.module, span)));
     });
+    nothing_ends(program, &mut |func, span, doubt| out.push(doubt.at(locate(func.module, span))));
     out
+}
+
+/// Reports each beginning of a change of motions that nothing in the program ends. A file without `main` is a part of
+/// a program that is not known here.
+fn nothing_ends(program: &Program, tell: &mut dyn FnMut(&Func, Span, Doubt)) {
+    if program.main.is_none() {
+        return;
+    }
+    let mut begun = Vec::new();
+    let mut called = HashSet::new();
+    for func in &program.funcs {
+        let mut look = |expr: &Expr| {
+            let ExprKind::Builtin(builtin) = &expr.kind else { return };
+            let entry = builtin.entry;
+            called.insert(entry.name);
+            begun.extend(entry.ended_by.map(|ends| (func, expr.span, entry.name, ends)));
+        };
+        func.body.iter().for_each(|stmt| visit::exprs_in_stmt(stmt, &mut look));
+    }
+    for (func, span, begins, ends) in begun {
+        if !called.contains(ends) {
+            tell(func, span, Doubt::NothingEnds { begins, ends });
+        }
+    }
 }
 
 /// What a statement means for a zone before it.

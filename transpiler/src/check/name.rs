@@ -4,7 +4,7 @@ use super::context::{CheckedBody, Checker};
 use super::convert::Typed;
 use super::place::PlaceOrValue;
 use crate::diagnostics::names::NameProblem;
-use crate::hir::{Expr, ExprKind, GlobalId, ModuleId, Place, Root, Type, Value};
+use crate::hir::{Expr, ExprKind, GlobalId, Local, ModuleId, Place, Root, Type, Value};
 use crate::index::{Meaning, Wanted};
 use crate::near::Hints;
 use crate::operators::Literal;
@@ -118,7 +118,12 @@ impl Checker<'_> {
         }
         let quoted = self.unquoted(body, span, want).filter(|_| near.is_none());
         let ty = want.filter(|want| !want.is_array()).map_or("int".into(), |want| self.type_name(want));
-        self.report(body, span, NameProblem::UnknownVariable { name, near, is_function, quoted, ty })
+        let is_it = |local: &&Local| near.is_none() && local.name.eq_ignore_ascii_case(&name);
+        let ended = body.locals.iter().rev().find(is_it);
+        let labels: Vec<_> =
+            ended.map(|local| (body.module, local.span, "this one ends with its block")).into_iter().collect();
+        let problem = NameProblem::UnknownVariable { name, near, is_function, quoted, ty };
+        self.report_in(body.module, span, problem, &labels)
     }
 
     /// The signal to which the cell gives this name, as files write it, and its channel.
@@ -257,7 +262,7 @@ impl Checker<'_> {
         let problem = NameProblem::UnknownConstant {
             name: self.text(body.module, span).into(),
             ty: def.name.into(),
-            constants: def.constants.iter().map(|constant| constant.name).collect::<Vec<_>>().join(", "),
+            constants: constants(id),
         };
         self.report(body, span, problem)
     }
@@ -343,4 +348,9 @@ fn hexadecimal(name: &str) -> Option<u32> {
     let digits = name.strip_suffix('h')?;
     let valid = !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
     if valid { u32::from_str_radix(digits, 16).ok() } else { None }
+}
+
+/// The names of an enumeration's constants.
+pub(crate) fn constants(id: Enum) -> String {
+    id.def().constants.iter().map(|constant| constant.name).collect::<Vec<_>>().join(", ")
 }

@@ -47,6 +47,10 @@ problems! {
             /// A `waituntil` without a time limit in a function that handles an event.
             EndlessHandler { handler: String },
         }
+        warning 924 "A weave or a compensation that nothing ends" => {
+            /// `begins` is called, and nowhere in the program `ends`.
+            NothingEnds { begins: &'static str, ends: &'static str },
+        }
     }
 }
 
@@ -76,6 +80,9 @@ impl Problem for Doubt {
             Doubt::Polls { .. } => "this loop only polls, as fast as it can, until the condition holds".into(),
             Doubt::EndlessHandler { handler } => {
                 format!("`{handler}` handles an event, and this may hold up the program forever")
+            }
+            Doubt::NothingEnds { begins, ends } => {
+                format!("no `{ends}` in this program ends what this `{begins}` begins")
             }
         }
     }
@@ -108,6 +115,9 @@ impl Problem for Doubt {
                 )
             }
             Doubt::EndlessHandler { .. } => "give it a `maxtime`, and look at its `timeoutflag`".into(),
+            Doubt::NothingEnds { ends, .. } => {
+                format!("write `{ends}` after its last line: until then every line, circle and spline is changed")
+            }
         })
     }
 }

@@ -212,6 +212,9 @@ impl Problem for TypeProblem {
             TypeProblem::NotAssignable { .. } => Some("`==` compares; `=` writes a variable".into()),
             TypeProblem::MixedBraces => Some("write `{1, 2}` or `{x 1, y 2}`".into()),
             TypeProblem::Compare { .. } => Some("compare the components or elements one by one".into()),
+            TypeProblem::NoValue { what } if what.ends_with(")`") => {
+                Some("it returns nothing: call it on a line of its own".into())
+            }
             TypeProblem::HandleCopy { .. } => {
                 Some("use the one variable everywhere; make it global to share it".into())
             }
