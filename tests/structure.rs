@@ -89,6 +89,7 @@ const PROJECT: &[&str] = &[
     "package",
     "cargo",
     "cell_programs",
+    "code_files",
     "stamp",
     "program",
 ];

@@ -1,6 +1,7 @@
 //! Programs as bytes: what one process makes, and another one runs.
 
 use crate::code::Code;
+use crate::verify::is_sound;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use twox_hash::XxHash3_64;
@@ -86,6 +87,92 @@ impl Bundle {
         if XxHash3_64::oneshot(content) != u64::from_le_bytes(*hash) {
             return Err(BundleError::Damaged);
         }
-        postcard::from_bytes(content).map_err(|_| BundleError::Damaged)
+        let bundle: Self = postcard::from_bytes(content).map_err(|_| BundleError::Damaged)?;
+        let is_whole = is_sound(&bundle.main) && bundle.others.iter().all(|other| is_sound(&other.code));
+        if is_whole { Ok(bundle) } else { Err(BundleError::Damaged) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layout::Extent;
+    use crate::{Function, Op};
+    use arl_lang::catalog::Family;
+
+    fn bundle(ops: Vec<Op>) -> Bundle {
+        let main = Function { name: "main".into(), file: 0, start: 0, frame: Extent::default(), boxes: 0 };
+        let code = Code {
+            family: Family::Scara,
+            files: vec!["a.arl".into()],
+            ops,
+            functions: vec![main],
+            main: 0,
+            first_values: Vec::new(),
+            calls: Vec::new(),
+            sites: Vec::new(),
+            events: Vec::new(),
+            transfers: Vec::new(),
+            boxes: Vec::new(),
+            entries: Vec::new(),
+            types: Vec::new(),
+            words: vec![1.5_f64.to_bits()],
+            texts: vec!["text".into()],
+            globals: Extent::default(),
+            handles: Vec::new(),
+            variables: Vec::new(),
+            watched: false,
+            locals: Vec::new(),
+            connects: false,
+            serves_modbus: false,
+        };
+        Bundle { folder: "/robot".into(), main: code, others: Vec::new() }
+    }
+
+    #[test]
+    fn a_bundle_is_read_as_it_was_written() {
+        let bundle = bundle(vec![Op::Word { to: 3, at: 0 }, Op::Return]);
+        assert_eq!(Bundle::from_bytes(&bundle.to_bytes()), Ok(bundle));
+    }
+
+    #[test]
+    fn bytes_that_are_cut_off_or_altered_are_refused() {
+        let bytes = bundle(vec![Op::Word { to: 3, at: 0 }, Op::Return]).to_bytes();
+        for length in 0..bytes.len() {
+            assert!(Bundle::from_bytes(&bytes[..length]).is_err(), "{length} bytes");
+        }
+        for at in 0..bytes.len() {
+            let mut altered = bytes.clone();
+            altered[at] ^= 4;
+            assert!(Bundle::from_bytes(&altered).is_err(), "byte {at}");
+        }
+    }
+
+    #[test]
+    fn bytes_of_another_version_say_which() {
+        let mut bytes = bundle(vec![Op::Return]).to_bytes();
+        bytes[MAGIC.len() + 1] = b'9';
+        let error = Bundle::from_bytes(&bytes).unwrap_err();
+        assert_eq!(error, BundleError::OtherVersion(format!("9{}", &VERSION[1..])));
+        assert_eq!(Bundle::from_bytes(b"func void main()"), Err(BundleError::NotCode));
+    }
+
+    #[test]
+    fn numbers_beyond_the_tables_are_refused() {
+        let refused = [
+            Op::Word { to: 0, at: 1 },
+            Op::Jump { to: 2 },
+            Op::Load { to: 0, at: 0 },
+            Op::CopyConstants { to: 0, from: 0, count: 1 },
+            Op::LoadGlobal { to: 0, at: 0 },
+            Op::Text { to: 0, at: 0 },
+            Op::Call { call: 0 },
+            Op::BuiltIn { site: 0 },
+            Op::DivSmall { to: 0, left: 0, value: 0 },
+        ];
+        for op in refused {
+            let bytes = bundle(vec![op, Op::Return]).to_bytes();
+            assert_eq!(Bundle::from_bytes(&bytes), Err(BundleError::Damaged), "{op:?}");
+        }
     }
 }

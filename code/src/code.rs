@@ -46,6 +46,10 @@ pub struct Code {
     pub handles: Vec<HandleKind>,
     /// The global variables by name.
     pub variables: Vec<Variable>,
+    /// Whether the code was made for a debugger.
+    pub watched: bool,
+    /// The local variables that it sees.
+    pub locals: Vec<Local>,
     /// Whether the program opens connections.
     pub connects: bool,
     /// Whether it uses registers or coils of the controller's Modbus TCP server.
@@ -209,6 +213,21 @@ pub struct Variable {
     pub value: Option<ConstantValue>,
     /// Whether its value is read again from its data file at load.
     pub teachable: bool,
+}
+
+/// A local variable, as a debugger sees it.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Local {
+    /// Its name.
+    pub name: Box<str>,
+    /// The number of its declaration in its function.
+    pub number: u32,
+    /// Its type.
+    pub ty: ValueType,
+    /// Where it is: in a box, or among the handles of the frame.
+    pub place: Place,
+    /// The operations among which it is visible.
+    pub scope: std::ops::Range<Address>,
 }
 
 /// The value of a constant.

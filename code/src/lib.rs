@@ -14,6 +14,7 @@ mod layout;
 mod numbers;
 mod op;
 mod place;
+mod verify;
 
 pub use bundle::*;
 pub use code::*;

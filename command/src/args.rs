@@ -1,7 +1,7 @@
 //! What the command understands.
 
 use arl_project::listing::MOST_SHOWN;
-use arl_project::options::{Checking, Mode, RunOptions, clearance};
+use arl_project::options::{Checking, EngineChoice, Mode, RunOptions, clearance};
 use arl_terminal::answer::Format;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
@@ -39,7 +39,7 @@ pub(crate) enum Command {
         #[arg(long, conflicts_with = "background")]
         collisions: bool,
         /// With --collisions: also report what comes closer to each other than this many mm.
-        #[arg(long, value_name = "MM", value_parser = clearance, requires = "collisions")]
+        #[arg(long, value_name = "MM", value_parser = clearance, allow_negative_numbers = true, requires = "collisions")]
         clearance: Option<f64>,
         #[command(flatten)]
         checking: Checking,
@@ -216,19 +216,26 @@ pub(crate) struct ViewOptions {
     /// The mode of operation of a program.
     #[arg(long, value_enum)]
     pub mode: Option<Mode>,
+    /// How the program is run: at once from its code, or compiled with rustc.
+    #[arg(long, value_enum)]
+    pub engine: Option<EngineChoice>,
 }
 
 impl ViewOptions {
     /// Whether there are options that apply to programs only.
     pub(crate) fn is_of_program(&self) -> bool {
         let paths = [&self.cell, &self.io, &self.script_dir, &self.state_dir];
-        self.teach || self.robot.is_some() || self.mode.is_some() || paths.iter().any(|path| path.is_some())
+        self.teach
+            || self.robot.is_some()
+            || self.mode.is_some()
+            || self.engine.is_some()
+            || paths.iter().any(|path| path.is_some())
     }
 
     /// The options of a program that is shown.
     pub(crate) fn run(&self) -> RunOptions {
-        let Self { robot, cell, io, script_dir, state_dir, mode, .. } = self.clone();
-        RunOptions { robot, cell, io, script_dir, state_dir, mode, ..RunOptions::default() }
+        let Self { robot, cell, io, script_dir, state_dir, mode, engine, .. } = self.clone();
+        RunOptions { robot, cell, io, script_dir, state_dir, mode, engine, ..RunOptions::default() }
     }
 }
 
@@ -270,18 +277,12 @@ pub(crate) struct TestOptions {
     /// Emit programs as for a debugger.
     #[arg(long, hide = true)]
     pub debug: bool,
-    /// How the programs are run.
+    /// Keep what each run leaves in this folder, with its trace.
+    #[arg(long, hide = true, value_name = "DIR")]
+    pub keep: Option<PathBuf>,
+    /// How the programs are run: at once from their code, or compiled with rustc.
     #[arg(long, value_enum)]
     pub engine: Option<EngineChoice>,
-}
-
-/// How programs are run.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
-pub(crate) enum EngineChoice {
-    /// At once, from their code.
-    Engine,
-    /// Compiled with rustc.
-    Native,
 }
 
 /// How test results are shown.

@@ -1,7 +1,7 @@
 //! `arl2rs check --collisions`: runs a program on the virtual clock to find what its robots run into.
 
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
 use serde_json::json;
 
@@ -16,6 +16,7 @@ use arl_runs::scenery::Scenery;
 use arl_terminal::answer::{self, Format};
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
+use arl_terminal::interrupt;
 use arl_terminal::private_folder::PrivateFolder;
 use arl_terminal::show;
 use arl_wire::Contact;
@@ -58,7 +59,7 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
     let robots = robots::of_cell(&cell, robots::load(options.robot.as_deref())?)?;
     let scenery = Scenery::of(&cell, &robots, &show::warning)?;
     let (watchers, found) = Scene::of(&scenery, &show::warning)?.watch(look.clearance, false);
-    let ready = prepare_checked(Kind::Program, file, options.cell.as_deref(), &options.checking())?;
+    let ready = prepare_checked(Kind::Program, file, &options)?;
     let Ran { code, why, received } = run(ready, &options, Listener::of(watchers)?)?;
     let found = found.borrow();
     if found.begun && received != Received::All {
@@ -88,12 +89,13 @@ struct Ran {
 
 /// Runs the program.
 fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result<Ran, Failure> {
-    arl_terminal::interrupt::leave_to_the_program();
-    let mut command = Command::new(&ready.program);
+    interrupt::leave_to_the_program();
+    let mut command = ready.command();
     command.args(options.arguments()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
     listener.iter().for_each(|listener| listener.ask(&mut command));
     let mut child = command.spawn().map_err(fail)?;
+    let _passed_on = interrupt::pass_on_to(&child);
     drop(ready.lock);
     let errors = child.stderr.take();
     let reader = std::thread::spawn(move || errors.and_then(|errors| std::io::read_to_string(errors).ok()));

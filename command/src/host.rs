@@ -90,7 +90,7 @@ pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
         let program = &settings.program;
         let options = options(settings).of_program(program)?;
         options.io.as_deref().map_or(Ok(()), scenario)?;
-        let ready = prepare_checked(Kind::Library, program, options.cell.as_deref(), &options.checking())?;
+        let ready = prepare_checked(Kind::Library, program, &options)?;
         let folder = options.script_dir.clone().map_or_else(|| folder_of(program), Ok)?;
         let named = [
             ("--robot", options.robot.as_deref().map(robot).transpose()?),

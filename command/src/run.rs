@@ -28,7 +28,7 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Compiles if needed, then lets the program take over.
+/// Makes the program ready, then lets it take over.
 pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
     let options = &options.of_program(file)?;
     // The screen shows the inside of programs.
@@ -38,8 +38,8 @@ pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
         false if options.changed()?.of_part(Part::Global).next().is_some() => Kind::Named,
         false => Kind::Program,
     };
-    let ready = prepare(kind, file, options.cell.as_deref(), &options.checking())?;
-    let mut command = Command::new(&ready.program);
+    let ready = prepare(kind, file, options)?;
+    let mut command = ready.command();
     command.args(options.arguments());
     let mut subscribers = subscribers(options, &ready.sources)?;
     if on_screen {
@@ -167,12 +167,13 @@ fn start(command: Command, ready: Ready) -> Result<Exit, Failure> {
     wait(command, None, ready)
 }
 
-/// Runs the program while this process waits, or listens to it. Ctrl-C reaches both; only the program acts on it.
+/// Runs the program while this process waits, or listens to it. Only the program acts on Ctrl-C.
 fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<Exit, Failure> {
     interrupt::leave_to_the_program();
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
     listener.iter().for_each(|listener| listener.ask(&mut command));
     let mut child = command.spawn().map_err(fail)?;
+    let _passed_on = interrupt::pass_on_to(&child);
     drop(ready.lock);
     let ended = match listener {
         // The program itself reports what it could not send.
@@ -188,5 +189,7 @@ fn code(ended: std::process::ExitStatus) -> u8 {
     let by_signal = std::os::unix::process::ExitStatusExt::signal(&ended).map(|signal| 128 + signal);
     #[cfg(not(unix))]
     let by_signal = None;
+    // A second interrupt, or one before the program watched for them.
+    let by_signal = by_signal.map(|code| if interrupt::was_pressed() { i32::from(Exit::INTERRUPTED.0) } else { code });
     ended.code().or(by_signal).and_then(|code| u8::try_from(code).ok()).unwrap_or(1)
 }

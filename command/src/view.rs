@@ -11,7 +11,6 @@ use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
 use arl_terminal::show;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// Serves the page: for a program until it ends, for recordings until the command is interrupted.
 pub(crate) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<Exit, Failure> {
@@ -39,8 +38,8 @@ fn live(program: &Path, options: &ViewOptions, page: Page) -> Result<Exit, Failu
     let first = options_of_run.robot.as_deref();
     let robots = robots::of_cell(&cell, robots::load_with(first, &options_of_run.changed()?)?)?;
     let scenery = Scenery::of(&cell, &robots, &show::warning)?;
-    let ready = prepare(Kind::Program, program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
-    let mut command = Command::new(&ready.program);
+    let ready = prepare(Kind::Program, program, &options_of_run)?;
+    let mut command = ready.command();
     command.args(options_of_run.arguments());
     let program = Program {
         name: program.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),

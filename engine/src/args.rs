@@ -3,7 +3,7 @@
 use crate::handles::{Handle, damaged};
 use crate::reach::Reach;
 use crate::types::with_type;
-use crate::values::Value;
+use crate::values::{Source, Target, Value};
 use arl_code::{Arg, Extent, Place, Site, ValueType};
 use arl_lang::catalog::Base;
 use arl_rt::emit::text::{Nested, Print, Style, Typed, nested};
@@ -121,11 +121,19 @@ impl<'a> Args<'a> {
     /// A system variable does not take the value.
     pub(crate) fn put_array<T: Value>(&mut self, number: usize, values: &[T]) -> Result<(), Fault> {
         let place = self.place(number)?;
-        let one = Extent::of(T::BASE, self.reach.engine.code.family);
-        for (at, value) in (0..).zip(values) {
-            self.reach.set_value(&place.after(one.times(at)), value)?;
+        let family = self.reach.engine.code.family;
+        let one = Extent::of(T::BASE, family);
+        if one.texts > 0 {
+            let mut all = (0..).zip(values);
+            return all.try_for_each(|(at, value)| self.reach.set_value(&place.after(one.times(at)), value));
         }
-        Ok(())
+        let mut words = Vec::with_capacity(values.len() * one.words as usize);
+        for value in values {
+            let mut target = Target::new(family);
+            value.store(&mut target);
+            words.extend_from_slice(target.words());
+        }
+        self.reach.write_words(place, &words)
     }
 
     /// Gives the result.
@@ -141,8 +149,15 @@ impl<'a> Args<'a> {
 
 /// The elements of an array at a place.
 fn elements<T: Value>(reach: &Reach<'_>, place: &Place, ty: &ValueType) -> Result<Vec<T>, Fault> {
-    let one = Extent::of(T::BASE, reach.engine.code.family);
-    (0..ty.count() as u32).map(|at| reach.value(&place.after(one.times(at)))).collect()
+    let family = reach.engine.code.family;
+    let one = Extent::of(T::BASE, family);
+    if one.texts > 0 {
+        return (0..ty.count() as u32).map(|at| reach.value(&place.after(one.times(at)))).collect();
+    }
+    let mut words = vec![0; one.words as usize * ty.count()];
+    reach.read_words(place, &mut words)?;
+    let values = words.chunks(one.words.max(1) as usize);
+    Ok(values.map(|words| T::load(&mut Source { words, texts: &[], family })).collect())
 }
 
 /// An argument of any type, to be printed.

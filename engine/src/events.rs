@@ -98,6 +98,8 @@ impl Engine {
     /// # Errors
     /// The name is taken, the priority is not valid, there are too many events; the alarm of the condition.
     pub(crate) fn declare(&self, cx: &Cx, declared: &Event, reach: Reach<'_>) -> Result<(), Fault> {
+        // The condition is evaluated at once, on the stack of this function.
+        cx.enter()?;
         let line = declared.site.line;
         let condition = declared.condition.as_ref().map(|piece| Captured::new(piece, line, &reach)).transpose()?;
         let action = Captured::new(&declared.action, line, &reach)?;
@@ -134,7 +136,7 @@ impl Engine {
                 }
                 event.run(cx)
             }
-            _ => {
+            "event::trigger" => {
                 let condition = condition.ok_or_else(damaged)?;
                 let mut event = event::trigger(async move |cx: &Cx| Ok(condition.run(cx).await? != 0), action);
                 if let Some(priority) = priority {
@@ -142,6 +144,7 @@ impl Engine {
                 }
                 event.run(cx)
             }
+            _ => Err(damaged()),
         }
     }
 }

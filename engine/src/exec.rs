@@ -31,6 +31,17 @@ pub(crate) enum Exit {
     Await(usize),
     Above(usize),
     Sink(u32),
+    /// A function has returned, in code for a debugger.
+    Closed,
+    /// A function begins, or the action of an event.
+    Open {
+        line: u32,
+        is_action: bool,
+    },
+    /// The program may be halted.
+    Halt(u32),
+    /// A local variable is there.
+    Show(u32),
 }
 
 #[inline]
@@ -423,23 +434,19 @@ impl Engine {
 
                     Op::NewHandles { at, count, kind } => {
                         for place in &mut h[at as usize..at as usize + usize::from(count)] {
-                            *place = Some(Rc::new(Handle::new(kind)));
+                            // What nobody else uses any more is used again: nothing is allocated.
+                            match place.as_mut().and_then(Rc::get_mut) {
+                                Some(old) => *old = Handle::new(kind),
+                                None => *place = Some(Rc::new(Handle::new(kind))),
+                            }
                         }
                     }
-                    Op::CopyHandles { to, from, count } => {
-                        for number in 0..usize::from(count) {
-                            h[to as usize + number] = h[from as usize + number].clone();
-                        }
-                    }
-                    Op::CopyFromGlobalHandles { to, from, count } => {
-                        for number in 0..usize::from(count) {
-                            h[to as usize + number] = Some(Rc::clone(&self.handles[from as usize + number]));
-                        }
+                    Op::DropHandles { at, count } => {
+                        h[at as usize..at as usize + count as usize].iter_mut().for_each(|place| *place = None);
                     }
                     Op::NewBox { to, extent } => {
                         b[usize::from(to)] = Some(Rc::new(Boxed::new(self.code.boxes[extent as usize])));
                     }
-                    Op::CopyBox { to, from } => b[usize::from(to)] = b[usize::from(from)].clone(),
 
                     Op::Call { call } => {
                         let call = &self.code.calls[call as usize];
@@ -447,17 +454,17 @@ impl Engine {
                         state.call(call, called, at);
                         continue 'function;
                     }
-                    Op::Return | Op::ReturnWord { .. } | Op::ReturnWords { .. } | Op::ReturnText { .. } => {
+                    Op::Return | Op::ReturnWord { .. } | Op::ReturnText { .. } => {
                         match op {
                             Op::ReturnWord { from } => r[0] = reg!(from),
-                            Op::ReturnWords { from, count } => {
-                                m.copy_within(from as usize..from as usize + usize::from(count), 0);
-                            }
                             Op::ReturnText { from } => t[0] = t[usize::from(from)].clone(),
                             _ => {}
                         }
                         let first = r[0];
                         if state.leave(&self.code.functions[function]) {
+                            if self.code.watched {
+                                return Ok(Exit::Closed);
+                            }
                             continue 'function;
                         }
                         return Ok(Exit::Returned(first));
@@ -537,6 +544,10 @@ impl Engine {
                         *held += bytes;
                         *held_in_all = all;
                     }
+                    Op::Open { line, is_action } => leave!(Exit::Open { line, is_action }),
+                    Op::Halt { line } => leave!(Exit::Halt(line)),
+                    Op::Show { local } => leave!(Exit::Show(local)),
+                    Op::DropBox { at } => b[usize::from(at)] = None,
                     Op::Exit => return Err(Stop::exit()),
                     Op::Restart => return Err(Stop::restart()),
                 }

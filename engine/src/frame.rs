@@ -1,9 +1,11 @@
 //! The frames of running functions.
 
 use crate::engine::Engine;
-use crate::handles::Handle;
+use crate::handles::{Handle, ShownHandles};
 use crate::reach::Reach;
-use arl_code::{Call, Extent, Function};
+use crate::teach::Variable;
+use arl_code::{Call, Extent, Function, ValueType, start_words};
+use arl_lang::catalog::Family;
 use arl_rt::emit::{Cell, Cx, Rc, Str};
 use std::cell::RefCell;
 
@@ -15,8 +17,10 @@ pub(crate) const MOST_CALLS: usize = 20_000;
 
 /// A variable that events see.
 pub(crate) struct Boxed {
-    pub(crate) words: Box<[Cell<u64>]>,
-    pub(crate) texts: Box<[RefCell<Str>]>,
+    pub(crate) words: Rc<[Cell<u64>]>,
+    pub(crate) texts: Rc<[RefCell<Str>]>,
+    /// The variable as a debugger sees it.
+    pub(crate) shown: RefCell<Option<Rc<Variable>>>,
 }
 
 impl Boxed {
@@ -24,7 +28,18 @@ impl Boxed {
         Self {
             words: (0..extent.words).map(|_| Cell::new(0)).collect(),
             texts: (0..extent.texts).map(|_| RefCell::default()).collect(),
+            shown: RefCell::default(),
         }
+    }
+
+    /// A variable with its start value.
+    pub(crate) fn with_start_value(ty: &ValueType, family: Family) -> Self {
+        let count = ty.count();
+        let boxed = Self::new(Extent::of(ty.base, family).times(u32::try_from(count).unwrap_or(u32::MAX)));
+        let mut one = Vec::new();
+        start_words(ty.base, family, &mut one);
+        boxed.words.iter().zip(one.iter().cycle()).for_each(|(word, start)| word.set(*start));
+        boxed
     }
 }
 
@@ -66,6 +81,8 @@ pub(crate) struct State {
     pub(crate) held_in_all: usize,
     /// Words on their way from place to place.
     pub(crate) passing: Vec<u64>,
+    /// Arrays of clocks and connections that a debugger sees.
+    pub(crate) shown: Vec<Rc<ShownHandles>>,
     /// The `jump` that waits above its target.
     pub(crate) above: Option<crate::args::Above>,
 }
@@ -78,6 +95,14 @@ impl State {
         self.above = None;
         self.position = Position { at: function.start as usize, function: number, ..Position::default() };
         self.make_room(function);
+    }
+
+    /// Lets go of what others could wait for: variables of events, connections.
+    pub(crate) fn end(&mut self) {
+        self.handles.iter_mut().for_each(|handle| *handle = None);
+        self.boxes.iter_mut().for_each(|shared| *shared = None);
+        self.shown.clear();
+        self.above = None;
     }
 
     /// Makes room for the frame of the function at the current position.

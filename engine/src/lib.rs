@@ -51,5 +51,6 @@ mod system;
 mod teach;
 mod types;
 mod values;
+mod watching;
 
 pub use engine::Engine;

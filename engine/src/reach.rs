@@ -6,8 +6,8 @@ use crate::handles::{Handle, damaged};
 use crate::system;
 use crate::values::{Source, Target, Value};
 use arl_code::{Extent, Place, Space};
-use arl_lang::catalog::{SystemVariable, system_variables};
-use arl_rt::emit::{Cell, Cx, Fault, Rc, Str};
+use arl_lang::catalog::{Base, SystemVariable, Takes, system_variables};
+use arl_rt::emit::{Cell, Cx, Fault, Rc, Str, in_range};
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
@@ -115,7 +115,7 @@ impl Reach<'_> {
             Space::Global => Cow::Owned(self.engine.texts.get(at).ok_or_else(damaged)?.borrow().clone()),
             Space::Boxed(number) => Cow::Owned(self.boxed(number)?.texts.get(at).ok_or_else(damaged)?.borrow().clone()),
             Space::System(number) => {
-                let place = self.in_system(number, place);
+                let place = self.text_in_system(number, place);
                 let mut value = self.system_value(&place)?;
                 Cow::Owned(value.text.take().unwrap_or_default())
             }
@@ -136,7 +136,7 @@ impl Reach<'_> {
                 drop(self.boxed(number)?.texts.get(at).ok_or_else(damaged)?.replace(text));
             }
             Space::System(number) => {
-                let place = self.in_system(number, place);
+                let place = self.text_in_system(number, place);
                 let value = self.system_value(&place)?;
                 let family = self.engine.code.family;
                 let mut from = Source { words: value.words(), texts: &[text], family };
@@ -233,14 +233,23 @@ impl Reach<'_> {
 
     // System variables.
 
-    fn in_system(&self, variable: u16, place: &Place) -> InSystem {
+    /// The element of a system variable that has the words of a place.
+    fn words_in_system(&self, variable: u16, place: &Place) -> InSystem {
+        let one = self.extent_in_system(variable).words.max(1) as usize;
+        let at = self.word_at(place);
+        let rest = Extent { words: (at % one) as u32, ..Extent::default() };
+        InSystem { variable, element: at / one, rest }
+    }
+
+    /// The element of a system variable that has the string of a place.
+    fn text_in_system(&self, variable: u16, place: &Place) -> InSystem {
+        let one = self.extent_in_system(variable).texts.max(1) as usize;
+        InSystem { variable, element: self.text_at(place) / one, rest: Extent::default() }
+    }
+
+    fn extent_in_system(&self, variable: u16) -> Extent {
         let family = self.engine.code.family;
-        let one = definition(variable).map_or(Extent::default(), |variable| Extent::of(variable.ty, family));
-        let within = |at: usize, one: u32| if one == 0 { (0, 0) } else { (at / one as usize, at % one as usize) };
-        let (by_words, word) = within(self.word_at(place), one.words);
-        let (by_texts, text) = within(self.text_at(place), one.texts);
-        let rest = Extent { words: word as u32, texts: text as u32, handles: 0 };
-        InSystem { variable, element: if one.words > 0 { by_words } else { by_texts }, rest }
+        definition(variable).map_or(Extent::default(), |variable| Extent::of(variable.ty, family))
     }
 
     fn system_value(&self, place: &InSystem) -> Result<Target, Fault> {
@@ -250,7 +259,7 @@ impl Reach<'_> {
     }
 
     fn read_system(&self, number: u16, place: &Place, out: &mut [u64]) -> Result<(), Fault> {
-        let mut place = self.in_system(number, place);
+        let mut place = self.words_in_system(number, place);
         let mut done = 0;
         while done < out.len() {
             let value = self.system_value(&place)?;
@@ -268,8 +277,10 @@ impl Reach<'_> {
     }
 
     fn write_system(&mut self, number: u16, place: &Place, words: &[u64]) -> Result<(), Fault> {
-        let mut place = self.in_system(number, place);
+        let mut place = self.words_in_system(number, place);
         let family = self.engine.code.family;
+        // All or none: the whole value is looked at before the first element is written.
+        check_range(number, words)?;
         let mut done = 0;
         while done < words.len() {
             let value = self.system_value(&place)?;
@@ -297,6 +308,19 @@ impl Reach<'_> {
 fn definition(number: u16) -> Option<&'static SystemVariable> {
     static ALL: OnceLock<Vec<&'static SystemVariable>> = OnceLock::new();
     ALL.get_or_init(|| system_variables().collect()).get(usize::from(number)).copied()
+}
+
+/// Whether a system variable takes these numbers.
+fn check_range(number: u16, words: &[u64]) -> Result<(), Fault> {
+    let Some(variable) = definition(number) else { return Err(damaged()) };
+    let Takes::Range(low, high) = variable.takes else { return Ok(()) };
+    words.iter().try_for_each(|word| match variable.ty {
+        Base::Int => in_range(*word as u32 as i32, low, high).map(drop),
+        Base::Uint => in_range(*word as u32, low, high).map(drop),
+        Base::Byte => in_range(*word as u8, low, high).map(drop),
+        Base::Double => in_range(f64::from_bits(*word), low, high).map(drop),
+        _ => Ok(()),
+    })
 }
 
 fn read_cells(cells: &[Cell<u64>], out: &mut [u64]) {

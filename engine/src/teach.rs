@@ -1,4 +1,4 @@
-//! Global variables by name: they take literals of data files, of the command line and of debuggers.
+//! Variables by name: they take literals of data files, of the command line and of debuggers.
 
 use crate::types::with_type;
 use crate::values::{MOST_WORDS, Source, Target, Value};
@@ -10,8 +10,8 @@ use arl_rt::emit::text::{Print, Typed, nested};
 use arl_rt::emit::{Cell, Fixed, Literal, Onto, Rc, Str, Teach, TeachError, put_array, write_array};
 use std::cell::RefCell;
 
-/// A global variable.
-pub(crate) struct Global {
+/// A variable that takes literals: a global one, or a local one that a debugger sees.
+pub(crate) struct Variable {
     pub(crate) words: Rc<[Cell<u64>]>,
     pub(crate) texts: Rc<[RefCell<Str>]>,
     pub(crate) place: Place,
@@ -19,7 +19,7 @@ pub(crate) struct Global {
     pub(crate) family: Family,
 }
 
-impl Global {
+impl Variable {
     fn element<T: Value>(&self, number: usize) -> T {
         let one = Extent::of(T::BASE, self.family);
         let place = self.place.after(one.times(number as u32));
@@ -88,7 +88,7 @@ impl Global {
     }
 }
 
-impl Teach for Global {
+impl Teach for Variable {
     fn teach_onto(&self, onto: Onto, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
         with_type!(self.ty.base, self.family, T => self.put::<T>(onto, value, sizes, names), otherwise Ok(()))
     }

@@ -1,7 +1,7 @@
 //! `arl.toml`: settings of the robot and the cell of programs that are not given on the command line. It lies beside a
 //! program, or in a folder above it; its paths are relative to its own folder. The command line takes precedence.
 
-use crate::options::{Checking, RunOptions};
+use crate::options::{Checking, EngineChoice, RunOptions};
 use crate::program_path;
 use crate::robots;
 use arl_robot::settings::Source;
@@ -32,6 +32,8 @@ pub struct ArlToml {
     pub io: Option<PathBuf>,
     /// The folder that contains the program's files.
     pub script_dir: Option<PathBuf>,
+    /// How programs are run.
+    pub engine: Option<EngineChoice>,
     /// The path at which it was found.
     #[serde(skip)]
     pub path: PathBuf,
@@ -99,6 +101,7 @@ type Entry<'a> = (&'a str, Slot<'a>);
 enum Slot<'a> {
     Robot(&'a mut Option<String>, &'a Option<String>),
     Path(&'a mut Option<PathBuf>, &'a Option<PathBuf>),
+    Engine(&'a mut Option<EngineChoice>, &'a Option<EngineChoice>),
 }
 
 impl Slot<'_> {
@@ -128,6 +131,7 @@ fn fill<'a>(file: &ArlToml, tells: bool, entries: impl IntoIterator<Item = Entry
         let (was_given, value) = match slot {
             Slot::Robot(own, other) => (own.is_some(), take(own, other).map(PathBuf::from)),
             Slot::Path(own, other) => (own.is_some(), take(own, other)),
+            Slot::Engine(own, other) => (own.is_some(), take(own, other).map(|choice| choice.name().into())),
         };
         if let Some(value) = value {
             let from = if was_given { "the command line".into() } else { show::path(&file.path).display().to_string() };
@@ -188,6 +192,7 @@ impl RunOptions {
             ("cell", Slot::Path(&mut all.cell, &file.cell)),
             ("io", Slot::Path(&mut all.io, &file.io)),
             ("script-dir", Slot::Path(&mut all.script_dir, &file.script_dir)),
+            ("engine", Slot::Engine(&mut all.engine, &file.engine)),
         ];
         fill(&file, self.verbose, entries)?;
         all.io = all.io.filter(|io| !is_no_scenario(io));

@@ -8,6 +8,7 @@ use arl_terminal::progress::Progress;
 use arl_terminal::show;
 use serde::Deserialize;
 use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -88,11 +89,27 @@ pub fn build(folder: &Path, target: &Path, release: bool, progress: &Progress) -
     Ok(built)
 }
 
+/// The name or the path of cargo.
+fn program() -> OsString {
+    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}
+
+/// Whether there is a cargo on this computer.
+pub fn is_there() -> bool {
+    let program = PathBuf::from(program());
+    if program.components().count() > 1 {
+        return program.is_file();
+    }
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let name = program.with_extension(std::env::consts::EXE_EXTENSION);
+    std::env::split_paths(&path).any(|folder| folder.join(&name).is_file())
+}
+
 /// The cargo command. cargo looks for settings from its working folder up to the root, so it runs in the root, where
 /// only the system has settings. Those of `CARGO_HOME` determine where packages come from and what links them, but not
 /// how the emitted code is compiled.
 fn command(folder: &Path, target: &Path, release: bool) -> Command {
-    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let mut command = Command::new(program());
     command
         .args(["build", "--quiet", "--keep-going", "--message-format=json-diagnostic-rendered-ansi", "--manifest-path"])
         .arg(folder.join("Cargo.toml"))

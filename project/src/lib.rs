@@ -6,6 +6,7 @@ mod build_failure;
 pub mod cache;
 pub mod cargo;
 pub mod cell_programs;
+mod code_files;
 pub mod expectations;
 pub mod listing;
 pub mod options;

@@ -4,6 +4,7 @@ use arl_robot::changes::Changes;
 use arl_terminal::answer::ReportFormat;
 use arl_terminal::failure::Failure;
 use clap::{Args, ValueEnum};
+use serde::Deserialize;
 use std::path::PathBuf;
 
 /// Options of the compiler.
@@ -70,7 +71,7 @@ pub struct RunOptions {
     pub record: Option<PathBuf>,
     /// Look for collisions, and also warn where robots, bodies of the cell and what is carried come closer to each
     /// other than this many mm. Without this option collisions are looked for if the cell has bodies.
-    #[arg(long, value_name = "MM", value_parser = clearance)]
+    #[arg(long, value_name = "MM", value_parser = clearance, allow_negative_numbers = true)]
     pub clearance: Option<f64>,
     /// Say at the end what each line's motions did: speeds, times, blends, the closest limit. With =FILE: each motion
     /// as a JSON object on a line of the file.
@@ -91,13 +92,13 @@ pub struct RunOptions {
     #[arg(long = "loop")]
     pub repeats: bool,
     /// End after this many controller seconds, with exit code 4.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = seconds, allow_negative_numbers = true)]
     pub max_time: Option<f64>,
     /// The mode of operation.
     #[arg(long, value_enum)]
     pub mode: Option<Mode>,
     /// The override in percent.
-    #[arg(long = "override", value_name = "PCT")]
+    #[arg(long = "override", value_name = "PCT", value_parser = percent, allow_negative_numbers = true)]
     pub override_percent: Option<f64>,
     /// The seed of `rand` on the virtual clock.
     #[arg(long, value_name = "N")]
@@ -109,9 +110,33 @@ pub struct RunOptions {
     /// `cell.KEYS=VALUE`. Entries of lists count from 1. Can be given several times.
     #[arg(long = "set", value_name = "PLACE=VALUE")]
     pub changes: Vec<String>,
+    /// How the program is run: at once from its code, or compiled with rustc. Without this option at once, unless the
+    /// compiled program is there and up to date.
+    #[arg(long, value_enum)]
+    pub engine: Option<EngineChoice>,
     /// Show what came from the command line and what from an `arl.toml` beside the program or above it.
     #[arg(long)]
     pub verbose: bool,
+}
+
+/// How programs are run.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize, Debug)]
+#[serde(rename_all = "kebab-case")]
+pub enum EngineChoice {
+    /// At once, from their code.
+    Engine,
+    /// Compiled with rustc.
+    Native,
+}
+
+impl EngineChoice {
+    /// Its name on the command line and in `arl.toml`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Engine => "engine",
+            Self::Native => "native",
+        }
+    }
 }
 
 /// A distance in mm.
@@ -119,8 +144,22 @@ pub struct RunOptions {
 /// # Errors
 /// It is not a number, negative or not finite.
 pub fn clearance(text: &str) -> Result<f64, String> {
-    let distance = text.parse::<f64>().ok().filter(|distance| distance.is_finite() && *distance >= 0.0);
-    distance.ok_or_else(|| "expected a distance in mm, 0 or more".into())
+    within(text, f64::MAX).ok_or_else(|| "expected a distance in mm, 0 or more".into())
+}
+
+/// A time in s.
+fn seconds(text: &str) -> Result<f64, String> {
+    within(text, f64::MAX).ok_or_else(|| "expected a time in s, 0 or more".into())
+}
+
+/// A percentage.
+fn percent(text: &str) -> Result<f64, String> {
+    within(text, 100.0).ok_or_else(|| "expected a number of percent, 0 to 100".into())
+}
+
+/// A number from 0 to `most`.
+fn within(text: &str, most: f64) -> Option<f64> {
+    text.parse::<f64>().ok().filter(|number| (0.0..=most).contains(number))
 }
 
 /// What time is made of.

@@ -3,13 +3,15 @@
 use crate::cache::{Cache, Content, Kind, Lock, Place, RECORD, write_if_changed};
 use crate::cargo;
 use crate::cell_programs::{self, Other, absolute};
+use crate::code_files::{self, CODE};
 use crate::listing;
-use crate::options::Checking;
+use crate::options::{Checking, EngineChoice, RunOptions};
 use crate::package;
 use crate::package::{Emitted, EmittedOther};
 use crate::robots;
 use crate::runtime::{Runtime, hash_state};
 use crate::stamp::{Freshness, Kept, Recording, Stamp};
+use arl_code::{Bundle, BundledProgram, Code};
 use arl_robot::cell::Cell;
 use arl_robot::outline::Outline;
 use arl_terminal::failure::Failure;
@@ -17,11 +19,13 @@ use arl_terminal::progress::Progress;
 use arl_terminal::show;
 use arl2rs::CheckOptions;
 use arl2rs::Sources;
-use arl2rs::compile::{Bug, Compiled, compile_program};
+use arl2rs::compile::{Bug, Compiled, check_program, compile_program};
 use arl2rs::emit::EmitOptions;
+use arl2rs::lower::{lower, lower_watched};
 use arl2rs::sources::FileSystem;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::OnceLock;
 
 /// A compiled program, which other processes cannot compile again while the lock is held.
@@ -29,10 +33,29 @@ use std::sync::OnceLock;
 pub struct Ready {
     /// The executable, or the library.
     pub program: PathBuf,
+    /// The code, if the executable is this command, which has the engine.
+    pub code: Option<PathBuf>,
     /// No other process compiles the program again while this is held.
     pub lock: Lock,
     /// The files that were read; empty if they were not recorded.
     pub sources: Vec<PathBuf>,
+}
+
+impl Ready {
+    /// The command that runs the program.
+    pub fn command(&self) -> Command {
+        match &self.code {
+            Some(code) => command_of_code(&self.program, code),
+            None => Command::new(&self.program),
+        }
+    }
+}
+
+/// The command that runs code with the engine of `this`, which is arl2rs.
+pub fn command_of_code(this: &Path, code: &Path) -> Command {
+    let mut command = Command::new(this);
+    command.arg("engine").arg(code);
+    command
 }
 
 /// The options of a check.
@@ -103,6 +126,11 @@ impl<'a> Job<'a> {
         })
     }
 
+    /// The job of a run.
+    fn of_run(file: &'a Path, options: &'a RunOptions) -> Result<Self, Failure> {
+        Self::new(file, options.cell.as_deref(), &options.checking())
+    }
+
     /// The same job, to be compiled into `kind`.
     pub fn into_kind(self, kind: Kind) -> Self {
         Self { kind, ..self }
@@ -135,33 +163,79 @@ impl<'a> Job<'a> {
     pub fn compile(&self, sources: &dyn Sources) -> Result<Done, Failure> {
         let (watched, named) = (self.kind == Kind::Watched, matches!(self.kind, Kind::Library | Kind::Named));
         let emitting = EmitOptions { watched, named, ..EmitOptions::default() };
-        let emit = |file: &Path, options| compile_program(file, sources, options, &emitting).map_err(bug);
-        let mut programs = vec![emit(self.file, &self.options)?];
-        for (other, options) in &self.others {
-            programs.push(emit(&other.path, options)?);
-        }
+        let mut programs = self.each(|file, options| compile_program(file, sources, options, &emitting))?;
+        let messages = self.show(&programs)?;
+        let mut rust = programs.iter_mut().map(|compiled| compiled.rust.take().ok_or(Failure::Shown));
+        let first = rust.next().unwrap_or(Err(Failure::Shown))?;
+        let rust: Vec<String> = rust.collect::<Result<_, _>>()?;
+        let others = self.beside(rust, |file, folder, rust| EmittedOther { file, folder, rust })?;
+        Ok(Done { programs, rust: Emitted { first, others, kind: self.kind }, messages })
+    }
+
+    /// Checks all programs, the first of the job first.
+    ///
+    /// # Errors
+    /// A bug of the compiler.
+    pub fn check(&self, sources: &dyn Sources) -> Result<Vec<Compiled>, Failure> {
+        self.each(|file, options| check_program(file, sources, options))
+    }
+
+    /// The name that the cell has for a program: not for the first one, at 0.
+    pub fn named(&self, at: usize) -> Option<&str> {
+        self.others.get(at.checked_sub(1)?).map(|(other, _)| other.file.as_str())
+    }
+
+    /// The code that the engine runs, of programs that [`Job::check`] found correct.
+    ///
+    /// # Errors
+    /// [`Failure::Shown`] for a program with errors; a program that is too large for the engine.
+    pub fn bundle(&self, programs: &mut [Compiled]) -> Result<Bundle, Failure> {
+        let is_watched = self.kind == Kind::Watched;
+        let code = |compiled: &mut Compiled| {
+            let program = compiled.checked.program.as_mut().ok_or(Failure::Shown)?;
+            let code = if is_watched { lower_watched(program) } else { lower(program) };
+            code.map_err(|problem| Failure::Other(format!("{problem}: `--engine native` compiles it")))
+        };
+        let mut codes = programs.iter_mut().map(code);
+        let main = codes.next().unwrap_or(Err(Failure::Shown))?;
+        let others = codes.collect::<Result<Vec<Code>, _>>()?;
+        let others = self.beside(others, |file, folder, code| BundledProgram { file, folder, code })?;
+        let folder = self.main()?.parent().unwrap_or(Path::new("/")).display().to_string();
+        Ok(Bundle { folder, main, others })
+    }
+
+    /// What `make` makes of each program, the first of the job first.
+    fn each<T>(&self, make: impl Fn(&Path, &CheckOptions) -> Result<T, Bug>) -> Result<Vec<T>, Failure> {
+        let first = (self.file, &self.options);
+        let others = self.others.iter().map(|(other, options)| (other.path.as_path(), options));
+        std::iter::once(first).chain(others).map(|(file, options)| make(file, options).map_err(bug)).collect()
+    }
+
+    /// Puts each result beside the file and the folder of its additional program.
+    fn beside<T, U>(&self, made: Vec<T>, put: impl Fn(String, String, T) -> U) -> Result<Vec<U>, Failure> {
+        let main = self.main()?;
+        let others = self.others.iter().zip(made);
+        others.map(|((other, _), made)| Ok(put(other.file.clone(), other.folder(&main)?, made))).collect()
+    }
+
+    /// Shows the messages of programs, and returns them.
+    ///
+    /// # Errors
+    /// [`Failure::Shown`] if a program has errors.
+    fn show(&self, programs: &[Compiled]) -> Result<String, Failure> {
         let mut limit = listing::Limit::default();
         let messages: String = programs.iter().map(|compiled| listing::rendered(compiled, &mut limit)).collect();
-        if !self.is_checked || programs.iter().any(|compiled| compiled.rust.is_none()) {
+        let is_refused = programs.iter().any(|compiled| compiled.checked.program.is_none());
+        if !self.is_checked || is_refused {
             show::say(&messages);
         }
-        let rust: Option<Vec<String>> = programs.iter_mut().map(|compiled| compiled.rust.take()).collect();
-        let mut rust = rust.ok_or(Failure::Shown)?.into_iter();
-        let first = rust.next().ok_or(Failure::Shown)?;
-        let main = self.main()?;
-        let beside = |((other, _), rust): (&(Other, CheckOptions), String)| {
-            Ok(EmittedOther { file: other.file.clone(), folder: other.folder(&main)?, rust })
-        };
-        let others = self.others.iter().zip(rust).map(beside).collect::<Result<_, Failure>>()?;
-        Ok(Done { programs, rust: Emitted { first, others, kind: self.kind }, messages })
+        if is_refused { Err(Failure::Shown) } else { Ok(messages) }
     }
 
     /// A number that changes with everything except the sources: this command, the runtime, the options, the channels.
     fn identity(&self, runtime: Runtime) -> u64 {
         let mut hasher = DefaultHasher::new();
-        if let Some(compiler) = COMPILER.get().cloned().or_else(|| std::env::current_exe().ok()) {
-            hash_state(&compiler, &mut hasher);
-        }
+        state_of_command().hash(&mut hasher);
         runtime.state().hash(&mut hasher);
         let of_options = |options: &CheckOptions| (options.family, options.strict, options.background);
         (of_options(&self.options), &self.options.script_dir).hash(&mut hasher);
@@ -170,28 +244,94 @@ impl<'a> Job<'a> {
     }
 }
 
+/// A number that changes with the file of this command.
+pub fn state_of_command() -> u64 {
+    let mut hasher = DefaultHasher::new();
+    if let Some(compiler) = COMPILER.get().cloned().or_else(|| std::env::current_exe().ok()) {
+        hash_state(&compiler, &mut hasher);
+    }
+    hasher.finish()
+}
+
 /// A bug of the compiler as the failure of the command.
 pub fn bug(bug: Bug) -> Failure {
     Failure::Other(bug.to_string())
 }
 
-/// Compiles a program together with those that its cell names, unless that was done before.
+/// Makes a program ready to run, together with those that its cell names: by the engine, or compiled, as the options
+/// say. Where they say nothing, the engine runs it; but a compiled program is used where it is up to date, for real
+/// arms if there is a compiler, and where the engine cannot do what `kind` requests.
 ///
 /// # Errors
 /// The program is refused or cannot be compiled; the error gives the reason and the position.
-pub fn prepare(kind: Kind, file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
-    prepare_job(&Job::new(file, cell, checking)?.into_kind(kind), checking)
+pub fn prepare(kind: Kind, file: &Path, options: &RunOptions) -> Result<Ready, Failure> {
+    prepare_job(&Job::of_run(file, options)?.into_kind(kind), options)
 }
 
 /// Like `prepare`, for a program whose warnings have been shown by a check.
 ///
 /// # Errors
 /// As for [`prepare`].
-pub fn prepare_checked(kind: Kind, file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
-    prepare_job(&Job { is_checked: true, ..Job::new(file, cell, checking)?.into_kind(kind) }, checking)
+pub fn prepare_checked(kind: Kind, file: &Path, options: &RunOptions) -> Result<Ready, Failure> {
+    prepare_job(&Job { is_checked: true, ..Job::of_run(file, options)?.into_kind(kind) }, options)
 }
 
-fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
+fn prepare_job(job: &Job<'_>, options: &RunOptions) -> Result<Ready, Failure> {
+    let needs = job.kind.needs_native();
+    match (options.engine, needs) {
+        (Some(EngineChoice::Native), _) => compiled(job, options),
+        (Some(EngineChoice::Engine), Some(needs)) => Err(Failure::Usage(format!("--engine engine: {needs}"))),
+        (Some(EngineChoice::Engine), None) => lowered(job),
+        (None, Some(_)) => compiled(job, options),
+        (None, None) if !has_engine() || (options.drive && cargo::is_there()) => compiled(job, options),
+        (None, None) => match kept(job)? {
+            Some(ready) => Ok(ready),
+            None => lowered(job),
+        },
+    }
+}
+
+/// Whether this process can start the command that has the engine.
+fn has_engine() -> bool {
+    COMPILER.get().is_none()
+}
+
+/// Checks the programs of a job, and makes them ready for the engine: this command runs their code.
+///
+/// # Errors
+/// A program is refused; the code cannot be written.
+fn lowered(job: &Job<'_>) -> Result<Ready, Failure> {
+    let place = job.place(&Cache::find()?)?;
+    let mut programs = job.check(&FileSystem)?;
+    job.show(&programs)?;
+    let bundle = job.bundle(&mut programs)?;
+    let sources = programs.iter().flat_map(files).map(|file| absolute(&file)).collect::<Result<_, _>>()?;
+    let lock = place.lock(true)?;
+    let path = code_files::write(&place, &bundle.to_bytes())?;
+    let program = std::env::current_exe().map_err(|error| Failure::io("find", Path::new("arl2rs"), &error))?;
+    Ok(Ready { program, code: Some(path), lock, sources })
+}
+
+/// The files of a program that was checked.
+fn files(compiled: &Compiled) -> Vec<PathBuf> {
+    compiled.checked.files.iter().map(|(_, file)| compiled.folder.join(&file.name)).collect()
+}
+
+/// The compiled program, if there is one and it is up to date.
+fn kept(job: &Job<'_>) -> Result<Option<Ready>, Failure> {
+    let place = job.place(&Cache::find()?)?;
+    if !place.stamp().exists() {
+        return Ok(None);
+    }
+    let lock = place.lock(true)?;
+    match state(&place, job.identity(Runtime::find())) {
+        (Freshness::Fresh, Some(stamp)) => start_again(&place, &stamp, lock, job.is_checked).map(Some),
+        _ => Ok(None),
+    }
+}
+
+/// Compiles a program unless that was done before.
+fn compiled(job: &Job<'_>, options: &RunOptions) -> Result<Ready, Failure> {
     let cache = Cache::find()?;
     let place = job.place(&cache)?;
     let runtime = Runtime::find();
@@ -214,7 +354,7 @@ fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
     let done = job.compile(&read)?;
     // The runtime reads data files again below the script directory, which must therefore be the folder of the main
     // file.
-    let read_again = checking.script_dir.is_none() && freshness == Freshness::DataChanged;
+    let read_again = options.script_dir.is_none() && freshness == Freshness::DataChanged;
     let kept = stamp.filter(|stamp| read_again && only_values(stamp, &done.programs, &read));
     let (name, program) = match kept {
         Some(stamp) => (stamp.kept.name, stamp.kept.program),
@@ -227,7 +367,7 @@ fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
     if let Some(stamp) = &stamp {
         write_if_changed(&place.stamp(), stamp.text().as_bytes())?;
     }
-    Ok(Ready { program: path, lock, sources: stamp.as_ref().map(sources).unwrap_or_default() })
+    Ok(Ready { program: path, code: None, lock, sources: stamp.as_ref().map(sources).unwrap_or_default() })
 }
 
 fn only_values(stamp: &Stamp, compiled: &[Compiled], read: &Recording<'_>) -> bool {
@@ -263,7 +403,7 @@ fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Re
     }
     let (program, sources) = (place.folder.join(&stamp.kept.name), sources(stamp));
     renew(&program, &sources);
-    Ok(Ready { program, lock, sources })
+    Ok(Ready { program, code: None, lock, sources })
 }
 
 /// Makes a program as new as its sources, which have the text that it was compiled from, even if they were written
@@ -338,7 +478,8 @@ fn remove_old(place: &Place, keep: &str) {
     let Ok(entries) = std::fs::read_dir(&place.folder) else { return };
     for entry in entries.filter_map(Result::ok) {
         let name = entry.file_name();
-        if name != keep && !OURS.iter().any(|ours| name == *ours) {
+        let is_code = name.to_string_lossy().starts_with(CODE);
+        if name != keep && !is_code && !OURS.iter().any(|ours| name == *ours) {
             // A file that cannot be removed now is removed next time.
             let _ = std::fs::remove_file(entry.path());
         }

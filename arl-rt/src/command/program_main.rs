@@ -53,6 +53,8 @@ const EXIT_USAGE: u8 = 2;
 pub(super) const EXIT_ALARM: u8 = 3;
 pub(super) const EXIT_MAX_TIME: u8 = 4;
 pub(super) const EXIT_INTERRUPTED: u8 = 130;
+/// A bug of the runtime: the code of Rust programs that panic.
+const EXIT_PANICKED: u8 = 101;
 
 /// Makes drivers for `--drive`.
 static CONNECT: OnceLock<Connect> = OnceLock::new();
@@ -87,13 +89,10 @@ pub fn main_watched<P: Program + 'static>(
     others: &[Other],
     script_dir: &str,
 ) -> ExitCode {
-    start(
-        program,
-        others,
-        script_dir,
-        Some(Watching { connect: debug::connect, count: coverage::count, inside: debug::inside }),
-    )
+    start(program, others, script_dir, Some(WATCHING))
 }
+
+const WATCHING: Watching = Watching { connect: debug::connect, count: coverage::count, inside: debug::inside };
 
 /// The extra abilities of programs that were made for a debugger.
 #[derive(Clone, Copy)]
@@ -129,25 +128,26 @@ pub fn main_named<P: Program + 'static>(
     script_dir: &str,
 ) -> ExitCode {
     if std::env::args_os().skip(1).eq([OsString::from("--serve")]) {
-        return serve::serve(move || Box::new(program()) as Box<dyn Program>, others, script_dir);
+        return ExitCode::from(serve::serve(move || Box::new(program()) as Box<dyn Program>, others, script_dir));
     }
     start(program, others, script_dir, None)
 }
 
 /// As `main_named`, with the words of a command line that is not that of this process: for programs that are part of
-/// another command. Programs of other files are those of `others`; the sources are as they were at `made`.
+/// another command. Programs of other files are those of `others`; the sources are as they were at `made`. Returns the
+/// number of the exit code.
 pub fn main_within<P: Program + 'static>(
     words: Vec<OsString>,
     program: impl Fn() -> P + Send,
     others: &[Other],
     script_dir: &str,
     made: SystemTime,
-) -> ExitCode {
+) -> u8 {
     say::made_at(made);
     if words.iter().eq(["--serve"]) {
         return serve::serve(move || Box::new(program()) as Box<dyn Program>, others, script_dir);
     }
-    start_with(words, program, others, script_dir, None)
+    start_with(words, program, others, script_dir, Some(WATCHING))
 }
 
 fn start<P: Program + 'static>(
@@ -156,7 +156,7 @@ fn start<P: Program + 'static>(
     script_dir: &str,
     watching: Option<Watching>,
 ) -> ExitCode {
-    start_with(std::env::args_os().skip(1).collect(), program, others, script_dir, watching)
+    ExitCode::from(start_with(std::env::args_os().skip(1).collect(), program, others, script_dir, watching))
 }
 
 fn start_with<P: Program + 'static>(
@@ -165,13 +165,13 @@ fn start_with<P: Program + 'static>(
     others: &[Other],
     script_dir: &str,
     watching: Option<Watching>,
-) -> ExitCode {
+) -> u8 {
     let options = match parse(arguments, script_dir) {
         Ok(Some(options)) => options,
         Ok(None) => {
             // The other end may be closed; that is no error here.
             let _ = std::io::stdout().write_all(HELP.as_bytes());
-            return ExitCode::from(EXIT_ENDED);
+            return EXIT_ENDED;
         }
         Err(error) => return fail(EXIT_USAGE, &format!("{error}\nTry --help.")),
     };
@@ -183,9 +183,9 @@ fn start_with<P: Program + 'static>(
         let thread = std::thread::Builder::new().stack_size(PROGRAM_STACK_BYTES + CONTROLLER_STACK_BYTES);
         let run = || run(Box::new(program()), others, options, Path::new(script_dir), watching, &interrupted);
         match thread.spawn_scoped(scope, run).map(|thread| thread.join()) {
-            Ok(Ok(code)) => ExitCode::from(code),
+            Ok(Ok(code)) => code,
             // The panic has been reported where it happened.
-            Ok(Err(_)) => ExitCode::from(101),
+            Ok(Err(_)) => EXIT_PANICKED,
             Err(error) => fail(EXIT_ALARM, &format!("the program's thread cannot be started: {error}")),
         }
     })
@@ -194,14 +194,19 @@ fn start_with<P: Program + 'static>(
 /// The first Ctrl-C sets the flag; a second one ends the process, should the program not come to an end.
 fn watch_for_interrupts(interrupted: &Arc<AtomicBool>) -> std::io::Result<()> {
     use signal_hook::{consts::SIGINT, flag};
-    flag::register_conditional_shutdown(SIGINT, i32::from(EXIT_INTERRUPTED), Arc::clone(interrupted))?;
+    let pressed = Arc::new(AtomicBool::new(false));
+    flag::register_conditional_shutdown(SIGINT, i32::from(EXIT_INTERRUPTED), Arc::clone(&pressed))?;
+    flag::register(SIGINT, pressed)?;
     flag::register(SIGINT, Arc::clone(interrupted))?;
+    // The command that started the program passes on what it got itself, and must not end a program that got it, too.
+    #[cfg(unix)]
+    flag::register(signal_hook::consts::SIGUSR1, Arc::clone(interrupted))?;
     Ok(())
 }
 
-fn fail(code: u8, text: &str) -> ExitCode {
+fn fail(code: u8, text: &str) -> u8 {
     tell(format_args!("error: {text}"));
-    ExitCode::from(code)
+    code
 }
 
 fn warn(text: &str) {

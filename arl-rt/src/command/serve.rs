@@ -8,7 +8,6 @@
 
 use std::ffi::OsString;
 use std::io::{self, BufRead, Write};
-use std::process::ExitCode;
 use std::sync::mpsc::channel;
 
 use crate::command::in_process::{Outside, Run};
@@ -18,15 +17,15 @@ use crate::context::program::{Other, Program};
 /// The usual stack of a thread of a host: runs are the same as there.
 const STACK_BYTES: usize = 2 << 20;
 
-pub(super) fn serve(make: impl Fn() -> Box<dyn Program> + Send, others: &[Other], script_dir: &str) -> ExitCode {
+pub(super) fn serve(make: impl Fn() -> Box<dyn Program> + Send, others: &[Other], script_dir: &str) -> u8 {
     // The requesting process need not announce its end.
     let served = std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK_BYTES);
         thread.spawn_scoped(scope, move || answer_all(&make, others, script_dir)).map(|thread| thread.join())
     });
     match served {
-        Ok(Ok(Ok(()))) => ExitCode::SUCCESS,
-        _ => ExitCode::FAILURE,
+        Ok(Ok(Ok(()))) => 0,
+        _ => 1,
     }
 }
 

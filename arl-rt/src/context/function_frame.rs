@@ -23,7 +23,7 @@ use crate::values::Teach;
 ///
 /// Emitted code opens one at the start of each function: `let frame = cx.frame("grip", FILE, 17);`.
 #[must_use = "the function is left when this is dropped"]
-pub struct Frame<'a> {
+pub struct FunctionFrame<'a> {
     cx: &'a Cx,
     id: u64,
     /// The line that the program pointer was set to, until it is reached: nothing runs before it. 0: none.
@@ -34,30 +34,30 @@ pub struct Frame<'a> {
     kept: RefCell<Vec<(usize, Rc<dyn Any>)>>,
 }
 
-impl fmt::Debug for Frame<'_> {
+impl fmt::Debug for FunctionFrame<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Frame").field(&self.id).finish()
+        f.debug_tuple("FunctionFrame").field(&self.id).finish()
     }
 }
 
 impl Cx {
     /// Enters a function, for a debugger.
-    pub fn frame(&self, name: &'static str, file: File, line: u32) -> Frame<'_> {
+    pub fn frame(&self, name: &'static str, file: File, line: u32) -> FunctionFrame<'_> {
         self.framed(self.frames().enter(name.into(), file, line, false))
     }
 
     /// Enters the action of the event that was declared at this place.
-    pub fn action(&self, file: File, line: u32) -> Frame<'_> {
+    pub fn action(&self, file: File, line: u32) -> FunctionFrame<'_> {
         let name = self.events().borrow().describe((file, line)).unwrap_or_else(|| format!("the event of line {line}"));
         self.framed(self.frames().enter(name.into(), file, line, true))
     }
 
-    fn framed(&self, id: u64) -> Frame<'_> {
-        Frame { cx: self, id, target: Cell::new(0), declared: RefCell::default(), kept: RefCell::default() }
+    fn framed(&self, id: u64) -> FunctionFrame<'_> {
+        FunctionFrame { cx: self, id, target: Cell::new(0), declared: RefCell::default(), kept: RefCell::default() }
     }
 }
 
-impl<'a> Frame<'a> {
+impl<'a> FunctionFrame<'a> {
     /// Shows a variable of the function, with the number of its declaration, and its name.
     pub fn variable<T: Teach + 'static>(&self, number: usize, name: &'static str, variable: &Rc<T>) {
         self.table(number, name, &[], variable);
@@ -149,6 +149,20 @@ impl<'a> Frame<'a> {
         self.target.set(line.unwrap_or_default());
     }
 
+    /// Whether the program pointer was set in the function, which has not gone on there yet.
+    pub fn is_moved(&self) -> bool {
+        self.cx.frames().is_moved(self.id)
+    }
+
+    /// The line that the program pointer was set to, if it was set in this function: the function goes on there.
+    pub fn moved_to(&self) -> Option<u32> {
+        if !self.is_moved() {
+            return None;
+        }
+        self.begin_anew();
+        Some(self.target.get())
+    }
+
     /// Whether the statement of a line runs; before it does, it halts where a debugger requests that. The statement
     /// does not run where the program pointer was set to another line.
     pub fn runs(&self, line: u32) -> Runs<'a> {
@@ -194,7 +208,7 @@ impl<'a> Frame<'a> {
     }
 }
 
-impl Drop for Frame<'_> {
+impl Drop for FunctionFrame<'_> {
     fn drop(&mut self) {
         let frames = self.cx.frames();
         frames.records.borrow_mut().retain(|record| record.id != self.id);

@@ -1,5 +1,5 @@
-//! All that runs depend on: the compiled program and the files that it reads, by paths that are the same on every
-//! machine.
+//! All that runs depend on: the program, as code or compiled, and the files that it reads, by paths that are the same
+//! on every machine.
 
 use super::cell_files::CellFiles;
 use super::collision_watch::{self, CollisionWatch};
@@ -12,7 +12,7 @@ use arl_lang::files::is_data;
 use arl_project::cache::Kind;
 use arl_project::cell_programs;
 use arl_project::options::RunOptions;
-use arl_project::program::prepare;
+use arl_project::program::{prepare, state_of_command};
 use arl_robot::{Robot, regular_file};
 use arl_terminal::failure::Failure;
 use arl_terminal::port::Secret;
@@ -36,6 +36,8 @@ const ENDINGS: [&str; 2] = ["arl", "txt"];
 const NAMED: &str = "named";
 /// The compiled program in a bundle.
 pub(super) const PROGRAM: &str = "program";
+/// The code of the program in a bundle, which the engine of this command runs.
+pub(super) const CODE: &str = "code";
 
 /// All that runs depend on except their parameters.
 #[derive(Clone, Debug)]
@@ -73,8 +75,11 @@ impl Bundle {
         let options = RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }.of_program(&program)?;
         let checking = options.checking();
         variables::refuse_unknown(rows.clone(), &program, options.cell.as_deref(), &checking)?;
-        let ready = prepare(Kind::Named, &program, options.cell.as_deref(), &checking)?;
-        let executable = read(&ready.program)?;
+        let ready = prepare(Kind::Named, &program, &options)?;
+        let runs = match &ready.code {
+            Some(code) => (CODE.to_owned(), read(code)?),
+            None => (PROGRAM.to_owned(), read(&ready.program)?),
+        };
         let sources = ready.sources;
         drop(ready.lock);
         let main = full(&program)?;
@@ -90,8 +95,7 @@ impl Bundle {
                 format!("{outside} lies outside of {folder}: a sweep takes programs and data files from one folder");
             return Err(Failure::Usage(text));
         }
-        let mut bundle =
-            Self { files: vec![(PROGRAM.into(), executable)], clearance, words: Vec::new(), named: Vec::new() };
+        let mut bundle = Self { files: vec![runs], clearance, words: Vec::new(), named: Vec::new() };
         bundle.add_folder(&folder)?;
         for file in files {
             if !file.components().all(|part| matches!(part, Component::Normal(_))) {
@@ -163,6 +167,10 @@ impl Bundle {
         if let Some(clearance) = self.clearance {
             hasher.write(b"collisions");
             hasher.write(&clearance.to_le_bytes());
+        }
+        // A compiled program has its runtime; code is run by this command.
+        if self.files.iter().any(|(path, _)| path == CODE) {
+            hasher.write(&state_of_command().to_le_bytes());
         }
         // Named files are in the words of a run, under their hash.
         for (path, bytes) in self.files.iter().filter(|(path, _)| !path.starts_with(NAMED)) {

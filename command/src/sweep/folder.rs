@@ -1,11 +1,13 @@
 //! The folder in which a worker's program runs; before each run it is restored to that of the bundle.
 
-use super::bundle::{Bundle, PROGRAM};
+use super::bundle::{Bundle, CODE, PROGRAM};
 use arl_project::cache::Content;
+use arl_project::program::command_of_code;
 use arl_terminal::private_folder::PrivateFolder;
 use std::fs::File;
 use std::io;
 use std::path::{Component, Path, PathBuf};
+use std::process::Command;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant, SystemTime};
@@ -16,6 +18,8 @@ pub struct Spread {
     files: Arc<Vec<(String, Vec<u8>)>>,
     /// The program, which is written again if it is damaged.
     program: Arc<Vec<u8>>,
+    /// Its name: [`PROGRAM`] or [`CODE`].
+    name: &'static str,
     root: Arc<Root>,
 }
 
@@ -97,9 +101,13 @@ impl Spread {
         }
         let root = Root::new()?;
         files.sort();
-        let program = files.iter().position(|(path, _)| path == PROGRAM).map(|at| files.remove(at));
-        let program = program.ok_or_else(|| io::Error::other("the bundle has no program"))?;
-        let spread = Self { files: Arc::new(files), program: Arc::new(program.1), root: Arc::new(root) };
+        let found = files
+            .iter()
+            .enumerate()
+            .find_map(|(at, (path, _))| [PROGRAM, CODE].into_iter().find(|name| path == name).map(|name| (at, name)));
+        let (at, name) = found.ok_or_else(|| io::Error::other("the bundle has no program"))?;
+        let (_, program) = files.remove(at);
+        let spread = Self { files: Arc::new(files), program: Arc::new(program), name, root: Arc::new(root) };
         spread.write_program()?;
         Ok(spread)
     }
@@ -108,11 +116,11 @@ impl Spread {
     fn write_program(&self) -> io::Result<()> {
         static NEXT: AtomicUsize = AtomicUsize::new(0);
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
-        let beside = self.root.folder.path().join(format!("{PROGRAM}-{number}"));
+        let beside = self.root.folder.path().join(format!("{}-{number}", self.name));
         std::fs::write(&beside, &**self.program)?;
         #[cfg(unix)]
         std::fs::set_permissions(&beside, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
-        std::fs::rename(&beside, self.root.folder.path().join(PROGRAM))
+        std::fs::rename(&beside, self.root.folder.path().join(self.name))
     }
 }
 
@@ -143,16 +151,19 @@ impl Folder {
         &self.path
     }
 
-    /// The program, as it was compiled.
+    /// The command that runs the program, as it was put into the bundle.
     ///
     /// # Errors
     /// The program is damaged, and cannot be written again.
-    pub(super) fn program(&self) -> io::Result<PathBuf> {
-        let path = self.spread.root.folder.path().join(PROGRAM);
+    pub(super) fn program(&self) -> io::Result<Command> {
+        let path = self.spread.root.folder.path().join(self.spread.name);
         if !Content::of(&self.spread.program).is_in(&path) {
             self.spread.write_program()?;
         }
-        Ok(path)
+        match self.spread.name {
+            CODE => Ok(command_of_code(&std::env::current_exe()?, &path)),
+            _ => Ok(Command::new(path)),
+        }
     }
 
     /// Restores the folder to that of the bundle, if a run has changed something.

@@ -5,7 +5,7 @@ use super::folder::{Folder, Spread};
 use super::result::RunResult;
 use arl_terminal::port::Secret;
 use std::io::{BufRead, BufReader, Write};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{Child, ChildStdin, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
@@ -150,7 +150,7 @@ impl Worker {
     }
 
     fn begin(&self) -> std::io::Result<Process> {
-        let mut command = Command::new(self.folder.program()?);
+        let mut command = self.folder.program()?;
         command.arg("--serve").current_dir(self.folder.path()).stdin(Stdio::piped()).stdout(Stdio::piped());
         self.secret.hand_over(&mut command);
         let mut child = command.spawn()?;

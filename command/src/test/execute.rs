@@ -37,9 +37,62 @@ pub(super) struct Outcome {
 /// The folder below the script directory that stands for the USB store.
 const USB: &str = "USB";
 
+/// What is wanted of the runs besides their outcome.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Extras<'a> {
+    /// How often the statements ran.
+    pub(super) counts: bool,
+    /// All that a run leaves, its trace included, in this folder: for a comparison of engines.
+    pub(super) keep: Option<&'a Path>,
+}
+
+/// Controller seconds up to which the trace of a case is kept.
+const LONGEST_TRACE: f64 = 10.0;
+
 /// Runs a case in a folder of its own, so that its files do not meet those of other cases.
-pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path, counts: bool) -> std::io::Result<Outcome> {
+pub(super) fn execute(
+    case: &Case,
+    compiled: &Compiled,
+    scratch: &Path,
+    extras: Extras<'_>,
+) -> std::io::Result<Outcome> {
     let folder = scratch.join(&compiled.name);
+    let outcome = run_in(&folder, case, compiled, extras.counts, None);
+    if let (Some(keep), Ok(outcome)) = (extras.keep, &outcome)
+        && outcome.cycle_time.is_some_and(|time| time <= LONGEST_TRACE)
+    {
+        std::fs::remove_dir_all(&folder)?;
+        let trace = keep.join(format!("{}.csv", compiled.name));
+        let outcome = run_in(&folder, case, compiled, false, Some(&trace))?;
+        keep_all(keep, &compiled.name, &outcome, &folder)?;
+    }
+    // Files left in a scratch folder do no harm.
+    let _ = std::fs::remove_dir_all(&folder);
+    outcome
+}
+
+/// Keeps what a run printed, its exit code, its length, and the variables that it stored.
+fn keep_all(keep: &Path, name: &str, outcome: &Outcome, folder: &Path) -> std::io::Result<()> {
+    let of = |ending: &str| keep.join(format!("{name}.{ending}"));
+    std::fs::write(of("out"), &outcome.out)?;
+    // The folder is another one in each run.
+    std::fs::write(of("stderr"), outcome.stderr.replace(&*folder.to_string_lossy(), "FOLDER"))?;
+    std::fs::write(of("code"), format!("{:?} {:?}", outcome.code, outcome.cycle_time))?;
+    let Ok(entries) = std::fs::read_dir(folder.join("state")) else { return Ok(()) };
+    for entry in entries.filter_map(Result::ok).filter(|entry| entry.path().is_file()) {
+        std::fs::copy(entry.path(), of(&entry.file_name().to_string_lossy()))?;
+    }
+    Ok(())
+}
+
+/// Runs a case in this folder.
+fn run_in(
+    folder: &Path,
+    case: &Case,
+    compiled: &Compiled,
+    counts: bool,
+    trace: Option<&Path>,
+) -> std::io::Result<Outcome> {
     let script = folder.join("script");
     std::fs::create_dir_all(&script)?;
     if let Some(beside) = case.source.parent() {
@@ -59,18 +112,18 @@ pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path, counts: 
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let (time, counted) = (folder.join("cycle_time"), folder.join("coverage"));
     command.arg("--cycle-time").arg(&time);
+    if let Some(trace) = trace {
+        command.arg("--trace").arg(trace);
+    }
     if counts {
         command.arg("--coverage").arg(&counted);
     }
     let read = |path: &Path| std::fs::read_to_string(path).unwrap_or_default();
-    let outcome = watch(command.spawn()?).map(|outcome| Outcome {
+    watch(command.spawn()?).map(|outcome| Outcome {
         cycle_time: read(&time).trim().parse().ok(),
         counted: read(&counted),
         ..outcome
-    });
-    // Files left in a scratch folder do no harm.
-    let _ = std::fs::remove_dir_all(&folder);
-    outcome
+    })
 }
 
 /// The options of a run, from the case's sidecars.

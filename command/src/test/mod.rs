@@ -10,14 +10,12 @@ mod expect;
 mod judge;
 mod report;
 
-use crate::args::{EngineChoice, Shard, TestOptions};
-use crate::engine;
-use arl_code::{Bundle, BundledProgram};
+use crate::args::{Shard, TestOptions};
 use arl_project::cache::{Cache, Kind};
 use arl_project::cell_programs;
-use arl_project::options::Checking;
+use arl_project::options::{Checking, EngineChoice};
 use arl_project::package::{Emitted, EmittedOther};
-use arl_project::program::check_options;
+use arl_project::program::{Job, check_options};
 use arl_project::runtime::Runtime;
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
@@ -72,40 +70,37 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
         found.retain(|_| number.next().is_some_and(|number: usize| number % count == index));
     }
     let progress = Progress::start("checking");
-    let in_engine = options.engine == Some(EngineChoice::Engine);
-    let codes = PrivateFolder::new("arl2rs-test-");
-    let codes =
-        codes.map_err(|error| Failure::Other(format!("cannot make a temporary folder for the cases: {error}")))?;
+    let codes = if is_for_engine(options)? { Some(temporary_folder()?) } else { None };
     let mut done: Vec<Option<Done>> = Vec::new();
     let mut runs: Vec<(usize, &Case)> = Vec::new();
     let mut emitted = Vec::new();
     let mut compiled = Vec::new();
     for (at, found) in found.iter().enumerate() {
-        done.push(match &found.case {
-            Err(problem) => Some(Done::failed(problem.clone())),
-            Ok(case) if case.runs() && in_engine => match coded(case, codes.path()) {
-                Ok(coded) => {
-                    runs.push((at, case));
-                    compiled.push(Ok(coded));
-                    None
-                }
-                Err(problem) => Some(Done::failed(problem)),
-            },
-            Ok(case) if case.runs() => match emit(case, &emitting) {
-                Ok(rust) => {
-                    runs.push((at, case));
-                    emitted.push(batch::EmittedCase { source: found.source.clone(), rust });
-                    None
-                }
-                Err(failure) => Some(Done::failed(failure)),
-            },
-            Ok(case) => Some(check(case, options.bless)),
-        });
+        let case = match &found.case {
+            Ok(case) if case.runs() => case,
+            Ok(case) => {
+                done.push(Some(check(case, options.bless)));
+                continue;
+            }
+            Err(problem) => {
+                done.push(Some(Done::failed(problem.clone())));
+                continue;
+            }
+        };
+        let made = match &codes {
+            Some(codes) => coded(case, kind_of(watched), codes.path()).map(|coded| compiled.push(Ok(coded))),
+            None => emit(case, &emitting)
+                .map(|rust| emitted.push(batch::EmittedCase { source: found.source.clone(), rust })),
+        };
+        if made.is_ok() {
+            runs.push((at, case));
+        }
+        done.push(made.err().map(Done::failed));
     }
-    let name = name_of_run(dirs, kept_as);
-    let all = match in_engine {
-        true => run_compiled(&runs, &compiled, options, &progress)?,
-        false => run_all(&name, &runs, &emitted, options, &progress)?,
+    let all = if codes.is_some() {
+        run_compiled(&runs, &compiled, options, &progress)?
+    } else {
+        run_all(&name_of_run(dirs, kept_as), &runs, &emitted, options, &progress)?
     };
     for ((at, _), ran) in runs.iter().zip(all) {
         if let Some(slot) = done.get_mut(*at) {
@@ -118,6 +113,22 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
     }
     let done: Vec<Done> = done.into_iter().map(|done| done.unwrap_or_else(|| Done::failed("it was not run"))).collect();
     report::report(&found, &done, options.format)
+}
+
+/// Whether the engine runs the cases.
+fn is_for_engine(options: &TestOptions) -> Result<bool, Failure> {
+    match options.engine {
+        Some(EngineChoice::Engine) if options.all_forms => {
+            Err(Failure::Usage("--engine engine: --all-forms is about compiled programs".into()))
+        }
+        Some(choice) => Ok(choice == EngineChoice::Engine),
+        None => Ok(!options.all_forms),
+    }
+}
+
+fn temporary_folder() -> Result<PrivateFolder, Failure> {
+    PrivateFolder::new("arl2rs-test-")
+        .map_err(|error| Failure::Other(format!("cannot make a temporary folder for the cases: {error}")))
 }
 
 fn find(dirs: &[PathBuf], new: bool) -> Result<Vec<Found>, Failure> {
@@ -155,6 +166,10 @@ fn message_of(failure: Failure) -> String {
     }
 }
 
+fn kind_of(watched: bool) -> Kind {
+    if watched { Kind::Watched } else { Kind::Program }
+}
+
 /// The Rust of a case that should run, with the programs that its cell names.
 fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
     let checking = checking(case);
@@ -167,30 +182,22 @@ fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
         let folder = other.folder(&case.source).map_err(message_of)?;
         others.push(EmittedOther { file: other.file, folder, rust });
     }
-    let kind = if emitting.watched { Kind::Watched } else { Kind::Program };
-    Ok(Emitted { first, others, kind })
+    Ok(Emitted { first, others, kind: kind_of(emitting.watched) })
 }
 
 /// The code of a case that should run, with the programs that its cell names, in a file of this folder.
-fn coded(case: &Case, folder: &Path) -> Result<batch::Compiled, String> {
-    let checking = checking(case);
-    let code = |file: &Path, checking: &Checking| {
-        let (compiled, code) = engine::code(file, &options(checking)?).map_err(message_of)?;
-        code.ok_or_else(|| format!("it does not compile:\n{}", shown_errors(&compiled)))
-    };
-    let main = code(&case.source, &checking)?;
-    let mut others = Vec::new();
-    for other in cell_programs::named(case.cell.as_deref(), checking.robot.as_deref()).map_err(message_of)? {
-        let code = code(&other.path, &other.checking(&checking)).map_err(|why| format!("{}: {why}", other.file))?;
-        let folder = other.folder(&case.source).map_err(message_of)?;
-        others.push(BundledProgram { file: other.file, folder, code });
+fn coded(case: &Case, kind: Kind, folder: &Path) -> Result<batch::Compiled, String> {
+    let job = Job::new(&case.source, case.cell.as_deref(), &checking(case)).map_err(message_of)?.into_kind(kind);
+    let mut programs = job.check(&FileSystem).map_err(message_of)?;
+    if let Some((at, refused)) = programs.iter().enumerate().find(|(_, compiled)| compiled.checked.program.is_none()) {
+        let file = job.named(at).map(|file| format!("{file}: ")).unwrap_or_default();
+        return Err(format!("{file}it does not compile:\n{}", shown_errors(refused)));
     }
-    let script_dir = case.source.parent().unwrap_or(Path::new("/")).display().to_string();
+    let bundle = job.bundle(&mut programs).map_err(message_of)?;
     let name = batch::name(&case.source);
     let path = folder.join(&name);
-    let bundle = Bundle { folder: script_dir, main, others };
-    std::fs::write(&path, bundle.to_bytes()).map_err(|error| error.to_string())?;
-    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    std::fs::write(&path, bundle.to_bytes()).map_err(|error| format!("cannot write its code: {error}"))?;
+    let program = std::env::current_exe().map_err(|error| format!("cannot find arl2rs: {error}"))?;
     Ok(batch::Compiled { program, name, code: Some(path) })
 }
 
@@ -272,9 +279,7 @@ fn run_compiled(
     options: &TestOptions,
     progress: &Progress,
 ) -> Result<Vec<Done>, Failure> {
-    let scratch = PrivateFolder::new("arl2rs-test-");
-    let scratch =
-        scratch.map_err(|error| Failure::Other(format!("cannot make a temporary folder for the cases: {error}")))?;
+    let scratch = temporary_folder()?;
     let mut coverage = coverage::Coverage::default();
     let mut places = Vec::new();
     if options.coverage.is_some() {
@@ -286,13 +291,14 @@ fn run_compiled(
     let coverage = Mutex::new(coverage);
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<Done>> = Mutex::new(runs.iter().map(|_| Done::failed("it was not run")).collect());
+    let extras = execute::Extras { counts: options.coverage.is_some(), keep: options.keep.as_deref() };
     let work = || {
         loop {
             let at = next.fetch_add(1, Ordering::Relaxed);
             let (Some((_, case)), Some(compiled)) = (runs.get(at), compiled.get(at)) else { return };
             progress.say(&format!("running {} of {}", at + 1, runs.len()));
             let ran = match compiled {
-                Ok(compiled) => match execute::execute(case, compiled, scratch.path(), options.coverage.is_some()) {
+                Ok(compiled) => match execute::execute(case, compiled, scratch.path(), extras) {
                     Ok(outcome) => {
                         if let Some(Some(places)) = places.get(at)
                             && let Ok(mut coverage) = coverage.lock()

@@ -101,8 +101,8 @@ fn overwrite(path: &Path, bytes: &[u8]) {
 #[test]
 fn a_program_that_is_damaged_is_compiled_anew() {
     let cached = Cached::new("damaged");
-    cached.arl2rs(&["run", "a.arl"]).is(0, "ran\n");
-    let again = cached.arl2rs(&["run", "a.arl"]);
+    cached.arl2rs(&["run", "a.arl", "--engine", "native"]).is(0, "ran\n");
+    let again = cached.arl2rs(&["run", "a.arl", "--engine", "native"]);
     again.is(0, "ran\n");
     assert_eq!(again.err, "", "an unchanged program starts without a word");
     for words in [["programs", "/a-"], ["programs", "/stamp"]] {
@@ -110,19 +110,19 @@ fn a_program_that_is_damaged_is_compiled_anew() {
         let whole = std::fs::read(&file).expect("the file");
         for (at, bytes) in damaged(&whole).into_iter().enumerate() {
             overwrite(&file, &bytes);
-            let answer = cached.arl2rs(&["run", "a.arl"]);
+            let answer = cached.arl2rs(&["run", "a.arl", "--engine", "native"]);
             answer.is(0, "ran\n");
             // An empty file was no stamp.
             let reports_damage = answer.err.contains("is damaged: the program is compiled anew");
             assert!(reports_damage || (words[1] == "/stamp" && at == 0), "{words:?}: {}", answer.err);
-            assert_eq!(cached.arl2rs(&["run", "a.arl"]).err, "", "{words:?}");
+            assert_eq!(cached.arl2rs(&["run", "a.arl", "--engine", "native"]).err, "", "{words:?}");
         }
     }
     // What is said of a program is kept, too.
     cached.0.write("a.arl", "func void main()\n    int unused = 1\nendfunc\n");
-    cached.arl2rs(&["run", "a.arl"]).is(0, "ran\n").says("ARL0902");
+    cached.arl2rs(&["run", "a.arl", "--engine", "native"]).is(0, "ran\n").says("ARL0902");
     overwrite(&cached.file(&["programs", "/said"]), b"error: nonsense");
-    let answer = cached.arl2rs(&["run", "a.arl"]);
+    let answer = cached.arl2rs(&["run", "a.arl", "--engine", "native"]);
     answer.is(0, "ran\n").says("said is damaged").says("ARL0902");
     assert!(!answer.err.contains("nonsense"), "{}", answer.err);
 }
@@ -130,7 +130,7 @@ fn a_program_that_is_damaged_is_compiled_anew() {
 #[test]
 fn what_cargo_made_and_is_damaged_is_made_anew() {
     let cached = Cached::new("made");
-    cached.arl2rs(&["run", "a.arl"]).is(0, "ran\n");
+    cached.arl2rs(&["run", "a.arl", "--engine", "native"]).is(0, "ran\n");
     for (words, name) in [(["deps", "libarl_rt"], "libarl_rt-1.rlib"), (["deps", "/arl-a-"], "arl-a-")] {
         let file = cached.file(&words);
         let whole = std::fs::read(&file).expect("the file");
@@ -138,11 +138,11 @@ fn what_cargo_made_and_is_damaged_is_made_anew() {
             overwrite(&file, &bytes);
             // cargo is asked again where the program is gone.
             std::fs::remove_file(cached.file(&["programs", "/a-"])).expect("removed");
-            let answer = cached.arl2rs(&["run", "a.arl"]);
+            let answer = cached.arl2rs(&["run", "a.arl", "--engine", "native"]);
             answer.is(0, "ran\n").says(name).says("is damaged: it is compiled anew");
             assert_eq!(std::fs::read(&file).ok().as_ref(), Some(&whole));
             std::fs::remove_file(cached.file(&["programs", "/a-"])).expect("removed");
-            let answer = cached.arl2rs(&["run", "a.arl"]);
+            let answer = cached.arl2rs(&["run", "a.arl", "--engine", "native"]);
             answer.is(0, "ran\n");
             assert_eq!(answer.err, "");
         }
@@ -150,7 +150,7 @@ fn what_cargo_made_and_is_damaged_is_made_anew() {
     // A lock file that cannot be read is that of the runtime again.
     std::fs::write(cached.file(&["programs", "Cargo.lock"]), "[[package").expect("written");
     std::fs::remove_file(cached.file(&["programs", "/a-"])).expect("removed");
-    cached.arl2rs(&["run", "a.arl"]).is(0, "ran\n");
+    cached.arl2rs(&["run", "a.arl", "--engine", "native"]).is(0, "ran\n");
     let lock = std::fs::read_to_string(cached.file(&["programs", "Cargo.lock"])).expect("a text");
     assert!(lock.contains("name = \"arl-rt\""), "{lock}");
 }
@@ -180,7 +180,7 @@ fn builds_depend_on_nothing_around_them() {
         ("CARGO_REGISTRIES_MINE_INDEX", "https://mine"),
         ("CARGO_TARGET_X86_64_UNKNOWN_LINUX_GNU_LINKER", "clang"),
     ];
-    let mut command = cached.command(&["run", "a.arl"]);
+    let mut command = cached.command(&["run", "a.arl", "--engine", "native"]);
     command.envs(own).envs(around).stdin(Stdio::null());
     Answer::of(command.output().expect("the command starts")).is(0, "ran\n");
     assert_eq!(cached.0.read("folder"), "/\n", "cargo looks for settings from where it is up to the root");
@@ -201,10 +201,10 @@ fn builds_depend_on_nothing_around_them() {
 fn without_a_terminal_a_message_says_what_takes_long() {
     let cached = Cached::new("told");
     cached.0.write("b.arl", PRINTS);
-    let first = cached.arl2rs(&["run", "a.arl"]);
+    let first = cached.arl2rs(&["run", "a.arl", "--engine", "native"]);
     first.is(0, "ran\n").says("compiling the runtime, once for all programs: this takes a minute or two\n");
     first.says("compiled in ");
-    assert_eq!(cached.arl2rs(&["run", "b.arl"]).err, "", "the runtime is there");
+    assert_eq!(cached.arl2rs(&["run", "b.arl", "--engine", "native"]).err, "", "the runtime is there");
 }
 
 #[test]
@@ -212,8 +212,8 @@ fn a_cache_that_cannot_be_written_is_reported() {
     let cached = Cached::new("unwritable");
     // A file in a folder's place: also for a user who may write everything.
     cached.0.write("cache/programs", "");
-    cached.arl2rs(&["run", "a.arl"]).is(1, "").says("cannot make the folder");
-    let mut command = cached.command(&["run", "a.arl"]);
+    cached.arl2rs(&["run", "a.arl", "--engine", "native"]).is(1, "").says("cannot make the folder");
+    let mut command = cached.command(&["run", "a.arl", "--engine", "native"]);
     command.env("ARL2RS_CACHE", "/proc/nowhere");
     Answer::of(command.output().expect("the command starts")).is(1, "").says("/proc/nowhere");
 }
@@ -221,7 +221,7 @@ fn a_cache_that_cannot_be_written_is_reported() {
 #[test]
 fn clean_leaves_alone_what_is_not_of_the_cache() {
     let cached = Cached::new("not_ours");
-    cached.arl2rs(&["run", "a.arl"]).is(0, "ran\n");
+    cached.arl2rs(&["run", "a.arl", "--engine", "native"]).is(0, "ran\n");
     cached.0.write("mine/kept.txt", "kept");
     cached.0.write("cache/programs/own/kept.txt", "kept");
     cached.0.write("cache/results/kept.txt", "kept");

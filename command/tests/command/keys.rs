@@ -40,7 +40,7 @@ fn kept(stem: &str) -> PathBuf {
 #[test]
 fn what_a_program_writes_is_what_the_wire_reads() {
     let folder = Folder::new("keys").with("keys_of_lines.arl", PROGRAM);
-    folder.arl2rs(&["run", "keys_of_lines.arl"]).says("alarm 20001");
+    folder.arl2rs(&["run", "keys_of_lines.arl", "--engine", "native"]).says("alarm 20001");
     let mut program = Command::new(kept("keys_of_lines"));
     program.args(["--live", "--clock", "virtual", "--each-cycle", "--each-motion", "--max-time", "60"]);
     program.current_dir(&folder.path);

@@ -124,21 +124,25 @@ struct Ran {
     traces: [String; 2],
 }
 
-/// How a program and its runtime are compiled.
+/// How a program is run.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Compiled {
+enum How {
+    /// Compiled, as programs are as a rule.
     Optimised,
-    /// Without any optimisation, and with all checks that are left out otherwise.
+    /// Compiled without any optimisation, and with all checks that are left out otherwise.
     Plain,
+    /// By the engine.
+    Engine,
 }
 
 /// Runs at the same time: the threads that find laws are in each other's way then.
-fn run_at_once(folder: &Folder, compiled: Compiled, count: usize) -> Vec<Ran> {
+fn run_at_once(folder: &Folder, how: How, count: usize) -> Vec<Ran> {
     let start = |at: usize| {
         let trace = format!("t{at}.csv");
         let mut command = folder.command(&["run", "main.arl", "--cell", "cell.toml", "--io", "s.toml"]);
         command.args(["--max-time", "60", "--trace", &trace]).stdout(Stdio::piped()).stderr(Stdio::piped());
-        if compiled == Compiled::Plain {
+        command.args(["--engine", if how == How::Engine { "engine" } else { "native" }]);
+        if how == How::Plain {
             command.env("ARL2RS_CACHE", cache().with_file_name("cache-plain"));
             for (setting, value) in [("OPT_LEVEL", "0"), ("OVERFLOW_CHECKS", "true"), ("DEBUG_ASSERTIONS", "true")] {
                 command.env(format!("CARGO_PROFILE_DEV_{setting}"), value);
@@ -172,9 +176,9 @@ fn a_run_is_the_same_every_time() {
     folder.write("cell.toml", CELL);
     folder.write("s.toml", SCENARIO);
     // The first run compiles.
-    let mut runs = run_at_once(&folder, Compiled::Optimised, 1);
-    runs.extend(run_at_once(&folder, Compiled::Optimised, 5));
-    runs.extend((0..4).flat_map(|_| run_at_once(&folder, Compiled::Optimised, 1)));
+    let mut runs = run_at_once(&folder, How::Optimised, 1);
+    runs.extend(run_at_once(&folder, How::Optimised, 5));
+    runs.extend((0..4).flat_map(|_| run_at_once(&folder, How::Optimised, 1)));
     let first = &runs[0];
     assert_eq!(first.answer.code, Some(0), "{}", first.answer.err);
     // It did what it is meant to do.
@@ -187,8 +191,11 @@ fn a_run_is_the_same_every_time() {
         assert_same(first, run, &format!("run {at}"));
     }
 
-    let plain = run_at_once(&folder, Compiled::Plain, 1).into_iter();
-    for run in plain.chain((0..3).flat_map(|_| run_at_once(&folder, Compiled::Plain, 3))) {
+    let plain = run_at_once(&folder, How::Plain, 1).into_iter();
+    for run in plain.chain((0..3).flat_map(|_| run_at_once(&folder, How::Plain, 3))) {
         assert_same(first, &run, "without optimisation");
+    }
+    for run in run_at_once(&folder, How::Engine, 2) {
+        assert_same(first, &run, "by the engine");
     }
 }

@@ -15,32 +15,63 @@ fn without_cargo(folder: &Folder, arguments: &[&str]) -> Answer {
 #[test]
 fn unchanged_programs_and_new_values_need_no_compilation() {
     let folder = Folder::new("run").with("a.arl", HELLO).with("a_data.arl", "int count = 3\nconst int LIMIT = 7\n");
-    let first = folder.arl2rs(&["run", "a.arl"]);
+    let run = ["run", "a.arl", "--engine", "native"];
+    let first = folder.arl2rs(&run);
     first.is(0, "hello 3\n").says("ARL0902");
-    let again = without_cargo(&folder, &["run", "a.arl"]);
+    let again = without_cargo(&folder, &run);
     again.is(0, "hello 3\n").says("ARL0902");
 
     // The runtime reads values again.
     folder.write("a_data.arl", "// taught\nint count = 40\nconst int LIMIT = 7\n");
-    without_cargo(&folder, &["run", "a.arl"]).says("cargo was not found");
+    without_cargo(&folder, &run).says("cargo was not found");
     folder.write("a_data.arl", "int count = 40\nconst int LIMIT = 7\n");
-    without_cargo(&folder, &["run", "a.arl"]).is(0, "hello 40\n");
-    without_cargo(&folder, &["run", "a.arl"]).is(0, "hello 40\n");
+    without_cargo(&folder, &run).is(0, "hello 40\n");
+    without_cargo(&folder, &run).is(0, "hello 40\n");
 
     // Constants, types and names are compiled in.
     folder.write("a_data.arl", "int count = 40\nconst int LIMIT = 8\n");
-    without_cargo(&folder, &["run", "a.arl"]).is(1, "").says("cargo was not found");
+    without_cargo(&folder, &run).is(1, "").says("cargo was not found");
     folder.write("a_data.arl", "double count = 40\nconst int LIMIT = 7\n");
-    without_cargo(&folder, &["run", "a.arl"]).is(1, "").says("cargo was not found");
+    without_cargo(&folder, &run).is(1, "").says("cargo was not found");
 
     // A broken file is refused before anything runs.
     folder.write("a_data.arl", "int count = = 40\n");
-    folder.arl2rs(&["run", "a.arl"]).is(1, "").says("a_data.arl:1");
+    folder.arl2rs(&run).is(1, "").says("a_data.arl:1");
 
     // Text of the program is compiled.
     folder.write("a_data.arl", "double count = 1.5\n");
     folder.write("a.arl", &HELLO.replace("hello", "bye"));
-    folder.arl2rs(&["run", "a.arl"]).is(0, "bye 1.5\n");
+    folder.arl2rs(&run).is(0, "bye 1.5\n");
+}
+
+#[test]
+fn a_program_runs_at_once_unless_it_is_compiled_already() {
+    let folder = Folder::new("at_once").with("a.arl", HELLO).with("a_data.arl", "int count = 3\n");
+    without_cargo(&folder, &["run", "a.arl"]).is(0, "hello 3\n").says("ARL0902");
+    folder.write("a_data.arl", "int count = 4\n");
+    without_cargo(&folder, &["run", "a.arl"]).is(0, "hello 4\n").says("ARL0902");
+    without_cargo(&folder, &["run", "a.arl", "--engine", "native"]).is(1, "").says("cargo was not found");
+    without_cargo(&folder, &["run", "a.arl", "--set", "global.count=5"]).is(0, "hello 5\n");
+
+    // What arl.toml says counts, and the command line before it.
+    folder.write("arl.toml", "engine = \"native\"\n");
+    without_cargo(&folder, &["run", "a.arl"]).is(1, "").says("cargo was not found");
+    without_cargo(&folder, &["run", "a.arl", "--engine", "engine"]).is(0, "hello 4\n");
+    let verbose = without_cargo(&folder, &["run", "a.arl", "--engine", "engine", "--verbose"]);
+    verbose.is(0, "hello 4\n").says("engine: engine (the command line)");
+    folder.write("arl.toml", "engine = \"fast\"\n");
+    without_cargo(&folder, &["run", "a.arl"]).is(2, "").says("arl.toml:1: ").says("expected `engine` or `native`");
+    folder.write("arl.toml", "");
+
+    // The compiled program runs where it is up to date: it is there, and its process is another one.
+    folder.arl2rs(&["run", "a.arl", "--engine", "native"]).is(0, "hello 4\n");
+    let running = folder.arl2rs(&["run", "a.arl"]);
+    running.is(0, "hello 4\n").says("ARL0902");
+    folder.write("a.arl", &HELLO.replace("hello", "bye"));
+    without_cargo(&folder, &["run", "a.arl"]).is(0, "bye 4\n");
+    // What is compiled is no longer up to date, and stays.
+    folder.write("a.arl", HELLO);
+    without_cargo(&folder, &["run", "a.arl", "--engine", "native"]).is(0, "hello 4\n");
 }
 
 #[test]
@@ -85,6 +116,22 @@ fn an_interrupt_ends_with_130() {
     let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill");
     assert!(sent.success());
     assert_eq!(child.wait().expect("it ends").code(), Some(130));
+}
+
+/// The command listens to its program: what reaches the command alone reaches the program.
+#[cfg(unix)]
+#[test]
+fn an_interrupt_of_the_command_alone_stops_the_robot() {
+    let folder = Folder::new("interrupt_alone")
+        .with("a.arl", "func void main()\n    print 1\n    loop\n        waittime 0.1\n    endloop\nendfunc\n");
+    let options = ["run", "a.arl", "--clock", "real", "--record", "a.mcap", "--max-time", "60"];
+    let mut child = folder.command(&options).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts");
+    let mut line = String::new();
+    BufReader::new(child.stdout.as_mut().expect("its output")).read_line(&mut line).expect("a line");
+    assert_eq!(line, "1\n");
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill");
+    assert!(sent.success());
+    Answer::of(child.wait_with_output().expect("it ends")).is(130, "").says("interrupted: the robot stops on its path");
 }
 
 #[cfg(target_os = "linux")]

@@ -25,7 +25,7 @@ fn without_cargo(folder: &Folder, arguments: &[&str]) -> Answer {
 #[test]
 fn several_unchanged_programs_and_new_values_need_no_compilation() {
     let folder = folder("several");
-    let run = ["run", "first.arl", "--cell", "cell.toml"];
+    let run = ["run", "first.arl", "--cell", "cell.toml", "--engine", "native"];
     folder.arl2rs(&run).is(0, "second 5\nfirst 3\n");
     without_cargo(&folder, &run).is(0, "second 5\nfirst 3\n");
 
@@ -61,13 +61,16 @@ fn data_files_lie_beside_their_own_program() {
         .with("third/second.arl", &waiting(2))
         .with("third/second_data.arl", "int many = 7\n")
         .with("first/cell.toml", cell);
-    let run = ["run", "first/first.arl", "--cell", "first/cell.toml"];
-    folder.arl2rs(&run).is(0, "second 5\nsecond 7\nfirst 3\n");
+    let native = ["run", "first/first.arl", "--cell", "first/cell.toml", "--engine", "native"];
+    let run = &native[..4];
+    folder.arl2rs(run).is(0, "second 5\nsecond 7\nfirst 3\n");
+    folder.arl2rs(&native).is(0, "second 5\nsecond 7\nfirst 3\n");
     folder.write("first/second/second_data.arl", "int many = 50\n");
     folder.write("third/second_data.arl", "int many = 70\n");
-    without_cargo(&folder, &run).is(0, "second 50\nsecond 70\nfirst 3\n");
+    without_cargo(&folder, run).is(0, "second 50\nsecond 70\nfirst 3\n");
+    without_cargo(&folder, &native).is(0, "second 50\nsecond 70\nfirst 3\n");
     folder.write("third/second_data.arl", "int many = \"seven\"\n");
-    folder.arl2rs(&run).is(1, "").says("second_data.arl:1:");
+    folder.arl2rs(run).is(1, "").says("second_data.arl:1:");
 }
 
 #[test]
@@ -100,7 +103,7 @@ fn programs_that_a_cell_names_are_checked_for_their_channels() {
     folder.write("cell.toml", "[[channel]]\nprogram = \"second.arl\"\nbackground = true\n");
     folder.arl2rs(&check).is(1, "").says("second.arl:3:").says("ARL0704");
     folder.write("cell.toml", "[[channel]]\nprogram = \"third.arl\"\n");
-    folder.arl2rs(&check).is(1, "").says("third.arl");
+    folder.arl2rs(&check).is(2, "").says("cell.toml:1: there is no file third.arl");
     folder.write("cell.toml", "[[channel]]\nprogramm = \"second.arl\"\n");
     folder.arl2rs(&check).is(2, "").says("cell.toml:2:").says("did you mean `program`?");
 }

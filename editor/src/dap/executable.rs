@@ -1,14 +1,17 @@
-//! The session's own copy of the compiled program: others may compile it again in the meantime, and stepping back runs
-//! it again.
+//! The session's own copy of the program: others may make it again in the meantime, and stepping back runs it again.
 
 use super::leftovers::PREFIX;
-use arl_project::program::Ready;
+use arl_project::program::{Ready, command_of_code};
 use arl_terminal::private_folder::PrivateFolder;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::process::Command;
 
 /// A copy that is removed with the session.
 pub(super) struct Executable {
+    /// The copy of the program, or of its code.
     path: PathBuf,
+    /// The command that runs the code, if it is one.
+    engine: Option<PathBuf>,
     _folder: PrivateFolder,
 }
 
@@ -21,13 +24,19 @@ impl Executable {
         let folder = PrivateFolder::new(PREFIX)
             .map_err(|error| format!("cannot make a temporary folder for the program: {error}"))?;
         let path = folder.path().join(format!("program{}", std::env::consts::EXE_SUFFIX));
-        std::fs::hard_link(&ready.program, &path)
-            .or_else(|_| std::fs::copy(&ready.program, &path).map(|_| ()))
+        let original = ready.code.as_ref().unwrap_or(&ready.program);
+        std::fs::hard_link(original, &path)
+            .or_else(|_| std::fs::copy(original, &path).map(|_| ()))
             .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
-        Ok(Self { path, _folder: folder })
+        let engine = ready.code.is_some().then(|| ready.program.clone());
+        Ok(Self { path, engine, _folder: folder })
     }
 
-    pub(super) fn path(&self) -> &Path {
-        &self.path
+    /// The command that runs it.
+    pub(super) fn command(&self) -> Command {
+        match &self.engine {
+            Some(engine) => command_of_code(engine, &self.path),
+            None => Command::new(&self.path),
+        }
     }
 }

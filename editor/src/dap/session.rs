@@ -23,7 +23,6 @@ use arl_terminal::failure::Failure;
 use replay::Point;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
-use std::process::Command;
 use std::sync::mpsc::{Receiver, Sender};
 
 /// An answer to the editor.
@@ -184,14 +183,10 @@ impl Session {
         let main = launch.main();
         let options = launch.options()?.of_program(&main).map_err(|failure| failure.to_string())?;
         let programs = Programs::check(&main, &options, &|text| self.out.output("stderr", text))?;
-        self.out.output("console", "Compiling for the debugger ..\n");
-        let ready =
-            prepare(Kind::Watched, &main, options.cell.as_deref(), &options.checking()).map_err(
-                |failure| match failure {
-                    Failure::Usage(text) | Failure::Other(text) => text,
-                    Failure::Shown => "the program has errors".into(),
-                },
-            )?;
+        let ready = prepare(Kind::Watched, &main, &options).map_err(|failure| match failure {
+            Failure::Usage(text) | Failure::Other(text) => text,
+            Failure::Shown => "the program has errors".into(),
+        })?;
         for breakpoint in self.breakpoints.find_places(&programs) {
             self.out.event("breakpoint", json!({"reason": "changed", "breakpoint": breakpoint}));
         }
@@ -217,7 +212,7 @@ impl Session {
     /// Starts the program, which then waits before its first cycle.
     fn begin(&mut self) -> Result<(), String> {
         let launched = self.launched.as_ref().ok_or("nothing was launched")?;
-        let mut command = Command::new(launched.executable.path());
+        let mut command = launched.executable.command();
         self.process = None;
         let options = RunOptions { state_dir: Some(launched.state.begin()?.to_path_buf()), ..launched.options.clone() };
         command.args(options.arguments());

@@ -115,7 +115,7 @@ def compiled():
     """Compiles the runtime and the programs here: that may take a minute, and no robot would wait for it."""
     if ARL2RS:
         for program in sorted(PROGRAMS.glob("*.arl")):
-            subprocess.run([ARL2RS, "run", program, "--max-time", "0.001"], capture_output=True, check=False)
+            subprocess.run([ARL2RS, "run", program, "--engine", "native", "--max-time", "0.001"], capture_output=True, check=False)
 
 
 def keep_limits(setpoints, period, file=ROBOT, braking=1.0):

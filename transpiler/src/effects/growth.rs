@@ -2,8 +2,9 @@
 //! its own, its length is checked. A concatenation that is only read (printed, compared) needs no check: it consists of
 //! a few strings, each within the maximum length.
 
+use super::facts::{self, FactScope};
 use super::loops;
-use crate::hir::{Expr, ExprKind, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Value};
+use crate::hir::{Expr, ExprKind, LocalId, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Value};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::Base;
 
@@ -19,6 +20,56 @@ pub(crate) fn mark(program: &mut Program) {
 /// Whether `place += value` makes a string longer.
 pub(crate) fn appends(op: BinaryOp, place: &Place) -> bool {
     op == BinaryOp::Add && place.ty.base == Base::String && !place.ty.is_array()
+}
+
+/// The strings that `text = text + more + ..` appends, if the assignment amounts to appending them one by one.
+pub(crate) fn appended<'p>(scope: FactScope<'_>, place: &Place, value: &'p Expr) -> Option<Vec<&'p Expr>> {
+    if place.ty.base != Base::String || place.ty.is_array() || !place.path.is_empty() {
+        return None;
+    }
+    let ExprKind::Grown(value) = &value.kind else { return None };
+    let all = parts(value);
+    let (first, more) = all.split_first()?;
+    let ExprKind::Place(start) = &first.kind else { return None };
+    let same = start.path.is_empty()
+        && match (place.root, start.root) {
+            (Root::Local(a), Root::Local(b)) => a == b,
+            (Root::Global(a), Root::Global(b)) => a == b,
+            (Root::System(a), Root::System(b)) => a.name == b.name,
+            _ => false,
+        };
+    (same && !more.is_empty() && may_append(scope, place, more)).then(|| more.to_vec())
+}
+
+/// Whether the parts can be appended to a variable one by one: an alarm then names the length with the first part that
+/// is too much.
+pub(crate) fn may_append(scope: FactScope<'_>, place: &Place, parts: &[&Expr]) -> bool {
+    let is_shared =
+        |id: LocalId| scope.func.and_then(|func| func.locals.get(id.0 as usize)).is_some_and(|local| local.shared);
+    place.path.is_empty()
+        && parts.iter().all(|part| {
+            let facts = facts::of_expr(scope, part);
+            let untouched = match place.root {
+                Root::Local(id) if !is_shared(id) => !facts.reads.contains(&id) && !facts.writes.contains(&id),
+                _ => !facts.world && !facts.acts,
+            };
+            untouched && (parts.len() == 1 || facts.quiet())
+        })
+}
+
+/// The parts of a sum of strings. A right operand that is a sum itself is one part: it is joined first.
+pub(crate) fn parts(expr: &Expr) -> Vec<&Expr> {
+    let mut parts = Vec::new();
+    let mut rest = expr;
+    while let ExprKind::Binary(BinaryOp::Add, sides) = &rest.kind
+        && rest.ty.base == Base::String
+    {
+        parts.push(&sides.1);
+        rest = &sides.0;
+    }
+    parts.push(rest);
+    parts.reverse();
+    parts
 }
 
 /// Which variables have known values, and therefore a limited length.

@@ -9,9 +9,8 @@ use super::places::{Calm, Reached, Written};
 use super::sequence::{Mode, OrderedOperand};
 use super::types::is_copy;
 use crate::effects::{facts, growth};
-use crate::hir::{Expr, ExprKind, Place, Projection, Root, Value};
+use crate::hir::{Expr, ExprKind, Place, Projection, Value};
 use arl_lang::ast::{BinaryOp, Step};
-use arl_lang::catalog::Base;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -58,7 +57,7 @@ impl<'p> Body<'p, '_> {
 
     /// `place = value`; `keep`: the place is read afterwards.
     fn assign(&mut self, place: &'p Place, value: &'p Expr, keep: bool) -> (TokenStream, Reached) {
-        if let Some(more) = self.appended(place, value) {
+        if let Some(more) = growth::appended(self.scope(), place, value) {
             return self.append_parts(place, &more);
         }
         if let Some((op, by)) = stepped(place, value) {
@@ -81,9 +80,8 @@ impl<'p> Body<'p, '_> {
     fn assign_op(&mut self, op: BinaryOp, place: &'p Place, value: &'p Expr, keep: bool) -> (TokenStream, Reached) {
         let appends = growth::appends(op, place);
         if appends {
-            let mut more = Vec::new();
-            leaves(value, &mut more);
-            if self.may_append(place, &more) {
+            let more = growth::parts(value);
+            if growth::may_append(self.scope(), place, &more) {
                 return self.append_parts(place, &more);
             }
         }
@@ -166,39 +164,6 @@ impl<'p> Body<'p, '_> {
         (before, reached, value.unwrap_or_else(|| Fragment::settled(quote!(()))))
     }
 
-    /// The strings that `text = text + more + ..` appends, if the assignment amounts to appending.
-    fn appended(&self, place: &'p Place, value: &'p Expr) -> Option<Vec<&'p Expr>> {
-        if place.ty.base != Base::String || place.ty.is_array() || !place.path.is_empty() {
-            return None;
-        }
-        let ExprKind::Grown(value) = &value.kind else { return None };
-        let mut parts = Vec::new();
-        leaves(value, &mut parts);
-        let (first, more) = parts.split_first()?;
-        let ExprKind::Place(start) = &first.kind else { return None };
-        let same = start.path.is_empty()
-            && match (place.root, start.root) {
-                (Root::Local(a), Root::Local(b)) => a == b,
-                (Root::Global(a), Root::Global(b)) => a == b,
-                (Root::System(a), Root::System(b)) => a.name == b.name,
-                _ => false,
-            };
-        (same && !more.is_empty() && self.may_append(place, more)).then(|| more.to_vec())
-    }
-
-    /// Whether the parts can be appended one by one.
-    fn may_append(&self, place: &Place, parts: &[&'p Expr]) -> bool {
-        place.path.is_empty()
-            && parts.iter().all(|part| {
-                let facts = self.facts(part);
-                let untouched = match self.plain_local(place.root) {
-                    Some(id) => !facts.reads.contains(&id) && !facts.writes.contains(&id),
-                    None => !facts.world && !facts.acts,
-                };
-                untouched && (parts.len() == 1 || facts.quiet())
-            })
-    }
-
     fn append_parts(&mut self, place: &'p Place, parts: &[&'p Expr]) -> (TokenStream, Reached) {
         let reached = self.reached(place, []);
         let mut out = TokenStream::new();
@@ -208,17 +173,5 @@ impl<'p> Body<'p, '_> {
             out.extend(self.append_to(&reached, fragment, Calm::of(&facts)));
         }
         (out, reached)
-    }
-}
-
-/// The parts of a sum of strings.
-fn leaves<'p>(expr: &'p Expr, out: &mut Vec<&'p Expr>) {
-    match &expr.kind {
-        ExprKind::Binary(BinaryOp::Add, sides) if expr.ty.base == Base::String => {
-            leaves(&sides.0, out);
-            // The right operand may be a sum itself, which is joined first: it is one part.
-            out.push(&sides.1);
-        }
-        _ => out.push(expr),
     }
 }

@@ -6,6 +6,7 @@ use super::names::{field, ident};
 use super::sequence::{Mode, OrderedOperand};
 use super::types::{differs, is_copy, type_name};
 use super::written_back::Back;
+use crate::effects::facts::Facts;
 use crate::effects::pointer;
 use crate::hir::{Bound, Builtin, Expr, FuncId, Passed, Root, Type};
 use arl_lang::catalog::{Base, Effect, Entry, Kind, Mode as ParamMode, ParamType, Presence};
@@ -124,14 +125,20 @@ impl<'p> Body<'p, '_> {
         };
         let args = || builtin.args.iter().filter(|arg| !later(arg));
         let operands: Vec<OrderedOperand<'p>> = args().flat_map(|arg| self.argument_operands(entry, arg)).collect();
-        let moved = reordered(entry, &builtin.args);
-        let loud: Vec<bool> = operands.iter().map(|operand| !self.operand_facts(operand).quiet()).collect();
-        let several = loud.iter().filter(|loud| **loud).count() > 1;
-        let apart = ahead || (moved && several);
-        let (first, fragments) = self.sequence(&operands, |at| apart && loud.get(at) == Some(&true));
+        let facts: Vec<Facts> = operands.iter().map(|operand| self.operand_facts(operand)).collect();
+        let touched = self.touched(builtin);
+        // Where arguments change their places, or a variable is read into a temporary before the call, whatever makes a
+        // difference goes first.
+        let matters = |at: usize| {
+            let (own, later) = (facts.get(at), facts.iter().skip(at + 1));
+            own.is_some_and(|own| later.into_iter().any(|later| own.disturbed_by(later)))
+        };
+        let moved = reordered(entry, &builtin.args) && (0..facts.len()).any(matters);
+        let apart = ahead || moved || self.writes_by_temporaries(builtin, &touched);
+        let is_loud = |at: usize| facts.get(at).is_some_and(|facts| !facts.quiet());
+        let (first, fragments) = self.sequence(&operands, |at| apart && is_loud(at));
         before.extend(first);
         let mut fragments = fragments.into_iter();
-        let touched = self.touched(builtin);
         let in_turn = self.takes_turns(builtin, &touched);
         for arg in args() {
             let (value, back) = match &arg.value {

@@ -299,6 +299,10 @@ impl<'p> Body<'p, '_> {
                     let state = self.label_state(*label);
                     self.close(state);
                     self.open(state);
+                    // Declarations that are never reached are visible, too.
+                    if let Some(seen) = self.flow.machine.as_ref().and_then(|machine| machine.visible_at.get(label)) {
+                        self.locals.visible.clone_from(seen);
+                    }
                     let comment = self.comment(stmt.span);
                     self.append(comment);
                 }

@@ -77,6 +77,9 @@ impl<'p> Body<'p, '_> {
         let value = self.on_trial(|body| body.value_alone(condition));
         let pointer = self.pointer();
         let once = info.counts_alone() && loops::takes_first(self.scope(), condition);
+        // One that counts alone takes its round after the condition, whatever statements the condition needs.
+        let inside = info.counts_alone() && !once;
+        let value = if inside { value.inline() } else { value };
         if pointer.is_empty() && value.before.is_empty() && !once {
             let value =
                 if halts { self.halt_or_pointer_leads(body, value) } else { self.or_pointer_leads(body, value) };

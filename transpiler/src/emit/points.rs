@@ -3,6 +3,7 @@
 
 use super::body::Body;
 use super::fragment::Fragment;
+use super::sequence::{Mode, OrderedOperand};
 use super::types::start_value;
 use crate::hir::{Expr, ExprKind, Type};
 use arl_lang::catalog::Base;
@@ -28,13 +29,9 @@ pub(super) fn table<'p>(body: &mut Body<'p, '_>, ty: Type, values: &'p [Expr]) -
     for (at, values) in values.chunks(piece).enumerate() {
         let from = Literal::usize_unsuffixed(at * piece);
         let to = Literal::usize_unsuffixed(at * piece + values.len());
-        let mut before = TokenStream::new();
-        let mut tokens = Vec::new();
-        for value in values {
-            let value = body.value(value);
-            before.extend(value.before);
-            tokens.push(value.tokens);
-        }
+        let operands: Vec<_> = values.iter().map(|value| OrderedOperand::Expr(value, Mode::Value)).collect();
+        let (before, fragments) = body.sequence(&operands, |_| false);
+        let tokens = fragments.iter().map(|fragment| &fragment.tokens);
         code.extend(quote!(#before #name[#from..#to].clone_from_slice(&[#(#tokens),*]);));
     }
     Fragment { before: quote!(let mut #name = #start; #code), ..Fragment::settled(quote!(#name)) }

@@ -90,6 +90,17 @@ impl<'p> Body<'p, '_> {
         self.plain_local(place.root).is_some() && !shared
     }
 
+    /// Whether a call writes a variable through a temporary, which is read before the call.
+    pub(super) fn writes_by_temporaries(&self, builtin: &'p Builtin, touched: &HashSet<LocalId>) -> bool {
+        builtin.args.iter().any(|arg| match &arg.value {
+            Passed::Out(place) => {
+                let shared = matches!(place.root, Root::Local(id) if touched.contains(&id));
+                !is_handle(place.ty) && !self.is_lent(place, shared)
+            }
+            Passed::Value(_) => false,
+        })
+    }
+
     /// Whether two of the variables that a call writes through temporaries may be the same one, so that each must be
     /// written before the next one is read. `touched` contains the locals that the call also uses otherwise.
     pub(super) fn takes_turns(&self, builtin: &'p Builtin, touched: &HashSet<LocalId>) -> bool {

@@ -5,6 +5,7 @@ use super::places::Spot;
 use super::tables::{constant_place, constant_word};
 use super::texts::text_place;
 use super::variables::{is_number, is_text};
+use crate::effects::growth;
 use crate::hir::{Expr, ExprKind, Place as HirPlace, Type, Value};
 use arl_code::{Arg, Extent, Op, Place, Site, StructureOperator, Target};
 use arl_lang::ast::{BinaryOp, UnaryOp};
@@ -269,6 +270,11 @@ impl<'p> FunctionCode<'p, '_> {
         let spot = self.settled(spot);
         self.passing(|body| {
             if is_text(place.ty) {
+                let parts = growth::parts(value);
+                if growth::may_append(body.scope(), place, &parts) {
+                    parts.into_iter().for_each(|part| body.passing(|body| body.append(spot, part)));
+                    return;
+                }
                 if body.mentions(value, place) {
                     // The old text is read before the value is evaluated.
                     let old = body.text_slot();

@@ -8,6 +8,7 @@ use crate::hir::{Expr, Func, LocalId, ModuleId, Type, Value};
 use arl_code::{Address, Extent, Op, Place, Reg, Space};
 use arl_lang::catalog::Family;
 use arl_lang::span::Span;
+use std::collections::HashMap;
 
 /// From this register on, numbers that a local variable or a temporary would keep for long go to the frame.
 const LAST_FOR_LOCALS: u32 = 160;
@@ -28,7 +29,9 @@ pub(super) struct FunctionCode<'p, 'l> {
     /// The values of the variables that loops count.
     pub(super) ranges: Ranges,
     /// Where the local variables are.
-    pub(super) locals: Vec<Option<Place>>,
+    pub(super) locals: HashMap<LocalId, Place>,
+    /// The numbers of the variables that a debugger sees.
+    pub(super) shown: HashMap<LocalId, u32>,
     pub(super) used: Used,
     most: Used,
     pub(super) flow: Surroundings,
@@ -42,7 +45,6 @@ impl<'p, 'l> FunctionCode<'p, 'l> {
         let mut body = Self::outside(lowering, func.module);
         body.func = Some(func);
         body.ranges = Ranges::of_function(func);
-        body.locals = vec![None; func.locals.len()];
         body
     }
 
@@ -53,7 +55,8 @@ impl<'p, 'l> FunctionCode<'p, 'l> {
             func: None,
             module,
             ranges: Ranges::default(),
-            locals: Vec::new(),
+            locals: HashMap::new(),
+            shown: HashMap::new(),
             used: Used::default(),
             most: Used::default(),
             flow: Surroundings::default(),
@@ -64,6 +67,11 @@ impl<'p, 'l> FunctionCode<'p, 'l> {
     /// The space that the frame needs.
     pub(super) fn space(&self) -> (Extent, u16) {
         (self.most.frame, u16::try_from(self.most.boxes).unwrap_or(u16::MAX))
+    }
+
+    /// How many clocks and connections the frame has had at most so far.
+    pub(super) fn most_handles(&self) -> u32 {
+        self.most.frame.handles
     }
 
     pub(super) fn family(&self) -> Family {

@@ -40,6 +40,7 @@ impl<'p> FunctionCode<'p, '_> {
         used.frame = used.frame.max(result);
         self.used = used;
         self.note_used();
+        self.open(false);
         for (id, place) in func.params.iter().zip(&places) {
             let ty = self.local_type(*id);
             let mut place = *place;
@@ -48,13 +49,14 @@ impl<'p> FunctionCode<'p, '_> {
                 self.box_of(to, ty, place);
                 place = Place::start(Space::Boxed(to));
             }
-            if let Some(local) = self.locals.get_mut(id.0 as usize) {
-                *local = Some(place);
-            }
+            self.locals.insert(*id, place);
             self.flow.visible.push(*id);
+            self.show(*id);
+        }
+        if self.keeps_places() {
+            self.lay_out_all(func);
         }
         if func.has_goto {
-            self.lay_out_all(func);
             if func.effects.recursive {
                 self.enter(func, &places);
             }
@@ -72,6 +74,7 @@ impl<'p> FunctionCode<'p, '_> {
             }
         }
         self.end(func.result);
+        self.end_scope(0);
     }
 
     /// Looks whether there is room for another call.
@@ -84,7 +87,7 @@ impl<'p> FunctionCode<'p, '_> {
                 entry.bytes = entry.bytes.saturating_add(u32::try_from(bytes).unwrap_or(u32::MAX));
             } else if is_text(local.ty) && local.read {
                 // Events may see it in its box.
-                let here = self.locals.get(id.0 as usize).copied().flatten();
+                let here = self.locals.get(id).copied();
                 entry.texts.push(here.unwrap_or(*place));
             }
         }

@@ -43,7 +43,13 @@ impl<'p> FunctionCode<'p, '_> {
         let file = u16::try_from(self.module.0).unwrap_or(u16::MAX);
         let functions = &mut self.lowering.code.functions;
         let number = functions.len() as u32;
-        functions.push(Function { name: name.into(), file, start: 0, frame: Extent::default(), boxes: 0 });
+        functions.push(Function {
+            name: name.into(),
+            file,
+            start: super::NOT_LOWERED,
+            frame: Extent::default(),
+            boxes: 0,
+        });
         let mut taken = Vec::new();
         for (id, to) in captured(self.lowering, self.func, expr) {
             let from = self.variable(Root::Local(id));
@@ -70,12 +76,12 @@ impl<'p> FunctionCode<'p, '_> {
                 Space::Boxed(number) => self.used.boxes = u32::from(number) + 1,
                 _ => self.used.frame = self.used.frame.plus(extent),
             }
-            if let Some(local) = self.locals.get_mut(id.0 as usize) {
-                *local = Some(place);
-            }
+            self.locals.insert(id, place);
         }
         self.note_used();
         if !piece.is_condition {
+            self.open(true);
+            self.halt();
             self.pointer(piece.expr);
             self.effect_of(piece.expr);
             self.op(Op::Return);

@@ -17,8 +17,9 @@ impl<'p> FunctionCode<'p, '_> {
     pub(super) fn lay_out_all(&mut self, func: &'p Func) {
         for (at, local) in func.locals.iter().enumerate() {
             let known = local.constant && local.value.is_some();
-            if !known && self.locals.get(at).is_some_and(Option::is_none) {
-                self.declare(LocalId(at as u32));
+            let id = LocalId(at as u32);
+            if !known && !self.locals.contains_key(&id) {
+                self.declare(id);
             }
         }
         labels(&func.body, &mut func.params.clone(), &mut self.flow.visible_at);
@@ -61,12 +62,16 @@ impl<'p> FunctionCode<'p, '_> {
                 StmtKind::Label(label) => {
                     let here = self.here();
                     self.flow.labels.insert(*label, here);
+                    // Declarations that are never reached are visible, too.
+                    if let Some(visible) = self.flow.visible_at.get(label) {
+                        self.flow.visible.clone_from(visible);
+                    }
                 }
                 _ if flow::has_label(stmt) => self.taken_apart(stmt),
                 _ => self.statement(stmt),
             }
         }
-        self.flow.visible.truncate(visible);
+        self.end_scope(visible);
     }
 
     /// A statement with a label inside.
@@ -86,6 +91,7 @@ impl<'p> FunctionCode<'p, '_> {
         let mut ends = Vec::new();
         for (at, (condition, block)) in arms.iter().enumerate() {
             self.stand_at(condition.span);
+            self.halt();
             if at == 0 {
                 self.pointer(condition);
             }
@@ -127,6 +133,7 @@ impl<'p> FunctionCode<'p, '_> {
         if info.counts_in_context() {
             self.op(Op::Spend { rounds: info.rounds });
         }
+        self.halt();
         let mut leave = Vec::new();
         if let Some(condition) = condition.filter(|condition| !flow::always(condition)) {
             self.pointer(condition);
@@ -140,10 +147,12 @@ impl<'p> FunctionCode<'p, '_> {
     }
 
     fn repeat_with_labels(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) {
+        self.halt();
         let head = self.here();
         let OpenLoop { breaks, continues } = self.round_with_labels(body);
         self.lead_here(continues);
         self.stand_at(until.span);
+        self.halt();
         self.pointer(until);
         let leave = self.jump_if(until, true);
         if info.counts_in_context() {
@@ -156,6 +165,7 @@ impl<'p> FunctionCode<'p, '_> {
     fn for_with_labels(&mut self, each: &'p For) {
         let visible = self.flow.visible.len();
         let line = self.line;
+        self.halt_at_head(&each.init);
         for stmt in &each.init {
             self.statement(stmt);
         }
@@ -169,13 +179,14 @@ impl<'p> FunctionCode<'p, '_> {
         let OpenLoop { breaks, continues } = self.round_with_labels(&each.body);
         self.lead_here(continues);
         self.line = line;
+        self.halt();
         if each.info.counts_in_context() {
             self.op(Op::Spend { rounds: each.info.rounds });
         }
         each.step.iter().for_each(|step| self.effect(step));
         self.op(Op::Jump { to: head });
         self.lead_here(leave.into_iter().chain(breaks));
-        self.flow.visible.truncate(visible);
+        self.end_scope(visible);
     }
 }
 

@@ -6,6 +6,7 @@
 use super::body::FunctionCode;
 use super::control_flow::OpenLoop;
 use super::places::Spot;
+use super::statements::declares_handles;
 use crate::effects::{flow, loops};
 use crate::hir::{Counting, Expr, For, LocalId, LoopInfo, Stmt, Walk};
 use arl_code::{Address, ChargeStep, Charging, Op, Place, Reg, Space};
@@ -55,6 +56,7 @@ impl<'p> FunctionCode<'p, '_> {
 
     /// `repeat` ... `until(c)`
     pub(super) fn repeat_loop(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) {
+        self.halt();
         self.turns(&Parts { condition: None, body, rest: Rest::Until(until) }, info);
     }
 
@@ -70,13 +72,15 @@ impl<'p> FunctionCode<'p, '_> {
             }
             self.range_loop(each, &range);
         } else {
+            self.halt_at_head(&each.init);
             for stmt in &each.init {
                 self.statement(stmt);
             }
             self.line = line;
             self.general_for(each);
         }
-        self.flow.visible.truncate(visible);
+        self.drop_declared(&each.init);
+        self.end_scope(visible);
     }
 
     /// A `for` whose variable only counts: the test stands behind the round, too.
@@ -99,6 +103,10 @@ impl<'p> FunctionCode<'p, '_> {
             self.op(Op::Spend { rounds: info.rounds });
         }
         self.lead_here(continues);
+        let handles = declares_handles(body, self.func);
+        if handles {
+            self.drop_handles();
+        }
         self.line = line;
         if flow::goes_round(body) {
             if let Some(step) = &each.step {
@@ -109,6 +117,9 @@ impl<'p> FunctionCode<'p, '_> {
         }
         leave.extend(breaks);
         self.lead_here(leave);
+        if handles {
+            self.drop_handles();
+        }
     }
 
     fn general_for(&mut self, each: &'p For) {
@@ -139,7 +150,7 @@ impl<'p> FunctionCode<'p, '_> {
 
     fn counting_spot(&mut self, local: LocalId) -> Spot {
         let ty = self.local_type(local);
-        let place = self.locals.get(local.0 as usize).copied().flatten().unwrap_or(Place::start(Space::Register(0)));
+        let place = self.locals.get(&local).copied().unwrap_or(Place::start(Space::Register(0)));
         Spot::new(place, ty)
     }
 
@@ -169,6 +180,11 @@ impl<'p> FunctionCode<'p, '_> {
         let line = self.line;
         let outer = self.flow.counts_alone;
         self.flow.counts_alone |= alone;
+        let has_rest = !matches!(parts.rest, Rest::Nothing);
+        let start = self.here();
+        if !has_rest {
+            self.halt();
+        }
         let head = self.here();
         let takes_first = alone && parts.condition.is_none_or(|condition| self.takes_first(condition));
         if takes_first {
@@ -183,33 +199,49 @@ impl<'p> FunctionCode<'p, '_> {
         if alone && !takes_first {
             self.op(Op::Take { again: head });
         }
-        let has_rest = !matches!(parts.rest, Rest::Nothing);
         if spends && continued && !has_rest {
             self.op(Op::Spend { rounds: info.rounds });
         }
         let OpenLoop { breaks, continues } = self.round(parts.body);
+        let handles = declares_handles(parts.body, self.func);
         // A condition that only calculates stands behind the round once more, which saves a jump.
-        let turned = parts.condition.filter(|condition| !takes_first && self.only_calculates(condition));
+        let turns = !takes_first && !self.is_watched();
+        let turned = parts.condition.filter(|condition| turns && self.only_calculates(condition));
         if !has_rest {
             if !flow::block_diverges(parts.body) {
                 if spends && !continued {
                     self.op(Op::Spend { rounds: info.rounds });
                 }
                 self.line = line;
-                self.turn(turned, head, after_test);
+                self.turn(turned, start, after_test);
             }
-            continues.into_iter().for_each(|jump| self.lead(jump, head));
+            if (handles || self.is_watched()) && !continues.is_empty() {
+                self.lead_here(continues);
+                if handles {
+                    self.drop_handles();
+                }
+                self.drop_declared(parts.body);
+                self.op(Op::Jump { to: start });
+            } else {
+                continues.into_iter().for_each(|jump| self.lead(jump, start));
+            }
         } else {
             self.lead_here(continues);
+            if handles {
+                self.drop_handles();
+            }
+            self.drop_declared(parts.body);
             if flow::goes_round(parts.body) {
                 match parts.rest {
                     Rest::Until(until) => {
                         self.stand_at(until.span);
+                        self.halt();
                         self.pointer(until);
                         leave.extend(self.jump_if(until, true));
                     }
                     Rest::Step(step) => {
                         self.line = line;
+                        self.halt();
                         step.into_iter().for_each(|step| self.effect(step));
                     }
                     Rest::Nothing => {}
@@ -218,12 +250,16 @@ impl<'p> FunctionCode<'p, '_> {
                     self.op(Op::Spend { rounds: info.rounds });
                 }
                 self.line = line;
-                self.turn(turned, head, after_test);
+                self.turn(turned, start, after_test);
             }
         }
         self.line = line;
         self.flow.counts_alone = outer;
         self.lead_here(leave.into_iter().chain(breaks));
+        if handles {
+            self.drop_handles();
+        }
+        self.drop_declared(parts.body);
         if alone && parts.condition.is_some() && !takes_first {
             // The condition may have ended the loop although more was counted before it than there was.
             self.op(Op::Leave { again: head });

@@ -23,8 +23,9 @@ mod tables;
 mod texts;
 mod variables;
 mod waiting;
+mod watching;
 
-use crate::effects;
+use crate::effects::{self, watched};
 use crate::hir::{ExprKind, FuncId, GlobalId, ModuleId, Program};
 use crate::visit;
 use arl_code::{Code, ConstantValue, Extent, Function, Op, Place, Variable};
@@ -54,6 +55,9 @@ impl fmt::Display for TooLarge {
 
 impl std::error::Error for TooLarge {}
 
+/// The first operation of a function that nothing needs.
+const NOT_LOWERED: u32 = u32::MAX;
+
 /// What all functions of one lowering share.
 struct Lowering<'p> {
     program: &'p Program,
@@ -76,13 +80,27 @@ struct Lowering<'p> {
 /// # Errors
 /// [`TooLarge`]: a function has more variables than the engine's operations can name.
 pub fn lower(program: &Program) -> Result<Code, TooLarge> {
+    lowered(program, false)
+}
+
+/// As [`lower`], for a debugger: the code can be halted before each statement, and its variables are seen.
+///
+/// # Errors
+/// As for [`lower`].
+pub fn lower_watched(program: &mut Program) -> Result<Code, TooLarge> {
+    watched::mark(program);
+    lowered(program, true)
+}
+
+fn lowered(program: &Program, watched: bool) -> Result<Code, TooLarge> {
     let main = program.main.map_or(0, |FuncId(main)| main);
     let mut lowering = Lowering::new(program, main);
+    lowering.code.watched = watched;
     lowering.place_globals();
     for func in &program.funcs {
         let file = u16::try_from(func.module.0).unwrap_or(u16::MAX);
         let name = func.name.as_str().into();
-        let function = Function { name, file, start: 0, frame: Extent::default(), boxes: 0 };
+        let function = Function { name, file, start: NOT_LOWERED, frame: Extent::default(), boxes: 0 };
         lowering.code.functions.push(function);
     }
     let reached = effects::reached(program);
@@ -94,6 +112,7 @@ pub fn lower(program: &Program) -> Result<Code, TooLarge> {
     }
     lowering.first_values();
     lowering.pieces();
+    lowering.end_of_unused();
     match lowering.problem {
         Some(problem) => Err(problem),
         None => Ok(lowering.code),
@@ -121,6 +140,8 @@ impl<'p> Lowering<'p> {
             globals: Extent::default(),
             handles: Vec::new(),
             variables: Vec::new(),
+            watched: false,
+            locals: Vec::new(),
             connects: false,
             serves_modbus: false,
         };
@@ -182,6 +203,14 @@ impl<'p> Lowering<'p> {
             }
         };
         func.body.iter().for_each(|stmt| visit::exprs_in_stmt(stmt, &mut see));
+    }
+
+    /// Functions that nothing needs only return.
+    fn end_of_unused(&mut self) {
+        let end = self.code.ops.len() as u32;
+        self.code.ops.push(Op::Return);
+        let unused = self.code.functions.iter_mut().filter(|function| function.start == NOT_LOWERED);
+        unused.for_each(|function| function.start = end);
     }
 
     /// The functions that give the global variables their first values, module by module, each in the order of its

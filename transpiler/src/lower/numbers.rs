@@ -4,6 +4,7 @@ use super::body::FunctionCode;
 use super::places::Spot;
 use super::tables::constant_word;
 use super::variables::is_number;
+use crate::effects::growth;
 use crate::hir::{Expr, ExprKind, Place as HirPlace, Type};
 use arl_code::{Extent, Op, Place, Reg, Space};
 use arl_lang::ast::{BinaryOp, Step, UnaryOp};
@@ -138,6 +139,10 @@ impl<'p> FunctionCode<'p, '_> {
         }
         let spot = self.spot_before(place, &[value]);
         let spot = self.settled(spot);
+        if let Some(parts) = growth::appended(self.scope(), place, value) {
+            parts.into_iter().for_each(|part| self.passing(|body| body.append(spot, part)));
+            return spot;
+        }
         self.passing(|body| {
             if is_number(place.ty) {
                 let from = body.number(value, None);

@@ -84,8 +84,13 @@ impl<'p> FunctionCode<'p, '_> {
     /// Two operands; the left one is not changed by the right one.
     pub(super) fn operands(&mut self, left: &'p Expr, right: &'p Expr) -> (Reg, Reg) {
         let spills = self.is_deep();
-        let mut first = self.steady_number(left, &[right]);
+        let first = self.steady_number(left, &[right]);
         if !spills {
+            let second = self.number(right, None);
+            return (first, second);
+        }
+        if self.aliased(left).is_some() {
+            // It is the register of a variable, and stays there.
             let second = self.number(right, None);
             return (first, second);
         }
@@ -95,8 +100,7 @@ impl<'p> FunctionCode<'p, '_> {
         let second = self.passing(|body| body.number(right, Some(first)));
         let register = self.register();
         self.op(Op::Load { to: register, at: place.word });
-        first = register;
-        (first, second)
+        (register, second)
     }
 
     /// Whether registers are few.

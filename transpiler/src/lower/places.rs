@@ -47,7 +47,7 @@ impl<'p> FunctionCode<'p, '_> {
     /// Where a variable is.
     pub(super) fn variable(&mut self, root: Root) -> Place {
         match root {
-            Root::Local(id) => match self.locals.get(id.0 as usize).copied().flatten() {
+            Root::Local(id) => match self.locals.get(&id).copied() {
                 Some(place) => place,
                 // A variable of a constant, or one whose declaration is jumped over.
                 None => self.declare(id),

@@ -4,7 +4,7 @@ use super::body::FunctionCode;
 use super::tables::constant_word;
 use super::variables::is_text;
 use crate::effects::flow;
-use crate::hir::{Arm, Expr, Stmt, StmtKind, Value};
+use crate::hir::{Arm, Expr, Func, LocalId, Stmt, StmtKind, Value};
 use arl_code::{Address, Comparison, Op};
 use arl_lang::catalog::Base;
 
@@ -17,13 +17,29 @@ impl<'p> FunctionCode<'p, '_> {
                 body.statement(stmt);
             }
         });
-        self.flow.visible.truncate(visible);
+        if !flow::block_diverges(block) {
+            if declares_handles(block, self.func) {
+                self.drop_handles();
+            }
+            self.drop_declared(block);
+        }
+        self.end_scope(visible);
+    }
+
+    /// Drops the clocks and connections of the blocks that end here: their connections are closed.
+    pub(super) fn drop_handles(&mut self) {
+        let at = self.used.frame.handles;
+        let count = self.most_handles().saturating_sub(at);
+        if count > 0 && !self.keeps_places() {
+            self.op(Op::DropHandles { at, count });
+        }
     }
 
     /// One statement.
     pub(super) fn statement(&mut self, stmt: &'p Stmt) {
         self.stand_at(stmt.span);
         let line = self.line;
+        self.halt_before(stmt);
         match &stmt.kind {
             // The variable stays when the statement is over.
             StmtKind::Let(id, value) => self.let_statement(*id, value.as_ref()),
@@ -68,6 +84,7 @@ impl<'p> FunctionCode<'p, '_> {
         let mut ends = Vec::new();
         for (at, (condition, block)) in arms.iter().enumerate() {
             self.stand_at(condition.span);
+            self.halt();
             if at == 0 {
                 self.pointer(condition);
             }
@@ -107,6 +124,7 @@ impl<'p> FunctionCode<'p, '_> {
     /// The jumps to the arms of a `switch`, and the one that is taken if no value is that of the subject.
     pub(super) fn choose(&mut self, subject: &'p Expr, arms: &'p [Arm]) -> (Vec<Vec<Address>>, Address) {
         self.stand_at(subject.span);
+        self.halt();
         self.pointer(subject);
         self.passing(|body| {
             let entries = if is_text(subject.ty) {
@@ -143,4 +161,16 @@ impl<'p> FunctionCode<'p, '_> {
             vec![body.op(Op::JumpCompare { left, right, by: Comparison::EqualDouble, wanted: true, to: 0 })]
         })
     }
+}
+
+/// Whether a block, or one inside it, declares clocks or connections.
+pub(super) fn declares_handles(block: &[Stmt], func: Option<&Func>) -> bool {
+    let is_handle = |id: &LocalId| {
+        let local = func.and_then(|func| func.locals.get(id.0 as usize));
+        local.is_some_and(|local| matches!(local.ty.base, Base::Handle(_)))
+    };
+    block.iter().any(|stmt| match &stmt.kind {
+        StmtKind::Let(id, _) => is_handle(id),
+        _ => flow::blocks(stmt).any(|inner| declares_handles(inner, func)),
+    })
 }

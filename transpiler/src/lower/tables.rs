@@ -81,6 +81,8 @@ pub(super) fn constant_word(value: &Value) -> Option<u64> {
         Value::Int(value) => u64::from(*value as u32),
         Value::Uint(value) => u64::from(*value),
         Value::Byte(value) => u64::from(*value),
+        // As native code has it: of all numbers that are none, this one.
+        Value::Double(value) if value.is_nan() => f64::NAN.to_bits(),
         Value::Double(value) => value.to_bits(),
         Value::Bool(value) => u64::from(*value),
         Value::Enum(_, at) => u64::from(*at),

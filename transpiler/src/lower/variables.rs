@@ -31,7 +31,7 @@ impl<'p> FunctionCode<'p, '_> {
     /// Gives a local variable its place.
     pub(super) fn declare(&mut self, id: LocalId) -> Place {
         // In a function with `goto` a variable keeps its place, whatever is jumped over.
-        if let Some(place) = self.locals.get(id.0 as usize).copied().flatten()
+        if let Some(place) = self.locals.get(&id).copied()
             && self.keeps_places()
         {
             return place;
@@ -44,15 +44,13 @@ impl<'p> FunctionCode<'p, '_> {
         } else {
             self.space_of(ty)
         };
-        if let Some(local) = self.locals.get_mut(id.0 as usize) {
-            *local = Some(place);
-        }
+        self.locals.insert(id, place);
         place
     }
 
     /// Whether local variables keep their places outside their blocks.
     pub(super) fn keeps_places(&self) -> bool {
-        self.func.is_some_and(|func| func.has_goto)
+        self.is_watched() || self.func.is_some_and(|func| func.has_goto)
     }
 
     /// `int a = value`, or without a value.
@@ -69,12 +67,13 @@ impl<'p> FunctionCode<'p, '_> {
         self.flow.visible.push(id);
         if let Space::Boxed(to) = place.space {
             self.shared_declaration(to, ty, value);
-            return;
+        } else {
+            self.passing(|body| match value {
+                Some(value) => body.set_new(Spot::new(place, ty), value),
+                None => body.start_value(Spot::new(place, ty)),
+            });
         }
-        self.passing(|body| match value {
-            Some(value) => body.set_new(Spot::new(place, ty), value),
-            None => body.start_value(Spot::new(place, ty)),
-        });
+        self.show(id);
     }
 
     /// A variable that events see: a new box each time.
@@ -167,6 +166,7 @@ impl<'p> FunctionCode<'p, '_> {
             Space::Boxed(to) => self.shared_declaration(to, ty, None),
             _ => self.start_value(Spot::new(place, ty)),
         }
+        self.show(id);
     }
 
     /// Whether an expression reads or writes the variable of a place.

@@ -1,0 +1,36 @@
+//! Files with the code of programs, in their places of the cache.
+
+use crate::cache::Place;
+use arl_terminal::failure::Failure;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// How the names of files with the code of a program begin, in its place of the cache.
+pub(crate) const CODE: &str = "code-";
+/// How long old code is kept for processes that are about to read it.
+const OLD_CODE: Duration = Duration::from_secs(3600);
+
+/// Writes code under a name of its own, so that other processes keep reading what they were started with.
+pub(crate) fn write(place: &Place, bytes: &[u8]) -> Result<PathBuf, Failure> {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    let path = place.folder.join(format!("{CODE}{:016x}", hasher.finish()));
+    let written = || {
+        std::fs::create_dir_all(&place.folder)?;
+        for entry in std::fs::read_dir(&place.folder)?.filter_map(Result::ok) {
+            let is_code = entry.file_name().to_string_lossy().starts_with(CODE);
+            let age = entry.metadata().and_then(|about| about.modified()).ok().and_then(|time| time.elapsed().ok());
+            if is_code && age > Some(OLD_CODE) {
+                // A file that cannot be removed now is removed next time.
+                let _ = std::fs::remove_file(entry.path());
+            }
+        }
+        // Always anew: alarms show the lines of files that are no newer than the code.
+        let fresh = place.folder.join(format!("{CODE}{}.new", std::process::id()));
+        std::fs::write(&fresh, bytes)?;
+        std::fs::rename(&fresh, &path)
+    };
+    written().map_err(|error: std::io::Error| Failure::io("write", &path, &error))?;
+    Ok(path)
+}
