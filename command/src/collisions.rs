@@ -90,7 +90,7 @@ struct Ran {
 /// Runs the program.
 fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result<Ran, Failure> {
     interrupt::leave_to_the_program();
-    let mut command = ready.command();
+    let mut command = ready.command()?;
     command.args(options.arguments()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
     listener.iter().for_each(|listener| listener.ask(&mut command));

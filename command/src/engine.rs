@@ -1,6 +1,6 @@
 //! Programs that this command runs itself, from their code.
 
-use arl_code::{Bundle, BundledProgram};
+use arl_code::{Bundle, BundledProgram, Code};
 use arl_engine::Engine;
 use arl_rt::emit::program_main;
 use arl_rt::program::{Make, Other, Program};
@@ -20,16 +20,35 @@ pub(crate) fn run(file: &Path, words: Vec<OsString>) -> Result<Exit, Failure> {
 }
 
 fn run_bundle(bundle: Bundle, words: Vec<OsString>, made: SystemTime) -> u8 {
-    program_main::drivers(arl_drivers::connect);
-    let Bundle { folder, main, others } = bundle;
-    let others: Vec<Other> = others.into_iter().map(other).collect();
-    let main = Arc::new(main);
-    program_main::main_within(words, || Engine::new(Arc::clone(&main)), &others, &folder, made)
+    let CodeProgram { make, others, folder } = CodeProgram::of(bundle);
+    program_main::main_within(words, make, &others, &folder, made)
 }
 
-/// A program of the cell. It lives as long as the process, as that of a compiled program does.
-fn other(BundledProgram { file, folder, code }: BundledProgram) -> Other {
+/// A program from its code, with those that its cells may name.
+pub struct CodeProgram {
+    /// Makes the program.
+    pub make: Box<dyn Fn() -> Box<dyn Program> + Send + Sync>,
+    /// The other programs.
+    pub others: Vec<Other>,
+    /// The folder of its files.
+    pub folder: String,
+}
+
+impl CodeProgram {
+    /// The programs of a bundle. Their code stays as long as the process, as that of compiled programs does.
+    pub(crate) fn of(bundle: Bundle) -> Self {
+        program_main::drivers(arl_drivers::connect);
+        let Bundle { folder, main, others } = bundle;
+        Self { make: maker(main), others: others.into_iter().map(other).collect(), folder }
+    }
+}
+
+fn maker(code: Code) -> Box<dyn Fn() -> Box<dyn Program> + Send + Sync> {
     let code = Arc::new(code);
-    let make: Make = Box::leak(Box::new(move || Box::new(Engine::new(Arc::clone(&code))) as Box<dyn Program>));
+    Box::new(move || Box::new(Engine::new(Arc::clone(&code))))
+}
+
+fn other(BundledProgram { file, folder, code }: BundledProgram) -> Other {
+    let make: Make = Box::leak(maker(code));
     Other { file: file.leak(), folder: folder.leak(), make }
 }

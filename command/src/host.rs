@@ -3,20 +3,23 @@
 //! Everything here works as in the command, with the same `arl.toml`, cache and messages.
 
 use crate::check;
+pub use crate::engine::CodeProgram;
 use crate::sweep;
 pub use crate::sweep::{
     Bundle, Kept, MAX_TIME, Parameters, Row, RunResult, Settings, Spread, Sweep, SweepSettings, TIMEOUT, Worker, as_arl,
 };
 use crate::variables;
 pub use crate::variables::Variable;
-use arl_project::cache::{Cache, Kind, Lock};
+use arl_project::cache::{Cache, Lock};
+pub use arl_project::options::EngineChoice;
 use arl_project::options::{Checking, RunOptions};
-use arl_project::program::{self, prepare_checked};
+use arl_project::program::{self, InProcess, prepare_in_process};
 use arl_robot::cell::{Cell, Signal, SignalKind};
 use arl_robot::settings::Source;
 use arl_robot::{Robot, atomic_file, regular_file};
 use arl_terminal::failure::Failure;
 use arl2rs::compile::{guard, on_large_stack};
+use std::ffi::OsString;
 use std::fmt;
 use std::path::{Component, Path, PathBuf};
 use twox_hash::XxHash3_128;
@@ -54,22 +57,28 @@ impl From<Failure> for HostError {
     }
 }
 
-/// A compiled library. As long as this value lives, the program is not compiled again, which would remove the library:
-/// it is for loading it.
-#[derive(Debug)]
-pub struct CompiledLibrary {
-    /// The file.
-    pub path: PathBuf,
+/// A program that runs in this process.
+pub struct Prepared {
+    /// What runs.
+    pub program: PreparedProgram,
     /// The command-line words that all runs need: robot, cell, scenario and folder, from the settings and the
     /// `arl.toml`.
     pub words: Vec<String>,
-    _lock: Lock,
+}
+
+/// What runs.
+pub enum PreparedProgram {
+    /// A compiled library. As long as the lock is held, the program is not compiled again, which would remove it: it is
+    /// for loading it.
+    Library(PathBuf, Lock),
+    /// Code, for the engine of this process.
+    Code(CodeProgram),
 }
 
 /// Sets which file this code is in, if that is not the program of the process: what another file compiled is compiled
-/// again.
-pub fn is_part_of(file: PathBuf) {
-    program::is_part_of(file);
+/// again; and the words that start the command `arl2rs`.
+pub fn is_part_of(file: PathBuf, command: Vec<OsString>) {
+    program::is_part_of(file, command);
 }
 
 /// The diagnostics of programs, a JSON object each.
@@ -80,17 +89,18 @@ pub fn check(files: &[PathBuf], settings: &Settings, strict: bool, background: b
     found(files, settings, strict, background).map(|(all, _)| all)
 }
 
-/// Compiles a program into a library, unless that was done before.
+/// Makes a program ready to run in this process: by the engine, or compiled into a library where the settings ask for
+/// that, or where it was compiled before.
 ///
 /// # Errors
 /// The program has mistakes, or cannot be compiled here.
-pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
+pub fn prepared(settings: &Settings) -> Result<Prepared, HostError> {
     mistakes(settings)?;
     safely(|| {
         let program = &settings.program;
         let options = options(settings).of_program(program)?;
         options.io.as_deref().map_or(Ok(()), scenario)?;
-        let ready = prepare_checked(Kind::Library, program, &options)?;
+        let program_in_process = prepare_in_process(program, &options)?;
         let folder = options.script_dir.clone().map_or_else(|| folder_of(program), Ok)?;
         let named = [
             ("--robot", options.robot.as_deref().map(robot).transpose()?),
@@ -100,7 +110,11 @@ pub fn library(settings: &Settings) -> Result<CompiledLibrary, HostError> {
             ("--max-time", settings.max_time.map(|seconds| seconds.to_string())),
         ];
         let words = named.into_iter().filter_map(|(name, value)| Some([name.to_owned(), value?])).flatten().collect();
-        Ok(CompiledLibrary { path: ready.program, words, _lock: ready.lock })
+        let program = match program_in_process {
+            InProcess::Library(ready) => PreparedProgram::Library(ready.program, ready.lock),
+            InProcess::Code(bundle) => PreparedProgram::Code(CodeProgram::of(*bundle)),
+        };
+        Ok(Prepared { program, words })
     })
 }
 
@@ -248,8 +262,8 @@ fn found(
 }
 
 fn options(settings: &Settings) -> RunOptions {
-    let Settings { robot, cell, io, script_dir, .. } = settings.clone();
-    RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }
+    let Settings { robot, cell, io, script_dir, engine, .. } = settings.clone();
+    RunOptions { robot, cell, io, script_dir, engine, ..RunOptions::default() }
 }
 
 /// Checks that a scenario is there, and is TOML; whether it fits the cell shows when a run begins.

@@ -39,7 +39,7 @@ pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
         false => Kind::Program,
     };
     let ready = prepare(kind, file, options)?;
-    let mut command = ready.command();
+    let mut command = ready.command()?;
     command.args(options.arguments());
     let mut subscribers = subscribers(options, &ready.sources)?;
     if on_screen {

@@ -39,7 +39,7 @@ fn live(program: &Path, options: &ViewOptions, page: Page) -> Result<Exit, Failu
     let robots = robots::of_cell(&cell, robots::load_with(first, &options_of_run.changed()?)?)?;
     let scenery = Scenery::of(&cell, &robots, &show::warning)?;
     let ready = prepare(Kind::Program, program, &options_of_run)?;
-    let mut command = ready.command();
+    let mut command = ready.command()?;
     command.args(options_of_run.arguments());
     let program = Program {
         name: program.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned()),

@@ -37,7 +37,7 @@ macro_rules! library {
                 context: *mut ::core::ffi::c_void,
             ) -> *mut $crate::Served {
                 let made = $crate::Made {
-                    program: || ::std::boxed::Box::new($program()),
+                    program: &|| ::std::boxed::Box::new($program()),
                     others: &[$($other),*],
                     script_dir: $script_dir,
                 };

@@ -1,17 +1,45 @@
 //! The host's side of the interface.
 
-use std::ffi::{CString, c_char, c_void};
+use std::ffi::{CString, OsString, c_char, c_void};
 use std::fmt;
 use std::path::Path;
 use std::ptr::NonNull;
+use std::sync::Arc;
+
+use arl_rt::Program;
+use arl_rt::program::Other;
 
 use crate::Served;
-use crate::interface::{BROKEN, INTERFACE, Interface, RUNS, WRONG_THREAD};
+use crate::interface::{BROKEN, INTERFACE, Interface, RUNS, Take, WRONG_THREAD};
+use crate::serve::{self, Made};
 
-/// A program as a library, loaded into this process. It stays loaded until the process ends.
-#[derive(Clone, Copy, Debug)]
+/// A program in this process: a library that was loaded, which stays loaded until the process ends, or one that this
+/// process can make itself.
+#[derive(Clone, Debug)]
 pub struct Library {
     interface: &'static Interface,
+    /// The program, if it is not that of a loaded library.
+    own: Option<Arc<OwnProgram>>,
+}
+
+/// A program that this process makes.
+struct OwnProgram {
+    make: Box<dyn Fn() -> Box<dyn Program> + Send + Sync>,
+    others: Vec<Other>,
+    script_dir: String,
+}
+
+impl fmt::Debug for OwnProgram {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("OwnProgram").field("script_dir", &self.script_dir).finish_non_exhaustive()
+    }
+}
+
+/// The interface to runs of programs that this process makes. They begin without it.
+static OWN: Interface = serve::interface(begins_nothing);
+
+unsafe extern "C" fn begins_nothing(_: *const *const c_char, _: usize, _: i32, _: Take, _: *mut c_void) -> *mut Served {
+    std::ptr::null_mut()
 }
 
 /// The reason why a library cannot be loaded, or a run cannot be begun or continued.
@@ -88,7 +116,17 @@ impl Library {
             return Err(LoadError::Version(version));
         }
         // SAFETY: this version has this shape, and lives as long as the process.
-        Ok(Self { interface: unsafe { &*interface } })
+        Ok(Self { interface: unsafe { &*interface }, own: None })
+    }
+
+    /// The program that `make` makes for each run, with those that its cells may name, and the folder of its files.
+    pub fn in_process(
+        make: impl Fn() -> Box<dyn Program> + Send + Sync + 'static,
+        others: Vec<Other>,
+        script_dir: String,
+    ) -> Self {
+        let own = OwnProgram { make: Box::new(make), others, script_dir };
+        Self { interface: &OWN, own: Some(Arc::new(own)) }
     }
 
     /// A run at the start of its first cycle, with arguments as on a command line. With `traced` it records the trace
@@ -96,7 +134,13 @@ impl Library {
     ///
     /// # Errors
     /// The error in the arguments, or the reason why the controller cannot be built.
-    pub fn begin(self, arguments: &[&str], traced: bool) -> Result<Session, LoadError> {
+    pub fn begin(&self, arguments: &[&str], traced: bool) -> Result<Session, LoadError> {
+        if let Some(own) = &self.own {
+            let made = Made { program: &*own.make, others: &own.others, script_dir: &own.script_dir };
+            let words = arguments.iter().map(OsString::from).collect();
+            let served = serve::serve(made, words, traced).map_err(LoadError::Refused)?;
+            return Ok(Session { run: NonNull::from(Box::leak(served)), interface: self.interface });
+        }
         let words: Result<Vec<CString>, _> = arguments.iter().map(|word| CString::new(*word)).collect();
         let words = words.map_err(|_| LoadError::Refused("an argument contains a NUL character".into()))?;
         let pointers: Vec<*const c_char> = words.iter().map(|word| word.as_ptr()).collect();
@@ -112,7 +156,7 @@ impl Library {
     }
 
     /// The names of the columns of a trace.
-    pub fn columns(self) -> Vec<String> {
+    pub fn columns(&self) -> Vec<String> {
         let mut names = Vec::new();
         // SAFETY: `take_bytes` takes a vector of bytes.
         unsafe { (self.interface.header)(take_bytes, context(&mut names)) };

@@ -16,9 +16,9 @@ use crate::interface::{BROKEN, INTERFACE, Interface, RUNS, Take, WRONG_THREAD};
 
 /// The parts from which a library was made.
 #[doc(hidden)]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Made<'a> {
-    pub program: fn() -> Box<dyn Program>,
+    pub program: &'a dyn Fn() -> Box<dyn Program>,
     pub others: &'a [Other],
     pub script_dir: &'a str,
 }
@@ -115,22 +115,27 @@ pub unsafe fn begin(
         let word = unsafe { CStr::from_ptr(*arguments.add(at)) };
         OsString::from(word.to_string_lossy().into_owned())
     });
-    let words: Vec<OsString> = words.collect();
-    let begun = catch_unwind(AssertUnwindSafe(|| {
-        Run::begin((made.program)(), made.others, made.script_dir, words, traced != 0)
-    }));
-    let problem = match begun {
-        Ok(Ok(run)) => {
-            let stops = run.stops();
-            let own = UnsafeCell::new(Own { run, is_broken: false });
-            return Box::into_raw(Box::new(Served { thread: thread::current().id(), stops, own }));
+    match serve(made, words.collect(), traced != 0) {
+        Ok(served) => Box::into_raw(served),
+        Err(problem) => {
+            // SAFETY: `why` takes `context`, by this function's contract.
+            unsafe { give(why, context, problem.as_bytes()) };
+            std::ptr::null_mut()
         }
-        Ok(Err(problem)) => problem,
-        Err(_) => "the program panicked: standard error says why".into(),
-    };
-    // SAFETY: `why` takes `context`, by this function's contract.
-    unsafe { give(why, context, problem.as_bytes()) };
-    std::ptr::null_mut()
+    }
+}
+
+/// Begins a run on this thread.
+///
+/// # Errors
+/// The reason why it cannot be begun.
+pub(crate) fn serve(made: Made<'_>, words: Vec<OsString>, traced: bool) -> Result<Box<Served>, String> {
+    let begun =
+        catch_unwind(AssertUnwindSafe(|| Run::begin((made.program)(), made.others, made.script_dir, words, traced)));
+    let run = begun.map_err(|_| "the program panicked: standard error says why".to_owned()).flatten()?;
+    let stops = run.stops();
+    let own = UnsafeCell::new(Own { run, is_broken: false });
+    Ok(Box::new(Served { thread: thread::current().id(), stops, own }))
 }
 
 /// Passes bytes to the host.

@@ -23,6 +23,7 @@ use arl2rs::compile::{Bug, Compiled, check_program, compile_program};
 use arl2rs::emit::EmitOptions;
 use arl2rs::lower::{lower, lower_watched};
 use arl2rs::sources::FileSystem;
+use std::ffi::OsString;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -31,7 +32,7 @@ use std::sync::OnceLock;
 /// A compiled program, which other processes cannot compile again while the lock is held.
 #[derive(Debug)]
 pub struct Ready {
-    /// The executable, or the library.
+    /// The executable, or the library; of this command if the program is code.
     pub program: PathBuf,
     /// The code, if the executable is this command, which has the engine.
     pub code: Option<PathBuf>,
@@ -43,19 +44,27 @@ pub struct Ready {
 
 impl Ready {
     /// The command that runs the program.
-    pub fn command(&self) -> Command {
+    ///
+    /// # Errors
+    /// As for [`command_of_code`].
+    pub fn command(&self) -> Result<Command, Failure> {
         match &self.code {
-            Some(code) => command_of_code(&self.program, code),
-            None => Command::new(&self.program),
+            Some(code) => command_of_code(code),
+            None => Ok(Command::new(&self.program)),
         }
     }
 }
 
-/// The command that runs code with the engine of `this`, which is arl2rs.
-pub fn command_of_code(this: &Path, code: &Path) -> Command {
-    let mut command = Command::new(this);
-    command.arg("engine").arg(code);
-    command
+/// The command that runs code: this command, which has the engine.
+///
+/// # Errors
+/// It is not known how this command is started.
+pub fn command_of_code(code: &Path) -> Result<Command, Failure> {
+    let words = this_command()?;
+    let (program, first) = words.split_first().ok_or_else(|| Failure::Other("arl2rs has no command".into()))?;
+    let mut command = Command::new(program);
+    command.args(first).arg("engine").arg(code);
+    Ok(command)
 }
 
 /// The options of a check.
@@ -79,12 +88,29 @@ fn outline(cell: &Path) -> Result<Outline, Failure> {
     Ok(Outline::of(&cell))
 }
 
-/// The file that contains the compiler, if it is not the executable of this process.
-static COMPILER: OnceLock<PathBuf> = OnceLock::new();
+/// What this command is, if it is not the executable of this process.
+static THIS: OnceLock<This> = OnceLock::new();
 
-/// Sets the file that contains the compiler.
-pub fn is_part_of(file: PathBuf) {
-    let _ = COMPILER.set(file);
+/// What this command is.
+struct This {
+    /// The file that contains it.
+    file: PathBuf,
+    /// The words that start it.
+    command: Vec<OsString>,
+}
+
+/// Sets the file that contains this command, and the words that start it.
+pub fn is_part_of(file: PathBuf, command: Vec<OsString>) {
+    let _ = THIS.set(This { file, command });
+}
+
+/// The words that start this command.
+fn this_command() -> Result<Vec<OsString>, Failure> {
+    if let Some(this) = THIS.get() {
+        return Ok(this.command.clone());
+    }
+    let program = std::env::current_exe().map_err(|error| Failure::io("find", Path::new("arl2rs"), &error))?;
+    Ok(vec![program.into()])
 }
 
 /// Everything that becomes one program: the program on the command line and those that its cell names.
@@ -247,8 +273,9 @@ impl<'a> Job<'a> {
 /// A number that changes with the file of this command.
 pub fn state_of_command() -> u64 {
     let mut hasher = DefaultHasher::new();
-    if let Some(compiler) = COMPILER.get().cloned().or_else(|| std::env::current_exe().ok()) {
-        hash_state(&compiler, &mut hasher);
+    let file = THIS.get().map(|this| this.file.clone()).or_else(|| std::env::current_exe().ok());
+    if let Some(file) = file {
+        hash_state(&file, &mut hasher);
     }
     hasher.finish()
 }
@@ -283,7 +310,7 @@ fn prepare_job(job: &Job<'_>, options: &RunOptions) -> Result<Ready, Failure> {
         (Some(EngineChoice::Engine), Some(needs)) => Err(Failure::Usage(format!("--engine engine: {needs}"))),
         (Some(EngineChoice::Engine), None) => lowered(job),
         (None, Some(_)) => compiled(job, options),
-        (None, None) if !has_engine() || (options.drive && cargo::is_there()) => compiled(job, options),
+        (None, None) if options.drive && cargo::is_there() => compiled(job, options),
         (None, None) => match kept(job)? {
             Some(ready) => Ok(ready),
             None => lowered(job),
@@ -291,9 +318,32 @@ fn prepare_job(job: &Job<'_>, options: &RunOptions) -> Result<Ready, Failure> {
     }
 }
 
-/// Whether this process can start the command that has the engine.
-fn has_engine() -> bool {
-    COMPILER.get().is_none()
+/// Checks a program together with those that its cell names, for the engine of this process, unless the options ask for
+/// native code. Its messages have been shown by a check.
+///
+/// # Errors
+/// The program is refused.
+pub fn prepare_in_process(file: &Path, options: &RunOptions) -> Result<InProcess, Failure> {
+    let job = Job { is_checked: true, ..Job::of_run(file, options)?.into_kind(Kind::Library) };
+    if options.engine == Some(EngineChoice::Native) {
+        return compiled(&job, options).map(InProcess::Library);
+    }
+    if options.engine.is_none()
+        && let Some(ready) = kept(&job)?
+    {
+        return Ok(InProcess::Library(ready));
+    }
+    let mut programs = job.check(&FileSystem)?;
+    job.show(&programs)?;
+    job.bundle(&mut programs).map(|bundle| InProcess::Code(Box::new(bundle)))
+}
+
+/// A program that runs in this process.
+pub enum InProcess {
+    /// A compiled library.
+    Library(Ready),
+    /// The code of the program.
+    Code(Box<Bundle>),
 }
 
 /// Checks the programs of a job, and makes them ready for the engine: this command runs their code.
@@ -308,7 +358,7 @@ fn lowered(job: &Job<'_>) -> Result<Ready, Failure> {
     let sources = programs.iter().flat_map(files).map(|file| absolute(&file)).collect::<Result<_, _>>()?;
     let lock = place.lock(true)?;
     let path = code_files::write(&place, &bundle.to_bytes())?;
-    let program = std::env::current_exe().map_err(|error| Failure::io("find", Path::new("arl2rs"), &error))?;
+    let program = this_command()?.into_iter().next().unwrap_or_default().into();
     Ok(Ready { program, code: Some(path), lock, sources })
 }
 

@@ -1,4 +1,4 @@
-"""Checks robot programs in ARL, compiles them to native code, runs them many times, and steps them.
+"""Checks robot programs in ARL, runs them many times, and steps them.
 
 >>> import arl2rs
 >>> program = arl2rs.compile(source='int parts = 3\\nfunc void main()\\n    print parts, " parts"\\nendfunc\\n')

@@ -36,6 +36,7 @@ class CompileArguments(TypedDict, total=False):
     cell: StrPath | None
     scenario: StrPath | None
     script_dir: StrPath | None
+    native: bool | None
 
 
 class _AnyRun(TypedDict, total=False):

@@ -31,6 +31,8 @@ MAX_TIME = _arl2rs.MAX_TIME
 """The robot's time after which a run is ended by default, s."""
 NO_SCENARIO = "none"
 """In place of a scenario: the run has none, even if an `arl.toml` or `compile` names one."""
+COMPILING = "this takes a minute or two the first time, and seconds after a change"
+"""How long compiling takes."""
 NAME = "program.arl"
 """The name of the main file of a program given as text."""
 
@@ -42,6 +44,7 @@ def given(
     cell: StrPath | None = None,
     scenario: StrPath | None = None,
     script_dir: StrPath | None = None,
+    native: bool | None = None,
     files: Iterable[StrPath] = (),
     max_time: float | None = None,
     timeout: float | None = None,
@@ -55,6 +58,7 @@ def given(
         "cell": None if cell is None else Path(cell),
         "io": None if scenario is None else Path(scenario),
         "script_dir": None if script_dir is None else Path(script_dir),
+        "native": native,
         "files": [Path(file) for file in files],
         "max_time": max_time,
         "timeout": timeout,
@@ -117,12 +121,14 @@ def compile(
     cell: StrPath | None = None,
     scenario: StrPath | None = None,
     script_dir: StrPath | None = None,
+    native: bool | None = None,
 ) -> Program:
-    """Compiles a program and loads it into this process. A program that was compiled before is loaded at once.
+    """Checks a program and makes it ready to run in this process.
 
     Instead of a file it takes the text of a program, `source`, and the texts of the files `beside` it, by their names:
     data files, modules. An `arl.toml` beside the program's file, or above it, provides the settings that are not given
-    here. Compiling needs Rust (cargo); running a compiled program does not.
+    here. With `native` the program is compiled to native code, which needs Rust (cargo), the first time a minute or
+    two, and pays where a program calculates much. Otherwise it runs at once; the results are the same to the last bit.
 
     Raises `CompileError` if the program has mistakes, `RefusedError` if the program, the robot, the cell or the
     scenario does not exist.
@@ -131,7 +137,14 @@ def compile(
     '42\\n'
     """
     return Program(
-        program, source=source, beside=beside, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir
+        program,
+        source=source,
+        beside=beside,
+        robot=robot,
+        cell=cell,
+        scenario=scenario,
+        script_dir=script_dir,
+        native=native,
     )
 
 
@@ -143,11 +156,18 @@ def run(
     beside: Mapping[str, str] | None = None,
     cell: StrPath | None = None,
     script_dir: StrPath | None = None,
+    native: bool | None = None,
     **arguments: Unpack[RunArguments],
 ) -> Result:
-    """Compiles a program if needed, and runs it: `compile(..).run(..)`."""
+    """Runs a program: `compile(..).run(..)`."""
     compiled = Program(
-        program, source=source, beside=beside, robot=arguments.get("robot"), cell=cell, script_dir=script_dir
+        program,
+        source=source,
+        beside=beside,
+        robot=arguments.get("robot"),
+        cell=cell,
+        script_dir=script_dir,
+        native=native,
     )
     return compiled.run(**arguments)
 
@@ -169,7 +189,7 @@ def _scenario(path: StrPath | None) -> StrPath | None:
 
 
 class Program:
-    """A compiled program in this process, created by `compile`."""
+    """A program in this process, created by `compile`."""
 
     @named
     def __init__(
@@ -182,6 +202,7 @@ class Program:
         cell: StrPath | None = None,
         scenario: StrPath | None = None,
         script_dir: StrPath | None = None,
+        native: bool | None = None,
     ) -> None:
         if (source is None) == (program is None):
             raise RefusedError("expected a program: either a file, or its text as `source`")
@@ -197,14 +218,10 @@ class Program:
             "cell": cell,
             "scenario": _scenario(scenario),
             "script_dir": script_dir,
+            "native": native,
         }
-        self._given = given(self.path, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir)
-        with (
-            package_errors,
-            notice(
-                f"compiling {self.path.name}: this takes a minute or two the first time, and seconds after a change"
-            ),
-        ):
+        self._given = given(self.path, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir, native=native)
+        with package_errors, notice(f"compiling {self.path.name}: {COMPILING}"):
             try:
                 self._library = _arl2rs.Library(self._given)
             except _arl2rs.Mistakes as problem:
@@ -214,11 +231,12 @@ class Program:
         return f"Program({str(self.path)!r})" if self._text is None else "Program(source=..)"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Another process loads the program again, from its compiled form."""
+        """Another process makes the program ready again."""
         program = self._source or {"program": self.path.absolute()}
         files = {"robot": self._arguments["robot"], "cell": self._arguments["cell"]}
         files |= {"scenario": self._arguments["scenario"], "script_dir": self._arguments["script_dir"]}
-        return _compiled, ({**program, **{name: _full(path) for name, path in files.items()}},)
+        paths = {name: _full(path) for name, path in files.items()}
+        return _compiled, ({**program, **paths, "native": self._arguments["native"]},)
 
     @named
     def sweep(self, rows: Rows, **arguments: Unpack[SweepArguments]) -> Results:
@@ -352,7 +370,10 @@ class Program:
         )
         with tempfile.TemporaryDirectory() as nothing_kept:
             words = self._words(scenario, robot, nothing_kept, parameters)
-            command = [sys.executable, "-m", "arl2rs", "run", self.path.absolute(), "--record", recording, *words]
+            native = self._arguments["native"]
+            engine = [] if native is None else ["--engine", "native" if native else "engine"]
+            run = ["run", os.fspath(self.path.absolute()), "--record", os.fspath(recording), *engine, *words]
+            command = [sys.executable, "-m", "arl2rs", *run]
             with notice(f"compiling {self.path.name} for a recording"):
                 ran = subprocess.run(command, capture_output=True, text=True, check=False)
         if ran.returncode not in (0, 3, 4):

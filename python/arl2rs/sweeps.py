@@ -19,7 +19,7 @@ from .choices import Figure as Choice
 from .keywords import named
 from .notice import notice, say
 from .problems import ArlError, RefusedError, StrPath, package_errors, there
-from .program import given
+from .program import COMPILING, given
 from .values import Parameters, as_json, of_python
 
 with warnings.catch_warnings():
@@ -194,6 +194,7 @@ def sweep(
     cell: StrPath | None = None,
     scenario: StrPath | None = None,
     script_dir: StrPath | None = None,
+    native: bool | None = None,
     files: Iterable[StrPath] = (),
     max_time: float | None = None,
     timeout: float | None = None,
@@ -209,6 +210,7 @@ def sweep(
     - `rows`: dictionaries of parameters, as `grid` makes them, or a pandas or polars data frame: `global.NAME`,
       `robot.KEYS`, `cell.KEYS`, `scenario.KEYS`, `robot`, `scenario`, `override`, `mode`, `seed`, `max_time`,
       `start_time`. The command's names are accepted, too.
+    - `native`: whether the program is compiled to native code, as for `arl2rs.compile`.
     - `files`: the files that the program reads besides programs, data files and texts of its folder.
     - `max_time`: after this many seconds of the robot's time a run ends (3600); `timeout`: after this many on the
       clock it is given up (600).
@@ -233,6 +235,7 @@ def sweep(
         cell=cell,
         scenario=scenario,
         script_dir=script_dir,
+        native=native,
         files=files,
         max_time=max_time,
         timeout=timeout,
@@ -245,9 +248,7 @@ def sweep(
         raise RefusedError(f"engine {engine!r}: expected 'local' or 'ray'")
     with (
         package_errors,
-        notice(
-            f"compiling {path.name} for {len(texts)} runs: this takes a minute or two the first time, and seconds after a change"
-        ),
+        notice(f"compiling {path.name} for {len(texts)} runs: {COMPILING}"),
     ):
         bundle = _arl2rs.Bundle(settings, texts)
     lines: list[str] = []

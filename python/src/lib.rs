@@ -10,8 +10,18 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use arl2rs_cli::host::{self, Settings};
+use arl2rs_cli::host::{self, EngineChoice, Settings};
 use pyo3::prelude::*;
+
+/// Executes the command from the file of this library, without the Python side: importing that takes longer.
+const COMMAND: &str = "
+import importlib.util, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_DFL)
+spec = importlib.util.spec_from_file_location('_arl2rs', sys.argv[1])
+module = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(module)
+sys.exit(module.command(['arl2rs', *sys.argv[2:]]))
+";
 
 #[pymodule]
 mod _arl2rs {
@@ -25,6 +35,8 @@ mod _arl2rs {
     use super::session::{Library, Session};
     #[pymodule_export]
     use super::value::value;
+    use std::ffi::OsString;
+
     #[pymodule_export]
     use super::{Text, check, command, literal, signals, variables, words};
     use pyo3::prelude::*;
@@ -38,9 +50,12 @@ mod _arl2rs {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        // What an older package has compiled is compiled again.
-        if let Ok(file) = module.filename() {
-            super::host::is_part_of(file.to_string().into());
+        // What an older package has compiled is compiled again. The command is started by way of Python.
+        if let Ok(file) = module.filename().and_then(|file| Ok(std::path::absolute(file.to_string())?)) {
+            let python: String = module.py().import("sys")?.getattr("executable")?.extract()?;
+            let command = [python.as_str(), "-I", "-S", "-c", super::COMMAND].map(OsString::from);
+            let command = command.into_iter().chain([file.clone().into()]).collect();
+            super::host::is_part_of(file, command);
         }
         Ok(())
     }
@@ -55,6 +70,8 @@ pub(crate) struct Given {
     cell: Option<PathBuf>,
     io: Option<PathBuf>,
     script_dir: Option<PathBuf>,
+    /// Whether it is compiled; `None`: as an `arl.toml` says.
+    native: Option<bool>,
     files: Vec<PathBuf>,
     max_time: Option<f64>,
     timeout: Option<f64>,
@@ -64,16 +81,19 @@ pub(crate) struct Given {
 
 impl From<Settings> for Given {
     fn from(settings: Settings) -> Self {
-        let Settings { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance } =
+        let Settings { program, robot, cell, io, script_dir, files, engine, max_time, timeout, collisions, clearance } =
             settings;
-        Self { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance }
+        let native = engine.map(|engine| engine == EngineChoice::Native);
+        Self { program, robot, cell, io, script_dir, native, files, max_time, timeout, collisions, clearance }
     }
 }
 
 impl From<Given> for Settings {
     fn from(given: Given) -> Self {
-        let Given { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance } = given;
-        Self { program, robot, cell, io, script_dir, files, max_time, timeout, collisions, clearance }
+        let Given { program, robot, cell, io, script_dir, native, files, max_time, timeout, collisions, clearance } =
+            given;
+        let engine = native.map(|native| if native { EngineChoice::Native } else { EngineChoice::Engine });
+        Self { program, robot, cell, io, script_dir, files, engine, max_time, timeout, collisions, clearance }
     }
 }
 

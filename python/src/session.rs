@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard};
 use std::thread::{self, ThreadId};
 
 use arl_library::{Library as Loaded, LoadError, Session as Run};
-use arl2rs_cli::host::{self, Settings};
+use arl2rs_cli::host::{self, CodeProgram, Prepared, PreparedProgram, Settings};
 use pyo3::buffer::PyBuffer;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -17,7 +17,7 @@ use crate::{Given, interruptible};
 /// The most cycles that run before Ctrl-C is checked; some 50 ms.
 const CHUNK: u64 = 5_000;
 
-/// A compiled program in this process.
+/// A program in this process.
 #[pyclass(frozen)]
 pub(crate) struct Library {
     loaded: Loaded,
@@ -26,15 +26,20 @@ pub(crate) struct Library {
 
 #[pymethods]
 impl Library {
-    /// Compiles the program if needed, and loads it.
+    /// Makes the program ready to run.
     #[new]
     fn new(py: Python<'_>, given: Given) -> PyResult<Self> {
         let settings: Settings = given.into();
-        let compiled = interruptible(py, move || host::library(&settings))?.map_err(of_host)?;
-        // SAFETY: this is what the compiler has just made, or made before, and what no one else may write.
-        let loaded = unsafe { Loaded::open(&compiled.path) }.map_err(of_library)?;
-        // Now that it is loaded, the program may be compiled again: that makes another file.
-        Ok(Self { loaded, words: compiled.words })
+        let Prepared { program, words } = interruptible(py, move || host::prepared(&settings))?.map_err(of_host)?;
+        let loaded = match program {
+            PreparedProgram::Code(CodeProgram { make, others, folder }) => Loaded::in_process(make, others, folder),
+            // Once it is loaded, the program may be compiled again: that makes another file.
+            PreparedProgram::Library(path, _lock) => {
+                // SAFETY: this is what the compiler has just made, or made before, and what no one else may write.
+                unsafe { Loaded::open(&path) }.map_err(of_library)?
+            }
+        };
+        Ok(Self { loaded, words })
     }
 
     /// The command-line words that all runs need.

@@ -147,7 +147,7 @@ import time, arl2rs
 from arl2rs import notice, sweeps
 notice.PATIENCE_S = 0.05
 sweeps.PROGRESS_S = 0.0
-arl2rs.sweep("new.arl", [{"seed": 1}, {"seed": 2}], cache=False)
+arl2rs.sweep("new.arl", [{"seed": 1}, {"seed": 2}], cache=False, native=True)
 """
     (tmp_path / "new.arl").write_text("func void main()\n    print rand()\nendfunc\n")
     shown = subprocess.run(

@@ -71,8 +71,9 @@ impl Bundle {
     pub fn new<'p>(settings: &Settings, rows: impl Iterator<Item = &'p Parameters> + Clone) -> Result<Self, Failure> {
         settings.check().map_err(Failure::Usage)?;
         let clearance = settings.clearance();
-        let Settings { program, robot, cell, io, script_dir, files, .. } = settings.clone();
-        let options = RunOptions { robot, cell, io, script_dir, ..RunOptions::default() }.of_program(&program)?;
+        let Settings { program, robot, cell, io, script_dir, files, engine, .. } = settings.clone();
+        let options =
+            RunOptions { robot, cell, io, script_dir, engine, ..RunOptions::default() }.of_program(&program)?;
         let checking = options.checking();
         variables::refuse_unknown(rows.clone(), &program, options.cell.as_deref(), &checking)?;
         let ready = prepare(Kind::Named, &program, &options)?;

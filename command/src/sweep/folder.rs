@@ -161,7 +161,7 @@ impl Folder {
             self.spread.write_program()?;
         }
         match self.spread.name {
-            CODE => Ok(command_of_code(&std::env::current_exe()?, &path)),
+            CODE => command_of_code(&path).map_err(|failure| io::Error::other(failure.to_string())),
             _ => Ok(Command::new(path)),
         }
     }

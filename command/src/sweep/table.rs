@@ -1,6 +1,7 @@
 //! The file of a sweep: a program, what is the same in all runs, and a table of parameters.
 
 use crate::parameters::Parameters;
+use arl_project::options::EngineChoice;
 use arl_robot::regular_file;
 use arl_robot::settings::Source;
 use arl_terminal::failure::Failure;
@@ -32,6 +33,8 @@ pub struct Settings {
     /// Files that the program reads besides programs, data files and texts, relative to that folder.
     #[serde(default)]
     pub files: Vec<PathBuf>,
+    /// How the program is run.
+    pub engine: Option<EngineChoice>,
     /// The limit of a run, in seconds of the robot's time.
     pub max_time: Option<f64>,
     /// After how many seconds on the computer's clock a run is given up.
@@ -82,6 +85,7 @@ struct File {
     script_dir: Option<PathBuf>,
     #[serde(default)]
     files: Vec<PathBuf>,
+    engine: Option<EngineChoice>,
     max_time: Option<f64>,
     timeout: Option<f64>,
     #[serde(default)]
@@ -125,6 +129,7 @@ impl Sweep {
             io: file.io.map(beside),
             script_dir: file.script_dir.map(beside),
             files: file.files,
+            engine: file.engine,
             max_time: file.max_time,
             timeout: file.timeout,
             collisions: file.collisions,

@@ -3,6 +3,7 @@
 use super::batch::{CASE, Compiled};
 use super::case::Case;
 use arl_lang::files::is_data;
+use arl_project::program::command_of_code;
 use std::ffi::OsString;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -103,10 +104,10 @@ fn run_in(
             copy_files(&beside.join(USB), &script.join(USB))?;
         }
     }
-    let mut command = Command::new(&compiled.program);
-    if let Some(code) = &compiled.code {
-        command.arg("engine").arg(code);
-    }
+    let mut command = match &compiled.code {
+        Some(code) => command_of_code(code).map_err(|failure| std::io::Error::other(failure.to_string()))?,
+        None => Command::new(&compiled.program),
+    };
     command.env(CASE, &compiled.name).args(arguments(case));
     command.arg("--script-dir").arg(&script).arg("--state-dir").arg(folder.join("state"));
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());

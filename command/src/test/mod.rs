@@ -197,8 +197,7 @@ fn coded(case: &Case, kind: Kind, folder: &Path) -> Result<batch::Compiled, Stri
     let name = batch::name(&case.source);
     let path = folder.join(&name);
     std::fs::write(&path, bundle.to_bytes()).map_err(|error| format!("cannot write its code: {error}"))?;
-    let program = std::env::current_exe().map_err(|error| format!("cannot find arl2rs: {error}"))?;
-    Ok(batch::Compiled { program, name, code: Some(path) })
+    Ok(batch::Compiled { program: PathBuf::new(), name, code: Some(path) })
 }
 
 fn rust(file: &Path, checking: &Checking, emitting: &EmitOptions) -> Result<String, String> {

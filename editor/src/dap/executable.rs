@@ -10,8 +10,7 @@ use std::process::Command;
 pub(super) struct Executable {
     /// The copy of the program, or of its code.
     path: PathBuf,
-    /// The command that runs the code, if it is one.
-    engine: Option<PathBuf>,
+    is_code: bool,
     _folder: PrivateFolder,
 }
 
@@ -28,15 +27,18 @@ impl Executable {
         std::fs::hard_link(original, &path)
             .or_else(|_| std::fs::copy(original, &path).map(|_| ()))
             .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
-        let engine = ready.code.is_some().then(|| ready.program.clone());
-        Ok(Self { path, engine, _folder: folder })
+        Ok(Self { path, is_code: ready.code.is_some(), _folder: folder })
     }
 
     /// The command that runs it.
-    pub(super) fn command(&self) -> Command {
-        match &self.engine {
-            Some(engine) => command_of_code(engine, &self.path),
-            None => Command::new(&self.path),
+    ///
+    /// # Errors
+    /// It is not known how this command is started.
+    pub(super) fn command(&self) -> Result<Command, String> {
+        if self.is_code {
+            command_of_code(&self.path).map_err(|failure| failure.to_string())
+        } else {
+            Ok(Command::new(&self.path))
         }
     }
 }

@@ -212,7 +212,7 @@ impl Session {
     /// Starts the program, which then waits before its first cycle.
     fn begin(&mut self) -> Result<(), String> {
         let launched = self.launched.as_ref().ok_or("nothing was launched")?;
-        let mut command = launched.executable.command();
+        let mut command = launched.executable.command()?;
         self.process = None;
         let options = RunOptions { state_dir: Some(launched.state.begin()?.to_path_buf()), ..launched.options.clone() };
         command.args(options.arguments());
