@@ -5,7 +5,7 @@
 use crate::code::{Code, Function, Piece, Taken};
 use crate::layout::Extent;
 use crate::op::{Address, Op};
-use crate::place::{Place, Space};
+use crate::place::{Place, Space, ValueType};
 
 /// The most words, strings or handles of a frame or of the global variables.
 const MOST: u32 = 1 << 24;
@@ -23,6 +23,8 @@ pub(crate) fn is_sound(code: &Code) -> bool {
         && code.functions.iter().all(|function| usize::from(function.file) < files)
         && code.variables.iter().all(|variable| usize::from(variable.file) < files && code.has(&variable.place, None))
         && code.handles.len() == code.globals.handles as usize
+        && code.types.iter().chain(code.variables.iter().map(|variable| &variable.ty)).all(is_small)
+        && code.locals.iter().all(|local| is_small(&local.ty))
         && is_possible(&code.globals)
         && code.boxes.iter().all(is_possible)
         && code.functions.iter().all(|function| is_possible(&function.frame))
@@ -41,6 +43,12 @@ pub(crate) fn is_sound(code: &Code) -> bool {
 fn is_possible(extent: &Extent) -> bool {
     let Extent { words, texts, handles } = *extent;
     [words, texts, handles].iter().all(|count| *count <= MOST)
+}
+
+/// Whether there is memory for a value of a type.
+fn is_small(ty: &ValueType) -> bool {
+    let count = ty.sizes.iter().try_fold(1_usize, |count, size| count.checked_mul(*size));
+    count.is_some_and(|count| count <= MOST as usize)
 }
 
 /// Whether the operation behind this one never follows it.
@@ -66,7 +74,10 @@ impl Code {
     fn has_piece(&self, piece: &Piece, function: &Function) -> bool {
         let Some(own) = self.functions.get(piece.function as usize) else { return false };
         piece.taken.iter().all(|taken| match taken {
-            Taken::Value(transfer) => self.has(&transfer.from, Some(function)) && self.has(&transfer.to, Some(own)),
+            Taken::Value(transfer) => {
+                let (from, to) = (self.has(&transfer.from, Some(function)), self.has(&transfer.to, Some(own)));
+                from && to && is_possible(&transfer.extent)
+            }
             Taken::Boxed { from, to } => u16::from(*from) < function.boxes && u16::from(*to) < own.boxes,
             Taken::Handle { from, to, count } => {
                 let within = |at: &u32, all: u32| at.checked_add(*count).is_some_and(|end| end <= all);
@@ -121,7 +132,8 @@ impl Code {
             CopyConstants { to, from, count } => words(to, count.into()) && constant(from, count.into()),
             Clear { at, count } => words(at, count),
             Transfer { transfer } => {
-                self.transfers.get(transfer as usize).is_some_and(|it| has(&it.from) && has(&it.to))
+                let is_sound = |it: &crate::Transfer| has(&it.from) && has(&it.to) && is_possible(&it.extent);
+                self.transfers.get(transfer as usize).is_some_and(is_sound)
             }
             Text { to, at } => text(to) && (at as usize) < self.texts.len(),
             CopyText { to, from } => text(to) && text(from),

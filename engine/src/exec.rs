@@ -338,12 +338,18 @@ impl Engine {
                         globals[at as usize + checked!(index(int(reg!(number)), size.into()), line)].set(reg!(from));
                     }
                     Op::LoadBoxed { to, from, at } => {
-                        let Some(shared) = &b[usize::from(from)] else { break (damaged(), 0) };
-                        reg!(to) = shared.words[at as usize].get();
+                        let Some(cell) = b[usize::from(from)].as_ref().and_then(|shared| shared.words.get(at as usize))
+                        else {
+                            break (damaged(), 0);
+                        };
+                        reg!(to) = cell.get();
                     }
                     Op::StoreBoxed { to, from, at } => {
-                        let Some(shared) = &b[usize::from(to)] else { break (damaged(), 0) };
-                        shared.words[at as usize].set(reg!(from));
+                        let Some(cell) = b[usize::from(to)].as_ref().and_then(|shared| shared.words.get(at as usize))
+                        else {
+                            break (damaged(), 0);
+                        };
+                        cell.set(reg!(from));
                     }
                     Op::Index { to, index: number, size, line } => {
                         reg!(to) = checked!(index(int(reg!(number)), size.into()), line) as u64;
@@ -521,6 +527,8 @@ impl Engine {
                             ChargeStep::DownBy(by) => steps(first.wrapping_sub(last), int(reg!(by))),
                         };
                         let count = count.wrapping_add(1).wrapping_mul(rounds);
+                        // A program pointer that was set may have led into the loop: its first value is not known.
+                        let count = if self.code.watched { count.max(0) } else { count };
                         match how {
                             Charging::Counter => cx.rounds().charge(count),
                             Charging::Charge => cx.charge(count),

@@ -2,12 +2,12 @@
 
 use crate::cache::Place;
 use arl_terminal::failure::Failure;
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::{BuildHasher, DefaultHasher, Hash, Hasher, RandomState};
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// How the names of files with the code of a program begin, in its place of the cache.
-pub(crate) const CODE: &str = "code-";
+/// How the names of files with the code of a program begin, in its place of the cache: as no program is called.
+pub(crate) const CODE: &str = ".code-";
 /// How long old code is kept for processes that are about to read it.
 const OLD_CODE: Duration = Duration::from_secs(3600);
 
@@ -27,7 +27,8 @@ pub(crate) fn write(place: &Place, bytes: &[u8]) -> Result<PathBuf, Failure> {
             }
         }
         // Always anew: alarms show the lines of files that are no newer than the code.
-        let fresh = place.folder.join(format!("{CODE}{}.new", std::process::id()));
+        // Several processes and threads may write at once.
+        let fresh = place.folder.join(format!("{CODE}{:016x}.new", RandomState::new().hash_one(std::process::id())));
         std::fs::write(&fresh, bytes)?;
         std::fs::rename(&fresh, &path)
     };

@@ -61,7 +61,9 @@ impl Ready {
 /// It is not known how this command is started.
 pub fn command_of_code(code: &Path) -> Result<Command, Failure> {
     let words = this_command()?;
-    let (program, first) = words.split_first().ok_or_else(|| Failure::Other("arl2rs has no command".into()))?;
+    let (program, first) = words.split_first().ok_or_else(|| {
+        Failure::Other("the interpreter that this is part of cannot be started as a process of its own".into())
+    })?;
     let mut command = Command::new(program);
     command.args(first).arg("engine").arg(code);
     Ok(command)
@@ -369,7 +371,9 @@ fn files(compiled: &Compiled) -> Vec<PathBuf> {
 
 /// The compiled program, if there is one and it is up to date.
 fn kept(job: &Job<'_>) -> Result<Option<Ready>, Failure> {
-    let place = job.place(&Cache::find()?)?;
+    // Where there is no cache, nothing is kept.
+    let Ok(cache) = Cache::find() else { return Ok(None) };
+    let place = job.place(&cache)?;
     if !place.stamp().exists() {
         return Ok(None);
     }

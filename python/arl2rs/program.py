@@ -31,10 +31,15 @@ MAX_TIME = _arl2rs.MAX_TIME
 """The robot's time after which a run is ended by default, s."""
 NO_SCENARIO = "none"
 """In place of a scenario: the run has none, even if an `arl.toml` or `compile` names one."""
-COMPILING = "this takes a minute or two the first time, and seconds after a change"
-"""How long compiling takes."""
 NAME = "program.arl"
 """The name of the main file of a program given as text."""
+
+
+def takes_long(what: str, native: bool | None) -> str:
+    """What is said of a program that is made ready, where that takes long."""
+    if native:
+        return f"compiling {what}: this takes a minute or two the first time, and seconds after a change"
+    return f"making {what} ready"
 
 
 def given(
@@ -221,7 +226,7 @@ class Program:
             "native": native,
         }
         self._given = given(self.path, robot=robot, cell=cell, scenario=scenario, script_dir=script_dir, native=native)
-        with package_errors, notice(f"compiling {self.path.name}: {COMPILING}"):
+        with package_errors, notice(takes_long(self.path.name, native)):
             try:
                 self._library = _arl2rs.Library(self._given)
             except _arl2rs.Mistakes as problem:
@@ -374,7 +379,7 @@ class Program:
             engine = [] if native is None else ["--engine", "native" if native else "engine"]
             run = ["run", os.fspath(self.path.absolute()), "--record", os.fspath(recording), *engine, *words]
             command = [sys.executable, "-m", "arl2rs", *run]
-            with notice(f"compiling {self.path.name} for a recording"):
+            with notice(takes_long(f"{self.path.name} for a recording", native)):
                 ran = subprocess.run(command, capture_output=True, text=True, check=False)
         if ran.returncode not in (0, 3, 4):
             raise ArlError(ran.stderr.strip())

@@ -19,7 +19,7 @@ from .choices import Figure as Choice
 from .keywords import named
 from .notice import notice, say
 from .problems import ArlError, RefusedError, StrPath, package_errors, there
-from .program import COMPILING, given
+from .program import given, takes_long
 from .values import Parameters, as_json, of_python
 
 with warnings.catch_warnings():
@@ -248,7 +248,7 @@ def sweep(
         raise RefusedError(f"engine {engine!r}: expected 'local' or 'ray'")
     with (
         package_errors,
-        notice(f"compiling {path.name} for {len(texts)} runs: {COMPILING}"),
+        notice(takes_long(f"{path.name} for {len(texts)} runs", native)),
     ):
         bundle = _arl2rs.Bundle(settings, texts)
     lines: list[str] = []

@@ -52,10 +52,12 @@ mod _arl2rs {
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         // What an older package has compiled is compiled again. The command is started by way of Python.
         if let Ok(file) = module.filename().and_then(|file| Ok(std::path::absolute(file.to_string())?)) {
-            let python: String = module.py().import("sys")?.getattr("executable")?.extract()?;
-            let command = [python.as_str(), "-I", "-S", "-c", super::COMMAND].map(OsString::from);
-            let command = command.into_iter().chain([file.clone().into()]).collect();
-            super::host::is_part_of(file, command);
+            // An interpreter that is part of another program has none.
+            let python: Option<OsString> = module.py().import("sys")?.getattr("executable")?.extract().ok();
+            let python = python.filter(|python| !python.is_empty());
+            let words = ["-I", "-S", "-c", super::COMMAND].map(OsString::from);
+            let command = python.map(|python| [python].into_iter().chain(words).chain([file.clone().into()]).collect());
+            super::host::is_part_of(file, command.unwrap_or_default());
         }
         Ok(())
     }

@@ -10,6 +10,7 @@ pub(crate) mod parts;
 pub(crate) mod pointer;
 pub(crate) mod ranges;
 pub(crate) mod recursion;
+pub(crate) mod visibility;
 mod walks;
 pub(crate) mod watched;
 

@@ -24,6 +24,7 @@ use super::rows::Group;
 use super::tokens::jumps;
 use super::types::{rust_type, shared_type, shared_value, start_value};
 use crate::effects::flow;
+use crate::effects::visibility::Visibility;
 use crate::hir::{Arm, Expr, For, Func, LabelId, Local, LocalId, LoopInfo, Stmt, StmtKind};
 use arl_lang::span::Span;
 use proc_macro2::{Ident, TokenStream};
@@ -50,15 +51,13 @@ impl<'p> Body<'p, '_> {
     }
 
     fn run(&mut self, func: &'p Func, variable: Ident, hoisted: HashSet<LocalId>, trial: bool) {
-        let mut visible_at = HashMap::new();
-        labels(&func.body, &mut func.params.clone(), &mut visible_at);
         self.flow.machine = Some(Machine {
             variable,
             label: syn::Lifetime::new("'machine", proc_macro2::Span::call_site()),
             states: Vec::new(),
             named: HashSet::new(),
             of_label: HashMap::new(),
-            visible_at,
+            visibility: Visibility::of(func),
             hoisted,
             lines_of: Vec::new(),
             declared_in: HashMap::new(),
@@ -163,10 +162,10 @@ impl<'p> Body<'p, '_> {
     fn departure(&mut self, label: LabelId, span: Span) -> (TokenStream, usize) {
         let state = self.label_state(label);
         let Some(machine) = &self.flow.machine else { return (TokenStream::new(), state) };
-        let seen = machine.visible_at.get(&label).map_or(&[][..], Vec::as_slice);
-        let resets: Vec<TokenStream> = seen
+        let skipped = machine.visibility.skipped(label, span);
+        let resets: Vec<TokenStream> = skipped
             .iter()
-            .filter(|id| !machine.trial && machine.hoisted.contains(id) && !self.locals.visible.contains(id))
+            .filter(|id| !machine.trial && machine.hoisted.contains(id))
             .filter_map(|id| {
                 let local = self.func?.locals.get(id.0 as usize)?;
                 let (name, start, shown) = (self.local(*id), self.first_value(local), self.shown(*id));
@@ -299,10 +298,6 @@ impl<'p> Body<'p, '_> {
                     let state = self.label_state(*label);
                     self.close(state);
                     self.open(state);
-                    // Declarations that are never reached are visible, too.
-                    if let Some(seen) = self.flow.machine.as_ref().and_then(|machine| machine.visible_at.get(label)) {
-                        self.locals.visible.clone_from(seen);
-                    }
                     let comment = self.comment(stmt.span);
                     self.append(comment);
                 }
@@ -573,28 +568,4 @@ fn declared(block: &[Stmt]) -> HashSet<LocalId> {
         }
     }
     found
-}
-
-/// The locals that are visible at each label.
-fn labels(block: &[Stmt], visible: &mut Vec<LocalId>, found: &mut HashMap<LabelId, Vec<LocalId>>) {
-    let before = visible.len();
-    for stmt in block {
-        match &stmt.kind {
-            StmtKind::Let(id, _) => visible.push(*id),
-            StmtKind::Label(label) => {
-                found.insert(*label, visible.clone());
-            }
-            StmtKind::For(each) => {
-                let outside = visible.len();
-                visible.extend(each.init.iter().filter_map(|stmt| match stmt.kind {
-                    StmtKind::Let(id, _) => Some(id),
-                    _ => None,
-                }));
-                labels(&each.body, visible, found);
-                visible.truncate(outside);
-            }
-            _ => flow::blocks(stmt).for_each(|inner| labels(inner, visible, found)),
-        }
-    }
-    visible.truncate(before);
 }

@@ -3,6 +3,7 @@
 
 use super::hooks::Lines;
 use super::tokens::{each_word, mentions};
+use crate::effects::visibility::Visibility;
 use crate::hir::{LabelId, LocalId};
 use proc_macro2::{Ident, TokenStream};
 use std::collections::{HashMap, HashSet};
@@ -15,8 +16,8 @@ pub(super) struct Machine {
     /// The names of the states.
     pub(super) named: HashSet<String>,
     pub(super) of_label: HashMap<LabelId, usize>,
-    /// The locals that are visible at each label.
-    pub(super) visible_at: HashMap<LabelId, Vec<LocalId>>,
+    /// The locals that are visible at labels and jumps.
+    pub(super) visibility: Visibility,
     pub(super) hoisted: HashSet<LocalId>,
     /// The lines of the statements in each state, for a debugger.
     pub(super) lines_of: Vec<(usize, Lines)>,

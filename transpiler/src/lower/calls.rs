@@ -74,7 +74,7 @@ impl<'p> FunctionCode<'p, '_> {
             }
         }
         self.end(func.result);
-        self.end_scope(0);
+        self.end_scopes();
     }
 
     /// Looks whether there is room for another call.

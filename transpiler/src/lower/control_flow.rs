@@ -1,5 +1,6 @@
 //! The loops and labels around the statements being lowered.
 
+use crate::effects::visibility::Visibility;
 use crate::hir::LabelId;
 use arl_code::Address;
 use std::collections::HashMap;
@@ -24,8 +25,8 @@ pub(super) struct Surroundings {
     pub(super) labels: HashMap<LabelId, Address>,
     /// The jumps to labels that come later.
     pub(super) gotos: Vec<(LabelId, Address)>,
-    /// The local variables that are visible at each label.
-    pub(super) visible_at: HashMap<LabelId, Vec<crate::hir::LocalId>>,
+    /// The local variables that are visible at labels and jumps.
+    pub(super) visibility: Visibility,
     /// The local variables that are visible here, in a function with `goto`.
     pub(super) visible: Vec<crate::hir::LocalId>,
 }

@@ -7,10 +7,10 @@
 use super::body::FunctionCode;
 use super::control_flow::OpenLoop;
 use crate::effects::flow;
+use crate::effects::visibility::Visibility;
 use crate::hir::{Arm, Expr, For, Func, LabelId, LocalId, LoopInfo, Stmt, StmtKind};
 use arl_code::Op;
 use arl_lang::span::Span;
-use std::collections::HashMap;
 
 impl<'p> FunctionCode<'p, '_> {
     /// Gives all local variables their places.
@@ -22,16 +22,13 @@ impl<'p> FunctionCode<'p, '_> {
                 self.declare(id);
             }
         }
-        labels(&func.body, &mut func.params.clone(), &mut self.flow.visible_at);
+        self.flow.visibility = Visibility::of(func);
     }
 
     /// `goto label`
     pub(super) fn goto(&mut self, label: LabelId, span: Span) {
-        let at_label = self.flow.visible_at.get(&label).cloned().unwrap_or_default();
-        for id in at_label {
-            if !self.flow.visible.contains(&id) {
-                self.passing(|body| body.reset(id));
-            }
+        for id in self.flow.visibility.skipped(label, span) {
+            self.passing(|body| body.reset(id));
         }
         let backwards = self
             .func
@@ -62,10 +59,6 @@ impl<'p> FunctionCode<'p, '_> {
                 StmtKind::Label(label) => {
                     let here = self.here();
                     self.flow.labels.insert(*label, here);
-                    // Declarations that are never reached are visible, too.
-                    if let Some(visible) = self.flow.visible_at.get(label) {
-                        self.flow.visible.clone_from(visible);
-                    }
                 }
                 _ if flow::has_label(stmt) => self.taken_apart(stmt),
                 _ => self.statement(stmt),
@@ -188,28 +181,4 @@ impl<'p> FunctionCode<'p, '_> {
         self.lead_here(leave.into_iter().chain(breaks));
         self.end_scope(visible);
     }
-}
-
-/// The local variables that are visible at each label.
-fn labels(block: &[Stmt], visible: &mut Vec<LocalId>, found: &mut HashMap<LabelId, Vec<LocalId>>) {
-    let before = visible.len();
-    for stmt in block {
-        match &stmt.kind {
-            StmtKind::Let(id, _) => visible.push(*id),
-            StmtKind::Label(label) => {
-                found.insert(*label, visible.clone());
-            }
-            StmtKind::For(each) => {
-                let outside = visible.len();
-                visible.extend(each.init.iter().filter_map(|stmt| match stmt.kind {
-                    StmtKind::Let(id, _) => Some(id),
-                    _ => None,
-                }));
-                labels(&each.body, visible, found);
-                visible.truncate(outside);
-            }
-            _ => flow::blocks(stmt).for_each(|inner| labels(inner, visible, found)),
-        }
-    }
-    visible.truncate(before);
 }

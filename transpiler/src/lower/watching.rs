@@ -88,6 +88,18 @@ impl FunctionCode<'_, '_> {
         }
     }
 
+    /// The end of the function: variables whose declarations are never reached have been visible behind labels.
+    pub(super) fn end_scopes(&mut self) {
+        self.end_scope(0);
+        let here = self.here();
+        for at in self.shown.values() {
+            if let Some(local) = self.lowering.code.locals.get_mut(*at as usize).filter(|local| local.scope.is_empty())
+            {
+                local.scope.end = here;
+            }
+        }
+    }
+
     /// Drops the variables that blocks declare, in code for a debugger: they do not exist outside.
     pub(super) fn drop_declared(&mut self, block: &[Stmt]) {
         if !self.is_watched() || self.func.is_some_and(|func| func.has_goto) {
