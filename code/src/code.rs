@@ -161,9 +161,9 @@ pub enum Taken {
     /// A box, which both sides see.
     Boxed {
         /// The box of the frame.
-        from: u8,
+        from: u16,
         /// The box of the function.
-        to: u8,
+        to: u16,
     },
     /// A handle.
     Handle {

@@ -1,5 +1,6 @@
 //! The operations.
 
+use arl_lang::catalog;
 use serde::{Deserialize, Serialize};
 
 /// The number of a register of the frame.
@@ -101,8 +102,8 @@ pub enum Op {
     LoadGlobalChecked { to: Reg, index: Reg, size: u16, at: u32, line: u16 },
     StoreGlobalChecked { from: Reg, index: Reg, size: u16, at: u32, line: u16 },
     // Words of a box.
-    LoadBoxed { to: Reg, from: u8, at: u32 },
-    StoreBoxed { to: u8, from: Reg, at: u32 },
+    LoadBoxed { to: Reg, from: u16, at: u32 },
+    StoreBoxed { to: u16, from: Reg, at: u32 },
     /// Checks the number of an element in one dimension.
     Index { to: Reg, index: Reg, size: u16, line: u32 },
     /// Checks the numbers of an element in two dimensions, and makes one of them.
@@ -150,7 +151,7 @@ pub enum Op {
     /// The end of the block of local clocks and connections.
     DropHandles { at: u32, count: u32 },
     /// A new box: [`Code::boxes`](crate::Code::boxes) has its extent.
-    NewBox { to: u8, extent: u32 },
+    NewBox { to: u16, extent: u32 },
 
     // Functions and built-ins.
     Call { call: u32 },
@@ -204,7 +205,7 @@ pub enum Op {
     /// A local variable is there from now on: [`Code::locals`](crate::Code::locals).
     Show { local: u32 },
     /// The end of the block of a local variable that is in a box.
-    DropBox { at: u8 },
+    DropBox { at: u16 },
 }
 
 /// How two values are compared.
@@ -244,6 +245,18 @@ pub enum HandleKind {
     Iodev,
     ModbusDev,
     MelsecDev,
+}
+
+impl From<catalog::Handle> for HandleKind {
+    fn from(handle: catalog::Handle) -> Self {
+        match handle {
+            catalog::Handle::Clock => Self::Clock,
+            catalog::Handle::Socket => Self::Socket,
+            catalog::Handle::Iodev => Self::Iodev,
+            catalog::Handle::ModbusDev => Self::ModbusDev,
+            catalog::Handle::MelsecDev => Self::MelsecDev,
+        }
+    }
 }
 
 /// The step of a loop whose rounds are counted after it.

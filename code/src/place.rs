@@ -34,7 +34,7 @@ pub enum Space {
     /// The constants of the code.
     Constant,
     /// A box of the frame.
-    Boxed(u8),
+    Boxed(u16),
     /// The system variable with this number, in the order of `arl_lang::catalog::system_variables`. Words and strings
     /// count from the start of the variable.
     System(u16),

@@ -1,6 +1,7 @@
 //! Checks that the numbers of a program's operations are within its tables, so that running it needs no more checks.
 //!
-//! Elements whose number is only known when the program runs are checked then.
+//! The number of an element may be known only when the program runs: operations of the program check it. Code that was
+//! made without them panics there, and reaches nothing outside its tables.
 
 use crate::code::{Code, Function, Piece, Taken};
 use crate::layout::Extent;
@@ -67,7 +68,7 @@ impl Code {
             Space::Frame => function.is_some_and(|function| within(function.frame)),
             Space::Global => within(self.globals),
             Space::Constant => place.word as usize <= self.words.len() && place.text as usize <= self.texts.len(),
-            Space::Boxed(number) => function.is_some_and(|function| u16::from(number) < function.boxes),
+            Space::Boxed(number) => function.is_some_and(|function| number < function.boxes),
         }
     }
 
@@ -78,7 +79,7 @@ impl Code {
                 let (from, to) = (self.has(&transfer.from, Some(function)), self.has(&transfer.to, Some(own)));
                 from && to && is_possible(&transfer.extent)
             }
-            Taken::Boxed { from, to } => u16::from(*from) < function.boxes && u16::from(*to) < own.boxes,
+            Taken::Boxed { from, to } => *from < function.boxes && *to < own.boxes,
             Taken::Handle { from, to, count } => {
                 let within = |at: &u32, all: u32| at.checked_add(*count).is_some_and(|end| end <= all);
                 within(from, function.frame.handles) && within(to, own.frame.handles)
@@ -120,8 +121,8 @@ impl Code {
             LoadGlobalChecked { at, size, .. } | StoreGlobalChecked { at, size, .. } => {
                 size > 0 && global(at, size.into())
             }
-            LoadBoxed { from, .. } => u16::from(from) < function.boxes,
-            StoreBoxed { to, .. } => u16::from(to) < function.boxes,
+            LoadBoxed { from, .. } => from < function.boxes,
+            StoreBoxed { to, .. } => to < function.boxes,
             CopyWords { to, from, count } => words(to, count.into()) && words(from, count.into()),
             CopyFromGlobal { to, from, count } => words(to, count.into()) && global(from, count.into()),
             CopyToGlobal { to, from, count } => global(to, count.into()) && words(from, count.into()),
@@ -150,8 +151,8 @@ impl Code {
             NewHandles { at, count, .. } => handles(at, count.into()),
             DropHandles { at, count } => handles(at, count),
             Show { local } => self.locals.get(local as usize).is_some_and(|local| has(&local.place)),
-            DropBox { at } => u16::from(at) < function.boxes,
-            NewBox { to, extent } => u16::from(to) < function.boxes && (extent as usize) < self.boxes.len(),
+            DropBox { at } => at < function.boxes,
+            NewBox { to, extent } => to < function.boxes && (extent as usize) < self.boxes.len(),
             Call { call } => self.calls.get(call as usize).is_some_and(|call| {
                 let at = call.at;
                 (call.function as usize) < self.functions.len()

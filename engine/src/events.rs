@@ -14,7 +14,7 @@ struct Captured {
     function: usize,
     words: Vec<(Place, Vec<u64>)>,
     texts: Vec<(Place, Str)>,
-    boxes: Vec<(u8, Rc<Boxed>)>,
+    boxes: Vec<(u16, Rc<Boxed>)>,
     handles: Vec<(u32, Rc<Handle>)>,
     line: u32,
 }

@@ -1,7 +1,7 @@
 //! The frames of running functions.
 
 use crate::engine::Engine;
-use crate::handles::{Handle, ShownHandles};
+use crate::handles::Handle;
 use crate::reach::Reach;
 use crate::teach::Variable;
 use arl_code::{Call, Extent, Function, ValueType, start_words};
@@ -81,8 +81,6 @@ pub(crate) struct State {
     pub(crate) held_in_all: usize,
     /// Words on their way from place to place.
     pub(crate) passing: Vec<u64>,
-    /// Arrays of clocks and connections that a debugger sees.
-    pub(crate) shown: Vec<Rc<ShownHandles>>,
     /// The `jump` that waits above its target.
     pub(crate) above: Option<crate::args::Above>,
 }
@@ -101,7 +99,6 @@ impl State {
     pub(crate) fn end(&mut self) {
         self.handles.iter_mut().for_each(|handle| *handle = None);
         self.boxes.iter_mut().for_each(|shared| *shared = None);
-        self.shown.clear();
         self.above = None;
     }
 

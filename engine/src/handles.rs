@@ -2,10 +2,17 @@
 
 use arl_code::HandleKind;
 use arl_rt::emit::{Clock, Cx, Fault, Iodev, MelsecDev, ModbusDev, Rc, Shown, Socket};
+use std::cell::RefCell;
 use std::rc::Weak;
 
 /// A clock or a connection.
-pub(crate) enum Handle {
+pub(crate) struct Handle {
+    object: Object,
+    /// The array that begins here, as a debugger sees it.
+    pub(crate) shown: RefCell<Option<Rc<ShownHandles>>>,
+}
+
+enum Object {
     Clock(Clock),
     Socket(Socket),
     Iodev(Iodev),
@@ -18,14 +25,15 @@ macro_rules! handles {
         impl Handle {
             /// A new one.
             pub(crate) fn new(kind: HandleKind) -> Self {
-                match kind {
-                    $(HandleKind::$kind => Self::$kind($kind::default()),)*
-                }
+                let object = match kind {
+                    $(HandleKind::$kind => Object::$kind($kind::default()),)*
+                };
+                Self { object, shown: RefCell::default() }
             }
 
             fn inner(&self) -> &dyn Shown {
-                match self {
-                    $(Self::$kind(handle) => handle,)*
+                match &self.object {
+                    $(Object::$kind(handle) => handle,)*
                 }
             }
 
@@ -35,8 +43,8 @@ macro_rules! handles {
                 /// # Errors
                 /// It is something else: the code is damaged.
                 pub(crate) fn $name(&self) -> Result<&$kind, Fault> {
-                    match self {
-                        Self::$kind(handle) => Ok(handle),
+                    match &self.object {
+                        Object::$kind(handle) => Ok(handle),
                         _ => Err(damaged()),
                     }
                 }

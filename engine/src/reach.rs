@@ -53,7 +53,7 @@ impl Reach<'_> {
         place.handle as usize + element * one.handles as usize
     }
 
-    fn boxed(&self, number: u8) -> Result<&Rc<Boxed>, Fault> {
+    fn boxed(&self, number: u16) -> Result<&Rc<Boxed>, Fault> {
         self.boxes.get(usize::from(number)).and_then(Option::as_ref).ok_or_else(damaged)
     }
 

@@ -5,8 +5,8 @@ use crate::frame::{Boxed, State};
 use crate::handles::{Handle, ShownHandles, damaged};
 use crate::intern::intern;
 use crate::teach::Variable;
-use arl_code::{Address, HandleKind, Local, Op, Place, Space};
-use arl_lang::catalog::{self, Base};
+use arl_code::{Address, Local, Op, Place, Space};
+use arl_lang::catalog::Base;
 use arl_rt::emit::{Cx, Done, FunctionFrame, Rc};
 use std::future::poll_fn;
 use std::pin::pin;
@@ -76,14 +76,15 @@ impl Engine {
             boxed.shown.replace(Some(variable));
             return Some(());
         }
-        let own = handles_of(state, local)?.iter().flatten();
-        if !local.ty.is_array() {
-            own.for_each(|handle| frame.handles(number, name, sizes, handle));
-            return Some(());
+        let own = handles_of(state, local)?;
+        let first = own.iter().flatten().next()?;
+        if local.ty.is_array() {
+            let all = Rc::new(ShownHandles::new(own.iter().flatten(), true));
+            frame.handles(number, name, sizes, &all);
+            first.shown.replace(Some(all));
+        } else {
+            frame.handles(number, name, sizes, first);
         }
-        let all = Rc::new(ShownHandles::new(own, true));
-        frame.handles(number, name, sizes, &all);
-        state.shown.push(all);
         Some(())
     }
 
@@ -128,7 +129,7 @@ impl Engine {
         let Some(own) = handles_of(state, local) else { return false };
         let is_missing = own.iter().any(Option::is_none);
         for slot in own.iter_mut().filter(|slot| slot.is_none()) {
-            *slot = Some(Rc::new(Handle::new(kind_of(handle))));
+            *slot = Some(Rc::new(Handle::new(handle.into())));
         }
         is_missing
     }
@@ -163,15 +164,5 @@ fn drop_local(state: &mut State, local: &Local) {
         }
     } else if let Some(own) = handles_of(state, local) {
         own.fill(None);
-    }
-}
-
-fn kind_of(handle: catalog::Handle) -> HandleKind {
-    match handle {
-        catalog::Handle::Clock => HandleKind::Clock,
-        catalog::Handle::Socket => HandleKind::Socket,
-        catalog::Handle::Iodev => HandleKind::Iodev,
-        catalog::Handle::ModbusDev => HandleKind::ModbusDev,
-        catalog::Handle::MelsecDev => HandleKind::MelsecDev,
     }
 }

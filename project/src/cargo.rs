@@ -51,6 +51,9 @@ pub struct RustError {
 /// cargo does not exist or cannot be started, another package cannot be obtained, or the output cannot be written to
 /// the disk. Errors of rustc in the program are not returned as an error but are part of the result.
 pub fn build(folder: &Path, target: &Path, release: bool, progress: &Progress) -> Result<Built, Failure> {
+    if !is_there() {
+        return Err(missing());
+    }
     let shared = target.parent().unwrap_or(target);
     // cargo also lets only one process at a time compile there.
     let _alone = Lock::take(&shared.join("compiling"), false, "waiting for another arl2rs that is compiling")?;
@@ -101,8 +104,15 @@ pub fn is_there() -> bool {
         return program.is_file();
     }
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let name = program.with_extension(std::env::consts::EXE_EXTENSION);
+    let mut name = program.into_os_string();
+    name.push(std::env::consts::EXE_SUFFIX);
     std::env::split_paths(&path).any(|folder| folder.join(&name).is_file())
+}
+
+fn missing() -> Failure {
+    let rust = "https://www.rust-lang.org/tools/install";
+    let text = "cargo was not found: compiling needs Rust";
+    Failure::Other(format!("{text} ({rust}); `arl2rs run --engine engine` runs programs without it"))
 }
 
 /// The cargo command. cargo looks for settings from its working folder up to the root, so it runs in the root, where
@@ -157,9 +167,7 @@ fn is_kept(name: &str) -> bool {
 fn compile(built: &mut Built, mut command: Command, progress: &Progress) -> Result<(), Failure> {
     let cargo = Path::new(command.get_program()).to_path_buf();
     let mut child = command.spawn().map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => Failure::Other(
-            "cargo was not found: compiling needs Rust, see https://www.rust-lang.org/tools/install".into(),
-        ),
+        std::io::ErrorKind::NotFound => missing(),
         _ => Failure::io("run", &cargo, &error),
     })?;
     let errors = child.stderr.take();

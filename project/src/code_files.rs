@@ -16,7 +16,7 @@ pub(crate) fn write(place: &Place, bytes: &[u8]) -> Result<PathBuf, Failure> {
     let mut hasher = DefaultHasher::new();
     bytes.hash(&mut hasher);
     let path = place.folder.join(format!("{CODE}{:016x}", hasher.finish()));
-    let written = || {
+    let written = || -> std::io::Result<()> {
         std::fs::create_dir_all(&place.folder)?;
         for entry in std::fs::read_dir(&place.folder)?.filter_map(Result::ok) {
             let is_code = entry.file_name().to_string_lossy().starts_with(CODE);
@@ -26,12 +26,16 @@ pub(crate) fn write(place: &Place, bytes: &[u8]) -> Result<PathBuf, Failure> {
                 let _ = std::fs::remove_file(entry.path());
             }
         }
-        // Always anew: alarms show the lines of files that are no newer than the code.
-        // Several processes and threads may write at once.
+        // Anew each time, because alarms show the lines of files that are no newer than the code; and under another
+        // name first, because several processes and threads may write at once.
         let fresh = place.folder.join(format!("{CODE}{:016x}.new", RandomState::new().hash_one(std::process::id())));
         std::fs::write(&fresh, bytes)?;
         std::fs::rename(&fresh, &path)
     };
-    written().map_err(|error: std::io::Error| Failure::io("write", &path, &error))?;
-    Ok(path)
+    match written() {
+        // Where nothing can be written, code that is there is as good.
+        Err(_) if std::fs::read(&path).is_ok_and(|kept| kept == bytes) => Ok(path),
+        Err(error) => Err(Failure::io("write", &path, &error)),
+        Ok(()) => Ok(path),
+    }
 }

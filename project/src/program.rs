@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// A compiled program, which other processes cannot compile again while the lock is held.
+/// A program that can be started. Other processes cannot compile it again while the lock is held.
 #[derive(Debug)]
 pub struct Ready {
     /// The executable, or the library; of this command if the program is code.
@@ -209,7 +209,7 @@ impl<'a> Job<'a> {
     }
 
     /// The name that the cell has for a program: not for the first one, at 0.
-    pub fn named(&self, at: usize) -> Option<&str> {
+    pub fn name_in_cell(&self, at: usize) -> Option<&str> {
         self.others.get(at.checked_sub(1)?).map(|(other, _)| other.file.as_str())
     }
 
@@ -288,8 +288,8 @@ pub fn bug(bug: Bug) -> Failure {
 }
 
 /// Makes a program ready to run, together with those that its cell names: by the engine, or compiled, as the options
-/// say. Where they say nothing, the engine runs it; but a compiled program is used where it is up to date, for real
-/// arms if there is a compiler, and where the engine cannot do what `kind` requests.
+/// say. Where they say nothing, the engine runs it; but a compiled program is used where it is up to date, and for real
+/// arms if there is a compiler.
 ///
 /// # Errors
 /// The program is refused or cannot be compiled; the error gives the reason and the position.
@@ -306,14 +306,11 @@ pub fn prepare_checked(kind: Kind, file: &Path, options: &RunOptions) -> Result<
 }
 
 fn prepare_job(job: &Job<'_>, options: &RunOptions) -> Result<Ready, Failure> {
-    let needs = job.kind.needs_native();
-    match (options.engine, needs) {
-        (Some(EngineChoice::Native), _) => compiled(job, options),
-        (Some(EngineChoice::Engine), Some(needs)) => Err(Failure::Usage(format!("--engine engine: {needs}"))),
-        (Some(EngineChoice::Engine), None) => lowered(job),
-        (None, Some(_)) => compiled(job, options),
-        (None, None) if options.drive && cargo::is_there() => compiled(job, options),
-        (None, None) => match kept(job)? {
+    match options.engine {
+        Some(EngineChoice::Native) => compiled(job, options),
+        Some(EngineChoice::Engine) => lowered(job),
+        None if options.drive && cargo::is_there() => compiled(job, options),
+        None => match kept(job)? {
             Some(ready) => Ok(ready),
             None => lowered(job),
         },
@@ -353,13 +350,18 @@ pub enum InProcess {
 /// # Errors
 /// A program is refused; the code cannot be written.
 fn lowered(job: &Job<'_>) -> Result<Ready, Failure> {
-    let place = job.place(&Cache::find()?)?;
+    let cache = Cache::find()?;
+    let place = job.place(&cache)?;
     let mut programs = job.check(&FileSystem)?;
     job.show(&programs)?;
     let bundle = job.bundle(&mut programs)?;
     let sources = programs.iter().flat_map(files).map(|file| absolute(&file)).collect::<Result<_, _>>()?;
+    let is_new = !place.folder.exists();
     let lock = place.lock(true)?;
     let path = code_files::write(&place, &bundle.to_bytes())?;
+    if is_new {
+        cache.keep_limit(&place, &Runtime::find().folder(&cache));
+    }
     let program = this_command()?.into_iter().next().unwrap_or_default().into();
     Ok(Ready { program, code: Some(path), lock, sources })
 }

@@ -77,12 +77,17 @@ impl Runtime {
         }
     }
 
+    /// Its folder in the cache.
+    pub(crate) fn folder(self, cache: &Cache) -> PathBuf {
+        cache.runtime(&self.name())
+    }
+
     /// Prepares the runtime: carried sources are written to the cache.
     ///
     /// # Errors
     /// The checkout no longer exists, or the cache cannot be written.
     pub fn unpack(self, cache: &Cache) -> Result<Unpacked, Failure> {
-        let folder = cache.runtime(&self.name());
+        let folder = self.folder(cache);
         let lock = Lock::take(&folder, true, "waiting for another arl2rs that is removing this runtime")?;
         let options = "default-features = false, features = [\"serial\", \"realtime\"]";
         let below = |workspace: &Path| {

@@ -11,7 +11,7 @@ use crate::variables;
 use arl_lang::files::is_data;
 use arl_project::cache::Kind;
 use arl_project::cell_programs;
-use arl_project::options::RunOptions;
+use arl_project::options::{EngineChoice, RunOptions};
 use arl_project::program::{prepare, state_of_command};
 use arl_robot::{Robot, regular_file};
 use arl_terminal::failure::Failure;
@@ -72,8 +72,10 @@ impl Bundle {
         settings.check().map_err(Failure::Usage)?;
         let clearance = settings.clearance();
         let Settings { program, robot, cell, io, script_dir, files, engine, .. } = settings.clone();
-        let options =
+        let mut options =
             RunOptions { robot, cell, io, script_dir, engine, ..RunOptions::default() }.of_program(&program)?;
+        // Not a compiled program that happens to be there: other computers may lack what it was compiled for.
+        options.engine.get_or_insert(EngineChoice::Engine);
         let checking = options.checking();
         variables::refuse_unknown(rows.clone(), &program, options.cell.as_deref(), &checking)?;
         let ready = prepare(Kind::Named, &program, &options)?;

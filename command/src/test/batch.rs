@@ -1,4 +1,4 @@
-//! All cases compiled together, in a few programs.
+//! Cases compiled together, in a few programs.
 
 use arl_project::cache::{Kind, Place, write_if_changed};
 use arl_project::cargo::{self, RustError};

@@ -3,6 +3,7 @@
 use super::expect::{ExpectedAlarm, ExpectedError, parse_alarm, parse_errors};
 use arl_project::arl_toml;
 use arl_project::expectations::EXPECTATIONS;
+use arl_project::options::EngineChoice;
 use arl_robot::regular_file;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -29,6 +30,8 @@ pub(super) struct Case {
     pub(super) cell: Option<PathBuf>,
     /// The folder that `/home/ae/script/` in an import means, if its project sets it.
     pub(super) script_dir: Option<PathBuf>,
+    /// How its project says that it is run: by the engine or compiled.
+    pub(super) engine: Option<EngineChoice>,
     /// How it is run.
     pub(super) options: CaseOptions,
 }
@@ -164,6 +167,7 @@ fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, Str
         robot: robot.or(project.robot),
         cell: options.cell.as_ref().map(|cell| source.with_file_name(cell)).or(project.cell),
         script_dir: project.script_dir,
+        engine: project.engine,
         options,
         source: source.to_path_buf(),
     };

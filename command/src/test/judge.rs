@@ -88,6 +88,7 @@ mod tests {
             robot: None,
             cell: None,
             script_dir: None,
+            engine: None,
             options: CaseOptions::default(),
         }
     }

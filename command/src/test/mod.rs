@@ -1,4 +1,5 @@
-//! `arl2rs test`: every program with a sidecar, compiled together, each run as a process of its own.
+//! `arl2rs test`: every program with a sidecar, each run as a process of its own, by the engine or compiled with the
+//! others.
 
 mod batch;
 mod bless;
@@ -11,12 +12,12 @@ mod judge;
 mod report;
 
 use crate::args::{Shard, TestOptions};
-use arl_project::cache::{Cache, Kind};
+use arl_project::cache::{Cache, Kind, Lock, Place};
 use arl_project::cell_programs;
 use arl_project::options::{Checking, EngineChoice};
 use arl_project::package::{Emitted, EmittedOther};
 use arl_project::program::{Job, check_options};
-use arl_project::runtime::Runtime;
+use arl_project::runtime::{Runtime, Unpacked};
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
 use arl_terminal::private_folder::PrivateFolder;
@@ -55,6 +56,9 @@ impl Done {
 
 /// Runs all cases; for people the last line on standard output is `N passed, N failed`.
 pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Failure> {
+    if options.all_forms && options.engine == Some(EngineChoice::Engine) {
+        return Err(Failure::Usage("--engine engine: --all-forms is about compiled programs".into()));
+    }
     let sizes = if options.all_forms { Sizes::LEAST } else { Sizes::default() };
     let watched = options.debug || options.coverage.is_some();
     let emitting = EmitOptions { sizes, watched, ..EmitOptions::default() };
@@ -70,11 +74,10 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
         found.retain(|_| number.next().is_some_and(|number: usize| number % count == index));
     }
     let progress = Progress::start("checking");
-    let codes = if is_for_engine(options)? { Some(temporary_folder()?) } else { None };
+    let codes = temporary_folder()?;
     let mut done: Vec<Option<Done>> = Vec::new();
-    let mut runs: Vec<(usize, &Case)> = Vec::new();
-    let mut emitted = Vec::new();
-    let mut compiled = Vec::new();
+    let mut runs: Vec<Run<'_>> = Vec::new();
+    let (mut emitted, mut emitted_runs) = (Vec::new(), Vec::new());
     for (at, found) in found.iter().enumerate() {
         let case = match &found.case {
             Ok(case) if case.runs() => case,
@@ -87,43 +90,38 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
                 continue;
             }
         };
-        let made = match &codes {
-            Some(codes) => coded(case, kind_of(watched), codes.path()).map(|coded| compiled.push(Ok(coded))),
-            None => emit(case, &emitting)
-                .map(|rust| emitted.push(batch::EmittedCase { source: found.source.clone(), rust })),
+        let made = if is_compiled(case, options) {
+            emit(case, &emitting).map(|rust| {
+                emitted.push(batch::EmittedCase { source: found.source.clone(), rust });
+                emitted_runs.push((at, case));
+            })
+        } else {
+            coded(case, kind_of(watched), codes.path()).map(|coded| runs.push(Run { at, case, program: Ok(coded) }))
         };
-        if made.is_ok() {
-            runs.push((at, case));
-        }
         done.push(made.err().map(Done::failed));
     }
-    let all = if codes.is_some() {
-        run_compiled(&runs, &compiled, options, &progress)?
-    } else {
-        run_all(&name_of_run(dirs, kept_as), &runs, &emitted, options, &progress)?
+    let compiled = match emitted.is_empty() {
+        true => None,
+        false => Some(CompiledCases::of(&name_of_run(dirs, kept_as), &emitted, &progress)?),
     };
-    for ((at, _), ran) in runs.iter().zip(all) {
-        if let Some(slot) = done.get_mut(*at) {
+    let programs = compiled.iter().flat_map(|compiled| &compiled.programs);
+    let native = emitted_runs.iter().zip(programs);
+    runs.extend(native.map(|((at, case), program)| Run { at: *at, case, program: program.clone() }));
+    runs.sort_by_key(|run| run.at);
+    for (run, ran) in runs.iter().zip(run_all(&runs, options, &progress)?) {
+        if let Some(slot) = done.get_mut(run.at) {
             *slot = Some(ran);
         }
     }
     drop(progress);
-    if let (Some(file), true) = (&options.coverage, runs.is_empty()) {
-        coverage::Coverage::default().write(file)?;
-    }
+    compiled.into_iter().for_each(CompiledCases::give_back);
     let done: Vec<Done> = done.into_iter().map(|done| done.unwrap_or_else(|| Done::failed("it was not run"))).collect();
     report::report(&found, &done, options.format)
 }
 
-/// Whether the engine runs the cases.
-fn is_for_engine(options: &TestOptions) -> Result<bool, Failure> {
-    match options.engine {
-        Some(EngineChoice::Engine) if options.all_forms => {
-            Err(Failure::Usage("--engine engine: --all-forms is about compiled programs".into()))
-        }
-        Some(choice) => Ok(choice == EngineChoice::Engine),
-        None => Ok(!options.all_forms),
-    }
+/// Whether a case is compiled, and not run by the engine: the command line says so, or else the project of the case.
+fn is_compiled(case: &Case, options: &TestOptions) -> bool {
+    options.all_forms || options.engine.or(case.engine) == Some(EngineChoice::Native)
 }
 
 fn temporary_folder() -> Result<PrivateFolder, Failure> {
@@ -190,7 +188,7 @@ fn coded(case: &Case, kind: Kind, folder: &Path) -> Result<batch::Compiled, Stri
     let job = Job::new(&case.source, case.cell.as_deref(), &checking(case)).map_err(message_of)?.into_kind(kind);
     let mut programs = job.check(&FileSystem).map_err(message_of)?;
     if let Some((at, refused)) = programs.iter().enumerate().find(|(_, compiled)| compiled.checked.program.is_none()) {
-        let file = job.named(at).map(|file| format!("{file}: ")).unwrap_or_default();
+        let file = job.name_in_cell(at).map(|file| format!("{file}: ")).unwrap_or_default();
         return Err(format!("{file}it does not compile:\n{}", shown_errors(refused)));
     }
     let bundle = job.bundle(&mut programs).map_err(message_of)?;
@@ -249,42 +247,51 @@ fn name_of_run(dirs: &[PathBuf], kept_as: &str) -> PathBuf {
     folders.join(kept_as)
 }
 
-/// Compiles the cases that run, and runs them, several at once. The programs are kept under this name.
-fn run_all(
-    name: &Path,
-    runs: &[(usize, &Case)],
-    emitted: &[batch::EmittedCase],
-    options: &TestOptions,
-    progress: &Progress,
-) -> Result<Vec<Done>, Failure> {
-    if runs.is_empty() {
-        return Ok(Vec::new());
+/// A case that runs, and its place among all cases.
+struct Run<'a> {
+    at: usize,
+    case: &'a Case,
+    /// What is started, or the errors of rustc.
+    program: Result<batch::Compiled, String>,
+}
+
+/// Cases that were compiled. They stay in the cache while this value lives.
+struct CompiledCases {
+    /// The program of each, or the errors of rustc.
+    programs: Vec<Result<batch::Compiled, String>>,
+    cache: Cache,
+    place: Place,
+    runtime: Unpacked,
+    _lock: Lock,
+}
+
+impl CompiledCases {
+    /// Compiles cases. The programs are kept under this name.
+    fn of(name: &Path, emitted: &[batch::EmittedCase], progress: &Progress) -> Result<Self, Failure> {
+        let cache = Cache::find()?;
+        let place = cache.program(name);
+        let lock = place.lock(false)?;
+        progress.say(&format!("compiling {} cases", emitted.len()));
+        let runtime = Runtime::find().unpack(&cache)?;
+        let programs = batch::compile(&place, &runtime, emitted, progress)?;
+        Ok(Self { programs, cache, place, runtime, _lock: lock })
     }
-    let cache = Cache::find()?;
-    let place = cache.program(name);
-    let _lock = place.lock(false)?;
-    progress.say(&format!("compiling {} cases", runs.len()));
-    let runtime = Runtime::find().unpack(&cache)?;
-    let compiled = batch::compile(&place, &runtime, emitted, progress)?;
-    let done = run_compiled(runs, &compiled, options, progress)?;
-    cache.keep_limit(&place, &runtime.give_back());
-    Ok(done)
+
+    /// The cache may remove them from now on.
+    fn give_back(self) {
+        self.cache.keep_limit(&self.place, &self.runtime.give_back());
+    }
 }
 
 /// Runs cases, several at once.
-fn run_compiled(
-    runs: &[(usize, &Case)],
-    compiled: &[Result<batch::Compiled, String>],
-    options: &TestOptions,
-    progress: &Progress,
-) -> Result<Vec<Done>, Failure> {
+fn run_all(runs: &[Run<'_>], options: &TestOptions, progress: &Progress) -> Result<Vec<Done>, Failure> {
     let scratch = temporary_folder()?;
     let mut coverage = coverage::Coverage::default();
     let mut places = Vec::new();
     if options.coverage.is_some() {
-        for (_, case) in runs {
+        for run in runs {
             // What cannot be checked was reported before.
-            places.push(coverage.add(case).ok());
+            places.push(coverage.add(run.case).ok());
         }
     }
     let coverage = Mutex::new(coverage);
@@ -294,10 +301,10 @@ fn run_compiled(
     let work = || {
         loop {
             let at = next.fetch_add(1, Ordering::Relaxed);
-            let (Some((_, case)), Some(compiled)) = (runs.get(at), compiled.get(at)) else { return };
+            let Some(Run { case, program, .. }) = runs.get(at) else { return };
             progress.say(&format!("running {} of {}", at + 1, runs.len()));
-            let ran = match compiled {
-                Ok(compiled) => match execute::execute(case, compiled, scratch.path(), extras) {
+            let ran = match program {
+                Ok(program) => match execute::execute(case, program, scratch.path(), extras) {
                     Ok(outcome) => {
                         if let Some(Some(places)) = places.get(at)
                             && let Ok(mut coverage) = coverage.lock()

@@ -1,6 +1,6 @@
 //! `test`.
 
-use super::Folder;
+use super::{Answer, Folder};
 
 #[test]
 fn cases_pass_or_show_what_differs() {
@@ -155,4 +155,23 @@ fn mistakes_are_those_that_the_cell_makes() {
         .with("part.toml", "cell = \"line.cell\"\n")
         .with("line.cell", "[names]\n\"di.1\" = \"part\"\n");
     folder.arl2rs(&["test", "."]).is(0, "1 passed, 0 failed\n");
+}
+
+#[test]
+fn a_project_says_whether_its_cases_are_compiled() {
+    let print = "func void main()\n    print 1\nendfunc\n";
+    let folder = Folder::new("test_engine")
+        .with("native/arl.toml", "engine = \"native\"\n")
+        .with("native/a.arl", print)
+        .with("native/a.out", "1\n")
+        .with("other/b.arl", print)
+        .with("other/b.out", "2\n");
+    let without_cargo = |arguments: &[&str]| {
+        let command = folder.command(arguments).env("CARGO", "/nowhere/cargo").output();
+        Answer::of(command.expect("the command starts"))
+    };
+    without_cargo(&["test", "native"]).is(1, "").says("cargo was not found");
+    without_cargo(&["test", "native", "--engine", "engine"]).is(0, "1 passed, 0 failed\n");
+    let both = folder.arl2rs(&["test", "."]);
+    assert!(both.out.starts_with("FAILED other/b.arl\n") && both.out.ends_with("1 passed, 1 failed\n"), "{}", both.out);
 }

@@ -469,3 +469,39 @@ fn clocks_and_connections_are_shown() {
     );
     assert_eq!(client.value("all = 3"), "3 does not fit: expected a value of type clock");
 }
+
+#[test]
+fn what_a_block_declares_ends_with_it() {
+    let folder = Folder::new("blocks").with(
+        "main.arl",
+        "func void main()\n    if(true)\n        clock row[2]\n        int inner = 1\n        print inner\n    endif\n    \
+         for(int i = 0; i < 2; i++)\n        if(i == 1)\n            clock pair[2]\n            int left = 3\n            \
+         print left\n            break\n        endif\n    endfor\n    int last = 5\n    print last\nendfunc\n",
+    );
+    let mut client = Client::running(&folder, json!({}), &[5, 12, 16]);
+    let mut locals = || {
+        client.halt();
+        let locals = client.scope("Locals").1;
+        client.ask("continue", json!({"threadId": 1}));
+        locals
+    };
+    let row = |name: &str| format!("{name} = {{0.000 s, stopped; 0.000 s, stopped}}");
+    // Numbers come before clocks.
+    assert_eq!(locals(), ["inner = 1".into(), row("row")]);
+    assert_eq!(locals(), ["i = 1".into(), "left = 3".into(), row("pair")]);
+    assert_eq!(locals(), ["last = 5"]);
+}
+
+#[test]
+fn a_function_may_have_hundreds_of_variables() {
+    let declared: String = (0..300).map(|number| format!("    int v{number} = {number}\n")).collect();
+    let text = format!("func void main()\n{declared}    print v0 + v299\nendfunc\n");
+    let folder = Folder::new("hundreds").with("main.arl", &text);
+    let mut client = Client::running(&folder, json!({}), &[302]);
+    client.halt();
+    assert_eq!(client.scope("Locals").1.len(), 300);
+    assert_eq!(client.value("v299 = 7"), "7");
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended().1, json!(0));
+    assert_eq!(client.printed, "7\n");
+}

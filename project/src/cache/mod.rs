@@ -131,14 +131,6 @@ impl Kind {
     /// The endings of package names for kinds other than `Program`.
     const ENDINGS: [&str; 3] = ["debug", "library", "named"];
 
-    /// What this kind is for that the engine cannot do yet, as part of a sentence.
-    pub(crate) fn needs_native(self) -> Option<&'static str> {
-        match self {
-            Kind::Program | Kind::Named | Kind::Watched => None,
-            Kind::Library => Some("a library is compiled"),
-        }
-    }
-
     fn ending(self) -> Option<&'static str> {
         let [debug, library, named] = Self::ENDINGS;
         match self {

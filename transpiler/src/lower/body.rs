@@ -173,13 +173,13 @@ impl<'p, 'l> FunctionCode<'p, 'l> {
     }
 
     /// A new box.
-    pub(super) fn new_box(&mut self) -> u8 {
+    pub(super) fn new_box(&mut self) -> u16 {
         let number = self.used.boxes;
         self.used.boxes += 1;
         self.note_used();
-        u8::try_from(number).unwrap_or_else(|_| {
-            self.refuse("the function shares more variables with its events than the engine can name");
-            u8::MAX
+        u16::try_from(number).unwrap_or_else(|_| {
+            self.refuse("the function has more variables that events or a debugger see than the engine can name");
+            u16::MAX
         })
     }
 

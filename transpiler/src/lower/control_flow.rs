@@ -1,7 +1,7 @@
 //! The loops and labels around the statements being lowered.
 
 use crate::effects::visibility::Visibility;
-use crate::hir::LabelId;
+use crate::hir::{LabelId, LocalId};
 use arl_code::Address;
 use std::collections::HashMap;
 
@@ -27,6 +27,6 @@ pub(super) struct Surroundings {
     pub(super) gotos: Vec<(LabelId, Address)>,
     /// The local variables that are visible at labels and jumps.
     pub(super) visibility: Visibility,
-    /// The local variables that are visible here, in a function with `goto`.
-    pub(super) visible: Vec<crate::hir::LocalId>,
+    /// The local variables that are visible here: a debugger sees each until its block ends.
+    pub(super) visible: Vec<LocalId>,
 }

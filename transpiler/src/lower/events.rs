@@ -118,7 +118,7 @@ impl<'p> Lowering<'p> {
 /// The local variables that a piece takes along, and where they are in its frame.
 fn captured(lowering: &Lowering<'_>, func: Option<&Func>, expr: &Expr) -> Vec<(LocalId, Place)> {
     let family = lowering.program.family;
-    let (mut registers, mut boxes, mut frame) = (0_u8, 0_u8, Extent::default());
+    let (mut registers, mut boxes, mut frame) = (0_u8, 0_u16, Extent::default());
     let mut places = Vec::new();
     for id in captures::mentioned(expr) {
         let Some(local) = func.and_then(|func| func.locals.get(id.0 as usize)) else { continue };
@@ -127,8 +127,10 @@ fn captured(lowering: &Lowering<'_>, func: Option<&Func>, expr: &Expr) -> Vec<(L
         }
         let extent = Extent::of(local.ty.base, family).times(local.ty.len() as u32);
         let place = if local.shared && !matches!(local.ty.base, Base::Handle(_)) {
-            boxes += 1;
-            Place::start(Space::Boxed(boxes - 1))
+            let place = Place::start(Space::Boxed(boxes));
+            // More than the function can have: it is refused.
+            boxes = boxes.saturating_add(1);
+            place
         } else if is_number(local.ty) && registers < tables::MOST_CAPTURED {
             registers += 1;
             Place::start(Space::Register(registers - 1))

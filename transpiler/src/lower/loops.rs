@@ -216,21 +216,19 @@ impl<'p> FunctionCode<'p, '_> {
                 self.turn(turned, start, after_test);
             }
             if (handles || self.is_watched()) && !continues.is_empty() {
-                self.lead_here(continues);
+                self.land(continues, parts.body);
                 if handles {
                     self.drop_handles();
                 }
-                self.drop_declared(parts.body);
                 self.op(Op::Jump { to: start });
             } else {
                 continues.into_iter().for_each(|jump| self.lead(jump, start));
             }
         } else {
-            self.lead_here(continues);
+            self.land(continues, parts.body);
             if handles {
                 self.drop_handles();
             }
-            self.drop_declared(parts.body);
             if flow::goes_round(parts.body) {
                 match parts.rest {
                     Rest::Until(until) => {
@@ -255,11 +253,11 @@ impl<'p> FunctionCode<'p, '_> {
         }
         self.line = line;
         self.flow.counts_alone = outer;
-        self.lead_here(leave.into_iter().chain(breaks));
+        self.lead_here(leave);
+        self.land(breaks, parts.body);
         if handles {
             self.drop_handles();
         }
-        self.drop_declared(parts.body);
         if alone && parts.condition.is_some() && !takes_first {
             // The condition may have ended the loop although more was counted before it than there was.
             self.op(Op::Leave { again: head });

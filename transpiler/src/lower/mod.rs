@@ -28,7 +28,7 @@ mod watching;
 use crate::effects::{self, watched};
 use crate::hir::{ExprKind, FuncId, GlobalId, ModuleId, Program};
 use crate::visit;
-use arl_code::{Code, ConstantValue, Extent, Function, Op, Place, Variable};
+use arl_code::{Code, ConstantValue, Extent, Function, HandleKind, Op, Place, Variable};
 use arl_lang::catalog::Base;
 use arl_lang::span::LineIndex;
 use body::FunctionCode;
@@ -168,8 +168,7 @@ impl<'p> Lowering<'p> {
                 let count = u32::try_from(global.ty.len()).unwrap_or(u32::MAX);
                 self.code.globals = self.code.globals.plus(Extent::of(global.ty.base, family).times(count));
                 if let Base::Handle(handle) = global.ty.base {
-                    let kind = variables::handle_kind(handle);
-                    self.code.handles.extend(std::iter::repeat_n(kind, count as usize));
+                    self.code.handles.extend(std::iter::repeat_n(HandleKind::from(handle), count as usize));
                 }
             }
             self.globals.push(place);

@@ -3,19 +3,8 @@
 use super::body::FunctionCode;
 use super::places::Spot;
 use crate::hir::{Expr, Global, GlobalId, LocalId, Place as HirPlace, Root, Type};
-use arl_code::{Extent, HandleKind, Op, Place, Space};
-use arl_lang::catalog::{Base, Handle};
-
-/// The kind of a handle.
-pub(super) fn handle_kind(handle: Handle) -> HandleKind {
-    match handle {
-        Handle::Clock => HandleKind::Clock,
-        Handle::Socket => HandleKind::Socket,
-        Handle::Iodev => HandleKind::Iodev,
-        Handle::ModbusDev => HandleKind::ModbusDev,
-        Handle::MelsecDev => HandleKind::MelsecDev,
-    }
-}
+use arl_code::{Extent, Op, Place, Space};
+use arl_lang::catalog::Base;
 
 /// Whether a value of the type is a number: it fits into a register.
 pub(super) fn is_number(ty: Type) -> bool {
@@ -77,7 +66,7 @@ impl<'p> FunctionCode<'p, '_> {
     }
 
     /// A variable that events see: a new box each time.
-    fn shared_declaration(&mut self, to: u8, ty: Type, value: Option<&'p Expr>) {
+    fn shared_declaration(&mut self, to: u16, ty: Type, value: Option<&'p Expr>) {
         self.passing(|body| {
             let fresh = body.space_of(ty);
             match value {
@@ -93,7 +82,7 @@ impl<'p> FunctionCode<'p, '_> {
     }
 
     /// A new box with a value of the frame.
-    pub(super) fn box_of(&mut self, to: u8, ty: Type, value: Place) {
+    pub(super) fn box_of(&mut self, to: u16, ty: Type, value: Place) {
         let extent = self.extent(ty);
         self.lowering.code.boxes.push(extent);
         let number = self.lowering.code.boxes.len() as u32 - 1;
@@ -110,7 +99,7 @@ impl<'p> FunctionCode<'p, '_> {
         }
         if let Base::Handle(handle) = ty.base {
             let count = ty.len() as u16;
-            self.op(Op::NewHandles { at: place.handle, count, kind: handle_kind(handle) });
+            self.op(Op::NewHandles { at: place.handle, count, kind: handle.into() });
             return;
         }
         if !spot.is_in_frame() {

@@ -7,7 +7,7 @@ use super::body::FunctionCode;
 use super::tables::value_type;
 use crate::effects::flow;
 use crate::hir::{LocalId, Stmt, StmtKind};
-use arl_code::{Local, Op, Space};
+use arl_code::{Address, Local, Op, Space};
 use arl_lang::catalog::Base;
 
 impl FunctionCode<'_, '_> {
@@ -100,20 +100,40 @@ impl FunctionCode<'_, '_> {
         }
     }
 
-    /// Drops the variables that blocks declare, in code for a debugger: they do not exist outside.
+    /// The end of a block, in code for a debugger: the variables that it declares do not exist outside.
     pub(super) fn drop_declared(&mut self, block: &[Stmt]) {
-        if !self.is_watched() || self.func.is_some_and(|func| func.has_goto) {
+        if !self.drops() {
             return;
         }
         for stmt in block {
             if let StmtKind::Let(id, _) = &stmt.kind {
                 self.drop_local(*id);
             }
-            if let StmtKind::For(each) = &stmt.kind {
-                self.drop_declared(&each.init);
-            }
-            flow::blocks(stmt).for_each(|inner| self.drop_declared(inner));
         }
+    }
+
+    /// Leads jumps out of a round of a loop here: in all blocks that they may come from the variables end.
+    pub(super) fn land(&mut self, jumps: Vec<Address>, round: &[Stmt]) {
+        let is_used = !jumps.is_empty();
+        self.lead_here(jumps);
+        if is_used && self.drops() {
+            self.drop_round(round);
+        }
+    }
+
+    /// Loops inside a round have ended their variables.
+    fn drop_round(&mut self, block: &[Stmt]) {
+        self.drop_declared(block);
+        for stmt in block {
+            if matches!(stmt.kind, StmtKind::If(..) | StmtKind::Switch(..)) {
+                flow::blocks(stmt).for_each(|inner| self.drop_round(inner));
+            }
+        }
+    }
+
+    /// Whether variables end with their blocks: not in a function with `goto`.
+    fn drops(&self) -> bool {
+        self.is_watched() && !self.func.is_some_and(|func| func.has_goto)
     }
 
     fn drop_local(&mut self, id: LocalId) {
@@ -128,5 +148,37 @@ impl FunctionCode<'_, '_> {
             }
             _ => {}
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lower::lower_watched;
+    use crate::{CheckOptions, SourceError, Sources, check};
+    use arl_code::Op;
+    use std::path::Path;
+
+    struct Text(String);
+
+    impl Sources for Text {
+        fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
+            if path == Path::new("t.arl") { Ok(self.0.clone().into_bytes()) } else { Err(SourceError::Missing) }
+        }
+    }
+
+    /// How many operations end variables, in a loop with blocks so deep in each other.
+    fn drops(depth: usize) -> usize {
+        let (open, close) = ("if(true)\nint a = 1\nprint a\n".repeat(depth), "endif\n".repeat(depth));
+        let text = format!("func void main()\nwhile(true)\n{open}break\n{close}endwhile\nendfunc\n");
+        let mut checked = check(Path::new("t.arl"), &Text(text), &CheckOptions::default());
+        let code = lower_watched(checked.program.as_mut().expect("correct")).expect("small");
+        code.ops.iter().filter(|op| matches!(op, Op::DropBox { .. })).count()
+    }
+
+    #[test]
+    fn ends_of_variables_grow_with_the_program_alone() {
+        let (few, many) = (drops(5), drops(50));
+        // Ten times as deep: as many for each level, not a hundred times as many.
+        assert!(few >= 5 && many < 20 * few, "{few}, {many}");
     }
 }
