@@ -1,6 +1,7 @@
 //! Programs as bytes: what one process makes, and another one runs.
 
 use crate::code::Code;
+use crate::format::format;
 use crate::verify::is_sound;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -41,6 +42,8 @@ pub enum BundleError {
     NotCode,
     /// Another version of this software wrote them.
     OtherVersion(String),
+    /// Another build of the same version wrote them, which may mean something else by them.
+    OtherBuild,
     /// They are cut off or altered.
     Damaged,
 }
@@ -52,6 +55,7 @@ impl fmt::Display for BundleError {
             Self::OtherVersion(version) => {
                 write!(f, "arl2rs {version} wrote this code, and this is arl2rs {VERSION}: make it again")
             }
+            Self::OtherBuild => write!(f, "another build of arl2rs {VERSION} wrote this code: make it again"),
             Self::Damaged => write!(f, "this code is damaged: make it again"),
         }
     }
@@ -65,6 +69,7 @@ impl Bundle {
         let mut bytes = MAGIC.to_vec();
         bytes.push(VERSION.len() as u8);
         bytes.extend(VERSION.as_bytes());
+        bytes.extend(format().to_le_bytes());
         // Writing to memory does not fail.
         let content = postcard::to_stdvec(self).unwrap_or_default();
         bytes.extend(XxHash3_64::oneshot(&content).to_le_bytes());
@@ -75,13 +80,17 @@ impl Bundle {
     /// The bundle that was written as these bytes.
     ///
     /// # Errors
-    /// The bytes are something else, of another version, cut off or altered.
+    /// The bytes are something else, of another version or build, cut off or altered.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, BundleError> {
         let rest = bytes.strip_prefix(MAGIC).ok_or(BundleError::NotCode)?;
         let (length, rest) = rest.split_first().ok_or(BundleError::Damaged)?;
         let (version, rest) = rest.split_at_checked(usize::from(*length)).ok_or(BundleError::Damaged)?;
         if version != VERSION.as_bytes() {
             return Err(BundleError::OtherVersion(String::from_utf8_lossy(version).into_owned()));
+        }
+        let (own, rest) = rest.split_first_chunk().ok_or(BundleError::Damaged)?;
+        if u64::from_le_bytes(*own) != format() {
+            return Err(BundleError::OtherBuild);
         }
         let (hash, content) = rest.split_first_chunk().ok_or(BundleError::Damaged)?;
         if XxHash3_64::oneshot(content) != u64::from_le_bytes(*hash) {
@@ -155,6 +164,13 @@ mod tests {
         let error = Bundle::from_bytes(&bytes).unwrap_err();
         assert_eq!(error, BundleError::OtherVersion(format!("9{}", &VERSION[1..])));
         assert_eq!(Bundle::from_bytes(b"func void main()"), Err(BundleError::NotCode));
+    }
+
+    #[test]
+    fn bytes_of_another_build_are_refused() {
+        let mut bytes = bundle(vec![Op::Return]).to_bytes();
+        bytes[MAGIC.len() + 1 + VERSION.len()] ^= 1;
+        assert_eq!(Bundle::from_bytes(&bytes), Err(BundleError::OtherBuild));
     }
 
     #[test]

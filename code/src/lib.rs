@@ -10,6 +10,7 @@
 
 mod bundle;
 mod code;
+mod format;
 mod layout;
 mod numbers;
 mod op;
