@@ -2,6 +2,7 @@
 
 use arl_code::{Bundle, BundledProgram, Code};
 use arl_engine::Engine;
+use arl_project::program::WHILE_INPUT;
 use arl_rt::emit::program_main;
 use arl_rt::program::{Make, Other, Program};
 use arl_terminal::exit::Exit;
@@ -13,6 +14,12 @@ use std::time::SystemTime;
 
 /// Runs the code in a file, with the options of a compiled program.
 pub(crate) fn run(file: &Path, words: Vec<OsString>) -> Result<Exit, Failure> {
+    if std::env::var_os(WHILE_INPUT).is_some() {
+        std::thread::spawn(|| {
+            let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+            std::process::exit(Exit::INTERRUPTED.0.into());
+        });
+    }
     let bytes = std::fs::read(file).map_err(|error| Failure::io("read", file, &error))?;
     let bundle = Bundle::from_bytes(&bytes).map_err(|error| Failure::Other(format!("{}: {error}", file.display())))?;
     let made = file.metadata().and_then(|about| about.modified()).unwrap_or_else(|_| SystemTime::now());

@@ -69,6 +69,10 @@ pub fn command_of_code(code: &Path) -> Result<Command, Failure> {
     Ok(command)
 }
 
+/// A variable of the environment of [`command_of_code`]: with it the command ends when its standard input is closed, so
+/// that it does not outlive who started it.
+pub const WHILE_INPUT: &str = "ARL2RS_WHILE_INPUT";
+
 /// The options of a check.
 ///
 /// # Errors

@@ -3,7 +3,7 @@
 use super::batch::{CASE, Compiled};
 use super::case::Case;
 use arl_lang::files::is_data;
-use arl_project::program::command_of_code;
+use arl_project::program::{WHILE_INPUT, command_of_code};
 use std::ffi::OsString;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -110,7 +110,9 @@ fn run_in(
     };
     command.env(CASE, &compiled.name).args(arguments(case));
     command.arg("--script-dir").arg(&script).arg("--state-dir").arg(folder.join("state"));
-    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    // The input is held open as long as the case may run: it ends where this command is killed.
+    let input = if compiled.code.is_some() { Stdio::piped() } else { Stdio::null() };
+    command.env(WHILE_INPUT, "1").stdin(input).stdout(Stdio::piped()).stderr(Stdio::piped());
     let (time, counted) = (folder.join("cycle_time"), folder.join("coverage"));
     command.arg("--cycle-time").arg(&time);
     if let Some(trace) = trace {

@@ -46,6 +46,15 @@ fn whatever_ends_a_run_its_recording_is_whole() {
     folder.arl2rs(&["run", "alarm.arl", "--record", "no/folder.mcap"]).is(1, "").says("cannot write no/folder.mcap");
 }
 
+#[test]
+fn a_description_of_the_users_stays() {
+    let folder = Folder::new("recording_beside").with("a.arl", MOVES).with("cell.urdf", "<robot name=\"mine\"/>\n");
+    let answer = folder.arl2rs(&["run", "a.arl", "--record", "a.mcap"]);
+    answer.is(0, "go\nthere\n").says("cell.urdf is not of a recording: it stays");
+    assert!(is_whole(&folder, "a.mcap"));
+    assert_eq!(folder.read("cell.urdf"), "<robot name=\"mine\"/>\n");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_program_goes_on_where_its_recording_cannot_be_written() {

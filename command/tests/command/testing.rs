@@ -1,6 +1,7 @@
 //! `test`.
 
 use super::{Answer, Folder};
+use std::process::Stdio;
 
 #[test]
 fn cases_pass_or_show_what_differs() {
@@ -174,4 +175,30 @@ fn a_project_says_whether_its_cases_are_compiled() {
     without_cargo(&["test", "native", "--engine", "engine"]).is(0, "1 passed, 0 failed\n");
     let both = folder.arl2rs(&["test", "."]);
     assert!(both.out.starts_with("FAILED other/b.arl\n") && both.out.ends_with("1 passed, 1 failed\n"), "{}", both.out);
+}
+
+/// A case ends with the command that runs it, however that ends.
+#[test]
+fn a_case_does_not_outlive_the_command() {
+    use std::io::Read;
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = listener.local_addr().expect("its address").port();
+    let endless = format!(
+        "socket peer\nfunc void main()\n  waituntil connect(peer, \"127.0.0.1\", {port})\n  loop\n    \
+         waittime 0.1\n  endloop\nendfunc\n"
+    );
+    let folder = Folder::new("outlives").with("a.arl", &endless).with("a.out", "");
+    let mut command = folder.command(&["test", "."]);
+    let mut testing = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the command starts");
+    let (mut peer, _) = listener.accept().expect("the case connects");
+    testing.kill().expect("it is killed");
+    testing.wait().expect("it has ended");
+    peer.set_read_timeout(Some(std::time::Duration::from_secs(50))).expect("a limit");
+    // Closed in peace or not: who still ran would hold it open.
+    let read = peer.read(&mut [0; 16]);
+    let is_closed = match &read {
+        Ok(count) => *count == 0,
+        Err(error) => !matches!(error.kind(), std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut),
+    };
+    assert!(is_closed, "the case goes on: {read:?}");
 }

@@ -36,10 +36,13 @@ pub struct Recording {
     /// The texts of the program, until they are written.
     sources: Vec<Text>,
     recorder: Recorder<sink::File<BufWriter<std::fs::File>>>,
+    /// Where the description goes; nowhere if a file is there that no recording has written.
+    description: Option<PathBuf>,
 }
 
 impl Recording {
-    /// Creates the file: better to fail now than after a long run.
+    /// Creates the file: better to fail now than after a long run. A `cell.urdf` beside it that is the user's own stays
+    /// as it is.
     ///
     /// # Errors
     /// The file cannot be created.
@@ -48,15 +51,22 @@ impl Recording {
         let cannot = |error| Failure::Usage(format!("cannot write {}: {error}", path.display()));
         let recorder = Recorder::new(sink::File::new(BufWriter::new(file)).map_err(cannot)?, scenery);
         let sources = texts::read(sources);
-        Ok(Self { path: path.to_owned(), sources, recorder })
+        let description = path.with_file_name(DESCRIPTION);
+        let is_own =
+            !description.exists() || std::fs::read(&description).is_ok_and(|text| urdf::is_written_here(&text));
+        if !is_own {
+            let file = description.display();
+            show::warning(&format!("{file} is not of a recording: it stays, and the robots are not described in it"));
+        }
+        Ok(Self { path: path.to_owned(), sources, recorder, description: is_own.then_some(description) })
     }
 }
 
 impl Recording {
     /// Writes the description of the cell. A recording is complete without it.
     fn describe(&self) {
-        let description = self.path.with_file_name(DESCRIPTION);
-        if let Err(error) = std::fs::write(&description, urdf::urdf(self.recorder.arms(), self.recorder.scenery())) {
+        let Some(description) = &self.description else { return };
+        if let Err(error) = std::fs::write(description, urdf::urdf(self.recorder.arms(), self.recorder.scenery())) {
             show::warning(&format!("cannot write {}: {error}", description.display()));
         }
     }

@@ -20,9 +20,17 @@ const IN_ADDRESS: &AsciiSet = &CONTROLS.add(b' ').add(b'#').add(b'%').add(b'?');
 const EFFORT: f64 = 1000.0;
 const VELOCITY: f64 = 10.0;
 
+/// The first lines of each description.
+const HEAD: &str = "<?xml version=\"1.0\"?>\n<!-- Written by arl2rs, for the recording beside it. -->\n";
+
+/// Whether a file is a description that a recording wrote.
+pub(super) fn is_written_here(text: &[u8]) -> bool {
+    text.starts_with(HEAD.as_bytes())
+}
+
 /// The description of these arms, by channels, and of what is around them.
 pub(super) fn urdf(arms: &[Option<RecordedArm>], scenery: &Scenery) -> String {
-    let mut out = String::from("<?xml version=\"1.0\"?>\n<robot name=\"cell\">\n");
+    let mut out = format!("{HEAD}<robot name=\"cell\">\n");
     let _ = writeln!(out, "  <link name=\"{WORLD}\"/>");
     for (channel, arm) in arms.iter().enumerate() {
         if let Some(arm) = arm {
