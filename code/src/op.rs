@@ -29,6 +29,8 @@ pub enum Op {
     MulInt { to: Reg, left: Reg, right: Reg },
     AddSmall { to: Reg, left: Reg, value: i32 },
     MulSmall { to: Reg, left: Reg, value: i32 },
+    /// A product with a constant, and a sum: the number of an element.
+    MulAdd { to: Reg, left: Reg, right: Reg, value: i32 },
     DivInt { to: Reg, left: Reg, right: Reg, line: u32 },
     RemInt { to: Reg, left: Reg, right: Reg, line: u32 },
     /// The divisor is not 0.
@@ -40,6 +42,9 @@ pub enum Op {
     And { to: Reg, left: Reg, right: Reg },
     Or { to: Reg, left: Reg, right: Reg },
     Xor { to: Reg, left: Reg, right: Reg },
+    AndSmall { to: Reg, left: Reg, value: i32 },
+    OrSmall { to: Reg, left: Reg, value: i32 },
+    XorSmall { to: Reg, left: Reg, value: i32 },
     /// Shifts; the alarm names the width of the type.
     ShiftLeft { to: Reg, left: Reg, right: Reg, of: Shifted, line: u32 },
     ShiftRight { to: Reg, left: Reg, right: Reg, of: Shifted, line: u32 },
@@ -82,6 +87,9 @@ pub enum Op {
     JumpNotLessSmall { left: Reg, value: i32, to: Address },
     JumpEqualSmall { left: Reg, value: i32, to: Address },
     JumpNotEqualSmall { left: Reg, value: i32, to: Address },
+    /// The end of a round: adds to a register and jumps if it is less.
+    StepLess { left: Reg, right: Reg, by: i16, to: Address },
+    StepLessSmall { left: Reg, by: i16, value: i32, to: Address },
     /// Jumps if the result of the comparison is `wanted`.
     JumpCompare { left: Reg, right: Reg, by: Comparison, wanted: bool, to: Address },
 

@@ -111,6 +111,8 @@ impl Code {
             | JumpNotLessSmall { to, .. }
             | JumpEqualSmall { to, .. }
             | JumpNotEqualSmall { to, .. }
+            | StepLess { to, .. }
+            | StepLessSmall { to, .. }
             | JumpCompare { to, .. } => own.contains(&to),
             Take { again } | Leave { again } => own.contains(&again),
             Load { at, .. } | Store { at, .. } => words(at, 1),
@@ -178,6 +180,7 @@ impl Code {
             | MulInt { .. }
             | AddSmall { .. }
             | MulSmall { .. }
+            | MulAdd { .. }
             | DivInt { .. }
             | RemInt { .. }
             | DivUint { .. }
@@ -185,6 +188,9 @@ impl Code {
             | And { .. }
             | Or { .. }
             | Xor { .. }
+            | AndSmall { .. }
+            | OrSmall { .. }
+            | XorSmall { .. }
             | ShiftLeft { .. }
             | ShiftRight { .. }
             | ShiftLeftSmall { .. }

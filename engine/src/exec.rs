@@ -170,9 +170,10 @@ impl Engine {
                         r[usize::from($number)]
                     };
                 }
-                let op = ops[at];
+                // By reference: each operation reads what it needs, and not all of its bytes.
+                let op = &ops[at];
                 at += 1;
-                match op {
+                match *op {
                     Op::Copy { to, from } => reg!(to) = reg!(from),
                     Op::Small { to, value } => reg!(to) = word(value),
                     Op::Word { to, at } => reg!(to) = self.code.words[at as usize],
@@ -188,6 +189,9 @@ impl Engine {
                     }
                     Op::AddSmall { to, left, value } => reg!(to) = word(int(reg!(left)).wrapping_add(value)),
                     Op::MulSmall { to, left, value } => reg!(to) = word(int(reg!(left)).wrapping_mul(value)),
+                    Op::MulAdd { to, left, right, value } => {
+                        reg!(to) = word(int(reg!(left)).wrapping_mul(value).wrapping_add(int(reg!(right))));
+                    }
                     Op::DivInt { to, left, right, line } => {
                         reg!(to) = word(checked!(div(int(reg!(left)), int(reg!(right))), line));
                     }
@@ -212,6 +216,9 @@ impl Engine {
                     Op::And { to, left, right } => reg!(to) = reg!(left) & reg!(right),
                     Op::Or { to, left, right } => reg!(to) = reg!(left) | reg!(right),
                     Op::Xor { to, left, right } => reg!(to) = reg!(left) ^ reg!(right),
+                    Op::AndSmall { to, left, value } => reg!(to) = reg!(left) & word(value),
+                    Op::OrSmall { to, left, value } => reg!(to) = reg!(left) | word(value),
+                    Op::XorSmall { to, left, value } => reg!(to) = reg!(left) ^ word(value),
                     Op::ShiftLeft { to, left, right, of, line } => {
                         reg!(to) = checked!(shifted_left(of, reg!(left), reg!(right)), line);
                     }
@@ -300,6 +307,20 @@ impl Engine {
                     }
                     Op::JumpNotEqualSmall { left, value, to } => {
                         if int(reg!(left)) != value {
+                            go_to!(to);
+                        }
+                    }
+                    Op::StepLess { left, right, by, to } => {
+                        let next = int(reg!(left)).wrapping_add(by.into());
+                        reg!(left) = word(next);
+                        if next < int(reg!(right)) {
+                            go_to!(to);
+                        }
+                    }
+                    Op::StepLessSmall { left, by, value, to } => {
+                        let next = int(reg!(left)).wrapping_add(by.into());
+                        reg!(left) = word(next);
+                        if next < value {
                             go_to!(to);
                         }
                     }
@@ -461,7 +482,7 @@ impl Engine {
                         continue 'function;
                     }
                     Op::Return | Op::ReturnWord { .. } | Op::ReturnText { .. } => {
-                        match op {
+                        match *op {
                             Op::ReturnWord { from } => r[0] = reg!(from),
                             Op::ReturnText { from } => t[0] = t[usize::from(from)].clone(),
                             _ => {}

@@ -116,6 +116,8 @@ impl<'p, 'l> FunctionCode<'p, 'l> {
                 | JumpNotLessSmall { to, .. }
                 | JumpEqualSmall { to, .. }
                 | JumpNotEqualSmall { to, .. }
+                | StepLess { to, .. }
+                | StepLessSmall { to, .. }
                 | JumpCompare { to, .. },
             ) => *to = target,
             other => debug_assert!(false, "no jump at {jump}: {other:?}"),

@@ -109,11 +109,12 @@ impl<'p> FunctionCode<'p, '_> {
         }
         self.line = line;
         if flow::goes_round(body) {
+            let step_at = self.here();
             if let Some(step) = &each.step {
                 self.passing(|body| body.effect_of(step));
             }
             let again = self.jump_if(condition, true);
-            again.into_iter().for_each(|jump| self.lead(jump, first));
+            self.go_round(step_at, again, first);
         }
         leave.extend(breaks);
         self.lead_here(leave);
@@ -213,7 +214,8 @@ impl<'p> FunctionCode<'p, '_> {
                     self.op(Op::Spend { rounds: info.rounds });
                 }
                 self.line = line;
-                self.turn(turned, start, after_test);
+                let step_at = self.here();
+                self.turn(turned, start, after_test, step_at);
             }
             if (handles || self.is_watched()) && !continues.is_empty() {
                 self.land(continues, parts.body);
@@ -230,6 +232,7 @@ impl<'p> FunctionCode<'p, '_> {
                 self.drop_handles();
             }
             if flow::goes_round(parts.body) {
+                let step_at = self.here();
                 match parts.rest {
                     Rest::Until(until) => {
                         self.stand_at(until.span);
@@ -248,7 +251,7 @@ impl<'p> FunctionCode<'p, '_> {
                     self.op(Op::Spend { rounds: info.rounds });
                 }
                 self.line = line;
-                self.turn(turned, start, after_test);
+                self.turn(turned, start, after_test, step_at);
             }
         }
         self.line = line;
@@ -275,13 +278,40 @@ impl<'p> FunctionCode<'p, '_> {
         !facts.context && facts.calls.is_empty() && facts.writes.is_empty()
     }
 
-    /// Goes on with the next round.
-    fn turn(&mut self, condition: Option<&'p Expr>, head: Address, after_test: Address) {
+    /// Goes on with the next round; its step, if there is one, begins at `step_at`.
+    fn turn(&mut self, condition: Option<&'p Expr>, head: Address, after_test: Address, step_at: Address) {
         let Some(condition) = condition else {
             self.op(Op::Jump { to: head });
             return;
         };
         let met = self.jump_if(condition, true);
-        met.into_iter().for_each(|jump| self.lead(jump, after_test));
+        self.go_round(step_at, met, after_test);
+    }
+
+    /// Leads the jumps of a condition to the next round. Where all that stands from the step on is a sum and one
+    /// comparison with its result, one operation does both: nothing leads in between.
+    fn go_round(&mut self, step_at: Address, jumps: Vec<Address>, round: Address) {
+        let ops = &mut self.lowering.code.ops;
+        let fused = match ops.get(step_at as usize..) {
+            Some([Op::AddSmall { to, left, value: by }, test]) if to == left && jumps == [step_at + 1] => {
+                let by = i16::try_from(*by).ok();
+                by.and_then(|by| match *test {
+                    Op::JumpLess { left, right, .. } if left == *to && right != *to => {
+                        Some(Op::StepLess { left, right, by, to: round })
+                    }
+                    Op::JumpLessSmall { left, value, .. } if left == *to => {
+                        Some(Op::StepLessSmall { left, by, value, to: round })
+                    }
+                    _ => None,
+                })
+            }
+            _ => None,
+        };
+        if let Some(fused) = fused {
+            ops.truncate(step_at as usize);
+            self.op(fused);
+        } else {
+            jumps.into_iter().for_each(|jump| self.lead(jump, round));
+        }
     }
 }

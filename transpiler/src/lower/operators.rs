@@ -70,9 +70,11 @@ impl<'p> FunctionCode<'p, '_> {
                 }
                 return;
             }
-            // A sum or product with a constant on the left: its order makes no difference.
-            let exchanged = matches!(op, BinaryOp::Add | BinaryOp::Multiply)
-                && matches!(left.ty.base, Base::Int | Base::Uint)
+            // An operation with a constant on the left whose order makes no difference.
+            let exchanged = matches!(
+                op,
+                BinaryOp::Add | BinaryOp::Multiply | BinaryOp::BitAnd | BinaryOp::BitOr | BinaryOp::BitXor
+            ) && matches!(left.ty.base, Base::Int | Base::Uint)
                 && body.constant(left).is_some();
             let (left, right) = if exchanged { (right, left) } else { (left, right) };
             let old = body.steady_number(left, &[right]);
@@ -185,6 +187,9 @@ fn with_constant(op: BinaryOp, base: Base, to: Reg, left: Reg, value: i32) -> Op
         Multiply => Op::MulSmall { to, left, value },
         Divide if value != 0 && base == Base::Int => Op::DivSmall { to, left, value },
         Remainder if value != 0 && base == Base::Int => Op::RemSmall { to, left, value },
+        BitAnd => Op::AndSmall { to, left, value },
+        BitOr => Op::OrSmall { to, left, value },
+        BitXor => Op::XorSmall { to, left, value },
         ShiftLeft => Op::ShiftLeftSmall { to, left, count: count? },
         ShiftRight if base == Base::Int => Op::ShiftRightSmall { to, left, count: count? },
         _ => return None,
@@ -200,6 +205,9 @@ fn byte_with_constant(op: BinaryOp, to: Reg, left: Reg, value: u8) -> Option<Op>
         BinaryOp::Multiply => Op::MulSmall { to, left, value },
         BinaryOp::Divide if value != 0 => Op::DivSmall { to, left, value },
         BinaryOp::Remainder if value != 0 => Op::RemSmall { to, left, value },
+        BinaryOp::BitAnd => Op::AndSmall { to, left, value },
+        BinaryOp::BitOr => Op::OrSmall { to, left, value },
+        BinaryOp::BitXor => Op::XorSmall { to, left, value },
         _ => return None,
     })
 }

@@ -135,18 +135,23 @@ impl<'p> FunctionCode<'p, '_> {
     /// One number from the numbers of several dimensions.
     fn joined_index(&mut self, registers: &[Reg], sizes: &[u16], sure: bool) -> Reg {
         let line = self.line;
-        let to = self.register();
-        self.op(Op::Small { to, value: 0 });
+        let mut joined = None;
         for (register, size) in registers.iter().zip(sizes) {
-            let mut index = *register;
+            let mut right = *register;
             if !sure {
-                index = self.register();
-                self.op(Op::Index { to: index, index: *register, size: *size, line });
+                right = self.register();
+                self.op(Op::Index { to: right, index: *register, size: *size, line });
             }
-            self.op(Op::MulSmall { to, left: to, value: i32::from(*size) });
-            self.op(Op::AddInt { to, left: to, right: index });
+            joined = Some(match joined {
+                None => right,
+                Some(left) => {
+                    let to = self.register();
+                    self.op(Op::MulAdd { to, left, right, value: i32::from(*size) });
+                    to
+                }
+            });
         }
-        to
+        joined.unwrap_or_default()
     }
 
     fn known_index(&self, indices: &'p [Expr], array: Type) -> Option<u32> {
