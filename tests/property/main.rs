@@ -12,15 +12,21 @@ mod motions;
 mod programs;
 mod targets;
 
+use arl_tests::engine;
 use arl_tests::machine::{Machine, Stop};
 use arl_tests::project::{Project, Run, compile};
 use arl_tests::random::Random;
 use arl_tests::tree::Program;
 use arl_tests::write::write;
+use arl2rs::CheckOptions;
 use arl2rs::emit::Sizes;
+use std::panic::catch_unwind;
 
 /// Programs take turns: as they come, and in all forms that large programs have.
 const FORMS: [Sizes; 2] = [Sizes::DEFAULT, Sizes::LEAST];
+
+/// The command that runs code.
+const BY_ENGINE: &str = env!("CARGO_BIN_EXE_by_engine");
 
 fn number(name: &str, usual: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
@@ -67,9 +73,13 @@ impl Case {
     }
 }
 
-/// Compiles all cases together and compares what they do.
+/// Runs all cases by the engine, compiles them together, and compares what they do.
 fn compare(name: &str, cases: &[Case]) {
     let project = Project::new(env!("CARGO_TARGET_TMPDIR"), name);
+    compare_by_engine(&project, cases);
+    // The engine runs more of them in the time that rustc takes.
+    let most = number("ARL_PROPERTY_COMPILED", u64::MAX);
+    let cases = cases.get(..most as usize).unwrap_or(cases);
     let mut programs = Vec::new();
     let mut failures = Vec::new();
     for (case, sizes) in cases.iter().zip(FORMS.into_iter().cycle()) {
@@ -98,6 +108,21 @@ fn compare(name: &str, cases: &[Case]) {
         format!("seed {}, p{at}\n{}\n{}", case.seed, difference(&case.expected, &run), case.text())
     });
     report(&project, failures.collect());
+}
+
+/// Runs cases by the engine and compares what they do.
+fn compare_by_engine(project: &Project, cases: &[Case]) {
+    let failures = cases.iter().filter_map(|case| {
+        let ran = catch_unwind(|| engine::lowered(&case.files, &CheckOptions::default()).map(engine::run));
+        let problem = match ran {
+            Ok(Ok(run)) if run == case.expected => return None,
+            Ok(Ok(run)) => difference(&case.expected, &run),
+            Ok(Err(errors)) => format!("refused\n{errors}"),
+            Err(_) => "a panic".into(),
+        };
+        Some(format!("seed {}, by the engine\n{problem}\n{}", case.seed, case.text()))
+    });
+    report(project, failures.collect());
 }
 
 /// Fails with the first of the failures; all of them are in a file.

@@ -1,13 +1,14 @@
 //! Random targets with random tools and workpieces on the robots that are built in: what `check --robot` says of them
 //! before the program runs is what the runtime says then.
 
-use crate::{first_seed, report, times};
+use crate::{BY_ENGINE, first_seed, report, times};
 use arl_robot::Robot;
 use arl_robot::frames::{Mount, Setting};
 use arl_robot::kinematics::{Axes, Frame, frame, frame_components};
+use arl_tests::engine;
 use arl_tests::project::{Files, Project};
 use arl_tests::random::Random;
-use arl2rs::emit::{EmitOptions, emit};
+use arl2rs::lower::lower;
 use arl2rs::{CheckOptions, check_text};
 use std::path::Path;
 
@@ -101,21 +102,24 @@ fn list(values: &[f64]) -> String {
 fn warnings_of_targets_come_true() {
     let cases: Vec<Case> = (first_seed()..first_seed() + 120 * times()).map(grow).collect();
     let project = Project::new(env!("CARGO_TARGET_TMPDIR"), "arl-property-targets");
-    let mut programs = Vec::new();
+    std::fs::create_dir_all(project.folder()).unwrap();
+    let mut codes = Vec::new();
     let mut warned: Vec<Vec<u16>> = Vec::new();
     for case in &cases {
         let options =
             CheckOptions { family: case.robot.family, robot: Some(case.robot.clone()), ..CheckOptions::default() };
         let checked = check_text(Path::new("main.arl"), &case.text, &Files::default(), &options);
         let program = checked.program.as_ref().unwrap_or_else(|| panic!("{:?}\n{}", checked.diagnostics, case.text));
-        programs.push(emit(program, &EmitOptions::default()));
+        codes.push(lower(program).unwrap());
         warned.push(checked.diagnostics.iter().map(|found| found.code.0).collect());
     }
-    let command = project.build_choosing(&programs).unwrap_or_else(|errors| panic!("{errors}"));
     let mut failures = Vec::new();
     let mut seen = std::collections::BTreeMap::new();
-    for (at, (case, warned)) in cases.iter().zip(&warned).enumerate() {
-        let run = project.choose(&command, at).arg("--robot").arg(&case.robot.name).output().unwrap();
+    let file = project.folder().join("code");
+    for ((case, warned), code) in cases.iter().zip(&warned).zip(codes) {
+        engine::write(code, &file);
+        let mut run = engine::command(Path::new(BY_ENGINE), &file, project.folder());
+        let run = run.arg("--robot").arg(&case.robot.name).output().unwrap();
         let stderr = String::from_utf8_lossy(&run.stderr);
         let alarm = !run.status.success();
         // On its way a line may meet more than is looked at before.

@@ -1,6 +1,7 @@
 //! Compiles ARL in memory, and a cargo project of what was emitted, and runs its programs.
 
 use arl2rs::emit::{EmitOptions, Sizes, emit};
+use arl2rs::hir::Program;
 use arl2rs::{CheckOptions, SourceError, Sources, check};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -32,10 +33,19 @@ pub fn compile(files: &[(String, String)], sizes: Sizes) -> Result<String, Strin
 /// # Errors
 /// The compile errors, a line each.
 pub fn compile_for(files: &[(String, String)], options: &CheckOptions, sizes: Sizes) -> Result<String, String> {
+    let program = checked(files, options)?;
+    Ok(emit(&program, &EmitOptions { sizes, ..EmitOptions::default() }))
+}
+
+/// The checked program.
+///
+/// # Errors
+/// The compile errors, a line each.
+pub fn checked(files: &[(String, String)], options: &CheckOptions) -> Result<Program, String> {
     let sources = Files(files.iter().map(|(name, text)| (name.into(), text.clone().into_bytes())).collect());
     let checked = check(Path::new(&files[0].0), &sources, options);
-    match &checked.program {
-        Some(program) => Ok(emit(program, &EmitOptions { sizes, ..EmitOptions::default() })),
+    match checked.program {
+        Some(program) => Ok(program),
         None => {
             let errors =
                 checked.diagnostics.iter().filter(|found| found.severity == arl2rs::diagnostics::Severity::Error);

@@ -4,12 +4,15 @@
 mod model;
 mod plan;
 
-use crate::{FORMS, Run, difference, first_seed, report, times};
+use crate::{BY_ENGINE, FORMS, Run, difference, first_seed, report, times};
+use arl_tests::engine;
 use arl_tests::project::{Project, compile};
 use arl_tests::random::Random;
+use arl2rs::CheckOptions;
 use model::{End, Model};
 use plan::Plan;
 use std::path::Path;
+use std::process::Command;
 
 /// So many cycles a program may take.
 const MOST: u64 = 5_000;
@@ -34,11 +37,19 @@ impl Case {
         Some(Case { seed, text, scenario: plan.scenario(), expected: Run { out: model.out.into_bytes(), end } })
     }
 
-    fn run(&self, project: &Project, command: &Path, at: usize) -> Run {
+    /// The command that runs the program by the engine.
+    fn by_engine(&self, project: &Project) -> Command {
+        let file = project.folder().join(format!("{}.code", self.seed));
+        let files = [("main.arl".into(), self.text.clone())];
+        engine::write(engine::lowered(&files, &CheckOptions::default()).unwrap(), &file);
+        engine::command(Path::new(BY_ENGINE), &file, project.folder())
+    }
+
+    /// Runs the program by a command that was made for it, with what happens meanwhile.
+    fn run(&self, project: &Project, mut run: Command) -> Run {
         let file = |ending: &str| project.folder().join(format!("{}.{ending}", self.seed));
         std::fs::write(file("io.toml"), &self.scenario).unwrap();
         std::fs::write(file("arl"), &self.text).unwrap();
-        let mut run = project.choose(command, at);
         let output = run.arg("--io").arg(file("io.toml")).args(["--max-time", "60"]).output().unwrap();
         let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
         let end = match output.status.code() {
@@ -76,14 +87,17 @@ fn interrupts_do_what_the_rules_say() {
     }
     report(&project, failures);
     let command = project.build_choosing(&programs).unwrap_or_else(|errors| panic!("{errors}"));
-    let failures = cases.iter().enumerate().filter_map(|(at, case)| {
-        let run = case.run(&project, &command, at);
-        if run == case.expected {
-            return None;
+    let mut failures = Vec::new();
+    for (at, case) in cases.iter().enumerate() {
+        for (what, run) in [("compiled", project.choose(&command, at)), ("by the engine", case.by_engine(&project))] {
+            let run = case.run(&project, run);
+            if run != case.expected {
+                let difference = difference(&case.expected, &run);
+                failures.push(format!("seed {}, {what}\n{difference}\n{}", case.seed, case.text));
+            }
         }
-        Some(format!("seed {}\n{}\n{}", case.seed, difference(&case.expected, &run), case.text))
-    });
-    report(&project, failures.collect());
+    }
+    report(&project, failures);
 }
 
 /// The programs do something: most handle events, some end in alarms.

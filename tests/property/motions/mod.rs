@@ -10,8 +10,9 @@ mod robot;
 mod scenario;
 mod trace;
 
-use crate::{first_seed, report, times};
+use crate::{BY_ENGINE, first_seed, report, times};
 use arl_lang::catalog::Family;
+use arl_tests::engine;
 use arl_tests::project::{Project, compile_for};
 use arl_tests::random::Random;
 use arl2rs::CheckOptions;
@@ -22,6 +23,7 @@ use plan::{Mode, Motion, Plan, Zone};
 use robot::Robot;
 use scenario::{Disturbance, Scenario};
 use std::path::Path;
+use std::process::Command;
 use trace::Row;
 
 /// What happens to how many of eight programs.
@@ -94,17 +96,30 @@ impl Case {
         }
     }
 
-    /// The Rust of the program, in the forms of programs of such sizes.
-    fn compile(&self, sizes: Sizes) -> Result<String, String> {
+    /// How the program is checked, and its file.
+    fn source(&self) -> (CheckOptions, [(String, String); 1]) {
         let family = if self.robot.scara { Family::Scara } else { Family::SixAxis };
-        let options = CheckOptions { family, ..CheckOptions::default() };
-        compile_for(&[("main.arl".into(), self.plan.text.clone())], &options, sizes)
+        (CheckOptions { family, ..CheckOptions::default() }, [("main.arl".into(), self.plan.text.clone())])
     }
 
-    /// Whether two programs of a command, the same in other forms, go the same way to the last bit.
-    fn move_identically(&self, project: &Project, command: &Path, [one, other]: [usize; 2]) -> bool {
-        let trace = |at: usize| {
-            let failure = self.run(project, command, at, true).err();
+    /// The Rust of the program, in the forms of programs of such sizes.
+    fn compile(&self, sizes: Sizes) -> Result<String, String> {
+        let (options, files) = self.source();
+        compile_for(&files, &options, sizes)
+    }
+
+    /// The command that runs the program by the engine.
+    fn by_engine(&self, project: &Project) -> Command {
+        let (options, files) = self.source();
+        let file = self.file(project, "code");
+        engine::write(engine::lowered(&files, &options).unwrap(), &file);
+        engine::command(Path::new(BY_ENGINE), &file, project.folder())
+    }
+
+    /// Whether two commands that run the program go the same way to the last bit.
+    fn move_identically(&self, project: &Project, [one, other]: [Command; 2]) -> bool {
+        let trace = |command: Command| {
+            let failure = self.run(project, command, true).err();
             (failure, std::fs::read(self.file(project, "disturbed.csv")).unwrap())
         };
         trace(one) == trace(other)
@@ -129,7 +144,7 @@ impl Case {
         tally: &mut Tally,
     ) -> Option<(Vec<Row>, bool)> {
         self.write(project);
-        let undisturbed = match self.run(project, command, at, false) {
+        let undisturbed = match self.run(project, project.choose(command, at), false) {
             Ok(rows) => rows,
             Err(failure) => {
                 let Some(turned) = self.turned_out(&failure) else {
@@ -145,7 +160,7 @@ impl Case {
             self.assert_objections(&undisturbed);
         }
         if !self.scenario.events.is_empty() {
-            let found = match self.run(project, command, at, true) {
+            let found = match self.run(project, project.choose(command, at), true) {
                 Ok(rows) => check::check(&self.robot, &self.plan, &rows, &self.scenario, Some(&undisturbed), tally),
                 Err(failure) => vec![failure],
             };
@@ -259,9 +274,8 @@ impl Case {
     ///
     /// # Errors
     /// What the run said, where it failed.
-    fn run(&self, project: &Project, command: &Path, at: usize, disturbed: bool) -> Result<Vec<Row>, String> {
+    fn run(&self, project: &Project, mut run: Command, disturbed: bool) -> Result<Vec<Row>, String> {
         let trace = self.file(project, if disturbed { "disturbed.csv" } else { "csv" });
-        let mut run = project.choose(command, at);
         run.arg("--robot").arg(self.file(project, "robot.toml")).arg("--trace").arg(&trace).args([
             "--max-time",
             "900",
@@ -369,9 +383,12 @@ fn motions_keep_limits_paths_corners_and_targets() {
                 let mut failures = Vec::new();
                 for (at, case) in cases {
                     failures.extend(case.test(project, command, *at, &mut tally));
-                    let all_forms = all.len() + at;
-                    if *at < grown_count && !case.move_identically(project, command, [*at, all_forms]) {
+                    let compiled = |at: usize| project.choose(command, at);
+                    if *at < grown_count && !case.move_identically(project, [*at, all.len() + at].map(compiled)) {
                         failures.push(case.failure(project, &["in other forms it goes another way".into()]));
+                    }
+                    if !case.move_identically(project, [compiled(*at), case.by_engine(project)]) {
+                        failures.push(case.failure(project, &["by the engine it goes another way".into()]));
                     }
                 }
                 (failures, tally)

@@ -6,8 +6,6 @@ use super::plan::{Kind, Plan};
 use super::trace::Row;
 use crate::{first_seed, report, times};
 use arl_tests::project::Project;
-use arl2rs::emit::Sizes;
-use std::path::Path;
 
 /// What is promised: so many times the time with exact stops, and so many s.
 const FACTOR: f64 = 1.003;
@@ -34,12 +32,12 @@ impl Pair {
     }
 
     /// What is slower with zones; notes how much of the time with stops each part of the program takes.
-    fn test(&self, project: &Project, command: &Path, [zones, stops]: [usize; 2], tally: &mut Tally) -> Option<String> {
-        let run = |case: &Case, at: usize| {
+    fn test(&self, project: &Project, tally: &mut Tally) -> Option<String> {
+        let run = |case: &Case| {
             case.write(project);
-            case.run(project, command, at, false)
+            case.run(project, case.by_engine(project), false)
         };
-        let (zones, stops) = match (run(&self.zones, zones), run(&self.stops, stops)) {
+        let (zones, stops) = match (run(&self.zones), run(&self.stops)) {
             (Ok(zones), Ok(stops)) => (zones, stops),
             (Err(failure), _) => return self.zones.refused(project, failure, tally),
             (_, Err(failure)) => return self.stops.refused(project, failure, tally),
@@ -129,18 +127,14 @@ fn without_zone(line: &str, kind: Kind) -> String {
 fn zones_are_never_slower_than_stops() {
     let pairs: Vec<Pair> = (first_seed()..).map(Pair::new).take(8 * times() as usize).collect();
     let project = Project::new(env!("CARGO_TARGET_TMPDIR"), "arl-property-promise");
-    let cases = pairs.iter().flat_map(|pair| [&pair.zones, &pair.stops]);
-    let programs: Vec<String> = cases.map(|case| case.compile(Sizes::default()).unwrap()).collect();
-    let command = project.build_choosing(&programs).unwrap_or_else(|errors| panic!("{errors}"));
-    let all: Vec<(usize, &Pair)> = pairs.iter().enumerate().collect();
+    std::fs::create_dir_all(project.folder()).unwrap();
     let halves = std::thread::scope(|scope| {
         let halves = [0, 1].map(|half| {
-            let (project, command, all) = (&project, &command, &all);
+            let (project, pairs) = (&project, &pairs);
             scope.spawn(move || -> (Vec<String>, Tally) {
                 let mut tally = Tally::default();
-                let own = all.iter().skip(half).step_by(2);
-                let test = |(at, pair): &(usize, &Pair)| pair.test(project, command, [2 * at, 2 * at + 1], &mut tally);
-                (own.filter_map(test).collect(), tally)
+                let own = pairs.iter().skip(half).step_by(2);
+                (own.filter_map(|pair| pair.test(project, &mut tally)).collect(), tally)
             })
         });
         halves.map(|half| half.join().expect("a thread"))
