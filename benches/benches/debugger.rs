@@ -2,8 +2,8 @@
 //! it.
 //!
 //! `cargo bench -p arl-benches --bench debugger [-- STEPS]`. Builds the command first, and speaks to `arl2rs dap` over
-//! its standard input and output, as an editor does. A launch compiles the program anew, beside what `arl2rs build`
-//! takes.
+//! its standard input and output, as an editor does. A launch, from the adapter's start to the first halt, stands
+//! beside `arl2rs check` of the same program.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -11,6 +11,9 @@ use std::time::Instant;
 
 use arl_benches::protocol::Peer;
 use serde_json::{Value, json};
+
+/// How often each program is launched.
+const LAUNCHES: usize = 9;
 
 /// How many statements `main` has.
 const STATEMENTS: [usize; 3] = [50, 500, 5_000];
@@ -44,25 +47,19 @@ fn program(statements: usize) -> String {
 fn measure(command: &Path, folder: &Path, statements: usize, steps: usize) -> Result<(), String> {
     let file = folder.join(format!("with_{statements}.arl"));
     std::fs::write(&file, program(statements)).map_err(|error| error.to_string())?;
-    let start = Instant::now();
-    let built = Command::new(command)
-        .arg("build")
-        .arg(&file)
-        .arg("-o")
-        .arg(folder.join("built"))
-        .stderr(Stdio::null())
-        .status();
-    let build = milliseconds(start);
-    if !built.map_err(|error| error.to_string())?.success() {
-        return Err("the program could not be built".into());
+    let [mut checks, mut launches] = [Vec::new(), Vec::new()];
+    for _ in 0..LAUNCHES {
+        let start = Instant::now();
+        let checked = Command::new(command).arg("check").arg(&file).stderr(Stdio::null()).status();
+        checks.push(milliseconds(start));
+        if !checked.map_err(|error| error.to_string())?.success() {
+            return Err("the program has mistakes".into());
+        }
+        let start = Instant::now();
+        drop(Session::halted(command, &file)?);
+        launches.push(milliseconds(start));
     }
-    let start = Instant::now();
-    let mut session = Session { peer: Peer::start(command, "dap")?, sent: 0 };
-    session.ask("initialize", json!({"adapterID": "arl"}))?;
-    session.ask("launch", json!({"program": file, "stopOnEntry": true}))?;
-    session.ask("configurationDone", json!({}))?;
-    session.wait_for("stopped")?;
-    let launch = milliseconds(start);
+    let mut session = Session::halted(command, &file)?;
     let mut halts = Vec::new();
     let mut shown = Vec::new();
     for _ in 0..steps {
@@ -82,7 +79,9 @@ fn measure(command: &Path, folder: &Path, statements: usize, steps: usize) -> Re
         pauses.push(milliseconds(start));
     }
     println!(
-        "{statements} statements: build {build:.0} ms, launch {launch:.0} ms; step to halt {}, with stack and variables {}, pause {}",
+        "{statements} statements: check {}, launch {}; step to halt {}, with stack and variables {}, pause {}",
+        figures(checks),
+        figures(launches),
         figures(halts),
         figures(shown),
         figures(pauses)
@@ -104,6 +103,16 @@ struct Session {
 }
 
 impl Session {
+    /// A session whose program is halted before its first statement.
+    fn halted(command: &Path, file: &Path) -> Result<Self, String> {
+        let mut session = Session { peer: Peer::start(command, "dap")?, sent: 0 };
+        session.ask("initialize", json!({"adapterID": "arl"}))?;
+        session.ask("launch", json!({"program": file, "stopOnEntry": true}))?;
+        session.ask("configurationDone", json!({}))?;
+        session.wait_for("stopped")?;
+        Ok(session)
+    }
+
     fn ask(&mut self, command: &str, arguments: Value) -> Result<Value, String> {
         self.sent += 1;
         let seq = self.sent;

@@ -34,11 +34,16 @@ where
     F: for<'a> Fn(&'a Cx, &'a G) -> Work<'a> + 'static,
 {
     let result = Rc::new(Cell::new(Run::default()));
-    let program = Box::new(Alone { globals, work, result: Rc::clone(&result) });
-    let built = Controller::builder().output(Captured::new()).build(program);
+    let (program, output) = (Box::new(Alone { globals, work, result: Rc::clone(&result) }), Captured::new());
+    let built = Controller::builder().output(output.clone()).build(program);
     let mut controller = built.map_err(|error| error.to_string())?;
     match controller.run() {
-        Outcome::Ended => Ok(result.get()),
+        Outcome::Ended => {
+            let run = result.get();
+            // What it printed counts where the function itself gives nothing.
+            let printed = output.text().trim_end().parse().ok();
+            Ok(Run { checksum: printed.unwrap_or(run.checksum), ..run })
+        }
         other => Err(other.to_string()),
     }
 }
