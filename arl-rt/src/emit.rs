@@ -18,6 +18,7 @@ pub use crate::builtins::{
 pub use crate::command::{in_process, program_main};
 pub use crate::context::cx::Cx;
 pub use crate::context::function_frame::FunctionFrame;
+pub use crate::context::nesting::{Entered, Nesting};
 pub use crate::context::program::{Beside, BoxFuture, Program};
 pub use crate::context::shown::{Shown, ShownHandle};
 pub use crate::fault::{At, Called, Done, Fault, File, Stop};

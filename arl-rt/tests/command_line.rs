@@ -5,6 +5,7 @@
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Output, Stdio};
+use std::time::SystemTime;
 
 use arl_rt::emit::*;
 
@@ -69,18 +70,14 @@ impl Program for Small {
                     let frame = cx.frame("main", FILE, 3);
                     let (round, table) = (Rc::new(Cell::new(0)), Rc::new(Shared::new(Array::<i32, 65>::start())));
                     let watch = Rc::new(Clock::new());
-                    frame.variable(0, "round", &round);
-                    frame.variable(1, "table", &table);
-                    frame.handle(2, "watch", &watch);
-                    frame
-                        .run(async || {
-                            while frame.runs(4).await {
-                                round.set(round.get() + 1);
-                                cx.next_cycle().await;
-                            }
-                            Ok(())
-                        })
-                        .await
+                    frame.variable(0, "round", &[], &round);
+                    frame.variable(1, "table", &[], &table);
+                    frame.handle(2, "watch", &[], &watch);
+                    loop {
+                        frame.runs(4).await;
+                        round.set(round.get() + 1);
+                        cx.next_cycle().await;
+                    }
                 }
                 "swing" => loop {
                     for (line, j1) in [(5, 40.0), (6, -40.0)] {
@@ -115,7 +112,7 @@ impl Program for Small {
 }
 
 fn deeper(cx: &Cx, level: i32) -> Done<i32> {
-    cx.enter().at(FILE, 12)?;
+    let _entered = cx.enter(1, 0).at(FILE, 12)?;
     let fill = std::hint::black_box([level; 64]);
     Ok(deeper(cx, level.wrapping_add(1))?.wrapping_add(fill[3]))
 }
@@ -123,7 +120,10 @@ fn deeper(cx: &Cx, level: i32) -> Done<i32> {
 fn main() -> ExitCode {
     match std::env::var(PROGRAM) {
         Ok(name) if name == "pick" => arl_rt::emit::program_main::main(pick_program::Globals::new, "."),
-        Ok(name) if name == "watched" => arl_rt::emit::program_main::main_watched(move || Small(name), &[], "."),
+        Ok(name) if name == "watched" => {
+            let (words, make) = (std::env::args_os().skip(1).collect(), move || Small(name.clone()));
+            ExitCode::from(arl_rt::emit::program_main::main_within(words, make, &[], ".", SystemTime::now()))
+        }
         Ok(name) => arl_rt::emit::program_main::main(move || Small(name), "."),
         Err(_) => {
             for (name, test) in TESTS {

@@ -192,6 +192,8 @@ pub struct Transfer {
 /// What is counted where a function that may call itself is entered.
 #[derive(Clone, PartialEq, Default, Debug, Serialize, Deserialize)]
 pub struct Entry {
+    /// What a call weighs among those that are nested.
+    pub weight: u32,
     /// Bytes of the arrays that it was handed.
     pub bytes: u32,
     /// The strings that it was handed, by place in its frame.

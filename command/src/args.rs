@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Robot programs in ARL: checked, turned into Rust, compiled and run.
+/// Robot programs in ARL: checked, run on simulated and real robots, turned into Rust.
 #[derive(Parser, Debug)]
 #[command(name = "arl2rs", version, max_term_width = 100)]
 pub(crate) struct Cli {
@@ -54,7 +54,7 @@ pub(crate) enum Command {
         #[command(flatten)]
         checking: Checking,
     },
-    /// Make a native program.
+    /// Compile a program into one of its own, with rustc.
     Build {
         /// The file that has `main`.
         file: PathBuf,
@@ -70,7 +70,7 @@ pub(crate) enum Command {
         #[command(flatten)]
         checking: Checking,
     },
-    /// Compile a program where needed and run it on a simulated robot.
+    /// Run a program on a simulated robot.
     Run {
         /// The file that has `main`.
         file: PathBuf,
@@ -131,7 +131,7 @@ pub(crate) enum Command {
         #[command(flatten)]
         options: TestOptions,
     },
-    /// Remove compiled programs and runtimes; they are compiled again when they are needed.
+    /// Remove what is kept of programs: code, compiled programs and runtimes. It is made again when it is needed.
     ///
     /// They are in `~/.cache/arl2rs`, `~/Library/Caches/arl2rs` or `%LOCALAPPDATA%\arl2rs`, or in the folder that the
     /// variable ARL2RS_CACHE names. ARL2RS_CACHE_LIMIT is how many gigabytes they may take (4, or `none`): beyond that,
@@ -274,7 +274,7 @@ pub(crate) struct TestOptions {
     /// Emit the forms for large programs wherever they are possible, also in small ones.
     #[arg(long, hide = true)]
     pub all_forms: bool,
-    /// Emit programs as for a debugger.
+    /// Run programs as for a debugger.
     #[arg(long, hide = true)]
     pub debug: bool,
     /// Keep what each run leaves in this folder, with its trace.
@@ -283,6 +283,13 @@ pub(crate) struct TestOptions {
     /// How the programs are run: at once from their code, or compiled with rustc.
     #[arg(long, value_enum)]
     pub engine: Option<EngineChoice>,
+}
+
+impl TestOptions {
+    /// Whether the statements of programs are counted or can be halted at.
+    pub(crate) fn is_watched(&self) -> bool {
+        self.debug || self.coverage.is_some()
+    }
 }
 
 /// How test results are shown.

@@ -2,7 +2,7 @@
 
 use arl_project::arl_toml;
 use arl_project::cache::Kind;
-use arl_project::options::RunOptions;
+use arl_project::options::{EngineChoice, RunOptions};
 use arl_project::program::{Ready, prepare};
 use arl_project::robots;
 use arl_robot::Robot;
@@ -30,9 +30,12 @@ use std::process::Command;
 
 /// Makes the program ready, then lets it take over.
 pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
-    let options = &options.of_program(file)?;
-    // The screen shows the inside of programs.
     let on_screen = options.pendant && options.plot.is_none() && std::io::stdout().is_terminal();
+    if on_screen && options.engine == Some(EngineChoice::Native) {
+        let why = "--engine native: the screen of --pendant shows the inside of programs, which the engine runs";
+        return Err(Failure::Usage(format!("{why}; leave out one of the two")));
+    }
+    let options = &options.of_program(file)?;
     let kind = match on_screen {
         true => Kind::Watched,
         false if options.changed()?.of_part(Part::Global).next().is_some() => Kind::Named,

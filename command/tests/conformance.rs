@@ -113,18 +113,10 @@ fn stems(folder: &Path) -> Vec<String> {
     entries.filter(|path| is_case(path)).filter_map(stem).collect()
 }
 
-/// What a file says, without what the engines do not have in common yet: how many calls there are at the end of an
-/// endless recursion.
-fn comparable(folder: &Path, name: &str) -> Vec<u8> {
-    let bytes = std::fs::read(folder.join(name)).expect("what was kept");
-    let Ok(text) = String::from_utf8(bytes.clone()) else { return bytes };
-    let is_depth = |line: &&str| line.starts_with("and ") && line.ends_with(" more calls");
-    text.lines().filter(|line| !is_depth(line)).flat_map(|line| [line.as_bytes(), b"\n"].concat()).collect()
-}
-
 /// Where a file of one folder differs from that of another.
 fn difference(name: &str, one: &Path, other: &Path) -> Option<String> {
-    let (one, other) = (comparable(one, name), comparable(other, name));
+    let read = |folder: &Path| std::fs::read(folder.join(name)).expect("what was kept");
+    let (one, other) = (read(one), read(other));
     if one == other {
         return None;
     }
@@ -161,12 +153,10 @@ fn programs_for_a_debugger_do_the_same() {
     LazyLock::force(&RUN);
     let folders = FOR_A_DEBUGGER.map(|folder| format!("{CORPUS}/{folder}"));
     let cases: usize = folders.iter().map(|folder| count_cases(&workspace().join(folder))).sum();
-    for engine in ["native", "engine"] {
-        let run = run_folders(&folders.each_ref().map(String::as_str), &["--debug", "--engine", engine]);
-        assert_eq!(run.looked_at, Some(cases), "{engine}: {}", run.output_text);
-        let failures: Vec<String> = run.failures.iter().map(|(path, why)| format!("{path}\n{why}\n")).collect();
-        assert!(failures.is_empty(), "{engine}: {} of the cases failed\n{}", failures.len(), failures.join("\n"));
-    }
+    let run = run_folders(&folders.each_ref().map(String::as_str), &["--debug"]);
+    assert_eq!(run.looked_at, Some(cases), "{}", run.output_text);
+    let failures: Vec<String> = run.failures.iter().map(|(path, why)| format!("{path}\n{why}\n")).collect();
+    assert!(failures.is_empty(), "{} of the cases failed\n{}", failures.len(), failures.join("\n"));
 }
 
 /// What the command said of all cases.

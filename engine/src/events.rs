@@ -99,7 +99,7 @@ impl Engine {
     /// The name is taken, the priority is not valid, there are too many events; the alarm of the condition.
     pub(crate) fn declare(&self, cx: &Cx, declared: &Event, reach: Reach<'_>) -> Result<(), Fault> {
         // The condition is evaluated at once, on the stack of this function.
-        cx.enter()?;
+        cx.has_stack()?;
         let line = declared.site.line;
         let condition = declared.condition.as_ref().map(|piece| Captured::new(piece, line, &reach)).transpose()?;
         let action = Captured::new(&declared.action, line, &reach)?;

@@ -6,16 +6,13 @@
 use crate::adapters;
 use crate::args::Args;
 use crate::engine::Engine;
-use crate::frame::{Boxed, MOST_CALLS, REGISTERS, State};
+use crate::frame::{Boxed, NestedCall, REGISTERS, State};
 use crate::handles::{Handle, damaged};
 use crate::reach::Reach;
 use arl_code::{ChargeStep, Charging, Comparison, Entry, Op, Reg, Shifted};
 use arl_rt::emit::{
     Cell, Cx, Done, Fault, Rc, Stop, append, div, fits, index, index2, rem, rem_double, shl, shr, steps,
 };
-
-/// The most bytes that nested calls may hold.
-const MOST_BYTES_HELD: usize = 256 << 20;
 
 /// Why the loop was left.
 pub(crate) enum Exit {
@@ -108,20 +105,8 @@ impl Engine {
         let ops = &self.code.ops[..];
         let globals = &self.words[..];
         'function: loop {
-            let State {
-                registers,
-                words,
-                texts,
-                handles,
-                boxes,
-                position,
-                passing,
-                callers,
-                held,
-                held_in_all,
-                above,
-                ..
-            } = &mut *state;
+            let State { registers, words, texts, handles, boxes, position, passing, callers, nested, above, .. } =
+                &mut *state;
             let mut at = position.at;
             let function = position.function;
             let Ok(r) = <&mut [u64; REGISTERS]>::try_from(&mut registers[position.register..][..REGISTERS]) else {
@@ -563,15 +548,8 @@ impl Engine {
                     Op::Enter { entry, line } => {
                         let entry = &self.code.entries[entry as usize];
                         let bytes = checked!(held_bytes(entry, &reach!()), line);
-                        let all = held_in_all.saturating_add(bytes);
-                        if callers.len() > MOST_CALLS {
-                            break (Fault::Depth, line);
-                        }
-                        if all > MOST_BYTES_HELD {
-                            break (Fault::DepthBytes { most: MOST_BYTES_HELD }, line);
-                        }
-                        *held += bytes;
-                        *held_in_all = all;
+                        let entered = checked!(cx.enter_apart(entry.weight, bytes), line);
+                        nested.push(NestedCall { depth: callers.len(), _entered: entered });
                     }
                     Op::Open { line, is_action } => leave!(Exit::Open { line, is_action }),
                     Op::Halt { line } => leave!(Exit::Halt(line)),

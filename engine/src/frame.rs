@@ -6,14 +6,11 @@ use crate::reach::Reach;
 use crate::teach::Variable;
 use arl_code::{Call, Extent, Function, ValueType, start_words};
 use arl_lang::catalog::Family;
-use arl_rt::emit::{Cell, Cx, Rc, Str};
+use arl_rt::emit::{Cell, Cx, Entered, Nesting, Rc, Str};
 use std::cell::RefCell;
 
 /// How many registers a function has.
 pub(crate) const REGISTERS: usize = 256;
-
-/// The most functions that may be nested.
-pub(crate) const MOST_CALLS: usize = 20_000;
 
 /// A variable that events see.
 pub(crate) struct Boxed {
@@ -61,8 +58,13 @@ pub(crate) struct Caller {
     pub(crate) position: Position,
     /// The line of the call.
     pub(crate) line: u32,
-    /// What the called function holds.
-    pub(crate) held: usize,
+}
+
+/// A call of a function that may call itself.
+pub(crate) struct NestedCall {
+    /// How many functions wait for it.
+    pub(crate) depth: usize,
+    pub(crate) _entered: Entered<Rc<Nesting>>,
 }
 
 /// The frames of the functions of one thread of execution: a program, a condition, an action.
@@ -75,10 +77,7 @@ pub(crate) struct State {
     pub(crate) boxes: Vec<Option<Rc<Boxed>>>,
     pub(crate) callers: Vec<Caller>,
     pub(crate) position: Position,
-    /// What the running function holds.
-    pub(crate) held: usize,
-    /// How much all of them hold.
-    pub(crate) held_in_all: usize,
+    pub(crate) nested: Vec<NestedCall>,
     /// Words on their way from place to place.
     pub(crate) passing: Vec<u64>,
     /// The `jump` that waits above its target.
@@ -89,7 +88,7 @@ impl State {
     /// Makes the state ready for a function. What it had is kept, so that nothing is allocated again.
     pub(crate) fn begin(&mut self, number: usize, function: &Function) {
         self.callers.clear();
-        (self.held, self.held_in_all) = (0, 0);
+        self.nested.clear();
         self.above = None;
         self.position = Position { at: function.start as usize, function: number, ..Position::default() };
         self.make_room(function);
@@ -97,13 +96,28 @@ impl State {
 
     /// Lets go of what others could wait for: variables of events, connections.
     pub(crate) fn end(&mut self) {
+        self.nested.clear();
         self.handles.iter_mut().for_each(|handle| *handle = None);
         self.boxes.iter_mut().for_each(|shared| *shared = None);
         self.above = None;
     }
 
     /// Makes room for the frame of the function at the current position.
+    #[inline]
     pub(crate) fn make_room(&mut self, function: &Function) {
+        let (position, frame) = (&self.position, &function.frame);
+        let is_there = position.register + REGISTERS <= self.registers.len()
+            && position.word + frame.words as usize <= self.words.len()
+            && position.text + frame.texts as usize <= self.texts.len()
+            && position.handle + frame.handles as usize <= self.handles.len()
+            && position.boxed + usize::from(function.boxes) <= self.boxes.len();
+        if !is_there {
+            self.grow(function);
+        }
+    }
+
+    #[cold]
+    fn grow(&mut self, function: &Function) {
         fn grow<T: Clone>(row: &mut Vec<T>, needed: usize, filler: T) {
             if row.len() < needed {
                 row.resize(needed.next_power_of_two(), filler);
@@ -117,11 +131,11 @@ impl State {
         grow(&mut self.boxes, position.boxed + usize::from(function.boxes), None);
     }
 
-    /// Enters a function.
+    /// Enters a function. Not a part of the loop over the operations, which is slower the larger it is.
+    #[inline(never)]
     pub(crate) fn call(&mut self, call: &Call, function: &Function, back: usize) {
         let caller = Position { at: back, ..self.position };
-        self.callers.push(Caller { position: caller, line: call.line, held: self.held });
-        self.held = 0;
+        self.callers.push(Caller { position: caller, line: call.line });
         let here = &mut self.position;
         here.at = function.start as usize;
         here.function = call.function as usize;
@@ -134,17 +148,23 @@ impl State {
     }
 
     /// Leaves a function; `false` if it was the first one.
+    #[inline(never)]
     pub(crate) fn leave(&mut self, function: &Function) -> bool {
-        self.held_in_all = self.held_in_all.saturating_sub(self.held);
+        if self.nested.last().is_some_and(|call| call.depth == self.callers.len()) {
+            self.nested.pop();
+        }
         // What the function shared with its events is theirs alone from now on, and so are its connections.
         let here = &self.position;
-        let boxes = here.boxed..here.boxed + usize::from(function.boxes);
-        self.boxes.get_mut(boxes).into_iter().flatten().for_each(|one| *one = None);
-        let handles = here.handle..here.handle + function.frame.handles as usize;
-        self.handles.get_mut(handles).into_iter().flatten().for_each(|one| *one = None);
+        if function.boxes > 0 {
+            let boxes = here.boxed..here.boxed + usize::from(function.boxes);
+            self.boxes.get_mut(boxes).into_iter().flatten().for_each(|one| *one = None);
+        }
+        if function.frame.handles > 0 {
+            let handles = here.handle..here.handle + function.frame.handles as usize;
+            self.handles.get_mut(handles).into_iter().flatten().for_each(|one| *one = None);
+        }
         let Some(caller) = self.callers.pop() else { return false };
         self.position = caller.position;
-        self.held = caller.held;
         true
     }
 }

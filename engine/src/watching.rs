@@ -72,7 +72,7 @@ impl Engine {
             let (words, texts) = (Rc::clone(&boxed.words), Rc::clone(&boxed.texts));
             let (place, ty, family) = (Place::start(Space::Boxed(at)), local.ty.clone(), self.code.family);
             let variable = Rc::new(Variable { words, texts, place, ty, family });
-            frame.table(number, name, sizes, &variable);
+            frame.variable(number, name, sizes, &variable);
             boxed.shown.replace(Some(variable));
             return Some(());
         }
@@ -80,10 +80,10 @@ impl Engine {
         let first = own.iter().flatten().next()?;
         if local.ty.is_array() {
             let all = Rc::new(ShownHandles::new(own.iter().flatten(), true));
-            frame.handles(number, name, sizes, &all);
+            frame.handle(number, name, sizes, &all);
             first.shown.replace(Some(all));
         } else {
-            frame.handles(number, name, sizes, first);
+            frame.handle(number, name, sizes, first);
         }
         Some(())
     }

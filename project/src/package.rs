@@ -54,11 +54,7 @@ pub fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &Path) -
             ),
         ),
         kind => {
-            let start = match kind {
-                Kind::Watched => "main_watched",
-                Kind::Named => "main_named",
-                _ => "main_with",
-            };
+            let start = if kind == Kind::Named { "main_named" } else { "main_with" };
             let call =
                 format!("arl_rt::emit::program_main::{start}(program::Globals::new, &[\n{others}    ], {folder:?})");
             ("main.rs", format!("fn main() -> std::process::ExitCode {{\n    {drivers}\n    {call}\n}}\n"))

@@ -193,8 +193,8 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`Failure::Shown`] if a program has errors.
     pub fn compile(&self, sources: &dyn Sources) -> Result<Done, Failure> {
-        let (watched, named) = (self.kind == Kind::Watched, matches!(self.kind, Kind::Library | Kind::Named));
-        let emitting = EmitOptions { watched, named, ..EmitOptions::default() };
+        let named = matches!(self.kind, Kind::Library | Kind::Named);
+        let emitting = EmitOptions { named, ..EmitOptions::default() };
         let mut programs = self.each(|file, options| compile_program(file, sources, options, &emitting))?;
         let messages = self.show(&programs)?;
         let mut rust = programs.iter_mut().map(|compiled| compiled.rust.take().ok_or(Failure::Shown));
@@ -311,6 +311,8 @@ pub fn prepare_checked(kind: Kind, file: &Path, options: &RunOptions) -> Result<
 
 fn prepare_job(job: &Job<'_>, options: &RunOptions) -> Result<Ready, Failure> {
     match options.engine {
+        // There is no native code that a debugger could halt.
+        _ if job.kind == Kind::Watched => lowered(job),
         Some(EngineChoice::Native) => compiled(job, options),
         Some(EngineChoice::Engine) => lowered(job),
         None if options.drive && cargo::is_there() => compiled(job, options),

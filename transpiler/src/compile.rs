@@ -2,7 +2,7 @@
 
 use crate::diagnostics::{Diagnostic, FileId, Files, Severity};
 use crate::effects::facts::{self, FactScope};
-use crate::effects::{captures, ranges::Ranges, watched};
+use crate::effects::{captures, ranges::Ranges};
 use crate::emit::{EmitOptions, emit};
 use crate::hir::{Expr, ExprKind, Program, Type};
 use crate::visit::exprs_in_stmt;
@@ -81,10 +81,7 @@ pub fn compile_program(
     emit_options: &EmitOptions,
 ) -> Result<Compiled, Bug> {
     let mut compiled = check_program(main, sources, options)?;
-    if let Some(program) = &mut compiled.checked.program {
-        if emit_options.watched {
-            watched::mark(program);
-        }
+    if let Some(program) = &compiled.checked.program {
         compiled.rust = Some(guard(|| emit(program, emit_options))?);
     }
     Ok(compiled)

@@ -12,6 +12,7 @@ pub(crate) mod ranges;
 pub(crate) mod recursion;
 pub(crate) mod visibility;
 mod walks;
+#[cfg(feature = "tools")]
 pub(crate) mod watched;
 
 use crate::hir::{Effects, FuncId, Program};

@@ -162,22 +162,3 @@ files! {
     names "names.txt"
     whole_files "files.txt"
 }
-
-#[test]
-fn hooks_for_a_debugger_are_those_of_the_page() {
-    let arl = "\n\n\nfunc int add(int a, int b)\n    int sum = a + b\n    return sum\nendfunc\n\
-               func void main()\n    print add(1, 2)\nendfunc\n";
-    let compiled = arl2rs::compile::compile_program(
-        Path::new("t.arl"),
-        &Files::new(arl),
-        &CheckOptions::default(),
-        &EmitOptions { watched: true, ..EmitOptions::default() },
-    )
-    .expect("no bug");
-    let text = compiled.rust.expect("it is right");
-    let page = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/emitted-code.md")).unwrap();
-    let example = page.split("## For a debugger").nth(1).unwrap().split("```").nth(1).unwrap();
-    let example: Vec<&str> = example.lines().skip(1).map(str::trim).filter(|line| !line.is_empty()).collect();
-    let lines: Vec<&str> = text.lines().map(str::trim).collect();
-    assert!(lines.windows(example.len()).any(|window| window == example), "{example:#?}\n{text}");
-}

@@ -5,7 +5,7 @@ mod options;
 
 use std::ffi::OsString;
 use std::fs::File;
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -38,9 +38,9 @@ use arl_robot::changes::Part;
 use arl_robot::robot::Robot;
 use options::{Asked, ClockKind, HELP, Options, Report, parse};
 
-/// How much of the stack the program's functions may use, and how much the thread has on top of that for everything
-/// else. Each cycle goes down the whole chain of functions that wait for each other, so that a long one takes long.
-const PROGRAM_STACK_BYTES: usize = 8 << 20;
+/// How much of the stack the program's functions may use, enough for all calls that may be nested, and how much the
+/// thread has on top of that for everything else.
+const PROGRAM_STACK_BYTES: usize = 64 << 20;
 const CONTROLLER_STACK_BYTES: usize = 1 << 20;
 /// How much they may use on a thread of another program, which as a rule has 2 MiB.
 const HOST_STACK_BYTES: usize = 1 << 20;
@@ -80,16 +80,6 @@ pub fn main_with<P: Program + 'static>(
     script_dir: &str,
 ) -> ExitCode {
     start(program, others, script_dir, None)
-}
-
-/// As `main_with`, for programs that were made for a debugger, which `--debug` connects to. Other programs contain none
-/// of this code.
-pub fn main_watched<P: Program + 'static>(
-    program: impl FnOnce() -> P + Send,
-    others: &[Other],
-    script_dir: &str,
-) -> ExitCode {
-    start(program, others, script_dir, Some(WATCHING))
 }
 
 const WATCHING: Watching = Watching { connect: debug::connect, count: coverage::count, inside: debug::inside };
@@ -273,7 +263,15 @@ fn try_run(
             let inside = watching.map(|watching| watching.inside);
             code(live::drive(&mut controller, &writer, inside, wishes, max_time, interrupted))
         }
-        None => watch(&mut controller, max_time, interrupted, between, recording, sources),
+        None => {
+            // Advice is for who looks on, not for scripts.
+            let advises = watching.is_some() && between.is_none() && std::io::stderr().is_terminal();
+            let code = watch(&mut controller, max_time, interrupted, between, recording, sources);
+            if advises && let Some(advice) = advice_to_compile(controller.full_cycles()) {
+                tell(format_args!("{advice}"));
+            }
+            code
+        }
     };
     write_figures(&controller, report, cycle_time.as_deref());
     if tells_lateness {
@@ -294,6 +292,20 @@ fn write_figures(controller: &Controller, report: Option<WriteReport>, cycle_tim
     {
         warn(&format!("cannot write {}: {error}", file.display()));
     }
+}
+
+/// Who runs a program by the engine is told about compiling after so many cycles that were full of calculation: that
+/// took seconds.
+const MANY_FULL_CYCLES: u64 = 2_000;
+
+/// What to do about a program that calculates much.
+fn advice_to_compile(full_cycles: u64) -> Option<String> {
+    (full_cycles >= MANY_FULL_CYCLES).then(|| {
+        format!(
+            "{full_cycles} cycles were full of turns of loops: a program that calculates that much is sooner done with \
+             `--engine native`, which compiles it (with Rust); a loop that only waits is better a `waituntil`"
+        )
+    })
 }
 
 /// Warnings about what was too late in a run in real time.

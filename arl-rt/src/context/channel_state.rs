@@ -27,6 +27,8 @@ pub(crate) struct ChannelState {
     kept: StoredPointers,
     /// Whether a program has run here since then.
     pub(crate) begun: Cell<bool>,
+    /// In how many cycles the program had more turns of loops to make than one cycle may have.
+    pub(crate) full_cycles: Cell<u64>,
     /// Whether the program waits for the start button.
     pub(crate) paused: Cell<bool>,
     pub(crate) stepping: Stepping,
@@ -102,6 +104,7 @@ impl ChannelState {
             unit: None,
             kept: StoredPointers::default(),
             begun: Cell::new(false),
+            full_cycles: Cell::new(0),
             paused: Cell::new(false),
             stepping: Stepping::default(),
             mounts: Cell::default(),

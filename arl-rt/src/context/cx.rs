@@ -14,6 +14,7 @@ use crate::communication::Connections;
 use crate::context::channel_state::ChannelState;
 use crate::context::events::EventTable;
 use crate::context::frames::Frames;
+use crate::context::nesting::{Entered, Nesting};
 use crate::context::output::Targets;
 use crate::context::program::Program;
 use crate::context::programs::Programs;
@@ -30,9 +31,6 @@ use arl_robot::robot::Family;
 /// cycle without waiting takes some tens of microseconds.
 const LOOP_TURNS_PER_CYCLE: i32 = 20_000;
 
-/// How many bytes of strings and arrays nested function calls may hold.
-const MOST_BYTES_HELD: usize = 256 << 20;
-
 /// A program's view of the controller: passed to every function that acts, moves or waits.
 ///
 /// Everything here happens on the thread of the controller; nothing locks.
@@ -42,8 +40,8 @@ pub struct Cx {
     budget: Cell<i32>,
     /// The address below which the stack must not grow.
     stack_floor: Cell<usize>,
-    /// How many bytes nested function calls hold.
-    held: Cell<usize>,
+    /// The calls of functions that may call themselves.
+    nesting: Rc<Nesting>,
     program: Rc<dyn Program>,
     /// The program to run here next.
     next: RefCell<Option<Rc<dyn Program>>>,
@@ -70,7 +68,7 @@ pub struct Cx {
     /// The motion that triggers are evaluated for, where that is not the one being executed.
     looked_at: Cell<Option<Progress>>,
     waiting: Waiting,
-    /// The running functions, in programs that were emitted for a debugger.
+    /// The running functions, in programs that were made for a debugger.
     frames: Frames,
 }
 
@@ -110,7 +108,7 @@ impl Cx {
             channel_state,
             budget: Cell::new(LOOP_TURNS_PER_CYCLE),
             stack_floor: Cell::new(0),
-            held: Cell::new(0),
+            nesting: Rc::default(),
             program,
             next: RefCell::default(),
             programs,
@@ -130,7 +128,7 @@ impl Cx {
         }
     }
 
-    /// The running functions, in programs that were emitted for a debugger.
+    /// The running functions, in programs that were made for a debugger.
     pub(crate) fn frames(&self) -> &Frames {
         &self.frames
     }
@@ -266,28 +264,33 @@ impl Cx {
         &self.channel_state.system
     }
 
-    /// Checks that there is room on the stack for one more function. Functions call this before they call themselves.
+    /// Enters a function that may call itself; the call counts until the result is dropped. `weight` is 1, and more for
+    /// large functions; `bytes` is the size of the strings and arrays that were passed to it.
     ///
     /// # Errors
-    /// [`Fault::Depth`]: function calls are nested too deep.
+    /// [`Fault::Depth`]: nested calls weigh more than 20 000, or the stack of the thread is used up.
+    /// [`Fault::DepthBytes`]: they hold more than 256 MiB.
     #[inline]
-    pub fn enter(&self) -> Result<(), Fault> {
-        if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(()) }
+    pub fn enter(&self, weight: u32, bytes: usize) -> Result<Entered<&Nesting>, Fault> {
+        self.has_stack()?;
+        Nesting::enter(&*self.nesting, weight, bytes)
     }
 
-    /// Enters a function that may call itself, to which strings and arrays of `bytes` bytes were passed; they count as
-    /// held until the result is dropped.
+    /// As [`Cx::enter`], for who keeps the result beside the context, and the function's variables not on the stack.
     ///
     /// # Errors
-    /// [`Fault::Depth`], and [`Fault::DepthBytes`]: nested function calls hold more than 256 MiB.
-    pub fn enter_with(&self, bytes: usize) -> Result<Held<'_>, Fault> {
-        self.enter()?;
-        let held = self.held.get().saturating_add(bytes);
-        if held > MOST_BYTES_HELD {
-            return Err(Fault::DepthBytes { most: MOST_BYTES_HELD });
-        }
-        self.held.set(held);
-        Ok(Held { held: &self.held, bytes })
+    /// As for [`Cx::enter`].
+    pub fn enter_apart(&self, weight: u32, bytes: usize) -> Result<Entered<Rc<Nesting>>, Fault> {
+        Nesting::enter(Rc::clone(&self.nesting), weight, bytes)
+    }
+
+    /// Checks that there is room on the stack for one more function.
+    ///
+    /// # Errors
+    /// [`Fault::Depth`]: there is none.
+    #[inline]
+    pub fn has_stack(&self) -> Result<(), Fault> {
+        if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(()) }
     }
 
     /// The global variables of the running program. Their type `G` must be known, as it is to conditions and actions,
@@ -302,7 +305,10 @@ impl Cx {
 
     /// Gives the program a whole cycle's budget, and `stack` bytes of stack below the caller.
     pub(crate) fn start_cycle(&self, stack: usize) {
-        self.budget.set(LOOP_TURNS_PER_CYCLE);
+        if self.budget.replace(LOOP_TURNS_PER_CYCLE) < 0 {
+            let full = &self.channel_state.full_cycles;
+            full.set(full.get() + 1);
+        }
         self.stack_floor.set(stack_pointer().saturating_sub(stack));
     }
 
@@ -544,20 +550,6 @@ impl fmt::Debug for Cx {
 fn stack_pointer() -> usize {
     let here = 0_u8;
     (&raw const here) as usize
-}
-
-/// The bytes that a function that may call itself holds, until this is dropped.
-#[derive(Debug)]
-#[must_use = "what is dropped at once is not held"]
-pub struct Held<'a> {
-    held: &'a Cell<usize>,
-    bytes: usize,
-}
-
-impl Drop for Held<'_> {
-    fn drop(&mut self) {
-        self.held.set(self.held.get().saturating_sub(self.bytes));
-    }
 }
 
 /// Is ready in the cycle after the one in which it was made.

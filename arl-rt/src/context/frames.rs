@@ -1,4 +1,4 @@
-//! The running functions, with their variables, as a debugger sees them. Only programs that were emitted for a debugger
+//! The running functions, with their variables, as a debugger sees them. Only programs that were made for a debugger
 //! have frames.
 
 use std::cell::{Cell, RefCell};

@@ -1,15 +1,9 @@
-//! A running function, as represented in emitted code: only in programs that were emitted for a debugger.
-//!
-//! Invariants:
-//! - While the program pointer is being moved to a line (`target`), no statement runs before that line.
-//! - A function begins again only where nothing of it runs: the future of its statements is dropped first.
+//! A running function as a debugger sees it: only in programs that were made for one.
 
-use std::any::Any;
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::fmt;
-use std::future::poll_fn;
-use std::pin::{Pin, pin};
-use std::rc::{Rc, Weak};
+use std::pin::Pin;
+use std::rc::Rc;
 use std::task::{Context, Poll};
 
 use super::frames::{Variable, note};
@@ -20,18 +14,12 @@ use crate::fault::File;
 use crate::values::Teach;
 
 /// A running function. Dropping this leaves the function.
-///
-/// Emitted code opens one at the start of each function: `let frame = cx.frame("grip", FILE, 17);`.
 #[must_use = "the function is left when this is dropped"]
 pub struct FunctionFrame<'a> {
     cx: &'a Cx,
     id: u64,
-    /// The line that the program pointer was set to, until it is reached: nothing runs before it. 0: none.
+    /// The line that the program pointer was set to, until it is reached; 0: none.
     target: Cell<u32>,
-    /// The variables that the function has declared, by the numbers of their declarations.
-    declared: RefCell<Vec<(usize, Weak<dyn Any>)>>,
-    /// The variables that are kept when the function begins again, until the line is reached.
-    kept: RefCell<Vec<(usize, Rc<dyn Any>)>>,
 }
 
 impl fmt::Debug for FunctionFrame<'_> {
@@ -53,100 +41,36 @@ impl Cx {
     }
 
     fn framed(&self, id: u64) -> FunctionFrame<'_> {
-        FunctionFrame { cx: self, id, target: Cell::new(0), declared: RefCell::default(), kept: RefCell::default() }
+        FunctionFrame { cx: self, id, target: Cell::new(0) }
     }
 }
 
 impl<'a> FunctionFrame<'a> {
-    /// Shows a variable of the function, with the number of its declaration, and its name.
-    pub fn variable<T: Teach + 'static>(&self, number: usize, name: &'static str, variable: &Rc<T>) {
-        self.table(number, name, &[], variable);
-    }
-
-    /// Shows an array of several dimensions with its sizes, outermost first.
-    pub fn table<T: Teach + 'static>(
+    /// Shows a variable of the function, with the number of its declaration and its name. An array of several
+    /// dimensions has its sizes, outermost first; for others they are empty.
+    pub fn variable<T: Teach + 'static>(
         &self,
         number: usize,
         name: &'static str,
         sizes: &'static [usize],
         variable: &Rc<T>,
     ) {
-        self.declare(number, variable);
         let variable: Rc<dyn Teach> = Rc::<T>::clone(variable);
         let slot = Rc::downgrade(&variable);
         self.cx.frames().with(self.id, |record| note(&mut record.variables, Variable { number, name, sizes, slot }));
     }
 
-    /// Shows a clock or a connection.
-    pub fn handle<T: Shown + 'static>(&self, number: usize, name: &'static str, handle: &Rc<T>) {
-        self.handles(number, name, &[], handle);
-    }
-
-    /// Shows an array of several dimensions of clocks or connections with its sizes, outermost first.
-    pub fn handles<T: Shown + 'static>(
+    /// Shows a clock or a connection, or an array of them, as [`FunctionFrame::variable`] does.
+    pub fn handle<T: Shown + 'static>(
         &self,
         number: usize,
         name: &'static str,
         sizes: &'static [usize],
         handle: &Rc<T>,
     ) {
-        self.declare(number, handle);
         let handle: Rc<dyn Shown> = Rc::<T>::clone(handle);
         let slot = Rc::downgrade(&handle);
         self.cx.frames().with(self.id, |record| note(&mut record.handles, Variable { number, name, sizes, slot }));
-    }
-
-    /// Notes a variable, which is kept when the function begins again.
-    fn declare<T: 'static>(&self, number: usize, variable: &Rc<T>) {
-        let variable: Rc<dyn Any> = Rc::<T>::clone(variable);
-        let mut declared = self.declared.borrow_mut();
-        declared.retain(|(known, _)| *known != number);
-        declared.push((number, Rc::downgrade(&variable)));
-    }
-
-    /// Runs the statements of the function; each time the program pointer is set, it begins again, and goes on at that
-    /// line.
-    pub async fn run<T>(&self, mut statements: impl AsyncFnMut() -> T) -> T {
-        loop {
-            let run = {
-                let mut run = pin!(statements());
-                poll_fn(|context| {
-                    let frames = self.cx.frames();
-                    if !frames.is_moved(self.id) {
-                        match run.as_mut().poll(context) {
-                            Poll::Pending if frames.is_moved(self.id) => {}
-                            other => return other.map(Some),
-                        }
-                    }
-                    self.keep();
-                    Poll::Ready(None)
-                })
-                .await
-            };
-            match run {
-                Some(value) => return value,
-                None => self.begin_anew(),
-            }
-        }
-    }
-
-    /// Keeps the variables that exist.
-    fn keep(&self) {
-        let declared = self.declared.borrow();
-        let there = declared.iter().filter_map(|(number, variable)| Some((*number, variable.upgrade()?)));
-        // Until the line is reached, variables kept for an earlier line stay kept.
-        let mut kept = self.kept.borrow_mut();
-        for (number, variable) in there {
-            kept.retain(|(known, _)| *known != number);
-            kept.push((number, variable));
-        }
-    }
-
-    fn begin_anew(&self) {
-        let frames = self.cx.frames();
-        frames.moved.set(0);
-        let line = frames.with(self.id, |record| record.line);
-        self.target.set(line.unwrap_or_default());
     }
 
     /// Whether the program pointer was set in the function, which has not gone on there yet.
@@ -159,52 +83,17 @@ impl<'a> FunctionFrame<'a> {
         if !self.is_moved() {
             return None;
         }
-        self.begin_anew();
-        Some(self.target.get())
+        let frames = self.cx.frames();
+        frames.moved.set(0);
+        let line = frames.with(self.id, |record| record.line).unwrap_or_default();
+        self.target.set(line);
+        Some(line)
     }
 
-    /// Whether the statement of a line runs; before it does, it halts where a debugger requests that. The statement
-    /// does not run where the program pointer was set to another line.
+    /// Waits where a debugger halts the program before the statement of a line.
     pub fn runs(&self, line: u32) -> Runs<'a> {
-        let state = match self.target.get() {
-            0 => Asking::NotYet,
-            target if target == line => {
-                self.target.set(0);
-                self.kept.borrow_mut().clear();
-                Asking::Asked
-            }
-            _ => Asking::Skipped,
-        };
-        Runs { cx: self.cx, id: self.id, line, state }
-    }
-
-    /// Whether the program pointer was set to one of these lines.
-    pub fn leads_to(&self, first: u32, last: u32) -> bool {
-        let target = self.target.get();
-        target != 0 && (first..=last).contains(&target)
-    }
-
-    /// Whether a statement of these lines, or one inside of it, runs.
-    pub fn enters(&self, first: u32, last: u32) -> bool {
-        self.target.get() == 0 || self.leads_to(first, last)
-    }
-
-    /// The arm of a `switch` that the program pointer was set into, by the lines of each arm.
-    pub fn way_to(&self, arms: &[(u32, u32)]) -> Option<usize> {
-        arms.iter().position(|(first, last)| self.leads_to(*first, *last))
-    }
-
-    /// The initial state of a function with `goto`: that of the line that the program pointer was set to, or the first.
-    pub fn begins_in<S, const N: usize>(&self, first: S, states: [(u32, u32, S); N]) -> S {
-        let entered = states.into_iter().find(|(first, last, _)| self.leads_to(*first, *last));
-        entered.map_or(first, |(_, _, state)| state)
-    }
-
-    /// A variable whose declaration is jumped over: the existing one, or one with its start value.
-    pub fn kept<T: 'static>(&self, number: usize, start: impl FnOnce() -> Rc<T>) -> Rc<T> {
-        let kept = self.kept.borrow();
-        let found = kept.iter().find(|(known, _)| self.target.get() != 0 && *known == number);
-        found.and_then(|(_, variable)| Rc::clone(variable).downcast().ok()).unwrap_or_else(start)
+        // Who has set the program pointer here has been asked.
+        Runs { cx: self.cx, id: self.id, line, is_asked: self.target.replace(0) == line }
     }
 }
 
@@ -218,44 +107,32 @@ impl Drop for FunctionFrame<'_> {
     }
 }
 
-/// Whether a statement runs; pending as long as a debugger halts the program.
+/// A statement that runs; pending as long as a debugger halts the program.
 #[must_use = "nothing halts unless it is awaited"]
 #[derive(Debug)]
 pub struct Runs<'a> {
     cx: &'a Cx,
     id: u64,
     line: u32,
-    state: Asking,
-}
-
-/// Whether the debugger was asked.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Asking {
-    NotYet,
-    /// It was asked, or has set the program pointer here.
-    Asked,
-    /// The statement does not run.
-    Skipped,
+    /// Whether the debugger was asked.
+    is_asked: bool,
 }
 
 impl Future for Runs<'_> {
-    type Output = bool;
+    type Output = ();
 
-    fn poll(mut self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<bool> {
+    fn poll(mut self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<()> {
         let (id, line) = (self.id, self.line);
-        if self.state == Asking::Skipped {
-            return Poll::Ready(false);
-        }
-        let asked = std::mem::replace(&mut self.state, Asking::Asked) == Asking::Asked;
-        if !asked {
+        let is_asked = std::mem::replace(&mut self.is_asked, true);
+        if !is_asked {
             self.cx.frames().with(id, |record| record.line = line);
         }
-        let Some(watcher) = self.cx.shared().watcher() else { return Poll::Ready(true) };
-        let go = if asked { watcher.goes_on() } else { watcher.statement(self.cx, id) };
+        let Some(watcher) = self.cx.shared().watcher() else { return Poll::Ready(()) };
+        let go = if is_asked { watcher.goes_on() } else { watcher.statement(self.cx, id) };
         match go {
             // The function, or one that has called it, begins again.
             Go::On if self.cx.frames().is_abandoned(id) => Poll::Pending,
-            Go::On => Poll::Ready(true),
+            Go::On => Poll::Ready(()),
             Go::NotYet => Poll::Pending,
         }
     }

@@ -10,6 +10,7 @@ pub(crate) mod events;
 pub(crate) mod frames;
 pub(crate) mod function_frame;
 pub(crate) mod named;
+pub(crate) mod nesting;
 pub(crate) mod output;
 pub(crate) mod program;
 pub(crate) mod programs;

@@ -58,12 +58,12 @@ pub trait Program: AsAny {
         Vec::new()
     }
 
-    /// All global variables, file by file, for a debugger: emitted where the program is for one.
+    /// All global variables, file by file: emitted where they can be set from outside.
     fn variables(&self) -> Vec<DataFile<'_>> {
         Vec::new()
     }
 
-    /// All global clocks and connections, for a debugger: emitted where the program is for one.
+    /// All global clocks and connections, for a debugger. Emitted code does not have them.
     fn handles(&self) -> Vec<ShownHandle<'_>> {
         Vec::new()
     }

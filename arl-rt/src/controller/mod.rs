@@ -489,6 +489,12 @@ impl Controller {
         self.clock.lateness()
     }
 
+    /// In how many cycles programs had more turns of loops to make than one cycle may have: they calculated, or a loop
+    /// waited by going round.
+    pub fn full_cycles(&self) -> u64 {
+        self.channels.iter().map(|channel| channel.channel_state().full_cycles.get()).sum()
+    }
+
     /// How many parts of the motion ahead (time laws, blends) were computed too late, on the real clock: the robot then
     /// goes on with what it has, and comes to rest on its path at the end of that. 0 on the virtual clock, which waits
     /// for them.

@@ -42,7 +42,7 @@ pub mod pick {
 
     // 7: func double sum(double values[6], int n)
     pub fn sum(cx: &Cx, values: Array<f64, 6>, n: i32) -> Done<f64> {
-        cx.enter().at(FILE, 7)?;
+        let _entered = cx.enter(1, 48).at(FILE, 7)?;
         // 8: if(n == 0) return 0.0
         if n == 0 {
             return Ok(0.0);

@@ -136,14 +136,13 @@ fn write(
         let folder = case.source.parent().unwrap_or(Path::new("/")).display().to_string();
         *arms += &format!("        \"{name}\" => (&|| Box::new({name}::Globals::new()), &[{others}], {folder:?}),\n");
     }
-    let start = if cases.iter().any(|case| case.rust.kind == Kind::Watched) { "main_watched" } else { "main_with" };
     for (part, (modules, arms)) in &programs {
         let text = format!(
             "// Written by arl2rs.\n#![allow(warnings)]\n\n{modules}\n\
-             use arl_rt::emit::program_main::{{Make, Other, {start}}};\n\n\
+             use arl_rt::emit::program_main::{{Make, Other, main_with}};\n\n\
              fn main() -> std::process::ExitCode {{\n    let case = std::env::var(\"{CASE}\").unwrap_or_default();\n    \
              let (make, others, folder): (Make, &[Other], &str) = match case.as_str() {{\n{arms}        \
-             _ => return std::process::ExitCode::from(2),\n    }};\n    {start}(make, others, folder)\n}}\n"
+             _ => return std::process::ExitCode::from(2),\n    }};\n    main_with(make, others, folder)\n}}\n"
         );
         write_if_changed(&bin.join(format!("{}.rs", part_name(place, *part))), text.as_bytes())?;
     }

@@ -59,15 +59,17 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
     if options.all_forms && options.engine == Some(EngineChoice::Engine) {
         return Err(Failure::Usage("--engine engine: --all-forms is about compiled programs".into()));
     }
-    let sizes = if options.all_forms { Sizes::LEAST } else { Sizes::default() };
-    let watched = options.debug || options.coverage.is_some();
-    let emitting = EmitOptions { sizes, watched, ..EmitOptions::default() };
-    let kept_as = match (options.all_forms, watched) {
-        (false, false) => "tests",
-        (true, false) => "tests-all-forms",
-        (false, true) => "tests-debug",
-        (true, true) => "tests-debug-all-forms",
+    if options.is_watched() && (options.all_forms || options.engine == Some(EngineChoice::Native)) {
+        let option = if options.coverage.is_some() { "--coverage" } else { "--debug" };
+        let compiled = if options.all_forms { "--all-forms" } else { "--engine native" };
+        return Err(Failure::Usage(format!("{option}: the engine counts statements; leave out {compiled}")));
+    }
+    let (sizes, kept_as) = match options.all_forms {
+        true => (Sizes::LEAST, "tests-all-forms"),
+        false => (Sizes::default(), "tests"),
     };
+    let emitting = EmitOptions { sizes, ..EmitOptions::default() };
+    let kind = if options.is_watched() { Kind::Watched } else { Kind::Program };
     let mut found = find(dirs, options.bless)?;
     if let Some(Shard { index, count }) = options.shard {
         let mut number = 0..;
@@ -96,7 +98,7 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
                 emitted_runs.push((at, case));
             })
         } else {
-            coded(case, kind_of(watched), codes.path()).map(|coded| runs.push(Run { at, case, program: Ok(coded) }))
+            coded(case, kind, codes.path()).map(|coded| runs.push(Run { at, case, program: Ok(coded) }))
         };
         done.push(made.err().map(Done::failed));
     }
@@ -119,9 +121,10 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
     report::report(&found, &done, options.format)
 }
 
-/// Whether a case is compiled, and not run by the engine: the command line says so, or else the project of the case.
+/// Whether a case is compiled, and not run by the engine: the command line says so, or else the project of the case. No
+/// compiled program counts its statements.
 fn is_compiled(case: &Case, options: &TestOptions) -> bool {
-    options.all_forms || options.engine.or(case.engine) == Some(EngineChoice::Native)
+    !options.is_watched() && (options.all_forms || options.engine.or(case.engine) == Some(EngineChoice::Native))
 }
 
 fn temporary_folder() -> Result<PrivateFolder, Failure> {
@@ -164,10 +167,6 @@ fn message_of(failure: Failure) -> String {
     }
 }
 
-fn kind_of(watched: bool) -> Kind {
-    if watched { Kind::Watched } else { Kind::Program }
-}
-
 /// The Rust of a case that should run, with the programs that its cell names.
 fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
     let checking = checking(case);
@@ -180,7 +179,7 @@ fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
         let folder = other.folder(&case.source).map_err(message_of)?;
         others.push(EmittedOther { file: other.file, folder, rust });
     }
-    Ok(Emitted { first, others, kind: kind_of(emitting.watched) })
+    Ok(Emitted { first, others, kind: Kind::Program })
 }
 
 /// The code of a case that should run, with the programs that its cell names, in a file of this folder.

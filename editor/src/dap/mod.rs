@@ -1,6 +1,6 @@
 //! `arl2rs dap`: a debug adapter on standard input and output.
 //!
-//! The program is compiled with hooks (`emit/hooks.rs`) and runs as a process of its own; it connects to the adapter
+//! The engine runs the program in a process of its own, with a halt before each statement; it connects to the adapter
 //! and halts where the adapter says (`arl-rt/src/command/debug/`). The adapter handles the editor's side: breakpoints
 //! with conditions, frames, variables and expressions. A step backward is a run from the start to one statement
 //! earlier: on the virtual clock a run repeats itself.

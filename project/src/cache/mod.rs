@@ -119,7 +119,7 @@ pub enum Kind {
     /// A program.
     #[default]
     Program,
-    /// A program for a debugger.
+    /// A program for a debugger: code for the engine.
     Watched,
     /// A library for another program.
     Library,

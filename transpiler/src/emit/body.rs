@@ -66,8 +66,6 @@ pub(super) struct Form {
     pub(super) inlined: bool,
     /// Whether the function is a template.
     pub(super) in_template: bool,
-    /// The frame that a debugger sees, if any.
-    pub(super) frame: Option<Ident>,
 }
 
 impl<'p, 'u> Body<'p, 'u> {

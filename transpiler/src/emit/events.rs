@@ -65,8 +65,7 @@ impl<'p> Body<'p, '_> {
                 }
             }
         });
-        let frame = self.action_opened();
-        self.closure(expr, quote!(#frame #code), result.unwrap_or_else(|| quote!(Ok(()))))
+        self.closure(expr, code, result.unwrap_or_else(|| quote!(Ok(()))))
     }
 
     /// Emits code that runs at another time than the code around it.

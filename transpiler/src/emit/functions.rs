@@ -6,7 +6,7 @@ use super::mentions;
 use super::tokens::mentions;
 use super::types::{base_type, is_number, rust_type};
 use super::unit::Unit;
-use crate::effects::flow;
+use crate::effects::{flow, recursion};
 use crate::hir::{Func, FuncId, LocalId, Stmt, StmtKind};
 use arl_lang::catalog::Base;
 use proc_macro2::{Literal, TokenStream};
@@ -42,7 +42,6 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         (false, None) => TokenStream::new(),
     };
     body.stand_at(func.span);
-    let frame = body.frame_opened(func);
     let guard = effects.recursive.then(|| body.entered(func));
     let statements = if func.has_goto {
         let machine = body.machine(func);
@@ -55,7 +54,6 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
             shallow => body.deeper(func, shallow, &result),
         }
     };
-    let statements = body.run_in_frame(func, statements);
     let shared = body.shared_parameters(&func.params);
     let inlined = body.form.inlined.then(|| quote!(#[inline(always)]));
     let wastes = body.locals.usage.wastes.then(|| quote!(#[allow(unused_assignments)]));
@@ -69,23 +67,23 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         #inlined
         pub #waits fn #name(#cx #g #(#params),*) #result {
             #shared
-            #frame
             #statements
         }
     }
 }
 
 impl<'p> Body<'p, '_> {
-    /// `cx.enter().at(FILE, 3)?;`, with the size of the strings and arrays passed to the function.
+    /// `let _entered = cx.enter(1, text.len() + 4000).at(FILE, 3)?;`, with the weight of the function and the size of
+    /// the strings and arrays passed to it.
     fn entered(&mut self, func: &Func) -> TokenStream {
-        let handed: Vec<TokenStream> = func.params.iter().filter_map(|id| self.handed_bytes(func, *id)).collect();
+        let mut handed: Vec<TokenStream> = func.params.iter().filter_map(|id| self.handed_bytes(func, *id)).collect();
         if handed.is_empty() {
-            let enter = self.checked(quote!(cx.enter()));
-            return quote!(#enter;);
+            handed.push(quote!(0));
         }
-        let held = self.reserve("_held");
-        let enter = self.checked(quote!(cx.enter_with(#(#handed)+*)));
-        quote!(let #held = #enter;)
+        let weight = Literal::u32_unsuffixed(recursion::weight(func, self.family()));
+        let entered = self.reserve("_entered");
+        let enter = self.checked(quote!(cx.enter(#weight, #(#handed)+*)));
+        quote!(let #entered = #enter;)
     }
 
     /// How many bytes a string or an array takes in addition to its parameter.
@@ -103,7 +101,7 @@ impl<'p> Body<'p, '_> {
     /// The statements up to the end of the function.
     fn until_end(&mut self, block: &'p [Stmt]) -> TokenStream {
         let statements = self.block(block, Tail::Function);
-        if flow::block_diverges(block) && self.form.frame.is_none() {
+        if flow::block_diverges(block) {
             statements
         } else {
             let end = self.end_result();

@@ -13,9 +13,7 @@
 //! - Each backward jump yields the cycle when the budget is used up, as each round of a loop does.
 
 use super::body::Body;
-use super::consts::constant;
 use super::control_flow::{Exit, Loop, Tail};
-use super::hooks::{Lines, written};
 use super::loops::give_back;
 use super::machine::{Machine, MachineState};
 use super::names::{camel_case, ident};
@@ -40,8 +38,6 @@ impl<'p> Body<'p, '_> {
         self.run(func, variable.clone(), declared(&func.body), true);
         let all = declared(&func.body);
         let hoisted = match &self.flow.machine {
-            // A debugger may go from any state to any other one.
-            Some(_) if self.form.frame.is_some() => all,
             Some(machine) => all.into_iter().filter(|id| machine.is_shared(*id, &self.local(*id))).collect(),
             None => HashSet::new(),
         };
@@ -59,7 +55,6 @@ impl<'p> Body<'p, '_> {
             of_label: HashMap::new(),
             visibility: Visibility::of(func),
             hoisted,
-            lines_of: Vec::new(),
             declared_in: HashMap::new(),
             trial,
             current: 0,
@@ -89,50 +84,32 @@ impl<'p> Body<'p, '_> {
             quote!(State::#name => { #code })
         });
         let (variable, label) = (&machine.variable, &machine.label);
-        let first = self.first_state(&machine);
+        let first = machine.states.first().map(|state| &state.name);
         let labelled = states.iter().any(|state| jumps(&state.code)).then(|| quote!(#label:));
         quote! {
             enum State { #(#names),* }
             #(#variables)*
-            let mut #variable = #first;
+            let mut #variable = State::#first;
             #labelled loop {
                 match #variable { #(#arms)* }
             }
         }
     }
 
-    /// The first state of the machine: that of the function, or the one to which a debugger has set the program
-    /// pointer.
-    fn first_state(&self, machine: &Machine) -> TokenStream {
-        let start = machine.states.first().map(|state| &state.name);
-        let Some(frame) = &self.form.frame else { return quote!(State::#start) };
-        let cases = machine.lines_of.iter().map(|(at, lines)| {
-            let (name, lines) = (machine.states.get(*at).map(|state| &state.name), written(*lines));
-            quote!((#lines, State::#name))
-        });
-        quote!(#frame.begins_in(State::#start, [#(#cases),*]))
-    }
-
     /// A variable that lives before its declaration, with its default value.
     pub(super) fn hoisted_variable(&self, id: LocalId) -> Option<TokenStream> {
         let (local, family) = (self.func?.locals.get(id.0 as usize)?, self.family());
-        let (name, start) = (self.local(id), self.kept(id, self.first_value(local)));
+        let (name, start) = (self.local(id), self.first_value(local));
         let ty = match local.shared {
             true => Some(shared_type(local.ty, family)),
             false => (!local.ty.is_array()).then(|| rust_type(local.ty, family)),
         };
         let ty = ty.map(|ty| quote!(: #ty));
-        let shown = self.shown(id);
-        Some(quote!(let mut #name #ty = #start; #shown))
+        Some(quote!(let mut #name #ty = #start;))
     }
 
     /// The value of a variable before its declaration.
     fn first_value(&self, local: &Local) -> TokenStream {
-        // A debugger may skip the declaration of a constant.
-        let known = local.value.as_ref().filter(|_| local.constant && self.form.frame.is_some());
-        if let Some(value) = known {
-            return constant(value).tokens;
-        }
         let start = start_value(local.ty, self.family());
         if local.shared { shared_value(local.ty, start) } else { start }
     }
@@ -168,8 +145,8 @@ impl<'p> Body<'p, '_> {
             .filter(|id| !machine.trial && machine.hoisted.contains(id))
             .filter_map(|id| {
                 let local = self.func?.locals.get(id.0 as usize)?;
-                let (name, start, shown) = (self.local(*id), self.first_value(local), self.shown(*id));
-                Some(quote!(#name = #start; #shown))
+                let (name, start) = (self.local(*id), self.first_value(local));
+                Some(quote!(#name = #start;))
             })
             .collect();
         let backwards = self
@@ -302,10 +279,9 @@ impl<'p> Body<'p, '_> {
                     self.append(comment);
                 }
                 StmtKind::Goto(label) => {
-                    let (comment, halt) = (self.comment(stmt.span), self.halt());
+                    let comment = self.comment(stmt.span);
                     let (before, state) = self.departure(*label, stmt.span);
-                    self.note_lines(stmt);
-                    self.append(quote!(#comment #halt #before));
+                    self.append(quote!(#comment #before));
                     self.close(state);
                 }
                 StmtKind::Break | StmtKind::Continue => self.state_exit(stmt),
@@ -326,30 +302,8 @@ impl<'p> Body<'p, '_> {
         self.locals.visible.truncate(visible);
     }
 
-    /// Records that the lines of a statement and of those inside belong to the current state.
-    fn note_lines(&mut self, stmt: &Stmt) {
-        self.note(Some(self.lines_with(stmt)));
-    }
-
-    /// Records that the current line belongs to the current state.
-    fn note_line(&mut self) {
-        self.note(Some((self.position.line, self.position.line)));
-    }
-
-    fn note(&mut self, lines: Option<Lines>) {
-        if let (Some(machine), Some(lines), true) = (&mut self.flow.machine, lines, self.form.frame.is_some()) {
-            machine.note_lines(lines);
-        }
-    }
-
     /// Statements that stay whole inside a state.
     fn whole(&mut self, groups: Vec<Group<'p>>) {
-        for group in &groups {
-            match group {
-                Group::Alone(stmt) => self.note_lines(stmt),
-                Group::Table(rows) => rows.iter().for_each(|row| self.note_lines(row.stmt)),
-            }
-        }
         let diverges = groups.last().is_some_and(|group| matches!(group, Group::Alone(stmt) if flow::diverges(stmt)));
         let code = self.grouped(groups, Tail::Inner);
         self.append(code);
@@ -360,9 +314,8 @@ impl<'p> Body<'p, '_> {
 
     /// `break` or `continue` of a decomposed loop.
     fn state_exit(&mut self, stmt: &Stmt) {
-        let (comment, halt) = (self.comment(stmt.span), self.halt());
-        self.note_lines(stmt);
-        self.append(quote!(#comment #halt));
+        let comment = self.comment(stmt.span);
+        self.append(comment);
         let breaks = matches!(stmt.kind, StmtKind::Break);
         let exit = self.flow.loops.last().map(|outer| if breaks { &outer.on_break } else { &outer.on_continue });
         if let Some(Exit::State(state)) = exit {
@@ -395,7 +348,6 @@ impl<'p> Body<'p, '_> {
             later.push((Some(state), block));
             return self.set_state(state);
         }
-        self.note(self.lines_of_block(block));
         let code = self.block(block, Tail::Inner);
         let set = if flow::block_diverges(block) { TokenStream::new() } else { self.set_state(after) };
         quote!(#code #set)
@@ -419,12 +371,8 @@ impl<'p> Body<'p, '_> {
         let mut later = Vec::new();
         for (at, (condition, block)) in arms.iter().enumerate() {
             self.stand_at(condition.span);
-            self.note_line();
             let mut value = self.value_alone(condition);
-            if self.form.frame.is_some() {
-                let pointer = if at == 0 { self.pointer() } else { TokenStream::new() };
-                value = self.halt_or_pointer_leads(block, value.after(pointer));
-            } else if at == 0 {
+            if at == 0 {
                 let pointer = self.pointer();
                 let before = std::mem::take(&mut value.before);
                 self.append(quote!(#pointer #before));
@@ -445,18 +393,12 @@ impl<'p> Body<'p, '_> {
         let after = self.state_here("After");
         let mut later = Vec::new();
         let mut codes = Vec::new();
-        self.note_line();
         for arm in arms {
             self.stand_at(arm.span);
             codes.push((arm.value.as_ref(), self.branch(&arm.body, after, &mut later)));
         }
         let otherwise = self.set_state(after);
-        let code = if self.form.frame.is_some() {
-            let codes = codes.into_iter().map(|(_, code)| code).collect();
-            self.switch_with_pointer(subject, arms, codes, otherwise)
-        } else {
-            self.chosen(subject, codes, otherwise)
-        };
+        let code = self.chosen(subject, codes, otherwise);
         self.append(code);
         self.fill(later, after);
     }
@@ -482,12 +424,10 @@ impl<'p> Body<'p, '_> {
         let (head, after) = (self.state_here("Loop"), self.state_here("After"));
         self.close(head);
         self.open(head);
-        self.note_line();
-        let (spend, halt) = (self.spend(info), self.halt());
+        let spend = self.spend(info);
         let condition = condition.filter(|condition| !flow::always(condition));
         let unless = condition.map(|condition| self.unless(condition, after));
-        let round = self.unless_pointer_leads(body, quote!(#spend #halt #unless));
-        self.append(round);
+        self.append(quote!(#spend #unless));
         self.split_body(body, head, after);
         self.close(head);
         self.open(after);
@@ -495,31 +435,24 @@ impl<'p> Body<'p, '_> {
 
     fn split_repeat(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) {
         let (head, test, after) = (self.state_here("Repeat"), self.state_here("Until"), self.state_here("After"));
-        self.note_line();
-        let halt = self.halt();
-        self.append(halt);
         self.close(head);
         self.open(head);
         self.split_body(body, test, after);
         self.close(test);
         self.open(test);
         self.stand_at(until.span);
-        self.note_line();
-        let (comment, halt) = (self.comment(until.span), self.halt());
+        let comment = self.comment(until.span);
         let value = self.value_alone(until);
         let pointer = self.pointer();
         let (before, met) = (&value.before, &value.tokens);
         let (done, again, spend) = (self.set_state(after), self.set_state(head), self.spend(info));
-        self.append(quote!(#comment #halt #pointer #before if #met { #done } else { #spend #again }));
+        self.append(quote!(#comment #pointer #before if #met { #done } else { #spend #again }));
         self.open(after);
     }
 
     fn split_for(&mut self, each: &'p For) {
         let visible = self.locals.visible.len();
         let line = self.position.line;
-        self.note_line();
-        let head = self.halt_at_head(&each.init);
-        self.append(head);
         for stmt in &each.init {
             let code = self.statement(stmt, Tail::Inner);
             self.append(code);
@@ -529,16 +462,15 @@ impl<'p> Body<'p, '_> {
         self.open(head);
         if let Some(condition) = each.condition.as_ref().filter(|condition| !flow::always(condition)) {
             let unless = self.unless(condition, after);
-            let unless = self.unless_pointer_leads(&each.body, unless);
             self.append(unless);
         }
         self.split_body(&each.body, next, after);
         self.close(next);
         self.open(next);
         self.position.line = line;
-        let (spend, halt) = (self.spend(each.info), self.halt());
+        let spend = self.spend(each.info);
         let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
-        self.append(quote!(#halt #spend #step));
+        self.append(quote!(#spend #step));
         self.close(head);
         self.open(after);
         self.locals.visible.truncate(visible);

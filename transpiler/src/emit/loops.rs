@@ -52,7 +52,7 @@ impl<'p> Body<'p, '_> {
             return self.endless_loop(body, info);
         }
         let turns = self.turns(info, true, Parts { blocks: &[body], exprs: &[condition] }, |emitter| {
-            let (head, condition) = emitter.head(condition, info, body, true);
+            let (head, condition) = emitter.head(condition, info);
             let rounds = emitter.rounds(body, info);
             Turns { label: TokenStream::new(), condition, round: quote!(#head #rounds) }
         });
@@ -66,14 +66,8 @@ impl<'p> Body<'p, '_> {
     }
 
     /// A condition at the start of each round: for a `while`, or as statements that break out if it does not fit into
-    /// one. A debugger may halt there, or may only lead into the body.
-    fn head(
-        &mut self,
-        condition: &'p Expr,
-        info: LoopInfo,
-        body: &'p [Stmt],
-        halts: bool,
-    ) -> (TokenStream, Option<TokenStream>) {
+    /// one.
+    fn head(&mut self, condition: &'p Expr, info: LoopInfo) -> (TokenStream, Option<TokenStream>) {
         let value = self.on_trial(|body| body.value_alone(condition));
         let pointer = self.pointer();
         let once = info.counts_alone() && loops::takes_first(self.scope(), condition);
@@ -81,21 +75,18 @@ impl<'p> Body<'p, '_> {
         let inside = info.counts_alone() && !once;
         let value = if inside { value.inline() } else { value };
         if pointer.is_empty() && value.before.is_empty() && !once {
-            let value =
-                if halts { self.halt_or_pointer_leads(body, value) } else { self.or_pointer_leads(body, value) };
             let tokens = if info.counts_alone() { value.at(Precedence::And) } else { value.tokens };
             return (TokenStream::new(), Some(tokens));
         }
         let Fragment { before, tokens: unmet, .. } = self.negated(condition);
-        let halt = if halts { self.halt() } else { TokenStream::new() };
-        (self.unless_pointer_leads(body, quote!(#halt #pointer #before if #unmet { break; })), None)
+        (quote!(#pointer #before if #unmet { break; }), None)
     }
 
     /// `loop`
     pub(super) fn endless_loop(&mut self, body: &'p [Stmt], info: LoopInfo) -> TokenStream {
         self.turns(info, flow::breaks(body), Parts { blocks: &[body], exprs: &[] }, |emitter| {
-            let (halt, round) = (emitter.halt(), emitter.rounds(body, info));
-            Turns { label: TokenStream::new(), condition: None, round: quote!(#halt #round) }
+            let round = emitter.rounds(body, info);
+            Turns { label: TokenStream::new(), condition: None, round }
         })
     }
 
@@ -120,10 +111,8 @@ impl<'p> Body<'p, '_> {
 
     /// `repeat` ... `until(c)`
     pub(super) fn repeat_loop(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> TokenStream {
-        let halt = self.halt();
         let parts = Parts { blocks: &[body], exprs: &[until] };
-        let turns = self.turns(info, true, parts, |emitter| emitter.repeat_until(body, until, info));
-        quote!(#halt #turns)
+        self.turns(info, true, parts, |emitter| emitter.repeat_until(body, until, info))
     }
 
     fn repeat_until(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> Turns {
@@ -132,12 +121,12 @@ impl<'p> Body<'p, '_> {
             return Turns { label, condition: None, round: statements };
         }
         self.stand_at(until.span);
-        let (comment, halt) = (self.comment(until.span), self.halt());
+        let comment = self.comment(until.span);
         let condition = self.value_alone(until);
         let pointer = self.pointer();
         let (before, met) = (&condition.before, &condition.tokens);
         let spend = self.spend(info);
-        let round = quote!(#statements #comment #halt #pointer #before if #met { break; } #spend);
+        let round = quote!(#statements #comment #pointer #before if #met { break; } #spend);
         Turns { label, condition: None, round }
     }
 
@@ -222,7 +211,7 @@ impl<'p> Body<'p, '_> {
     /// variable has the same name.
     fn general_for(&mut self, each: &'p For) -> TokenStream {
         let outer: Vec<String> = self.locals.visible.iter().map(|id| self.local(*id).to_string()).collect();
-        let mut init = self.halt_at_head(&each.init);
+        let mut init = TokenStream::new();
         let before = self.locals.visible.len();
         for stmt in &each.init {
             init.extend(self.with_own_temporaries(|body| body.statement(stmt, Tail::Inner)));
@@ -243,19 +232,17 @@ impl<'p> Body<'p, '_> {
     fn turns_of_for(&mut self, each: &'p For) -> Turns {
         let line = self.position.line;
         let (head, condition) = match &each.condition {
-            Some(condition) if !flow::always(condition) => self.head(condition, each.info, &each.body, false),
+            Some(condition) if !flow::always(condition) => self.head(condition, each.info),
             _ => (TokenStream::new(), None),
         };
-        let climbing = if self.form.frame.is_none() { self.climbs_from_zero(each) } else { None };
-        let condition = condition.map(|condition| climbing.unwrap_or(condition));
+        let condition = condition.map(|condition| self.climbs_from_zero(each).unwrap_or(condition));
         let (label, statements) = self.round_with_rest(&each.body, each.step.as_ref(), each.info);
         self.position.line = line;
         let rest = if flow::goes_round(&each.body) {
             let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
             let spend = self.spend(each.info);
             // At the very end, so that waiting ends where the next round begins: rustc compiles this to a better loop.
-            let halt = self.halt();
-            quote!(#halt #step #spend)
+            quote!(#step #spend)
         } else {
             TokenStream::new()
         };

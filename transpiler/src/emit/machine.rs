@@ -1,7 +1,6 @@
 //! What is known about a function with `goto` while it becomes a machine: its states, and which of them its variables
 //! belong to.
 
-use super::hooks::Lines;
 use super::tokens::{each_word, mentions};
 use crate::effects::visibility::Visibility;
 use crate::hir::{LabelId, LocalId};
@@ -19,8 +18,6 @@ pub(super) struct Machine {
     /// The locals that are visible at labels and jumps.
     pub(super) visibility: Visibility,
     pub(super) hoisted: HashSet<LocalId>,
-    /// The lines of the statements in each state, for a debugger.
-    pub(super) lines_of: Vec<(usize, Lines)>,
     /// The states that contain the declarations of locals.
     pub(super) declared_in: HashMap<LocalId, usize>,
     /// Whether this run only determines which states mention which variables.
@@ -45,20 +42,12 @@ impl Machine {
         self.states.iter().enumerate().any(|(at, state)| Some(&at) != home && mentions(&state.code, &name))
     }
 
-    /// Records that statements of these lines belong to the current state.
-    pub(super) fn note_lines(&mut self, lines: Lines) {
-        if self.open {
-            self.lines_of.push((self.current, lines));
-        }
-    }
-
-    /// The states that can be reached from the first one, or by a debugger.
+    /// The states that can be reached from the first one.
     pub(super) fn reached(&self) -> Vec<bool> {
         let names: HashMap<String, usize> =
             self.states.iter().enumerate().map(|(at, state)| (state.name.to_string(), at)).collect();
         let mut reached = vec![false; self.states.len()];
         let mut open = vec![0];
-        open.extend(self.lines_of.iter().map(|(at, _)| *at));
         while let Some(at) = open.pop() {
             let (Some(seen), Some(state)) = (reached.get_mut(at), self.states.get(at)) else { continue };
             if !std::mem::replace(seen, true) {

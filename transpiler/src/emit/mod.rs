@@ -13,7 +13,6 @@ mod expressions;
 mod fragment;
 mod functions;
 mod goto;
-mod hooks;
 mod local_names;
 mod loops;
 mod machine;
@@ -53,9 +52,6 @@ pub struct EmitOptions {
     pub no_header: bool,
     /// The sizes from which on code takes the forms that compile faster.
     pub sizes: Sizes,
-    /// For a debugger: the program can be halted and shows its variables.
-    /// [`compile_program`](crate::compile::compile_program) prepares the checked program for it.
-    pub watched: bool,
     /// Global variables keep their names, so that they can be set from outside.
     pub named: bool,
 }

@@ -214,17 +214,7 @@ fn tables(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
             }
         }
     });
-    let handles: Vec<ModuleId> = ids(&|part| unit.watched && variables::has_handles(unit, part.id));
-    let handles = (!handles.is_empty()).then(|| {
-        let (blank, modules) = (blank(unit), modules(&handles));
-        quote! {
-            #blank
-            fn handles(&self) -> Vec<arl_rt::emit::ShownHandle<'_>> {
-                [#(self.#modules.handles()),*].into_iter().flatten().collect()
-            }
-        }
-    });
-    quote!(#data #named #handles)
+    quote!(#data #named)
 }
 
 /// `fn beside(&self) -> Beside`, if the program uses something that runs in parallel to the cycle.

@@ -39,8 +39,6 @@ impl<'p> Body<'p, '_> {
 
     /// One statement with its comment.
     pub(super) fn statement(&mut self, stmt: &'p Stmt, tail: Tail) -> TokenStream {
-        // A statement that may be skipped gives no result.
-        let tail = if self.form.frame.is_some() { Tail::Inner } else { tail };
         self.with_own_temporaries(|body| {
             body.stand_at(stmt.span);
             body.position.acts = false;
@@ -48,7 +46,6 @@ impl<'p> Body<'p, '_> {
             let line = body.position.line;
             let code = body.bare_statement(stmt, tail);
             body.position.line = line;
-            let code = body.where_it_runs(stmt, code);
             quote!(#comment #code)
         })
     }
@@ -113,19 +110,11 @@ impl<'p> Body<'p, '_> {
         self.locals.visible.push(id);
         self.note_declaration(id);
         let pointer = self.pointer();
-        let shown = self.shown(id);
         let of = needs_annotation(ty, value).then(|| shared_type(ty, family)).map(|ty| quote!(: #ty));
         let target = if self.is_hoisted(id) { quote!(#name) } else { quote!(let #name #of) };
         match cell {
-            Some(cell) if self.form.frame.is_some() => {
-                let value = self.declared(id, &quote!(#pointer #before), cell, start);
-                quote!(#target = #value; #shown)
-            }
-            Some(cell) => quote!(#pointer #before #target = #cell; #shown),
-            None => {
-                let start = self.kept(id, start);
-                quote!(#pointer #before #target = #start; #shown)
-            }
+            Some(cell) => quote!(#pointer #before #target = #cell;),
+            None => quote!(#pointer #before #target = #start;),
         }
     }
 
@@ -192,10 +181,7 @@ impl<'p> Body<'p, '_> {
             let (condition_expr, condition_span) = (condition, condition.span);
             self.stand_at(condition_span);
             let value = self.value_alone(condition);
-            let value = if self.form.frame.is_some() {
-                let pointer = if at == 0 { self.pointer() } else { TokenStream::new() };
-                self.halt_or_pointer_leads(block, value.after(pointer))
-            } else if at == 0 {
+            let value = if at == 0 {
                 let pointer = self.pointer_for(condition_expr);
                 let before = &value.before;
                 out = quote!(#pointer #before);

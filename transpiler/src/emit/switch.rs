@@ -15,10 +15,6 @@ impl<'p> Body<'p, '_> {
     /// `switch(subject)` with its arms; the arm without a value goes last, wherever it stands.
     pub(super) fn switch(&mut self, subject: &'p Expr, arms: &'p [Arm], tail: Tail) -> TokenStream {
         self.stand_at(subject.span);
-        if self.form.frame.is_some() {
-            let codes = arms.iter().map(|arm| self.commented_arm(arm, tail)).collect();
-            return self.switch_with_pointer(subject, arms, codes, TokenStream::new());
-        }
         if is_chain(subject) {
             return self.chain(subject, arms, tail);
         }

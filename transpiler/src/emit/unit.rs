@@ -24,8 +24,6 @@ pub(super) struct Unit<'p> {
     /// For each function, whether it is compiled separately.
     pub(super) apart: Vec<bool>,
     pub(super) sizes: Sizes,
-    /// Whether a debugger may halt the program.
-    pub(super) watched: bool,
     /// Whether global variables keep their names.
     pub(super) named: bool,
     /// The variables stored in arrays.
@@ -35,7 +33,7 @@ pub(super) struct Unit<'p> {
 }
 
 impl<'p> Unit<'p> {
-    pub(super) fn new(program: &'p Program, &EmitOptions { sizes, watched, named, .. }: &EmitOptions) -> Self {
+    pub(super) fn new(program: &'p Program, &EmitOptions { sizes, named, .. }: &EmitOptions) -> Self {
         let lines = program.modules.iter().map(|module| LineIndex::new(&module.source)).collect();
         let (movers, reached) = (effects::pointer_movers(program), effects::reached(program));
         let mut names = Names::new(program);
@@ -45,20 +43,7 @@ impl<'p> Unit<'p> {
             true => Templates::new(program, &mut names, &slots, sizes),
             false => Templates::default(),
         };
-        Self {
-            program,
-            names,
-            slots,
-            templates,
-            marks: Marks::default(),
-            lines,
-            movers,
-            reached,
-            apart,
-            sizes,
-            watched,
-            named: named || watched,
-        }
+        Self { program, names, slots, templates, marks: Marks::default(), lines, movers, reached, apart, sizes, named }
     }
 
     pub(super) fn family(&self) -> Family {

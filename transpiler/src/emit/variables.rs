@@ -239,42 +239,16 @@ pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     }
 }
 
-/// `fn all(&self) -> DataFile<'_>`: all variables, for a debugger and other code that knows them by name.
+/// `fn all(&self) -> DataFile<'_>`: all variables, for code that knows them by name.
 pub(super) fn all(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     let shows = |global: &Global| !is_handle(global.ty);
     let values = listed(unit, module, &shows, &|_| true);
-    let handles = (unit.watched && has_handles(unit, module)).then(|| handles(unit, module));
     quote! {
         impl Variables {
             /// All variables.
             pub fn all(&self) -> DataFile<'_> {
                 #values
             }
-            #handles
-        }
-    }
-}
-
-/// Whether a module has global clocks or connections.
-pub(super) fn has_handles(unit: &Unit<'_>, module: ModuleId) -> bool {
-    unit.program.globals.iter().any(|global| global.module == module && is_handle(global.ty))
-}
-
-/// `fn handles(&self)`: the clocks and connections of a module.
-fn handles(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
-    let file = unit.program.modules.get(module.0 as usize).map_or("", |module| module.file.as_str());
-    let globals = unit.program.globals.iter().enumerate();
-    let own = globals.filter(|(_, global)| global.module == module && is_handle(global.ty));
-    let all = own.map(|(at, global)| {
-        let (name, field, sizes) = (&global.name, unit.names.global(at as u32), sizes_of_table(global));
-        quote!(ShownHandle { file: #file, name: #name, sizes: &[#(#sizes),*], slot: &self.#field })
-    });
-    let blank = super::program::blank(unit);
-    quote! {
-        #blank
-        /// All clocks and connections.
-        pub fn handles(&self) -> Vec<ShownHandle<'_>> {
-            vec![#(#all),*]
         }
     }
 }

@@ -79,7 +79,7 @@ impl<'p> FunctionCode<'p, '_> {
 
     /// Looks whether there is room for another call.
     fn enter(&mut self, func: &'p Func, places: &[Place]) {
-        let mut entry = Entry::default();
+        let mut entry = Entry { weight: recursion::weight(func, self.family()), ..Entry::default() };
         for (id, place) in func.params.iter().zip(places) {
             let Some(local) = func.locals.get(id.0 as usize) else { continue };
             if local.ty.is_array() {

@@ -22,8 +22,7 @@ impl<'p> Body<'p, '_> {
             out.extend(self.form.guard.take());
             // Variables that live before all states also live before the parts of one state.
             let of_states = self.flow.machine.as_ref().map(|machine| machine.hoisted.clone()).unwrap_or_default();
-            let watched = self.form.frame.is_some();
-            for id in outside_parts(&groups, &pieces, watched).into_iter().filter(|id| !of_states.contains(id)) {
+            for id in outside_parts(&groups, &pieces).into_iter().filter(|id| !of_states.contains(id)) {
                 out.extend(self.hoisted_variable(id));
                 self.locals.hoisted.insert(id);
             }
@@ -90,9 +89,8 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// The locals that are declared in a part and mentioned outside it, in the order of their declarations. For a debugger,
-/// which may go from any part to any other one, all locals that are declared in parts.
-fn outside_parts(groups: &[Group<'_>], pieces: &[BlockPiece], watched: bool) -> Vec<LocalId> {
+/// The locals that are declared in a part and mentioned outside it, in the order of their declarations.
+fn outside_parts(groups: &[Group<'_>], pieces: &[BlockPiece]) -> Vec<LocalId> {
     let mut part_of = vec![0; groups.len()];
     number_parts(pieces, 0, &mut 0, &mut part_of);
     let mut declared: Vec<LocalId> = Vec::new();
@@ -104,9 +102,6 @@ fn outside_parts(groups: &[Group<'_>], pieces: &[BlockPiece], watched: bool) -> 
             declared.push(*id);
             home.insert(*id, *part);
         }
-    }
-    if watched {
-        return declared;
     }
     let mut outside = HashSet::new();
     for (group, part) in groups.iter().zip(&part_of) {

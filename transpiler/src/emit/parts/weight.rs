@@ -53,8 +53,7 @@ impl<'p> Body<'p, '_> {
             Group::Table(rows) => {
                 let mut seen = HashSet::new();
                 let kinds = rows.iter().filter(|row| seen.insert(&row.shape));
-                let halts = usize::from(self.unit.watched);
-                let weight = kinds.map(|row| halts + self.expression_weight(row.expr)).sum();
+                let weight = kinds.map(|row| self.expression_weight(row.expr)).sum();
                 weights.of.extend(rows.first().map(|row| (std::ptr::from_ref(row.stmt), weight)));
                 weight
             }
@@ -83,7 +82,7 @@ impl<'p> Body<'p, '_> {
             StmtKind::For(each) => self.for_weight(each, weights),
             _ => flow::blocks(stmt).map(|block| self.block_weight(block, weights)).sum(),
         };
-        usize::from(gives_back) + usize::from(self.unit.watched) + own + inside
+        usize::from(gives_back) + own + inside
     }
 
     fn for_weight(&self, each: &'p For, weights: &mut Weights) -> usize {
