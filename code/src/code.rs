@@ -32,7 +32,7 @@ pub struct Code {
     pub transfers: Vec<Transfer>,
     /// The extents of boxes.
     pub boxes: Vec<Extent>,
-    /// What functions that may call themselves hold.
+    /// What calls of functions that may call themselves weigh and hold.
     pub entries: Vec<Entry>,
     /// The types of arguments.
     pub types: Vec<ValueType>,

@@ -147,12 +147,17 @@ impl State {
         self.make_room(function);
     }
 
-    /// Leaves a function; `false` if it was the first one.
-    #[inline(never)]
-    pub(crate) fn leave(&mut self, function: &Function) -> bool {
+    /// The running function is about to ask for room for another call again, or ends.
+    pub(crate) fn leave_nesting(&mut self) {
         if self.nested.last().is_some_and(|call| call.depth == self.callers.len()) {
             self.nested.pop();
         }
+    }
+
+    /// Leaves a function; `false` if it was the first one.
+    #[inline(never)]
+    pub(crate) fn leave(&mut self, function: &Function) -> bool {
+        self.leave_nesting();
         // What the function shared with its events is theirs alone from now on, and so are its connections.
         let here = &self.position;
         if function.boxes > 0 {

@@ -103,6 +103,10 @@ impl Engine {
         };
         state.position.at = at as usize;
         let own = self.range_of(state.position.function);
+        let ahead = self.code.ops.get(at as usize..own.end as usize).unwrap_or_default();
+        if ahead.iter().any(|op| matches!(op, Op::Enter { .. })) {
+            state.leave_nesting();
+        }
         for (number, local) in (0..).zip(&self.code.locals).filter(|(_, local)| own.contains(&local.scope.start)) {
             if !local.scope.contains(&at) {
                 drop_local(state, local);

@@ -98,5 +98,5 @@ fn cycles_allocate_nothing() {
     assert!(cycles > 3_000, "{cycles}");
     // Motions are planned in the first cycles; after that what a statement needs is made when it runs first.
     let late: Vec<_> = first.iter().filter(|(cycle, ..)| *cycle > 60).collect();
-    assert!(late.len() <= 3, "{late:?}");
+    assert!(late.len() <= 1, "the first round alone may allocate: {late:?}");
 }

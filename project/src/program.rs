@@ -226,7 +226,10 @@ impl<'a> Job<'a> {
         let code = |compiled: &mut Compiled| {
             let program = compiled.checked.program.as_mut().ok_or(Failure::Shown)?;
             let code = if is_watched { lower_watched(program) } else { lower(program) };
-            code.map_err(|problem| Failure::Other(format!("{problem}: `--engine native` compiles it")))
+            code.map_err(|problem| match is_watched {
+                true => Failure::Other(format!("{problem}: it runs only without a debugger, coverage and --pendant")),
+                false => Failure::Other(format!("{problem}: `--engine native` compiles it")),
+            })
         };
         let mut codes = programs.iter_mut().map(code);
         let main = codes.next().unwrap_or(Err(Failure::Shown))?;

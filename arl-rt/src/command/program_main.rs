@@ -38,8 +38,8 @@ use arl_robot::changes::Part;
 use arl_robot::robot::Robot;
 use options::{Asked, ClockKind, HELP, Options, Report, parse};
 
-/// How much of the stack the program's functions may use, enough for all calls that may be nested, and how much the
-/// thread has on top of that for everything else.
+/// How much of the stack the program's functions may use, by measure enough for all calls that may be nested, and how
+/// much the thread has on top of that for everything else.
 const PROGRAM_STACK_BYTES: usize = 64 << 20;
 const CONTROLLER_STACK_BYTES: usize = 1 << 20;
 /// How much they may use on a thread of another program, which as a rule has 2 MiB.
@@ -581,4 +581,15 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
         Some(ClockKind::Virtual) => builder.clock(VirtualClock::asked_for()),
         None => builder.clock(VirtualClock::new()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_calculates_much_is_told_about_compiling() {
+        assert_eq!(advice_to_compile(MANY_FULL_CYCLES - 1), None);
+        assert!(advice_to_compile(MANY_FULL_CYCLES).is_some_and(|advice| advice.contains("--engine native")));
+    }
 }

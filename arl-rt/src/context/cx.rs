@@ -279,7 +279,7 @@ impl Cx {
     /// As [`Cx::enter`], for who keeps the result beside the context, and the function's variables not on the stack.
     ///
     /// # Errors
-    /// As for [`Cx::enter`].
+    /// As for [`Cx::enter`], whatever the stack of the thread has.
     pub fn enter_apart(&self, weight: u32, bytes: usize) -> Result<Entered<Rc<Nesting>>, Fault> {
         Nesting::enter(Rc::clone(&self.nesting), weight, bytes)
     }

@@ -1,4 +1,4 @@
-//! A watcher that is called at each statement of a program that was emitted for a debugger.
+//! A watcher that is called at each statement of a program that was made for a debugger.
 
 use crate::context::cx::Cx;
 use crate::fault::Alarm;

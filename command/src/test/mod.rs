@@ -62,7 +62,7 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
     if options.is_watched() && (options.all_forms || options.engine == Some(EngineChoice::Native)) {
         let option = if options.coverage.is_some() { "--coverage" } else { "--debug" };
         let compiled = if options.all_forms { "--all-forms" } else { "--engine native" };
-        return Err(Failure::Usage(format!("{option}: the engine counts statements; leave out {compiled}")));
+        return Err(Failure::Usage(format!("{option}: only the engine stops at statements; leave out {compiled}")));
     }
     let (sizes, kept_as) = match options.all_forms {
         true => (Sizes::LEAST, "tests-all-forms"),

@@ -177,7 +177,7 @@ fn a_project_says_whether_its_cases_are_compiled() {
     assert!(both.out.starts_with("FAILED other/b.arl\n") && both.out.ends_with("1 passed, 1 failed\n"), "{}", both.out);
 }
 
-/// A case ends with the command that runs it, however that ends.
+/// A case that the engine runs ends with the command, however that ends.
 #[test]
 fn a_case_does_not_outlive_the_command() {
     use std::io::Read;
@@ -190,7 +190,13 @@ fn a_case_does_not_outlive_the_command() {
     let folder = Folder::new("outlives").with("a.arl", &endless).with("a.out", "");
     let mut command = folder.command(&["test", "."]);
     let mut testing = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the command starts");
-    let (mut peer, _) = listener.accept().expect("the case connects");
+    listener.set_nonblocking(true).expect("a listener that does not wait");
+    let connected = (0..1_000).find_map(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        listener.accept().ok()
+    });
+    let (mut peer, _) = connected.expect("the case connects");
+    peer.set_nonblocking(false).expect("a peer that waits");
     testing.kill().expect("it is killed");
     testing.wait().expect("it has ended");
     peer.set_read_timeout(Some(std::time::Duration::from_secs(50))).expect("a limit");
@@ -201,4 +207,15 @@ fn a_case_does_not_outlive_the_command() {
         Err(error) => !matches!(error.kind(), std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut),
     };
     assert!(is_closed, "the case goes on: {read:?}");
+}
+
+#[test]
+fn what_only_the_engine_does_is_not_asked_of_compiled_programs() {
+    let folder =
+        Folder::new("test_watched").with("a.arl", "func void main()\n  print 1\nendfunc\n").with("a.out", "1\n");
+    let refused = folder.arl2rs(&["test", ".", "--coverage", "c.info", "--engine", "native"]);
+    refused.is(2, "").says("--coverage: only the engine stops at statements; leave out --engine native");
+    let refused = folder.arl2rs(&["test", ".", "--debug", "--all-forms"]);
+    refused.is(2, "").says("--debug: only the engine stops at statements; leave out --all-forms");
+    folder.arl2rs(&["test", ".", "--coverage", "c.info"]).is(0, "1 passed, 0 failed\n");
 }

@@ -8,26 +8,25 @@ use std::process::Command;
 
 /// A copy that is removed with the session.
 pub(super) struct Executable {
-    /// The copy of the program, or of its code.
+    /// The copy of the program's code.
     path: PathBuf,
-    is_code: bool,
     _folder: PrivateFolder,
 }
 
 impl Executable {
-    /// Copies a program.
+    /// Copies the code of a program.
     ///
     /// # Errors
     /// The program cannot be copied.
     pub(super) fn of(ready: &Ready) -> Result<Self, String> {
         let folder = PrivateFolder::new(PREFIX)
             .map_err(|error| format!("cannot make a temporary folder for the program: {error}"))?;
-        let path = folder.path().join(format!("program{}", std::env::consts::EXE_SUFFIX));
-        let original = ready.code.as_ref().unwrap_or(&ready.program);
+        let path = folder.path().join("program");
+        let original = ready.code.as_ref().ok_or("the program is not code")?;
         std::fs::hard_link(original, &path)
             .or_else(|_| std::fs::copy(original, &path).map(|_| ()))
             .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
-        Ok(Self { path, is_code: ready.code.is_some(), _folder: folder })
+        Ok(Self { path, _folder: folder })
     }
 
     /// The command that runs it.
@@ -35,10 +34,6 @@ impl Executable {
     /// # Errors
     /// It is not known how this command is started.
     pub(super) fn command(&self) -> Result<Command, String> {
-        if self.is_code {
-            command_of_code(&self.path).map_err(|failure| failure.to_string())
-        } else {
-            Ok(Command::new(&self.path))
-        }
+        command_of_code(&self.path).map_err(|failure| failure.to_string())
     }
 }

@@ -23,9 +23,11 @@ const VELOCITY: f64 = 10.0;
 /// The first lines of each description.
 const HEAD: &str = "<?xml version=\"1.0\"?>\n<!-- Written by arl2rs, for the recording beside it. -->\n";
 
-/// Whether a file is a description that a recording wrote.
+/// Whether a file is a description that a recording wrote, or began to.
 pub(super) fn is_written_here(text: &[u8]) -> bool {
-    text.starts_with(HEAD.as_bytes())
+    // Those of 0.1 had no comment.
+    let without = format!("<?xml version=\"1.0\"?>\n<robot name=\"cell\">\n  <link name=\"{WORLD}\"/>\n");
+    text.is_empty() || text.starts_with(HEAD.as_bytes()) || text.starts_with(without.as_bytes())
 }
 
 /// The description of these arms, by channels, and of what is around them.

@@ -26,6 +26,9 @@ const EXPRESSIONS_OF_A_CALL: usize = 16;
 /// So many expressions add nothing to what a call weighs.
 const FREE_EXPRESSIONS: usize = 32;
 
+/// The most that a call weighs, however large its function is: a hundred may be nested.
+const HEAVIEST_CALL: usize = 200;
+
 /// What a call of a function weighs, by what native code keeps on the stack for it.
 pub(crate) fn weight(func: &Func, family: Family) -> u32 {
     let bytes = func.locals.iter().map(|local| match local.ty.bytes(family) {
@@ -36,5 +39,5 @@ pub(crate) fn weight(func: &Func, family: Family) -> u32 {
     func.body.iter().for_each(|stmt| visit::exprs_in_stmt(stmt, &mut |_| expressions += 1));
     let expressions = expressions.saturating_sub(FREE_EXPRESSIONS) / EXPRESSIONS_OF_A_CALL;
     let weight = 1 + bytes.sum::<usize>() / BYTES_OF_A_CALL + expressions;
-    u32::try_from(weight).unwrap_or(u32::MAX)
+    weight.min(HEAVIEST_CALL) as u32
 }

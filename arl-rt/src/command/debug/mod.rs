@@ -1,4 +1,4 @@
-//! A run that a debugger halts and inspects: the option `--debug ADDRESS` of a program that was emitted for this.
+//! A run that a debugger halts and inspects: the option `--debug ADDRESS` of a program that was made for this.
 //!
 //! The program connects to the debugger, which listens. Requests come in, one per line: a number, a word and the
 //! arguments of the word, separated by tabs. Answers and events go out as JSON objects, one per line:

@@ -15,20 +15,42 @@ impl<'p> Body<'p, '_> {
     /// The code of consecutive groups in a block, split into parts if there are many.
     pub(in crate::emit) fn grouped(&mut self, groups: Vec<Group<'p>>, tail: Tail) -> TokenStream {
         let weights: Vec<usize> = groups.iter().map(|group| self.group_weight(group)).collect();
-        let pieces = self.planned(&groups, &weights);
+        let mut pieces = self.planned(&groups, &weights);
         let mut out = TokenStream::new();
+        let mut behind = Vec::new();
         if pieces.iter().any(|piece| matches!(piece, BlockPiece::Part(_))) {
-            // Otherwise it would be in a part, before the first statement that leads back to the function.
-            out.extend(self.form.guard.take());
+            // The room for a call is asked for between two parts, not inside of one: it is held until the end.
+            let leads_back = groups.iter().position(|group| self.leads_back(group));
+            if let Some(at) = leads_back.filter(|_| self.form.guard.is_some()) {
+                let ((first, rest), (first_weights, rest_weights)) = (groups.split_at(at), weights.split_at(at));
+                pieces = self.planned(first, first_weights);
+                behind = self.planned(rest, rest_weights);
+                behind.iter_mut().for_each(|piece| piece.shift(at));
+            }
+            let all: Vec<BlockPiece> = pieces.iter().chain(&behind).cloned().collect();
             // Variables that live before all states also live before the parts of one state.
             let of_states = self.flow.machine.as_ref().map(|machine| machine.hoisted.clone()).unwrap_or_default();
-            for id in outside_parts(&groups, &pieces).into_iter().filter(|id| !of_states.contains(id)) {
+            for id in outside_parts(&groups, &all).into_iter().filter(|id| !of_states.contains(id)) {
                 out.extend(self.hoisted_variable(id));
                 self.locals.hoisted.insert(id);
             }
         }
-        out.extend(self.pieces(&pieces, &groups, tail));
+        if behind.is_empty() {
+            out.extend(self.pieces(&pieces, &groups, tail));
+        } else {
+            out.extend(self.pieces(&pieces, &groups, Tail::Inner));
+            out.extend(self.form.guard.take());
+            out.extend(self.pieces(&behind, &groups, tail));
+        }
         out
+    }
+
+    /// Whether a group calls a function that may lead back to the current one.
+    fn leads_back(&self, group: &Group<'p>) -> bool {
+        match group {
+            Group::Alone(stmt) => self.calls_itself(stmt),
+            Group::Table(rows) => rows.iter().any(|row| self.calls_itself(row.stmt)),
+        }
     }
 
     fn pieces(&mut self, pieces: &[BlockPiece], groups: &[Group<'p>], tail: Tail) -> TokenStream {
@@ -45,11 +67,7 @@ impl<'p> Body<'p, '_> {
     }
 
     fn group(&mut self, group: &Group<'p>, tail: Tail) -> TokenStream {
-        let calls_itself = self.form.guard.is_some()
-            && match group {
-                Group::Alone(stmt) => self.calls_itself(stmt),
-                Group::Table(rows) => rows.iter().any(|row| self.calls_itself(row.stmt)),
-            };
+        let calls_itself = self.form.guard.is_some() && self.leads_back(group);
         let guard = if calls_itself { self.form.guard.take() } else { None };
         let own = self.form.guard.take();
         let code = match group {

@@ -11,6 +11,16 @@ pub(super) enum BlockPiece {
     Part(Vec<BlockPiece>),
 }
 
+impl BlockPiece {
+    /// Counts the groups of a piece from another one on.
+    pub(super) fn shift(&mut self, from: usize) {
+        match self {
+            Self::Group(number) => *number += from,
+            Self::Part(pieces) => pieces.iter_mut().for_each(|piece| piece.shift(from)),
+        }
+    }
+}
+
 /// The number of pieces that become a part of parts in a block that is still too heavy.
 const PIECES: usize = 32;
 

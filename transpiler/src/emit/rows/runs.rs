@@ -42,11 +42,13 @@ impl<'p> Body<'p, '_> {
         groups
     }
 
-    /// A statement as a row, if possible: it writes and declares no local, and continues with the next statement.
+    /// A statement as a row, if possible: it writes and declares no local, and continues with the next statement. A
+    /// call that leads back stays alone: right before the first one the function asks for room.
     fn row(&self, stmt: &'p Stmt) -> Option<StatementRow<'p>> {
         let row = StatementRow::of(stmt, self.family(), &self.unit.slots)?;
         let is_call = matches!(row.expr.kind, ExprKind::Call(..) | ExprKind::Builtin(_) | ExprKind::Assign(_));
-        (is_call && !flow::ends(row.expr) && self.facts(row.expr).writes.is_empty()).then_some(row)
+        let stays = flow::ends(row.expr) || !self.facts(row.expr).writes.is_empty() || self.calls_itself(stmt);
+        (is_call && !stays).then_some(row)
     }
 }
 
