@@ -399,11 +399,14 @@ impl<'p> Machine<'p> {
                 Param::Word(_) => Value::Void,
                 Param::Out(_) => {
                     let place = self.place(arg, frame)?;
-                    let value = self.at(&place, frame).clone();
                     written = Some((at, place));
-                    value
+                    Value::Void
                 }
             });
+        }
+        // What is written is a place: its value is read when all the others are known.
+        if let Some((at, place)) = &written {
+            values[*at] = self.at(place, frame).clone();
         }
         let result = (builtin.run)(&mut values).map_err(|alarm| self.alarm(alarm, frame))?;
         if matches!(&result, Value::Str(text) if text.len() > LONGEST) {
