@@ -7,6 +7,7 @@ mod builder;
 mod channel;
 mod channels;
 mod drive;
+mod effects;
 mod external;
 mod foreground;
 mod handle;
@@ -19,8 +20,10 @@ mod pointer_store;
 mod quiet;
 mod recorded;
 mod running;
+mod signals;
 mod standstill;
 mod status;
+mod storing;
 pub(crate) mod trace;
 mod watching;
 
@@ -43,14 +46,13 @@ use crate::context::named::{self, GlobalError, Named};
 use crate::context::program::Program;
 use crate::context::shared_state::SharedState;
 use crate::context::subscribers::Event;
-use crate::context::system::{self, System};
+use crate::context::system::System;
 use crate::cycle::channel_id::ChannelId;
 use crate::cycle::clock_source::{Clock, Lateness};
-use crate::fault::{Alarm, Fault, File};
+use crate::fault::{Alarm, File};
 use crate::fieldbus::islands::Islands;
-use crate::io::{AxisName, Digital, Effect, IoDriver, Pendant, Playing, Pwm, RobotEffect};
-use crate::motion::{Joints, Override};
-use crate::storage::state::StateError;
+use crate::io::{Effect, IoDriver, Pendant, Playing};
+use crate::motion::Joints;
 use crate::unit::{RobotCycle, Unit};
 use arl_robot::cell::Names;
 use arl_robot::robot::Robot;
@@ -60,10 +62,6 @@ use external::External;
 use handle::HandleCalls;
 use late_limit::{LateLimit, Lost};
 use pointer_store::PointerStore;
-
-/// How often changes of system variables are stored all of whose changes are kept, in s: what a kill of the process may
-/// lose.
-const STORE_INTERVAL_S: f64 = 1.0;
 
 /// Runs a program.
 ///
@@ -173,7 +171,7 @@ impl Controller {
             self.scenario.play(cycle, &mut image, |effect| self.effects.push(effect));
         }
         for effect in self.effects.drain(..) {
-            act(&mut self.channels, effect);
+            effects::act(&mut self.channels, effect);
         }
         self.read_external_control();
         // A program that has just begun may have ended by the end of the cycle.
@@ -216,70 +214,6 @@ impl Controller {
             self.shared.subscribers.tell(|| Event::State(state));
         }
         state
-    }
-
-    /// Takes in what was stored beside the cycles. Where cycles do not take real time, what programs wait for is stored
-    /// before the next cycle, so that a run does not depend on the disk.
-    fn finish_disk_work(&mut self) {
-        let shared = &self.shared;
-        if shared.disk.is_waited_for() && !self.clock.is_real() {
-            shared.disk.settle();
-        }
-        if shared.state.borrow().is_saving() {
-            self.collect_saved();
-        }
-    }
-
-    fn collect_saved(&self) {
-        let problems = self.shared.state.borrow_mut().collect();
-        problems.into_iter().for_each(|problem| self.warn_of_unstored(&problem));
-    }
-
-    fn warn_of_unstored(&self, problem: &StateError) {
-        self.shared.warn(format!("system variables cannot be saved: {problem}"));
-    }
-
-    /// Begins to store the changes of those system variables all of whose changes are kept: once a second at most, and
-    /// when the programs have ended.
-    fn store_changed_variables(&mut self) {
-        let now = self.shared.now.get();
-        let due = || now >= self.stores_from || self.channels.outcome().is_some();
-        if self.system().has_changed() && due() && !self.shared.state.borrow().is_saving() {
-            self.stores_from = now + self.shared.rate.cycles(STORE_INTERVAL_S);
-            self.begin_to_store();
-        }
-    }
-
-    fn begin_to_store(&self) {
-        let kept = system::store_changed(self.system(), &mut self.shared.state.borrow_mut(), &self.shared.disk);
-        if let Err(problem) = kept {
-            self.warn_of_unstored(&problem);
-        }
-    }
-
-    /// Passes on to the storing thread where the programs stand.
-    fn note_pointers(&mut self) {
-        let Some(pointer_store) = &mut self.pointer_store else { return };
-        let pointers = self.channels.foreground().map(Channel::pointers);
-        if let Some(problem) = pointer_store.note(pointers, self.channels.outcome().is_some()) {
-            self.shared.warn(problem);
-        }
-    }
-
-    /// Waits until everything is stored that is stored beside the cycles: system variables, points of programs, and
-    /// where the programs stand. What goes wrong is a warning. [`run`](Controller::run) does so at its end; dropping
-    /// the controller does, too, but its warnings are then lost.
-    pub fn settle_state(&mut self) {
-        self.shared.disk.settle();
-        self.collect_saved();
-        if self.system().has_changed() {
-            self.begin_to_store();
-            self.shared.disk.settle();
-            self.collect_saved();
-        }
-        if let Some(problem) = self.pointer_store.as_mut().and_then(PointerStore::settle) {
-            self.shared.warn(problem);
-        }
     }
 
     /// Carries out what a PLC requests.
@@ -592,78 +526,6 @@ impl Controller {
         self.shared.take_alarms()
     }
 
-    /// Sets a digital input, from 1.
-    ///
-    /// # Errors
-    /// There is no such channel.
-    pub fn set_digital_input(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
-        self.shared.io.borrow_mut().set_digital(Digital::Di, channel, level)
-    }
-
-    /// The level of a digital input, from 1.
-    ///
-    /// # Errors
-    /// There is no such channel.
-    pub fn digital_input(&self, channel: i32) -> Result<bool, Fault> {
-        self.shared.io.borrow().digital(Digital::Di, channel)
-    }
-
-    /// The level of a digital output, from 1.
-    ///
-    /// # Errors
-    /// There is no such channel.
-    pub fn digital_output(&self, channel: i32) -> Result<bool, Fault> {
-        self.shared.io.borrow().digital(Digital::Do, channel)
-    }
-
-    /// Sets an analog input, from 1, in V or mA.
-    ///
-    /// # Errors
-    /// There is no such channel, or its type cannot carry the value.
-    pub fn set_analog_input(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
-        self.shared.io.borrow_mut().set_analog_input(channel, value)
-    }
-
-    /// The value of an analog output, from 1, in V or mA.
-    ///
-    /// # Errors
-    /// There is no such channel.
-    pub fn analog_output(&self, channel: i32) -> Result<f64, Fault> {
-        self.shared.io.borrow().analog_output(channel)
-    }
-
-    /// The state of a PWM output, from 1.
-    ///
-    /// # Errors
-    /// There is no such channel.
-    pub fn pwm(&self, channel: i32) -> Result<Pwm, Fault> {
-        self.shared.io.borrow().pwm(channel)
-    }
-
-    /// Sets an internal input signal, from 1.
-    ///
-    /// # Errors
-    /// There is no such channel.
-    pub fn set_internal_input(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
-        self.shared.io.borrow_mut().set_digital(Digital::InternalIn, channel, level)
-    }
-
-    /// Sets an internal output signal, from 1: the internal PLC's, which programs can only read.
-    ///
-    /// # Errors
-    /// There is no such channel.
-    pub fn set_internal_output(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
-        self.shared.io.borrow_mut().set_digital(Digital::InternalOut, channel, level)
-    }
-
-    /// The level of an internal output signal, from 1.
-    ///
-    /// # Errors
-    /// There is no such channel.
-    pub fn internal_output(&self, channel: i32) -> Result<bool, Fault> {
-        self.shared.io.borrow().digital(Digital::InternalOut, channel)
-    }
-
     /// Releases the robots after the last cycle. A robot that moves is cut off; from then on the robots report nothing.
     /// Call this before doing something slow after the last cycle with a real robot; otherwise it happens when the
     /// controller is dropped.
@@ -678,53 +540,6 @@ impl Drop for Controller {
         self.settle_state();
         self.io.close();
     }
-}
-
-/// The index of an axis of a channel's robot, from 0. The axis was checked to exist.
-fn place(channel: &Channel, axis: AxisName) -> Option<usize> {
-    channel.channel_state().robot().and_then(|unit| axis.place(unit.robot()))
-}
-
-/// Carries out an effect of a scenario, except on inputs. The pendant's buttons act on all channels.
-fn act(channels: &mut Channels, effect: Effect) {
-    let (number, robot_effect) = match effect {
-        Effect::Pendant(button) => return pendant::press(channels, button),
-        Effect::Robot(number, robot_effect) => (number, robot_effect),
-    };
-    // The channel was checked to exist.
-    let Some(channel) = channels.numbered(number) else { return };
-    match robot_effect {
-        RobotEffect::Jog(axis, by) => {
-            if let Some(place) = place(channel, axis) {
-                pendant::jog(channel, place + 1, by);
-            }
-        }
-        RobotEffect::Hand(axis, by) => {
-            if let Some(place) = place(channel, axis) {
-                pendant::move_by_hand(channel, place + 1, by);
-            }
-        }
-        RobotEffect::Force(force) => {
-            if let Some(mut unit) = channel.channel_state().robot_mut() {
-                unit.outside_mut().force = force;
-            }
-        }
-        RobotEffect::Torque(axis, torque) => {
-            if let Some(mut unit) = channel.channel_state().robot_mut()
-                && let Some(place) = unit.outside_mut().torques.get_mut(axis)
-            {
-                *place = torque;
-            }
-        }
-    }
-}
-
-/// Sets the speed override of all robots.
-fn set_override(channels: &Channels, speed: Override) {
-    channels
-        .iter()
-        .filter_map(|channel| channel.channel_state().robot_mut())
-        .for_each(|mut unit| unit.set_override(speed));
 }
 
 /// The program still runs, so it cannot be reset.

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::{Controller, act};
+use super::Controller;
+use super::effects::act;
 use crate::io::{Effect, Order};
 use arl_robot::cell::Names;
 

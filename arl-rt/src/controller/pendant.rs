@@ -82,7 +82,7 @@ impl Controller {
         self.scenario.begin_again(self.shared.now.get(), &mut image, |effect| effects.push(effect));
         drop(image);
         for effect in self.effects.drain(..) {
-            super::act(&mut self.channels, effect);
+            super::effects::act(&mut self.channels, effect);
         }
         if self.channels.state() == State::Paused {
             self.scenario.wait();
@@ -187,7 +187,7 @@ pub(super) fn press(channels: &mut Channels, button: Pendant) {
         return;
     }
     match button {
-        Pendant::Override(speed) => super::set_override(channels, speed),
+        Pendant::Override(speed) => super::effects::set_override(channels, speed),
         Pendant::Start => channels.each(start),
         Pendant::Pause => channels.each(|channel| pause(channel)),
         Pendant::Step => channels.each(step),
