@@ -88,7 +88,7 @@ impl fmt::Display for TeachError {
                 )
             }
             TeachProblem::Constant(value) => {
-                write!(f, "the program was compiled with the constant {value}: compile it again to change it")
+                write!(f, "it is a constant, {value} in this program: only the text of the program changes it")
             }
             TeachProblem::Type { expected, found } => write!(f, "expected a value of type {expected}, found {found}"),
             TeachProblem::Range { expected } => write!(f, "the number is outside the range of {expected}"),

@@ -34,7 +34,9 @@ impl Checker<'_> {
                 let slot = self.funcs.get(func.0 as usize)?;
                 let name = self.text(body.module, call.name.span).to_string();
                 let labels = [(body.module, slot.ast.name.span, "defined here")];
-                return self.report_in(body.module, call.name.span, NameProblem::FunctionBelow { name }, &labels);
+                let calls_back = self.calls_back(body, slot.ast);
+                let problem = NameProblem::FunctionBelow { name, calls_back };
+                return self.report_in(body.module, call.name.span, problem, &labels);
             }
             return self.call_user(body, func, call, span);
         }
@@ -43,6 +45,20 @@ impl Checker<'_> {
             return self.unknown_function(body, call);
         }
         self.call_builtin(body, overloads, call, span)
+    }
+
+    /// Whether a function further down in the file calls the one that is being checked: moving it up does not help
+    /// then.
+    fn calls_back(&self, body: &CheckedBody, below: &ast::Func) -> bool {
+        let Some(caller) = body.func.and_then(|func| self.funcs.get(func.0 as usize)) else { return false };
+        let name = self.text(body.module, caller.ast.name.span).to_lowercase();
+        let text = self.text(body.module, Span { end: below.end.start, ..below.name.span }).to_lowercase();
+        let is_call = |(at, _): (usize, &str)| {
+            let (before, behind) =
+                (text.get(..at).unwrap_or_default(), text.get(at + name.len()..).unwrap_or_default());
+            behind.trim_start().starts_with('(') && !before.ends_with(|end: char| end.is_alphanumeric() || end == '_')
+        };
+        text.match_indices(&name).any(is_call)
     }
 
     fn catalog_functions(&mut self, symbol: Symbol) -> &'static [Entry] {

@@ -43,7 +43,7 @@ problems! {
         }
         error 207 "A function called above its definition" => {
             /// A function that is defined further down.
-            FunctionBelow { name: String },
+            FunctionBelow { name: String, calls_back: bool },
         }
         error 208 "A component that the structure does not have" => {
             /// A structure has no such component.
@@ -93,7 +93,7 @@ impl Problem for NameProblem {
             NameProblem::UnknownType { name, .. } => format!("there is no type `{name}`"),
             NameProblem::Duplicate { name, what } => format!("the {what} `{name}` is declared twice"),
             NameProblem::VariableBelow { name } => format!("the variable `{name}` is used above its declaration"),
-            NameProblem::FunctionBelow { name } => format!("the function `{name}` is called above its definition"),
+            NameProblem::FunctionBelow { name, .. } => format!("the function `{name}` is called above its definition"),
             NameProblem::UnknownComponent { name, ty, .. } => format!("a `{ty}` has no component `{name}`"),
             NameProblem::UnknownSystem { name, .. } => format!("there is no system variable `${name}`"),
             NameProblem::UnknownConstant { name, ty, .. } => format!("`{ty}` has no constant `{name}`"),
@@ -161,8 +161,12 @@ impl Problem for NameProblem {
             NameProblem::VariableBelow { .. } => {
                 Some("a global variable is only known below its declaration: move the declaration up".into())
             }
-            NameProblem::FunctionBelow { .. } => {
+            NameProblem::FunctionBelow { calls_back: false, .. } => {
                 Some("a function must be defined above its first call: move the definition up".into())
+            }
+            NameProblem::FunctionBelow { .. } => {
+                let why = "a function must be defined above its first call in its file";
+                Some(format!("{why}: of two that call each other, one has to go to another file"))
             }
             NameProblem::UnknownComponent { near, components, .. } => {
                 meant(near).or_else(|| Some(format!("its components are {components}")))

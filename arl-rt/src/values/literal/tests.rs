@@ -204,7 +204,7 @@ fn declarations_keep_their_type() {
 fn constants_keep_their_value() {
     let slot: &'static dyn Teach = &Fixed(5_u8);
     redeclare(slot, &[], "const byte b = 5").unwrap();
-    let reason = "the program was compiled with the constant 05h: compile it again to change it";
+    let reason = "it is a constant, 05h in this program: only the text of the program changes it";
     assert_eq!(redeclare(slot, &[], "const byte b = 6"), Err(reason.to_owned()));
     assert_eq!(redeclare(slot, &[], "byte b"), Err(reason.to_owned()));
     let slot: &'static dyn Teach = &Fixed("text");
