@@ -21,8 +21,7 @@ pub(crate) fn clean(days: Option<u32>) -> Result<(), Failure> {
 }
 
 fn summary(removed: &Removed, cache: &str) -> String {
-    let counts =
-        [(removed.programs, "compiled program"), (removed.runtimes, "compiled runtime"), (removed.results, "sweep")];
+    let counts = [(removed.programs, "program"), (removed.runtimes, "compiled runtime"), (removed.results, "sweep")];
     let count = |(count, word): (usize, &str)| format!("{count} {word}{}", if count == 1 { "" } else { "s" });
     let what: Vec<String> = counts.into_iter().filter(|(count, _)| *count > 0).map(count).collect();
     match what.is_empty() {
@@ -38,7 +37,7 @@ mod tests {
     #[test]
     fn the_answer_counts() {
         let removed = Removed { programs: 12, runtimes: 1, results: 0, bytes: 1_300_000_000, kept: Vec::new() };
-        assert_eq!(summary(&removed, "/c"), "removed 12 compiled programs and 1 compiled runtime from /c: 1.30 GB\n");
+        assert_eq!(summary(&removed, "/c"), "removed 12 programs and 1 compiled runtime from /c: 1.30 GB\n");
         assert_eq!(summary(&Removed::default(), "/c"), "nothing to remove from /c\n");
     }
 }

@@ -5,6 +5,7 @@ use arl_project::listing;
 use arl_project::options::Checking;
 use arl_project::program::{Job, bug, check_options, compile_rust};
 use arl_project::runtime::Runtime;
+use arl_robot::result_file::expect_apart;
 use arl_terminal::answer;
 use arl_terminal::failure::Failure;
 use arl2rs::compile::compile_program;
@@ -42,6 +43,9 @@ pub(crate) fn build(
     let cache = Cache::find()?;
     let place = job.place(&cache)?;
     let to = out.map_or_else(|| default_name(file, library), Path::to_path_buf);
+    let files = done.files();
+    let inputs: Vec<_> = files.iter().map(|path| ("a file of the program", path.as_path())).collect();
+    expect_apart(&[("the program to be built", &to)], &inputs).map_err(Failure::Usage)?;
     if let Some(folder) = to.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(|error| Failure::io("make the folder", folder, &error))?;
     }

@@ -1,11 +1,14 @@
 //! `arl2rs fmt`
 
+use arl_lang::symbol::Interner;
 use arl_lang::text::{decode, encode_like};
+use arl_lang::{ParseOptions, parse};
 use arl_robot::atomic_file::{self, ChangeError};
 use arl_robot::regular_file;
 use arl_terminal::answer;
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
+use arl_terminal::show;
 use arl2rs::format::format;
 use std::fs;
 use std::io::{self, Read, Write};
@@ -67,6 +70,20 @@ fn programs(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(programs)
 }
 
+/// Says where lines stay as they are because of a mistake in their form.
+fn warn_of_mistakes(name: &Path, bytes: &[u8]) {
+    let Ok(text) = decode(bytes) else { return };
+    let errors = parse(&text, &mut Interner::default(), ParseOptions::default()).errors;
+    let Some(first) = errors.first() else { return };
+    let before = text.get(..first.span.start as usize).unwrap_or_default();
+    let line = before.matches('\n').count() + 1;
+    let mistakes = match errors.len() {
+        1 => "it has a mistake".to_owned(),
+        count => format!("it has {count} mistakes, the first one here"),
+    };
+    show::warning(&format!("{}:{line}: {mistakes}; such lines stay as they are", name.display()));
+}
+
 /// The bytes of a program, formatted.
 fn laid_out(name: &Path, bytes: &[u8]) -> Result<Vec<u8>, Failure> {
     let text = decode(bytes).map_err(|error| Failure::Other(format!("cannot read {}: {error}", name.display())))?;
@@ -82,9 +99,17 @@ fn laid_out(name: &Path, bytes: &[u8]) -> Result<Vec<u8>, Failure> {
 fn in_place(file: &Path, check: bool) -> Result<Option<PathBuf>, Failure> {
     if check {
         let bytes = regular_file::read(file).map_err(|error| Failure::io("read", file, &error))?;
+        warn_of_mistakes(file, &bytes);
         return Ok((laid_out(file, &bytes)? != bytes).then(|| file.to_path_buf()));
     }
-    atomic_file::change(file, |bytes| laid_out(file, bytes)).map(|()| None).map_err(|error| match error {
+    let mut had = Vec::new();
+    let change = |bytes: &[u8]| {
+        had = bytes.to_vec();
+        laid_out(file, bytes)
+    };
+    let changed = atomic_file::change(file, change);
+    warn_of_mistakes(file, &had);
+    changed.map(|()| None).map_err(|error| match error {
         ChangeError::Read(error) => Failure::io("read", file, &error),
         ChangeError::Refused(failure) => failure,
         ChangeError::Write(error) => Failure::io("write", file, &error),
@@ -96,6 +121,7 @@ fn standard_input(check: bool) -> Result<Option<PathBuf>, Failure> {
     let name = Path::new("standard input");
     let mut bytes = Vec::new();
     io::stdin().lock().read_to_end(&mut bytes).map_err(|error| Failure::io("read", name, &error))?;
+    warn_of_mistakes(name, &bytes);
     let new = laid_out(name, &bytes)?;
     if check {
         return Ok((new != bytes).then(|| PathBuf::from("-")));

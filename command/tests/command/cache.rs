@@ -227,7 +227,7 @@ fn clean_leaves_alone_what_is_not_of_the_cache() {
     cached.0.write("cache/results/kept.txt", "kept");
     symlink(cached.path("mine"), cached.path("cache/programs/link")).expect("a link");
     let cleaned = cached.arl2rs(&["clean"]);
-    assert!(cleaned.out.starts_with("removed 1 compiled program and 1 compiled runtime"), "{}", cleaned.out);
+    assert!(cleaned.out.starts_with("removed 1 program and 1 compiled runtime"), "{}", cleaned.out);
     assert_eq!(cleaned.err, "");
     for file in ["mine/kept.txt", "cache/programs/own/kept.txt", "cache/results/kept.txt"] {
         assert_eq!(cached.0.read(file), "kept");
