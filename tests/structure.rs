@@ -64,7 +64,7 @@ const COMPILER: &[&str] = &[
 ];
 
 /// The files and folders of arl-terminal, from the ground up.
-const TERMINAL: &[&str] = &["exit", "show", "failure", "answer", "interrupt", "port", "private_folder", "progress"];
+const TERMINAL: &[&str] = &["exit", "show", "failure", "answer", "private_folder", "interrupt", "port", "progress"];
 
 /// The files and folders of arl-editor, from the ground up.
 const EDITOR: &[&str] = &["framing", "lsp", "dap"];

@@ -32,6 +32,10 @@ mod rate;
 #[cfg(feature = "files")]
 #[doc(hidden)]
 pub mod regular_file;
+// Like `atomic_file`: they write the results of runs with this module.
+#[cfg(feature = "files")]
+#[doc(hidden)]
+pub mod result_file;
 pub mod robot;
 // With this module all crates of this project read the files that users write. Its error, `SettingsError`, is also
 // [`cell::SettingsError`].

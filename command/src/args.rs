@@ -246,8 +246,8 @@ pub(crate) struct SweepOptions {
     #[arg(short, value_name = "FILE.parquet")]
     pub out: Option<PathBuf>,
     /// How many processes; one for each core if absent.
-    #[arg(long, value_name = "N")]
-    pub jobs: Option<std::num::NonZeroU8>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..))]
+    pub jobs: Option<u8>,
     /// Make only the I-th of N parts of the runs.
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,

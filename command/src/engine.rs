@@ -2,11 +2,11 @@
 
 use arl_code::{Bundle, BundledProgram, Code};
 use arl_engine::Engine;
-use arl_project::program::WHILE_INPUT;
 use arl_rt::emit::program_main;
 use arl_rt::program::{Make, Other, Program};
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
+use arl_terminal::interrupt;
 use std::ffi::OsString;
 use std::path::Path;
 use std::sync::Arc;
@@ -14,16 +14,19 @@ use std::time::SystemTime;
 
 /// Runs the code in a file, with the options of a compiled program.
 pub(crate) fn run(file: &Path, words: Vec<OsString>) -> Result<Exit, Failure> {
-    if std::env::var_os(WHILE_INPUT).is_some() {
-        std::thread::spawn(|| {
-            let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
-            std::process::exit(Exit::INTERRUPTED.0.into());
-        });
-    }
     let bytes = std::fs::read(file).map_err(|error| Failure::io("read", file, &error))?;
     let bundle = Bundle::from_bytes(&bytes).map_err(|error| Failure::Other(format!("{}: {error}", file.display())))?;
     let made = file.metadata().and_then(|about| about.modified()).unwrap_or_else(|_| SystemTime::now());
     Ok(Exit(run_bundle(bundle, words, made)))
+}
+
+/// Runs code that was just made, with the options of a compiled program; `made` is a moment before its sources were
+/// read.
+pub(crate) fn run_here(bundle: Bundle, words: Vec<OsString>, made: SystemTime) -> Exit {
+    interrupt::leave_to_the_program();
+    // A panic of the run says where it happened.
+    drop(std::panic::take_hook());
+    Exit(run_bundle(bundle, words, made))
 }
 
 fn run_bundle(bundle: Bundle, words: Vec<OsString>, made: SystemTime) -> u8 {

@@ -18,6 +18,7 @@ use arl_robot::cell::{Cell, Signal, SignalKind};
 use arl_robot::settings::Source;
 use arl_robot::{Robot, atomic_file, regular_file};
 use arl_terminal::failure::Failure;
+use arl_terminal::private_folder::PrivateFolder;
 use arl2rs::compile::{guard, on_large_stack};
 use std::ffi::OsString;
 use std::fmt;
@@ -70,7 +71,7 @@ pub struct Prepared {
 pub enum PreparedProgram {
     /// A compiled library. As long as the lock is held, the program is not compiled again, which would remove it: it is
     /// for loading it.
-    Library(PathBuf, Lock),
+    Library(PathBuf, Option<Lock>),
     /// Code, for the engine of this process.
     Code(CodeProgram),
 }
@@ -155,7 +156,34 @@ const TEXTS: &str = "texts";
 pub struct TextProgram {
     /// Its main file.
     pub path: PathBuf,
-    _lock: Lock,
+    _kept: KeptFolder,
+}
+
+/// What keeps the folder of a text.
+#[derive(Debug)]
+enum KeptFolder {
+    /// It is in the cache.
+    Locked(#[expect(dead_code, reason = "held until dropped")] Lock),
+    /// It is of this process alone.
+    Own(#[expect(dead_code, reason = "held until dropped")] PrivateFolder),
+}
+
+/// The folder of a text: in the cache, or where there is none, one of this process.
+fn text_folder(hash: &str) -> Result<(PathBuf, KeptFolder), Failure> {
+    let in_cache = || {
+        let folder = Cache::find()?.text(hash);
+        let lock = Lock::take(&folder, true, "waiting for another arl2rs that is removing this program")?;
+        Ok((folder, KeptFolder::Locked(lock)))
+    };
+    match in_cache() {
+        Err(Failure::Usage(text)) => Err(Failure::Usage(text)),
+        Err(_) => {
+            let folder = PrivateFolder::new("arl2rs-text-");
+            let folder = folder.map_err(|error| Failure::Other(format!("cannot make a temporary folder: {error}")))?;
+            Ok((folder.path().to_owned(), KeptFolder::Own(folder)))
+        }
+        found => found,
+    }
 }
 
 /// Puts a program that is given as text into the cache: its main file first, then the files beside it, by their names.
@@ -176,8 +204,8 @@ pub fn text_program(files: &[(String, String)]) -> Result<TextProgram, HostError
             }
         }
         let (main, _) = files.first().ok_or_else(|| Failure::Usage("expected the text of the program".into()))?;
-        let folder = Cache::find()?.text(&format!("{:032x}", hasher.finish_128()));
-        let lock = Lock::take(&folder, true, "waiting for another arl2rs that is removing this program")?;
+        let hash = format!("{:032x}", hasher.finish_128());
+        let (folder, kept) = text_folder(&hash)?;
         // Not where the lock is: a text may have the lock's name.
         let folder = folder.join(TEXTS);
         for (name, text) in files {
@@ -191,7 +219,7 @@ pub fn text_program(files: &[(String, String)]) -> Result<TextProgram, HostError
             let written = atomic_file::write(&path, text.as_bytes());
             written.map_err(|error| Failure::io("write", &path, &error))?;
         }
-        Ok(TextProgram { path: folder.join(main), _lock: lock })
+        Ok(TextProgram { path: folder.join(main), _kept: kept })
     })
 }
 

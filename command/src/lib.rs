@@ -20,6 +20,7 @@ mod view;
 use args::{Cli, Command};
 use arl_editor::{dap, lsp};
 use arl_project::{listing, robots};
+use arl_rt::emit::program_main;
 use arl_runs::{report, urdf};
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
@@ -51,7 +52,7 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
         return engine::run(&bundle, words).unwrap_or_else(|failure: Failure| failure.report()).0;
     }
     remember_panics();
-    interrupt::end_the_command();
+    interrupt::end_the_command(program_main::minds_hang_up());
     let done = on_large_stack(|| guard(|| dispatch(cli.command)));
     let failed = |failure: Failure| failure.report();
     done.map_or_else(|bug| failed(Failure::Other(bug.to_string())), |done| done.unwrap_or_else(failed)).0

@@ -1,15 +1,17 @@
 //! `arl2rs run` and `arl2rs plot`
 
+use crate::engine;
 use arl_project::arl_toml;
 use arl_project::cache::Kind;
 use arl_project::options::{EngineChoice, RunOptions};
-use arl_project::program::{Ready, prepare};
+use arl_project::program::{Here, Ready, prepare, prepare_here};
 use arl_project::robots;
 use arl_robot::Robot;
 use arl_robot::cell::Cell;
 use arl_robot::changes::Part;
+use arl_robot::result_file::{self, ResultFile};
 use arl_runs::collide::Scene;
-use arl_runs::listen::{Listener, Subscriber};
+use arl_runs::listen::{Listener, Received, Subscriber};
 use arl_runs::pendant;
 use arl_runs::plot::{self, Lane, Ran};
 use arl_runs::record::Recording;
@@ -27,8 +29,9 @@ use std::cell::RefCell;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::SystemTime;
 
-/// Makes the program ready, then lets it take over.
+/// Makes the program ready, then runs it in this process, or lets it take over.
 pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
     let on_screen = options.pendant && options.plot.is_none() && std::io::stdout().is_terminal();
     if on_screen && options.engine == Some(EngineChoice::Native) {
@@ -41,10 +44,35 @@ pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
         false if options.changed()?.of_part(Part::Global).next().is_some() => Kind::Named,
         false => Kind::Program,
     };
-    let ready = prepare(kind, file, options)?;
+    let observers = Observers::of(options)?;
+    let made = SystemTime::now();
+    // A program that reports to others is a process of its own.
+    let here = match on_screen || options.plot.is_some() || !observers.are_none(options) {
+        true => Here::Process(prepare(kind, file, options)?),
+        false => prepare_here(kind, file, options)?,
+    };
+    let (Here::Process(Ready { sources, .. }) | Here::Code { sources, .. }) = &here;
+    let results = options.results();
+    expect_apart(&results, &inputs(file, options, sources))?;
+    // Better to fail now than after a long run; the program checks its own results only when it begins.
+    results.iter().try_for_each(|(_, path)| result(path).map(drop))?;
+    let subscribers = observers.subscribers(options, sources)?;
+    match here {
+        Here::Code { bundle, .. } => Ok(engine::run_here(*bundle, options.arguments(), made)),
+        Here::Process(ready) => run_process(ready, file, options, on_screen, subscribers),
+    }
+}
+
+/// Starts the program, or becomes it if there is nobody who listens to it.
+fn run_process(
+    ready: Ready,
+    file: &Path,
+    options: &RunOptions,
+    on_screen: bool,
+    mut subscribers: Vec<Box<dyn Subscriber>>,
+) -> Result<Exit, Failure> {
     let mut command = ready.command()?;
     command.args(options.arguments());
-    let mut subscribers = subscribers(options, &ready.sources)?;
     if on_screen {
         return pendant::run(command, &ready.sources, ready.lock, subscribers);
     }
@@ -55,24 +83,60 @@ pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
         return run_and_plot(command, listener, ready, file, options, picture, &lanes);
     }
     match Listener::of(subscribers)? {
-        Some(listener) => wait(command, Some(listener), ready),
+        // The folder of its code is removed after the run.
+        None if ready.folder.is_some() => wait(command, None, ready).map(|ended| ended.code),
+        Some(listener) => wait(command, Some(listener), ready).map(|ended| ended.code),
         None => start(command, ready),
     }
 }
 
-/// The subscribers of the program: collisions come first, so that they are recorded.
-fn subscribers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Subscriber>>, Failure> {
-    let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;
-    let cell = cell(options)?;
-    let scenery = Scenery::of(&cell, &robots::of_cell(&cell, robot)?, &show::warning)?;
-    let mut subscribers = watchers(&scenery, options.clearance)?;
-    if let Some(path) = &options.record {
-        subscribers.push(Box::new(Recording::create(path, &scenery, sources)?));
+/// What a run reads, each with what it is.
+fn inputs<'a>(file: &'a Path, options: &'a RunOptions, sources: &'a [PathBuf]) -> Vec<(&'static str, &'a Path)> {
+    let sources = sources.iter().map(|path| ("a file of the program", path.as_path()));
+    std::iter::once(("the program", file)).chain(sources).chain(options.inputs()).collect()
+}
+
+/// Who observes the program, by what is around it: `None` where that does not matter.
+struct Observers {
+    scenery: Option<Scenery>,
+    /// Collisions.
+    watchers: Vec<Box<dyn Subscriber>>,
+}
+
+impl Observers {
+    fn of(options: &RunOptions) -> Result<Self, Failure> {
+        if options.cell.is_none() && options.clearance.is_none() && !Self::are_asked(options) {
+            return Ok(Self { scenery: None, watchers: Vec::new() });
+        }
+        let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;
+        let cell = cell(options)?;
+        let scenery = Scenery::of(&cell, &robots::of_cell(&cell, robot)?, &show::warning)?;
+        let watchers = watchers(&scenery, options.clearance)?;
+        Ok(Self { scenery: Some(scenery), watchers })
     }
-    if let (Some(file), Some(format @ (ReportFormat::Json | ReportFormat::Html))) = (&options.report, options.format) {
-        subscribers.push(Box::new(Reporting::create(file, format, &scenery)?));
+
+    /// Whether a recording, or a report that is made from one, was requested.
+    fn are_asked(options: &RunOptions) -> bool {
+        options.record.is_some() || matches!(options.format, Some(ReportFormat::Json | ReportFormat::Html))
     }
-    Ok(subscribers)
+
+    fn are_none(&self, options: &RunOptions) -> bool {
+        self.watchers.is_empty() && !Self::are_asked(options)
+    }
+
+    /// The subscribers of the program: collisions come first, so that they are recorded.
+    fn subscribers(self, options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Subscriber>>, Failure> {
+        let Self { scenery: Some(scenery), watchers: mut subscribers } = self else { return Ok(Vec::new()) };
+        if let Some(path) = &options.record {
+            subscribers.push(Box::new(Recording::create(path, &scenery, sources)?));
+        }
+        if let (Some(file), Some(format @ (ReportFormat::Json | ReportFormat::Html))) =
+            (&options.report, options.format)
+        {
+            subscribers.push(Box::new(Reporting::create(file, format, &scenery)?));
+        }
+        Ok(subscribers)
+    }
 }
 
 /// The cell of a run; an empty one if none is named.
@@ -94,19 +158,34 @@ pub(crate) fn watchers(scenery: &Scenery, clearance: Option<f64>) -> Result<Vec<
 
 /// Draws an existing trace.
 pub(crate) fn plot(trace: &Path, picture: &Path, robot: Option<&str>) -> Result<(), Failure> {
+    expect_apart(&[("the picture", picture)], &[("the trace", trace)])?;
     let beside = arl_toml::of_program(trace)?.and_then(|file| file.robot);
     let robot = robot.or(beside.as_deref());
     let title = trace.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    draw(trace, picture, robots::load(robot)?, &Ran { title, ..Ran::default() })
+    draw(trace, result(picture)?, robots::load(robot)?, &Ran { title, ..Ran::default() })
 }
 
-fn draw(trace: &Path, picture: &Path, robot: Robot, ran: &Ran) -> Result<(), Failure> {
+fn draw(trace: &Path, picture: ResultFile, robot: Robot, ran: &Ran) -> Result<(), Failure> {
+    let path = picture.path().to_owned();
     if !plot::plot(trace, picture, robot, ran)? {
-        // There may be an empty picture, made to check that it can be written.
-        let _ = std::fs::remove_file(picture);
-        show::warning(&format!("no motion was executed, so {} was not drawn", picture.display()));
+        not_drawn("no motion was executed", &path);
     }
     Ok(())
+}
+
+/// A warning that there is no new picture.
+fn not_drawn(why: &str, picture: &Path) {
+    let old = if picture.exists() { "; it is still that of an earlier run" } else { "" };
+    show::warning(&format!("{why}, so {} was not drawn{old}", picture.display()));
+}
+
+/// A file for a picture.
+fn result(path: &Path) -> Result<ResultFile, Failure> {
+    ResultFile::new(path).map_err(|error| Failure::Usage(format!("cannot write {}: {error}", path.display())))
+}
+
+fn expect_apart(results: &[(&str, &Path)], inputs: &[(&str, &Path)]) -> Result<(), Failure> {
+    result_file::expect_apart(results, inputs).map_err(Failure::Usage)
 }
 
 /// Runs the program, then draws its trace, however the run ended.
@@ -120,7 +199,7 @@ fn run_and_plot(
     lanes: &RefCell<Vec<Lane>>,
 ) -> Result<Exit, Failure> {
     // Better to fail now than after a long run.
-    std::fs::write(picture, "").map_err(|error| Failure::io("write", picture, &error))?;
+    let result = result(picture)?;
     let (trace, _passing) = match options.trace.clone() {
         Some(trace) => (trace, None),
         // Unless the trace is requested, it is temporary.
@@ -133,18 +212,14 @@ fn run_and_plot(
             (trace, Some(folder))
         }
     };
-    // A trace that another run left there must not be drawn.
-    let _ = std::fs::remove_file(&trace);
     let ran = ran(file, &ready.sources);
-    let code = wait(command, listener, ready)?;
+    let Ended { code, received } = wait(command, listener, ready)?;
     let ran = Ran { lanes: lanes.take(), ..ran };
-    match trace.is_file() {
-        true => {
-            let robot = robots::load_with(options.robot.as_deref(), &options.changed()?)?;
-            draw(&trace, picture, robot, &ran)?;
-        }
-        // The program did not even begin, and has reported the reason.
-        false => drop(std::fs::remove_file(picture)),
+    match received {
+        // The program did not even begin, and has reported the reason: the trace is that of an earlier run.
+        Received::Nothing => {}
+        Received::Broken if code == Exit::INTERRUPTED => not_drawn("the program was ended at once", picture),
+        _ => draw(&trace, result, robots::load_with(options.robot.as_deref(), &options.changed()?)?, &ran)?,
     }
     Ok(code)
 }
@@ -167,11 +242,17 @@ fn start(mut command: Command, ready: Ready) -> Result<Exit, Failure> {
 
 #[cfg(not(unix))]
 fn start(command: Command, ready: Ready) -> Result<Exit, Failure> {
-    wait(command, None, ready)
+    wait(command, None, ready).map(|ended| ended.code)
+}
+
+/// How a run ended.
+struct Ended {
+    code: Exit,
+    received: Received,
 }
 
 /// Runs the program while this process waits, or listens to it. Only the program acts on Ctrl-C.
-fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<Exit, Failure> {
+fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<Ended, Failure> {
     interrupt::leave_to_the_program();
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
     listener.iter().for_each(|listener| listener.ask(&mut command));
@@ -180,10 +261,11 @@ fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Resul
     drop(ready.lock);
     let ended = match listener {
         // The program itself reports what it could not send.
-        Some(listener) => listener.receive(&mut child).map(|(status, _)| status),
-        None => child.wait(),
+        Some(listener) => listener.receive(&mut child),
+        None => child.wait().map(|status| (status, Received::Nothing)),
     };
-    Ok(Exit::from(code(ended.map_err(fail)?)))
+    let (status, received) = ended.map_err(fail)?;
+    Ok(Ended { code: Exit::from(code(status)), received })
 }
 
 /// The exit code of a program, as in a shell.

@@ -25,17 +25,26 @@ pub(crate) struct Messages<R> {
     input: R,
     /// Bytes that were read beyond a message.
     ahead: Vec<u8>,
+    /// Whether there was a message, and whether there was something that is none.
+    has_read: bool,
+    has_skipped: bool,
 }
 
 impl<R: BufRead> Messages<R> {
     /// The messages that come from an input.
     pub(crate) fn new(input: R) -> Self {
-        Self { input, ahead: Vec::new() }
+        Self { input, ahead: Vec::new(), has_read: false, has_skipped: false }
+    }
+
+    /// Whether all that came was no message.
+    pub(crate) fn is_something_else(&self) -> bool {
+        self.has_skipped && !self.has_read
     }
 
     /// The bytes of the next message; `None` at the end of the input.
     pub(crate) fn next_message(&mut self) -> Option<Vec<u8>> {
         let length = self.header()?;
+        self.has_read = true;
         let mut body = Vec::new();
         while body.len() < length {
             let searched = body.len().saturating_sub(END.len());
@@ -76,8 +85,9 @@ impl<R: BufRead> Messages<R> {
                 return None;
             }
             let text = line.trim_ascii();
-            if let Some(at) = last_length(text) {
-                length = text.get(at..).and_then(length_in);
+            match last_length(text) {
+                Some(at) => length = text.get(at..).and_then(length_in),
+                None => self.has_skipped |= !text.is_empty(),
             }
             if let (true, Some(length)) = (text.is_empty(), length) {
                 return Some(length);

@@ -112,7 +112,7 @@ pub fn is_there() -> bool {
 fn missing() -> Failure {
     let rust = "https://www.rust-lang.org/tools/install";
     let text = "cargo was not found: compiling needs Rust";
-    Failure::Other(format!("{text} ({rust}); `arl2rs run --engine engine` runs programs without it"))
+    Failure::Other(format!("{text} ({rust}); without `--engine native` programs run at once, and need none"))
 }
 
 /// The cargo command. cargo looks for settings from its working folder up to the root, so it runs in the root, where

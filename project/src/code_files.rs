@@ -1,7 +1,8 @@
-//! Files with the code of programs, in their places of the cache.
+//! Files with the code of programs, in their places of the cache or, where there is none, in folders of their own.
 
 use crate::cache::Place;
 use arl_terminal::failure::Failure;
+use arl_terminal::private_folder::PrivateFolder;
 use std::hash::{BuildHasher, DefaultHasher, Hash, Hasher, RandomState};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -38,4 +39,13 @@ pub(crate) fn write(place: &Place, bytes: &[u8]) -> Result<PathBuf, Failure> {
         Err(error) => Err(Failure::io("write", &path, &error)),
         Ok(()) => Ok(path),
     }
+}
+
+/// Writes code where there is no cache: into a folder of its own.
+pub(crate) fn write_apart(bytes: &[u8]) -> Result<(PathBuf, PrivateFolder), Failure> {
+    let folder = PrivateFolder::new("arl2rs-code-")
+        .map_err(|error| Failure::Other(format!("cannot make a temporary folder for the program: {error}")))?;
+    let path = folder.path().join("program");
+    std::fs::write(&path, bytes).map_err(|error| Failure::io("write", &path, &error))?;
+    Ok((path, folder))
 }

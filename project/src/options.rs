@@ -5,7 +5,7 @@ use arl_terminal::answer::ReportFormat;
 use arl_terminal::failure::Failure;
 use clap::{Args, ValueEnum};
 use serde::Deserialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Options of the compiler.
 #[derive(Args, Clone, Default, PartialEq, Debug)]
@@ -226,6 +226,25 @@ impl RunOptions {
             arguments.push(report);
         }
         arguments
+    }
+
+    /// The files that a run writes, each with its option.
+    pub fn results(&self) -> Vec<(&'static str, &Path)> {
+        let report = self.report.as_deref().filter(|file| *file != Path::new("-"));
+        let all = [
+            ("--trace", self.trace.as_deref()),
+            ("--plot", self.plot.as_deref()),
+            ("--record", self.record.as_deref()),
+            ("--report", report),
+        ];
+        all.into_iter().filter_map(|(option, path)| Some((option, path?))).collect()
+    }
+
+    /// The files that a run reads beside its program, each with what it is.
+    pub fn inputs(&self) -> Vec<(&'static str, &Path)> {
+        let robot = self.robot.as_deref().map(Path::new).filter(|robot| robot.is_file());
+        let all = [("the cell", self.cell.as_deref()), ("the scenario", self.io.as_deref()), ("the robot", robot)];
+        all.into_iter().filter_map(|(what, path)| Some((what, path?))).collect()
     }
 
     /// The changes given by `--set`.

@@ -15,6 +15,7 @@ use arl_code::{Bundle, BundledProgram, Code};
 use arl_robot::cell::Cell;
 use arl_robot::outline::Outline;
 use arl_terminal::failure::Failure;
+use arl_terminal::private_folder::PrivateFolder;
 use arl_terminal::progress::Progress;
 use arl_terminal::show;
 use arl2rs::CheckOptions;
@@ -36,8 +37,10 @@ pub struct Ready {
     pub program: PathBuf,
     /// The code, if the executable is this command, which has the engine.
     pub code: Option<PathBuf>,
-    /// No other process compiles the program again while this is held.
-    pub lock: Lock,
+    /// No other process compiles the program again while this is held. `None` if no other process knows of it.
+    pub lock: Option<Lock>,
+    /// The folder of the code where there is no cache: it is removed when this is dropped.
+    pub folder: Option<PrivateFolder>,
     /// The files that were read; empty if they were not recorded.
     pub sources: Vec<PathBuf>,
 }
@@ -69,8 +72,8 @@ pub fn command_of_code(code: &Path) -> Result<Command, Failure> {
     Ok(command)
 }
 
-/// A variable of the environment of [`command_of_code`]: with it the command ends when its standard input is closed, so
-/// that it does not outlive who started it.
+/// A variable of the environment of programs, compiled or run from code: with it a program ends when its standard input
+/// is closed, so that it does not outlive who started it. The other side is `arl-rt/src/command/program_main.rs`.
 pub const WHILE_INPUT: &str = "ARL2RS_WHILE_INPUT";
 
 /// The options of a check.
@@ -138,6 +141,13 @@ pub struct Done {
     pub rust: Emitted,
     /// The messages, rendered.
     messages: String,
+}
+
+impl Done {
+    /// The files of the programs.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.programs.iter().flat_map(files).collect()
+    }
 }
 
 impl<'a> Job<'a> {
@@ -326,6 +336,42 @@ fn prepare_job(job: &Job<'_>, options: &RunOptions) -> Result<Ready, Failure> {
     }
 }
 
+/// Makes a program ready to run: by the engine of this process, or as a process of its own, where it is compiled, or
+/// where this command is part of another program, or of a run that shares its memory and its time with nothing.
+///
+/// # Errors
+/// As for [`prepare`].
+pub fn prepare_here(kind: Kind, file: &Path, options: &RunOptions) -> Result<Here, Failure> {
+    let job = Job::of_run(file, options)?.into_kind(kind);
+    let is_alone = THIS.get().is_some() || options.drive || options.realtime.is_some();
+    if is_alone || options.engine == Some(EngineChoice::Native) {
+        return prepare_job(&job, options).map(Here::Process);
+    }
+    if options.engine.is_none()
+        && let Some(ready) = kept(&job)?
+    {
+        return Ok(Here::Process(ready));
+    }
+    let mut programs = job.check(&FileSystem)?;
+    job.show(&programs)?;
+    let bundle = Box::new(job.bundle(&mut programs)?);
+    Ok(Here::Code { bundle, sources: sources_of(&programs)? })
+}
+
+/// A program that is run by the engine of this process, or as a process of its own.
+#[derive(Debug)]
+pub enum Here {
+    /// A process.
+    Process(Ready),
+    /// The code, and the files that were read.
+    Code {
+        /// The code.
+        bundle: Box<Bundle>,
+        /// The files that were read.
+        sources: Vec<PathBuf>,
+    },
+}
+
 /// Checks a program together with those that its cell names, for the engine of this process, unless the options ask for
 /// native code. Its messages have been shown by a check.
 ///
@@ -359,20 +405,39 @@ pub enum InProcess {
 /// # Errors
 /// A program is refused; the code cannot be written.
 fn lowered(job: &Job<'_>) -> Result<Ready, Failure> {
-    let cache = Cache::find()?;
-    let place = job.place(&cache)?;
     let mut programs = job.check(&FileSystem)?;
     job.show(&programs)?;
-    let bundle = job.bundle(&mut programs)?;
-    let sources = programs.iter().flat_map(files).map(|file| absolute(&file)).collect::<Result<_, _>>()?;
+    let code = job.bundle(&mut programs)?.to_bytes();
+    let sources = sources_of(&programs)?;
+    let program = this_command()?.into_iter().next().unwrap_or_default().into();
+    let (path, lock, folder) = match code_in_cache(job, &code) {
+        Ok((path, lock)) => (path, Some(lock), None),
+        Err(failure @ Failure::Usage(_)) => return Err(failure),
+        // Without a cache the code is of this run alone.
+        Err(_) => {
+            let (path, folder) = code_files::write_apart(&code)?;
+            (path, None, Some(folder))
+        }
+    };
+    Ok(Ready { program, code: Some(path), lock, folder, sources })
+}
+
+/// Writes the code of a job into its place in the cache, which is locked.
+fn code_in_cache(job: &Job<'_>, code: &[u8]) -> Result<(PathBuf, Lock), Failure> {
+    let cache = Cache::find()?;
+    let place = job.place(&cache)?;
     let is_new = !place.folder.exists();
     let lock = place.lock(true)?;
-    let path = code_files::write(&place, &bundle.to_bytes())?;
+    let path = code_files::write(&place, code)?;
     if is_new {
         cache.keep_limit(&place, &Runtime::find().folder(&cache));
     }
-    let program = this_command()?.into_iter().next().unwrap_or_default().into();
-    Ok(Ready { program, code: Some(path), lock, sources })
+    Ok((path, lock))
+}
+
+/// The files of all programs, as absolute paths.
+fn sources_of(programs: &[Compiled]) -> Result<Vec<PathBuf>, Failure> {
+    programs.iter().flat_map(files).map(|file| absolute(&file)).collect()
 }
 
 /// The files of a program that was checked.
@@ -432,7 +497,13 @@ fn compiled(job: &Job<'_>, options: &RunOptions) -> Result<Ready, Failure> {
     if let Some(stamp) = &stamp {
         write_if_changed(&place.stamp(), stamp.text().as_bytes())?;
     }
-    Ok(Ready { program: path, code: None, lock, sources: stamp.as_ref().map(sources).unwrap_or_default() })
+    Ok(Ready {
+        program: path,
+        code: None,
+        lock: Some(lock),
+        folder: None,
+        sources: stamp.as_ref().map(sources).unwrap_or_default(),
+    })
 }
 
 fn only_values(stamp: &Stamp, compiled: &[Compiled], read: &Recording<'_>) -> bool {
@@ -468,7 +539,7 @@ fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Re
     }
     let (program, sources) = (place.folder.join(&stamp.kept.name), sources(stamp));
     renew(&program, &sources);
-    Ok(Ready { program, code: None, lock, sources })
+    Ok(Ready { program, code: None, lock: Some(lock), folder: None, sources })
 }
 
 /// Makes a program as new as its sources, which have the text that it was compiled from, even if they were written

@@ -21,3 +21,12 @@ pub mod signals;
 pub mod texts;
 pub mod urdf;
 pub mod view;
+
+use arl_robot::result_file::ResultFile;
+use arl_terminal::failure::Failure;
+use std::path::Path;
+
+/// A file for a result: it can be written, and holds what it held until there is a result.
+fn result_file(path: &Path) -> Result<ResultFile, Failure> {
+    ResultFile::new(path).map_err(|error| Failure::io("write", path, &error))
+}

@@ -37,9 +37,6 @@ pub trait Subscriber {
         Ok(())
     }
 
-    /// Called if the program did not even begin; it has reported the reason.
-    fn nothing_began(self: Box<Self>) {}
-
     /// The message for when it cannot continue: `the recording a.mcap is incomplete`.
     fn broken(&self) -> String;
 }
@@ -57,8 +54,10 @@ pub enum Received {
     All,
     /// All but the lines that a run in real time could not wait to send.
     WithGaps,
-    /// Its beginning or its end is missing, or a line was not understood.
+    /// Its end is missing, or a line was not understood.
     Broken,
+    /// Nothing: the program did not even begin, and has reported the reason.
+    Nothing,
 }
 
 impl Listener {
@@ -86,10 +85,7 @@ impl Listener {
     pub fn receive(self, program: &mut Child) -> std::io::Result<(ExitStatus, Received)> {
         let Self { port, subscribers } = self;
         match port.accept(|| program.try_wait())? {
-            Err(ended) => {
-                subscribers.into_iter().for_each(Subscriber::nothing_began);
-                Ok((ended, Received::Broken))
-            }
+            Err(ended) => Ok((ended, Received::Nothing)),
             Ok(stream) => {
                 let received = receive(stream, subscribers);
                 Ok((program.wait()?, received))
@@ -113,6 +109,8 @@ pub fn receive(stream: TcpStream, mut subscribers: Vec<Box<dyn Subscriber>>) -> 
                 }
                 pass_on(line, &mut subscribers);
             }
+            // The program was ended in the middle of a line: that the end is missing is all there is to it.
+            Err(_) if !bytes.ends_with(b"\n") => {}
             Err(error) => {
                 if std::mem::replace(&mut understood, false) {
                     show::warning(&format!("cannot read a message of the program: {error}"));
@@ -125,7 +123,8 @@ pub fn receive(stream: TcpStream, mut subscribers: Vec<Box<dyn Subscriber>>) -> 
     match left_out {
         Some(0) if begun && understood => Received::All,
         Some(_) if begun && understood => Received::WithGaps,
-        _ => Received::Broken,
+        _ if begun => Received::Broken,
+        _ => Received::Nothing,
     }
 }
 
@@ -153,7 +152,7 @@ pub fn wishes(subscribers: &[Box<dyn Subscriber>]) -> impl Iterator<Item = &'sta
 /// Ends the subscribers once no more lines will come. A subscriber that cannot end well is reported.
 pub fn end(mut subscribers: Vec<Box<dyn Subscriber>>, begun: bool) {
     if !begun {
-        return subscribers.into_iter().for_each(Subscriber::nothing_began);
+        return;
     }
     // The program may have ended without a word.
     pass_on(Line::Ended(0), &mut subscribers);

@@ -1,36 +1,77 @@
-//! Handling of Ctrl-C.
+//! Handling of interrupts: Ctrl-C, and on Unix a request to end and a terminal that closes.
 
 use std::process::Child;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use crate::exit::Exit;
+use crate::{private_folder, show};
 
-/// Whether Ctrl-C is left to the program that runs in the foreground.
+/// Whether interrupts are left to the program that runs in the foreground.
 static LEFT_TO_PROGRAM: AtomicBool = AtomicBool::new(false);
-/// Whether Ctrl-C has been pressed since then.
-static WAS_PRESSED: AtomicBool = AtomicBool::new(false);
+/// The interrupts since then.
+static COUNT: AtomicU32 = AtomicU32::new(0);
 /// The process that an interrupt is passed on to; 0 if there is none.
 static PROGRAM: AtomicU32 = AtomicU32::new(0);
 
-/// Makes Ctrl-C end the command with its exit code. cargo is in the same process group, and ends by itself.
-pub fn end_the_command() {
+/// What an interrupt says before it ends the command.
+static LAST_WORDS: Mutex<Option<&str>> = Mutex::new(None);
+
+/// Makes an interrupt end the command with its exit code; folders of this process alone are removed. cargo is in the
+/// same process group, and ends by itself. `minds_hang_up`: a terminal that closes is an interrupt, too; not where the
+/// command was started to outlive its terminal.
+pub fn end_the_command(minds_hang_up: bool) {
     // Without a handler the process still ends, only with another code.
-    let _ = ctrlc::set_handler(|| {
-        if !LEFT_TO_PROGRAM.load(Ordering::Relaxed) {
-            std::process::exit(i32::from(Exit::INTERRUPTED.0));
-        }
-        pass_on(WAS_PRESSED.swap(true, Ordering::Relaxed));
-    });
+    let _ = watch(minds_hang_up);
 }
 
-/// From now on Ctrl-C is left to the running program.
+#[cfg(unix)]
+fn watch(minds_hang_up: bool) -> std::io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    let mut signals = Signals::new([SIGINT, SIGTERM])?;
+    if minds_hang_up {
+        signals.add_signal(SIGHUP)?;
+    }
+    let watch = move || signals.forever().for_each(|_| interrupted());
+    std::thread::Builder::new().name("interrupts".into()).spawn(watch).map(drop)
+}
+
+/// An interrupt of the console is the only one.
+#[cfg(not(unix))]
+fn watch(_minds_hang_up: bool) -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(interrupted)
+}
+
+fn interrupted() {
+    if LEFT_TO_PROGRAM.load(Ordering::Relaxed) {
+        return pass_on(COUNT.fetch_add(1, Ordering::Relaxed) > 0);
+    }
+    if let Some(words) = *LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner) {
+        show::warning(words);
+    }
+    private_folder::remove_all();
+    std::process::exit(i32::from(Exit::INTERRUPTED.0));
+}
+
+/// From now on an interrupt that ends the command says this.
+pub fn last_words(words: &'static str) {
+    *LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner) = Some(words);
+}
+
+/// From now on interrupts are left to the running program.
 pub fn leave_to_the_program() {
     LEFT_TO_PROGRAM.store(true, Ordering::Relaxed);
 }
 
-/// Whether Ctrl-C was pressed while it was left to the program.
+/// How many interrupts came while they were left to the program.
+pub fn count() -> u32 {
+    COUNT.load(Ordering::Relaxed)
+}
+
+/// Whether an interrupt came while they were left to the program.
 pub fn was_pressed() -> bool {
-    WAS_PRESSED.load(Ordering::Relaxed)
+    count() > 0
 }
 
 /// While this value exists, interrupts of the command are passed on to a program.
@@ -61,7 +102,7 @@ fn pass_on(again: bool) {
     let program = i32::try_from(PROGRAM.load(Ordering::Relaxed)).ok().and_then(Pid::from_raw);
     if let Some(program) = program {
         // It may have ended.
-        let _ = kill_process(program, if again { Signal::TERM } else { Signal::USR1 });
+        let _ = kill_process(program, if again { Signal::KILL } else { Signal::USR1 });
     }
 }
 

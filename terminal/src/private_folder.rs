@@ -5,6 +5,16 @@ use std::fs::DirBuilder;
 use std::io::{ErrorKind, Result};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// The folders of this process.
+static FOLDERS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Removes all folders of a process that ends without dropping them.
+pub(crate) fn remove_all() {
+    let folders = std::mem::take(&mut *FOLDERS.lock().unwrap_or_else(PoisonError::into_inner));
+    folders.iter().for_each(|folder| drop(std::fs::remove_dir_all(folder)));
+}
 
 /// A folder that is removed when dropped.
 #[derive(Debug)]
@@ -26,7 +36,11 @@ impl PrivateFolder {
             match make.create(&path) {
                 // It belongs to another user, or to a process with the same number that has ended.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
-                made => return made.map(|()| Self(path)),
+                made => {
+                    made?;
+                    FOLDERS.lock().unwrap_or_else(PoisonError::into_inner).push(path.clone());
+                    return Ok(Self(path));
+                }
             }
         }
     }
@@ -41,6 +55,7 @@ impl Drop for PrivateFolder {
     fn drop(&mut self) {
         // The system removes what is left.
         let _ = std::fs::remove_dir_all(&self.0);
+        FOLDERS.lock().unwrap_or_else(PoisonError::into_inner).retain(|folder| *folder != self.0);
     }
 }
 

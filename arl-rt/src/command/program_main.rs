@@ -2,9 +2,9 @@
 
 mod channel_traces;
 mod options;
+mod results;
 
 use std::ffi::OsString;
-use std::fs::File;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -18,7 +18,6 @@ use crate::command::coverage;
 use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
 use crate::command::polling::Polling;
-use crate::command::report;
 use crate::command::say::{self, say, say_condition};
 use crate::command::serve;
 use crate::context::output::{Output, Stream};
@@ -35,8 +34,9 @@ use crate::storage::state::{Directory, Memory};
 use crate::unit::robot_driver::Connect;
 use arl_robot::cell::{Cell, Names};
 use arl_robot::changes::Part;
+use arl_robot::result_file;
 use arl_robot::robot::Robot;
-use options::{Asked, ClockKind, HELP, Options, Report, parse};
+use options::{Asked, ClockKind, HELP, Options, parse};
 
 /// How much of the stack the program's functions may use, by measure enough for all calls that may be nested, and how
 /// much the thread has on top of that for everything else.
@@ -44,6 +44,10 @@ const PROGRAM_STACK_BYTES: usize = 64 << 20;
 const CONTROLLER_STACK_BYTES: usize = 1 << 20;
 /// How much they may use on a thread of another program, which as a rule has 2 MiB.
 const HOST_STACK_BYTES: usize = 1 << 20;
+
+/// A variable of the environment: with it the process ends when its standard input is closed, so that it does not
+/// outlive who started it.
+const WHILE_INPUT: &str = "ARL2RS_WHILE_INPUT";
 
 /// The default directory for system variables, below the script directory.
 const STATE_DIR: &str = ".arl-state";
@@ -165,6 +169,12 @@ fn start_with<P: Program + 'static>(
         }
         Err(error) => return fail(EXIT_USAGE, &format!("{error}\nTry --help.")),
     };
+    if std::env::var_os(WHILE_INPUT).is_some() {
+        std::thread::spawn(|| {
+            let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+            std::process::exit(EXIT_INTERRUPTED.into());
+        });
+    }
     let interrupted = Arc::new(AtomicBool::new(false));
     if let Err(error) = watch_for_interrupts(&interrupted) {
         warn(&format!("Ctrl-C will not stop the robot on its path: {error}"));
@@ -181,17 +191,39 @@ fn start_with<P: Program + 'static>(
     })
 }
 
-/// The first Ctrl-C sets the flag; a second one ends the process, should the program not come to an end.
+/// The first Ctrl-C, or request to end, or end of the terminal, sets the flag; a second one ends the process, should
+/// the program not come to an end.
 fn watch_for_interrupts(interrupted: &Arc<AtomicBool>) -> std::io::Result<()> {
-    use signal_hook::{consts::SIGINT, flag};
+    #[cfg(unix)]
+    use signal_hook::consts::SIGHUP;
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::flag;
     let pressed = Arc::new(AtomicBool::new(false));
-    flag::register_conditional_shutdown(SIGINT, i32::from(EXIT_INTERRUPTED), Arc::clone(&pressed))?;
-    flag::register(SIGINT, pressed)?;
-    flag::register(SIGINT, Arc::clone(interrupted))?;
+    let interrupts = [
+        Some(SIGINT),
+        Some(SIGTERM),
+        #[cfg(unix)]
+        minds_hang_up().then_some(SIGHUP),
+    ];
+    for interrupt in interrupts.into_iter().flatten() {
+        flag::register_conditional_shutdown(interrupt, i32::from(EXIT_INTERRUPTED), Arc::clone(&pressed))?;
+        flag::register(interrupt, Arc::clone(&pressed))?;
+        flag::register(interrupt, Arc::clone(interrupted))?;
+    }
     // The command that started the program passes on what it got itself, and must not end a program that got it, too.
     #[cfg(unix)]
     flag::register(signal_hook::consts::SIGUSR1, Arc::clone(interrupted))?;
     Ok(())
+}
+
+/// Whether the end of its terminal concerns this process: not if it was started to outlive it, as by `nohup`, which is
+/// known on Linux; on other systems it then ends as it does everywhere without a handler.
+pub fn minds_hang_up() -> bool {
+    const HANG_UP: u64 = 1;
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    ignored.is_some_and(|mask| mask & HANG_UP == 0)
 }
 
 fn fail(code: u8, text: &str) -> u8 {
@@ -240,7 +272,7 @@ fn try_run(
     let (wishes, paused, repeats) = (options.wishes, options.paused, options.repeats);
     // Where a robot is driven, lateness matters, too.
     let tells_lateness = options.clock == Some(ClockKind::Real) || options.drive;
-    let report = options.report.clone().map(report_to).transpose().map_err(SetupFailure::usage)?;
+    let report = options.report.clone().map(results::report_to).transpose().map_err(SetupFailure::usage)?;
     let writer = options.live.then(LineWriter::standard);
     let address = options.listener.as_deref().filter(|_| writer.is_none());
     let recording = address.map(|address| connect_to(address, wishes)).transpose().map_err(SetupFailure::usage)?;
@@ -273,25 +305,11 @@ fn try_run(
             code
         }
     };
-    write_figures(&controller, report, cycle_time.as_deref());
+    results::write_figures(&controller, report, cycle_time.as_deref());
     if tells_lateness {
         lateness(&controller).iter().for_each(|text| warn(text));
     }
     Ok(code)
-}
-
-/// Writes the requested figures of a finished run; reports where that fails.
-fn write_figures(controller: &Controller, report: Option<WriteReport>, cycle_time: Option<&Path>) {
-    if let Some(mut report) = report
-        && let Err(error) = report(controller)
-    {
-        warn(&format!("the report cannot be written: {error}"));
-    }
-    if let Some(file) = cycle_time
-        && let Err(error) = std::fs::write(file, format!("{}\n", controller.time()))
-    {
-        warn(&format!("cannot write {}: {error}", file.display()));
-    }
 }
 
 /// Who runs a program by the engine is told about compiling after so many cycles that were full of calculation: that
@@ -415,28 +433,6 @@ fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
     }
 }
 
-/// Writes the report at the end of a run.
-type WriteReport = Box<dyn FnMut(&Controller) -> std::io::Result<()>>;
-
-/// Makes the function that writes the report. A file is created at the start: better to fail now than after a long run.
-fn report_to(report: Report) -> Result<WriteReport, String> {
-    Ok(match report {
-        Report::Table => Box::new(|controller| {
-            let text = report::tables(&controller.recorded_motions());
-            let lateness = controller.lateness().map(ToString::to_string).unwrap_or_default();
-            std::io::stderr().write_all((text + &lateness).as_bytes())
-        }),
-        Report::File(path) => {
-            let mut file = File::create(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-            Box::new(move |controller| {
-                let text = report::all_json(&controller.recorded_motions());
-                let clock = controller.lateness().map(report::clock_json).unwrap_or_default();
-                file.write_all((text + &clock).as_bytes())
-            })
-        }
-    })
-}
-
 /// Steps until the run is over, its time is up, or Ctrl-C was pressed.
 fn watch(
     controller: &mut Controller,
@@ -534,6 +530,7 @@ impl From<SetupError> for SetupFailure {
 }
 
 fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
+    result_file::expect_apart(&options.results(), &options.inputs()).map_err(SetupFailure::usage)?;
     let mut builder =
         Controller::builder().mode(options.mode).speed_override(options.speed_override).stack(PROGRAM_STACK_BYTES);
     if let Some(robot) = &options.robot {
@@ -557,8 +554,7 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
     let globals = options.changes.of_part(Part::Global);
     builder = globals.fold(builder, |builder, (name, value)| builder.global(name, value));
     if let Some(trace) = &options.trace {
-        let file = File::create(trace);
-        builder = builder.trace(file.map_err(|error| SetupFailure::usage(format!("{}: {error}", trace.display())))?);
+        builder = builder.trace(results::file(trace).map_err(SetupFailure::usage)?);
     }
     if options.trace_columns.file {
         builder = builder.trace_files();

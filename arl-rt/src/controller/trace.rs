@@ -44,6 +44,8 @@ impl More {
 pub(crate) struct Trace {
     more: More,
     out: BufWriter<Box<dyn Write>>,
+    /// Whether its first line is written: what is written goes on to the file only when the buffer is full or flushed.
+    is_begun: bool,
     /// The first error, until it is reported.
     error: Option<io::Error>,
     /// Whether an error occurred: nothing is written after it, even where it was reported and a program begins again.
@@ -51,13 +53,9 @@ pub(crate) struct Trace {
 }
 
 impl Trace {
-    pub(crate) fn new(writer: Box<dyn Write>, more: More) -> io::Result<Self> {
-        let mut out = BufWriter::with_capacity(1 << 16, writer);
-        match more.file {
-            true => writeln!(out, "{HEADER},{FILE_COLUMN}")?,
-            false => writeln!(out, "{HEADER}")?,
-        }
-        Ok(Self { more, out, error: None, is_broken: false })
+    pub(crate) fn new(writer: Box<dyn Write>, more: More) -> Self {
+        let out = BufWriter::with_capacity(1 << 16, writer);
+        Self { more, out, is_begun: false, error: None, is_broken: false }
     }
 
     /// Writes the row of a cycle that began at `time` in s.
@@ -69,6 +67,7 @@ impl Trace {
     }
 
     fn write(&mut self, time: f64, unit: &Unit) -> io::Result<()> {
+        self.begin()?;
         let [time, line, motion, places @ ..] = columns(time, unit);
         write!(self.out, "{time:.6},{},{}", line as u64, motion as u64)?;
         for place in places {
@@ -84,12 +83,23 @@ impl Trace {
         writeln!(self.out)
     }
 
+    /// Writes the first line if that was not done.
+    fn begin(&mut self) -> io::Result<()> {
+        if std::mem::replace(&mut self.is_begun, true) {
+            return Ok(());
+        }
+        match self.more.file {
+            true => writeln!(self.out, "{HEADER},{FILE_COLUMN}"),
+            false => writeln!(self.out, "{HEADER}"),
+        }
+    }
+
     /// Writes out what is still buffered.
     pub(crate) fn flush(&mut self) -> io::Result<()> {
         match self.error.take() {
             Some(error) => Err(error),
             None if self.is_broken => Ok(()),
-            None => self.out.flush().inspect_err(|_| self.is_broken = true),
+            None => self.begin().and_then(|()| self.out.flush()).inspect_err(|_| self.is_broken = true),
         }
     }
 }

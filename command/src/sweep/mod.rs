@@ -18,6 +18,7 @@ mod worker;
 use crate::args::SweepOptions;
 pub use crate::parameters::{Parameters, as_arl};
 use arl_project::cache::Cache;
+use arl_robot::result_file::ResultFile;
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
 use arl_terminal::interrupt;
@@ -50,11 +51,10 @@ pub(crate) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
     };
     let bundle = Bundle::new(&settings, rows.iter().map(|(_, row)| *row))?;
     let kept = if options.no_cache { Kept::nothing() } else { kept(&bundle, show::warning)? };
-    let processes = options.jobs.map_or_else(cores, |jobs| usize::from(jobs.get()));
+    let processes = options.jobs.map_or_else(cores, usize::from);
     // Better now than after a long run.
     if let Some(out) = &options.out {
-        let open = std::fs::OpenOptions::new().append(true).create(true).open(out);
-        open.map_err(|error| Failure::io("write", out, &error))?;
+        ResultFile::new(out).map_err(|error| Failure::io("write", out, &error))?;
     }
     interrupt::leave_to_the_program();
     let bar = bar(rows.len());
@@ -83,13 +83,16 @@ pub(crate) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
     pool::run(work, warn, take).map_err(not_written)?;
     bar.finish_and_clear();
     failed?;
+    if interrupt::was_pressed() {
+        let kept =
+            if options.no_cache { "no results are kept" } else { "finished runs are kept and will not be repeated" };
+        let out = options.out.as_ref().map(|out| format!("; {} was not written", out.display()));
+        show::warning(&format!("interrupted: {kept}{}", out.unwrap_or_default()));
+        return Ok(Exit::INTERRUPTED);
+    }
     if let Some(out) = &options.out {
         parquet::write(out, &all)
             .map_err(|error| Failure::Other(format!("cannot write {}: {error}", out.display())))?;
-    }
-    if interrupt::was_pressed() {
-        show::warning("interrupted: finished runs are kept and will not be repeated");
-        return Ok(Exit::INTERRUPTED);
     }
     if lost > 0 {
         let runs = if lost == 1 { "1 run".to_owned() } else { format!("{lost} runs") };
@@ -136,11 +139,15 @@ pub(crate) fn all(
 
 /// The known results of this bundle. If results cannot be kept, the sweep continues without them.
 fn kept(bundle: &Bundle, mut warn: impl FnMut(&str)) -> Result<Kept, Failure> {
-    let path = Cache::find()?.results(&bundle.key());
-    Ok(Kept::open(&path).unwrap_or_else(|error| {
+    let mut nothing = |error: &dyn std::fmt::Display| {
         warn(&format!("results cannot be kept for the next sweep: {error}"));
         Kept::nothing()
-    }))
+    };
+    match Cache::find() {
+        Ok(cache) => Ok(Kept::open(&cache.results(&bundle.key())).unwrap_or_else(|error| nothing(&error))),
+        Err(failure @ Failure::Usage(_)) => Err(failure),
+        Err(failure) => Ok(nothing(&failure)),
+    }
 }
 
 fn cores() -> usize {

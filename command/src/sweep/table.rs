@@ -177,7 +177,8 @@ fn robot_at(folder: &Path, robot: String) -> String {
 fn values_of(place: &str, values: &Value) -> Result<Vec<Value>, String> {
     const EXPECTED: &str = "expected a list of values, or { from = 1, to = 2, count = 5 }";
     match values {
-        Value::Array(values) if !values.is_empty() => Ok(values.clone()),
+        Value::Array(values) if values.is_empty() => Err("the list is empty: give at least one value".into()),
+        Value::Array(values) => Ok(values.clone()),
         Value::Object(range) => {
             if !["from", "to", "count"].iter().any(|key| range.contains_key(*key)) {
                 return Err(format!(
@@ -247,7 +248,7 @@ mod tests {
             ("program = \"a\"\nspeed = 1\n", "s.toml:2: unknown field `speed`"),
             ("program = \"a\"\n[grid]\nseed = 3\n", "[grid] seed: expected a list"),
             ("program = \"a\"\n[grid]\nseed = { from = 1, to = 2 }\n", "with a count from 2 to 10000000"),
-            ("program = \"a\"\n[grid]\nseed = []\n", "expected a list"),
+            ("program = \"a\"\n[grid]\nseed = []\n", "give at least one value"),
             ("program = \"a\"\n[grid]\nglobal.pitch = [1]\n", "must be in quotes"),
             (
                 "program = \"a\"\n[grid]\na = { from = 1, to = 2, count = 9000 }\nb = { from = 1, to = 2, count = 9000 }\n",

@@ -111,8 +111,7 @@ fn run_in(
     command.env(CASE, &compiled.name).args(arguments(case));
     command.arg("--script-dir").arg(&script).arg("--state-dir").arg(folder.join("state"));
     // The input is held open as long as the case may run: it ends where this command is killed.
-    let input = if compiled.code.is_some() { Stdio::piped() } else { Stdio::null() };
-    command.env(WHILE_INPUT, "1").stdin(input).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.env(WHILE_INPUT, "1").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let (time, counted) = (folder.join("cycle_time"), folder.join("coverage"));
     command.arg("--cycle-time").arg(&time);
     if let Some(trace) = trace {

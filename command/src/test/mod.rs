@@ -20,6 +20,7 @@ use arl_project::program::{Job, check_options};
 use arl_project::runtime::{Runtime, Unpacked};
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
+use arl_terminal::interrupt;
 use arl_terminal::private_folder::PrivateFolder;
 use arl_terminal::progress::Progress;
 use arl2rs::CheckOptions;
@@ -75,6 +76,7 @@ pub(crate) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<Exit, Fail
         let mut number = 0..;
         found.retain(|_| number.next().is_some_and(|number: usize| number % count == index));
     }
+    interrupt::last_words("interrupted: the results are only shown when all cases have run");
     let progress = Progress::start("checking");
     let codes = temporary_folder()?;
     let mut done: Vec<Option<Done>> = Vec::new();

@@ -12,6 +12,7 @@ mod pointers;
 mod projects;
 mod recording;
 mod repeating;
+mod results;
 mod running;
 mod several;
 mod standstill;

@@ -43,7 +43,7 @@ fn whatever_ends_a_run_its_recording_is_whole() {
     assert!(!folder.has("none.mcap"));
     folder.arl2rs(&["run", "alarm.arl", "--record", "none.mcap", "--io", "none.toml"]).is(2, "");
     assert!(!folder.has("none.mcap"));
-    folder.arl2rs(&["run", "alarm.arl", "--record", "no/folder.mcap"]).is(1, "").says("cannot write no/folder.mcap");
+    folder.arl2rs(&["run", "alarm.arl", "--record", "no/folder.mcap"]).is(2, "").says("cannot write no/folder.mcap");
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn a_cache_is_cleaned_and_limited() {
     folder.write("programs/arl-a-00000001/stamp", "arl2rs stamp 1\n");
     folder.write("programs/arl-a-00000001/lock", "");
     clean(&["clean", "--older", "1"], "none").is(0, &nothing);
-    let removed = format!("removed 1 compiled program from {}: 15 B\n", folder.path.display());
+    let removed = format!("removed 1 program from {}: 15 B\n", folder.path.display());
     clean(&["clean"], "2.5").is(0, &removed);
     assert!(folder.has("kept.txt") && !folder.has("programs/arl-a-00000001"));
     clean(&["clean"], "0.2").is(2, "").says("ARL2RS_CACHE_LIMIT").says("at least 1");

@@ -177,9 +177,18 @@ fn a_project_says_whether_its_cases_are_compiled() {
     assert!(both.out.starts_with("FAILED other/b.arl\n") && both.out.ends_with("1 passed, 1 failed\n"), "{}", both.out);
 }
 
-/// A case that the engine runs ends with the command, however that ends.
+/// A case ends with the command, however that ends.
 #[test]
 fn a_case_does_not_outlive_the_command() {
+    ends_with_the_command("engine");
+}
+
+#[test]
+fn a_compiled_case_does_not_outlive_the_command() {
+    ends_with_the_command("native");
+}
+
+fn ends_with_the_command(engine: &str) {
     use std::io::Read;
     let listener = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("its address").port();
@@ -187,11 +196,11 @@ fn a_case_does_not_outlive_the_command() {
         "socket peer\nfunc void main()\n  waituntil connect(peer, \"127.0.0.1\", {port})\n  loop\n    \
          waittime 0.1\n  endloop\nendfunc\n"
     );
-    let folder = Folder::new("outlives").with("a.arl", &endless).with("a.out", "");
-    let mut command = folder.command(&["test", "."]);
+    let folder = Folder::new(&format!("outlives_{engine}")).with("a.arl", &endless).with("a.out", "");
+    let mut command = folder.command(&["test", ".", "--engine", engine]);
     let mut testing = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("the command starts");
     listener.set_nonblocking(true).expect("a listener that does not wait");
-    let connected = (0..1_000).find_map(|_| {
+    let connected = (0..10_000).find_map(|_| {
         std::thread::sleep(std::time::Duration::from_millis(50));
         listener.accept().ok()
     });

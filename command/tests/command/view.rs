@@ -155,7 +155,7 @@ fn a_report_has_other_forms() {
     answer.is(0, "<there>\n").says("\"way\"");
     folder.arl2rs(&["run", "a.arl", "--report", "--format", "human"]).is(0, "<there>\n").says("cycle time");
     folder.arl2rs(&["run", "a.arl", "--format", "json"]).is(2, "");
-    folder.arl2rs(&["run", "a.arl", "--report=no/a.json", "--format", "json"]).is(1, "").says("cannot write no/a.json");
+    folder.arl2rs(&["run", "a.arl", "--report=no/a.json", "--format", "json"]).is(2, "").says("cannot write no/a.json");
     folder.arl2rs(&["run", "a.arl", "--robot", "none", "--report=c.json", "--format", "json"]).is(2, "");
     assert!(!folder.has("c.json"));
     // The plot shows what changes.

@@ -100,6 +100,18 @@ fn variables_are_shown_and_set() {
     assert_eq!(client.value("total++"), "40");
     assert_eq!(client.value("feeder"), "{x 900,y -500,z 1.5,a 0,b 180,c 0,cfg 0,turn -1}");
     assert_eq!(client.scope("Locals").1, ["table = {{1,2},{3,9}}", "name = \"piece\"", "i = 1"]);
+    // Rows that are open in the editor show what was set in them.
+    let rows = client.ask("variables", json!({"variablesReference": locals}))["variables"][0].clone();
+    let rows = rows["variablesReference"].clone();
+    let row = client.ask("variables", json!({"variablesReference": rows}))["variables"][0].clone();
+    let row = row["variablesReference"].clone();
+    assert_eq!(client.parts(&row), ["[0] = 1", "[1] = 2"]);
+    client.ask("setVariable", json!({"variablesReference": row, "name": "[1]", "value": "22"}));
+    assert_eq!(client.parts(&row), ["[0] = 1", "[1] = 22"]);
+    assert_eq!(client.parts(&rows), ["[0] = {1,22}", "[1] = {3,9}"]);
+    let unknown = json!({"expression": "total", "frameId": 4711});
+    assert_eq!(client.refused("evaluate", unknown), "the frame is no longer there");
+    assert_eq!(client.refused("stackTrace", json!({"threadId": 7})), "there is no thread 7");
     let wrong = client.refused("setVariable", json!({"variablesReference": locals, "name": "i", "value": "\"x\""}));
     assert!(wrong.contains("expected a value of type int"), "{wrong}");
     let (globals, files) = client.scope("Globals");
@@ -312,12 +324,12 @@ fn mistakes_are_reported() {
     assert!(client.other_output.contains("error[ARL"), "{}", client.other_output);
     client.ask("disconnect", json!({}));
     // A program that does not begin ends the session.
-    let folder = Folder::new("no_scenario").with("main.arl", "func void main()\nendfunc\n");
+    let folder = Folder::new("no_scenario").with("main.arl", "func void main()\nendfunc\n").with("io.toml", "at = 1\n");
     let mut client = Client::new();
-    client.ask("launch", json!({"program": folder.path("main.arl"), "io": "nowhere.toml"}));
+    client.ask("launch", json!({"program": folder.path("main.arl"), "io": "io.toml"}));
     client.refused("configurationDone", json!({}));
     client.event("terminated");
-    assert!(client.other_output.contains("nowhere.toml"), "{}", client.other_output);
+    assert!(client.other_output.contains("io.toml"), "{}", client.other_output);
 }
 
 #[test]
@@ -504,4 +516,54 @@ fn a_function_may_have_hundreds_of_variables() {
     client.ask("continue", json!({"threadId": 1}));
     assert_eq!(client.ended().1, json!(0));
     assert_eq!(client.printed, "7\n");
+}
+
+#[test]
+fn a_launch_configuration_with_mistakes_is_refused() {
+    let folder = counts("launch_mistakes").with("broken.toml", "[[event]]\nat = \"noon\"\n");
+    let launch = |more: serde_json::Value| {
+        let mut launch = json!({"program": folder.path("main.arl"), "cwd": folder.0});
+        launch.as_object_mut().expect("an object").extend(more.as_object().expect("an object").clone());
+        launch
+    };
+    for (more, why) in [
+        (json!({"io": "none.toml"}), "io: "),
+        (json!({"trace": "none/trace.csv"}), "trace: "),
+        (json!({"override": 150}), "override 150: expected a number of percent, 0 to 100"),
+        (json!({"maxTime": -1}), "maxTime -1: expected a time in s, 0 or more"),
+        (json!({"robot": "none"}), "none"),
+        (json!({"stopOnEntry": "yes"}), "expected a boolean"),
+    ] {
+        let refused = Client::new().refused("launch", launch(more));
+        assert!(refused.contains(why), "{why}: {refused}");
+    }
+    // What only the program finds is told by it.
+    let mut client = Client::new();
+    client.ask("launch", launch(json!({"io": "broken.toml", "scenrio": "x", "__sessionId": 1, "type": "arl"})));
+    client.event("initialized");
+    let refused = client.refused("configurationDone", json!({}));
+    assert!(refused.contains("broken.toml:2"), "{refused}");
+    assert!(client.other_output.contains("unknown key `scenrio`"), "{}", client.other_output);
+    assert!(!client.other_output.contains("sessionId") && !client.other_output.contains("`type`"));
+}
+
+#[test]
+fn who_does_not_speak_the_protocol_is_told() {
+    let ended = |input: &str| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_arl2rs"))
+            .arg("dap")
+            .stdin(std::process::Stdio::piped())
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .expect("the command starts");
+        let mut stdin = child.stdin.take().expect("its input");
+        std::io::Write::write_all(&mut stdin, input.as_bytes()).expect("it reads");
+        drop(stdin);
+        let output = child.wait_with_output().expect("it ends");
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, says) = ended("{\"command\": \"initialize\"}\n");
+    assert!(code == Some(1) && says.contains("Content-Length"), "{says}");
+    assert_eq!(ended(""), (Some(0), String::new()));
 }

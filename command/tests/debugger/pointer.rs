@@ -19,6 +19,11 @@ impl Client {
         targets[0]["id"].clone()
     }
 
+    /// Why a line is not offered.
+    fn is_not_offered(&mut self, folder: &Folder, line: u32) -> String {
+        self.refused("gotoTargets", json!({"source": {"path": folder.path("main.arl")}, "line": line}))
+    }
+
     fn may_not_go_to(&mut self, folder: &Folder, line: u32) -> String {
         let target = self.target(folder, line);
         self.refused("goto", json!({"threadId": 1, "targetId": target}))
@@ -183,7 +188,7 @@ fn it_stays_in_the_functions_that_run() {
         Folder::new("pointer_calls").with("main.arl", CALLS).with("io.toml", "[[event]]\nat = 0.6\ndi.5 = true\n");
     let mut client = Client::running(&folder, json!({"io": "io.toml"}), &[4, 8]);
     assert_eq!(client.halt(), ("breakpoint".into(), vec!["twice 4".into(), "main 12".into()]));
-    assert!(client.may_not_go_to(&folder, 8).contains("line 8 is not in a function that runs"));
+    assert!(client.is_not_offered(&folder, 8).contains("line 8 is not in a function that runs"));
     // Back to its first statement, then out of it, over the declaration that has called it.
     assert_eq!(client.go_to(&folder, 3), ("goto".into(), vec!["twice 3".into(), "main 12".into()]));
     assert_eq!(reason_and_top(client.go("next")), "breakpoint: twice 4");

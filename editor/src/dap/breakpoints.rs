@@ -2,6 +2,7 @@
 
 use super::evaluate::unreadable;
 use super::program::{FileKey, Programs};
+use arl_lang::catalog::functions;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -149,6 +150,11 @@ impl Breakpoints {
         if let Some(why) = condition.as_deref().and_then(unreadable) {
             return Err(format!("the condition cannot be read: {why}"));
         }
+        if let Some(name) = condition.as_deref().and_then(uncallable) {
+            return Err(format!(
+                "only built-in functions can be called while the program is halted, and {name} is not one"
+            ));
+        }
         Ok(Breakpoint {
             id: self.made,
             file: None,
@@ -206,6 +212,23 @@ impl Breakpoint {
     }
 }
 
+/// The first function that a condition calls and that is not built in.
+fn uncallable(condition: &str) -> Option<&str> {
+    let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
+    // What is between quotes are texts.
+    for outside in condition.split('"').step_by(2) {
+        for (at, _) in outside.match_indices('(') {
+            let before = outside.get(..at).unwrap_or_default().trim_end();
+            let name = before.rsplit(|letter| !is_word(letter)).next().unwrap_or_default();
+            let is_name = name.starts_with(|first: char| first.is_alphabetic());
+            if is_name && functions(&name.to_lowercase()).is_empty() {
+                return Some(name);
+            }
+        }
+    }
+    None
+}
+
 fn unknown(why: &str) -> Value {
     json!({"verified": false, "message": why})
 }
@@ -213,6 +236,14 @@ fn unknown(why: &str) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn conditions_call_what_is_built_in() {
+        assert_eq!(uncallable("getdi(1) && (i > 2) && Strlen(name) == (3)"), None);
+        assert_eq!(uncallable("i == add(1, 2)"), Some("add"));
+        assert_eq!(uncallable("name == \"add(1)\" && sqrt( twice (2)) > 1"), Some("twice"));
+        assert_eq!(uncallable("i =="), None);
+    }
 
     #[test]
     fn hit_counts_are_read() {

@@ -22,6 +22,7 @@ pub use program::{FileKey, Key, Programs};
 
 use crate::framing::Messages;
 use arl_terminal::exit::Exit;
+use arl_terminal::show;
 use session::Session;
 use std::sync::mpsc::channel;
 
@@ -39,18 +40,24 @@ enum Event {
 pub fn dap() -> Exit {
     let (sender, events) = channel();
     let requests = sender.clone();
-    std::thread::spawn(move || {
+    let reader = std::thread::spawn(move || {
         let mut input = Messages::new(std::io::stdin().lock());
         while let Some(body) = input.next_message() {
             // What is not a request needs no answer.
             if let Ok(request) = serde_json::from_slice::<protocol::Request>(&body)
                 && requests.send(Event::Request(request)).is_err()
             {
-                return;
+                return true;
             }
         }
         let _ = requests.send(Event::Gone);
+        !input.is_something_else()
     });
-    Session::new(sender, events).serve();
+    // After `disconnect` the reader still waits for a message.
+    let is_gone = Session::new(sender, events).serve();
+    if is_gone && reader.join().is_ok_and(|understood| !understood) {
+        show::error("expected messages of the debug adapter protocol, each behind a line `Content-Length: BYTES`");
+        return Exit::FAILURE;
+    }
     Exit::SUCCESS
 }

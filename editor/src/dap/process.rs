@@ -7,6 +7,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How long a program may take from its start until it connects.
@@ -44,8 +45,9 @@ impl Process {
             child.stdout.take().map(|out| ("stdout", Box::new(out) as Box<dyn Read + Send>)),
             child.stderr.take().map(|out| ("stderr", Box::new(out) as Box<dyn Read + Send>)),
         ];
+        let said = Arc::new(Mutex::new(None));
         let readers: Vec<_> =
-            pipes.into_iter().flatten().map(|(name, pipe)| output(name, pipe, number, events)).collect();
+            pipes.into_iter().flatten().map(|(name, pipe)| output(name, pipe, number, events, &said)).collect();
         let stream = match accept(port, &mut child) {
             Ok(stream) => stream,
             Err(why) => {
@@ -53,7 +55,7 @@ impl Process {
                 let code = child.wait().ok().and_then(|status| status.code());
                 readers.into_iter().for_each(|reader| drop(reader.join()));
                 let _ = events.send(Event::Process(number, News::Ended(code)));
-                return Err(why);
+                return Err(said.lock().unwrap_or_else(PoisonError::into_inner).take().unwrap_or(why));
             }
         };
         let (sender, answers) = channel();
@@ -122,20 +124,25 @@ fn accept(port: Port, child: &mut Child) -> Result<TcpStream, String> {
     Ok(stream)
 }
 
-/// Passes on what a program prints.
+/// Passes on what a program prints, and keeps its first error.
 fn output(
     name: &'static str,
     pipe: Box<dyn Read + Send>,
     number: u64,
     events: &Sender<Event>,
+    said: &Arc<Mutex<Option<String>>>,
 ) -> std::thread::JoinHandle<()> {
-    let events = events.clone();
+    let (events, said) = (events.clone(), Arc::clone(said));
     std::thread::spawn(move || {
         let mut pipe = BufReader::new(pipe);
         let mut line = Vec::new();
         while matches!(pipe.read_until(b'\n', &mut line), Ok(1..)) {
             let text = String::from_utf8_lossy(&line).into_owned();
             line.clear();
+            if let Some(error) = text.strip_prefix("error: ").filter(|_| name == "stderr") {
+                let mut said = said.lock().unwrap_or_else(PoisonError::into_inner);
+                said.get_or_insert_with(|| error.trim_end().to_owned());
+            }
             if events.send(Event::Process(number, News::Output(name, text))).is_err() {
                 return;
             }

@@ -9,7 +9,7 @@ use super::Event;
 use super::breakpoints::Breakpoints;
 use super::evaluate::{Input, evaluate};
 use super::executable::Executable;
-use super::launch::Launch;
+use super::launch::{self, Launch};
 use super::leftovers;
 use super::process::{News, Process};
 use super::program::{FileKey, Key, Programs};
@@ -98,18 +98,18 @@ impl Session {
         }
     }
 
-    /// Serves until the editor is gone, or has said `disconnect`.
-    pub(super) fn serve(mut self) {
+    /// Serves until the editor is gone, or has said `disconnect`; returns whether it is gone.
+    pub(super) fn serve(mut self) -> bool {
         while !self.over {
             let event = match self.waiting.pop_front() {
                 Some(event) => event,
                 None => match self.events.recv() {
                     Ok(event) => event,
-                    Err(_) => return,
+                    Err(_) => return true,
                 },
             };
             match event {
-                Event::Gone => return,
+                Event::Gone => return true,
                 Event::Request(request) => {
                     let answer = self.answer(&request);
                     let done = answer.is_ok();
@@ -121,6 +121,7 @@ impl Session {
                 Event::Process(..) => {}
             }
         }
+        false
     }
 
     fn answer(&mut self, request: &Request) -> Answer {
@@ -177,6 +178,9 @@ impl Session {
 
     fn launch(&mut self, arguments: &Value) -> Answer {
         let launch: Launch = serde_json::from_value(arguments.clone()).map_err(|error| error.to_string())?;
+        for key in launch::unknown(arguments) {
+            self.out.output("console", &format!("warning: the launch configuration has an unknown key `{key}`\n"));
+        }
         if launch.program.as_os_str().is_empty() {
             return Err("the launch configuration has no `program`".into());
         }
@@ -272,7 +276,7 @@ impl Session {
     }
 
     fn step(&mut self, word: &str, arguments: &Value) -> Answer {
-        let channel = arguments.get("threadId").and_then(Value::as_u64).unwrap_or(1).saturating_sub(1);
+        let channel = self.channel_of(arguments)?;
         self.go(word, &[&channel.to_string()]).map(|()| Value::Null)
     }
 

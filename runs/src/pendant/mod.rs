@@ -19,6 +19,7 @@ use ratatui::crossterm::event::{self, Event};
 use crate::link::ProgramLink;
 use crate::listen::{self, Subscriber};
 use arl_terminal::failure::Failure;
+use arl_terminal::interrupt;
 use arl_terminal::show;
 use keys::Wish;
 use model::PendantModel;
@@ -69,7 +70,14 @@ fn show(
     model: &mut PendantModel,
     subscribers: &mut Vec<Box<dyn Subscriber>>,
 ) -> std::io::Result<u8> {
+    interrupt::leave_to_the_program();
     loop {
+        match interrupt::count() {
+            0 => {}
+            1 if model.leaving => {}
+            1 => leave(link, model),
+            _ => return Ok(Exit::INTERRUPTED.0),
+        }
         // Lines that the program sent before it ended come before the end.
         let ended = link.ended();
         // A slow subscriber does not keep the user from leaving.
@@ -98,12 +106,15 @@ fn show(
                 Some(Wish::Order(order)) => link.order(&order),
                 // When asked twice, it does not wait for the robot to stop.
                 Some(Wish::Leave) if model.leaving => return Ok(Exit::INTERRUPTED.0),
-                Some(Wish::Leave) => {
-                    model.leaving = true;
-                    link.leave();
-                }
+                Some(Wish::Leave) => leave(link, model),
                 None => {}
             }
         }
     }
+}
+
+/// Lets the program stop the robot and end.
+fn leave(link: &mut ProgramLink, model: &mut PendantModel) {
+    model.leaving = true;
+    link.leave();
 }

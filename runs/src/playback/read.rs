@@ -5,12 +5,14 @@ use std::io::Read;
 use std::path::Path;
 
 use arl_robot::regular_file;
+use mcap::McapError;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
 use super::store::Store;
 use crate::texts::Text;
 use arl_terminal::failure::Failure;
+use arl_terminal::show;
 
 /// The greatest length of a record, in bytes; no record is longer than its file either, whatever length it states.
 const LONGEST_RECORD: usize = 1 << 30;
@@ -18,7 +20,7 @@ const LONGEST_RECORD: usize = 1 << 30;
 /// Each record begins with its kind and its length.
 const RECORD_HEAD: usize = 1 + 8;
 
-/// Reads the run of a recording.
+/// Reads the run of a recording; says where its end is missing.
 ///
 /// # Errors
 /// The file does not exist, or is not a recording of a run.
@@ -26,7 +28,12 @@ pub(crate) fn read(path: &Path) -> Result<Store, Failure> {
     let cannot = |error: std::io::Error| Failure::io("read", path, &error);
     let mut file = regular_file::expect(path).and_then(|()| std::fs::File::open(path)).map_err(cannot)?;
     let size = file.metadata().map_err(cannot)?.len();
-    of(&mut file, size).map_err(|why| Failure::Other(format!("{} is not a recording of a run: {why}", path.display())))
+    let store = of(&mut file, size)
+        .map_err(|why| Failure::Other(format!("{} is not a recording of a run: {why}", path.display())))?;
+    if let Some(problem) = &store.problem {
+        show::warning(&format!("{}: {problem}", path.display()));
+    }
+    Ok(store)
 }
 
 /// Reads the run of a recording of `size` bytes.
@@ -42,6 +49,14 @@ pub(crate) fn of(file: &mut impl Read, size: u64) -> Result<Store, String> {
     }
     store.problem = problem.map(|why| format!("the recording ends after {:.3} s: {why}", store.end));
     Ok(store)
+}
+
+/// Why a file cannot be read any further.
+fn broken(error: &McapError) -> String {
+    match error {
+        McapError::UnexpectedEof | McapError::RecordTooLarge { .. } => "the rest is missing".to_owned(),
+        error => error.to_string(),
+    }
 }
 
 /// The record with this kind and content.
@@ -79,7 +94,7 @@ impl Reading<'_> {
         let options = LinearReaderOptions::default().with_record_length_limit(longest).with_emit_chunks(true);
         let mut reader = LinearReader::new_with_options(options);
         while let Some(event) = reader.next_event() {
-            match event.map_err(|error| error.to_string())? {
+            match event.map_err(|error| broken(&error))? {
                 LinearReadEvent::ReadRequest(wanted) => {
                     let read = file.read(reader.insert(wanted)).map_err(|error| error.to_string())?;
                     reader.notify_read(read);

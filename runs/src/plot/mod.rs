@@ -14,6 +14,7 @@ mod views;
 
 use crate::texts::Text;
 use arl_lang::files::is_data;
+use arl_robot::result_file::ResultFile;
 use arl_terminal::failure::Failure;
 pub use lanes::Lane;
 use outline::Outline;
@@ -60,17 +61,19 @@ impl Ran {
     }
 }
 
-/// Draws the trace at `trace` to the file `plot`; returns whether there was a motion to draw.
+/// Draws the trace at `trace` to the file `plot`; returns whether there was a motion to draw. Without one the file
+/// stays as it is.
 ///
 /// # Errors
 /// The trace cannot be read or has a malformed line, or the plot cannot be written.
-pub fn plot(trace: &Path, plot: &Path, robot: arl_robot::Robot, ran: &Ran) -> Result<bool, Failure> {
+pub fn plot(trace: &Path, plot: ResultFile, robot: arl_robot::Robot, ran: &Ran) -> Result<bool, Failure> {
     let robot = Robot::of(robot);
     let mut rows = Rows::open(trace)?;
     let Some(outline) = Outline::of(rows.by_ref())? else { return Ok(false) };
     let outline = outline.with_files(rows.files(), ran.main.as_deref());
     let text = draw(&outline, &robot, ran, Rows::open(trace)?)?;
-    std::fs::write(plot, text).map_err(|error| Failure::io("write", plot, &error))?;
+    let path = plot.path().to_owned();
+    plot.replace(text.as_bytes()).map_err(|error| Failure::io("write", &path, &error))?;
     Ok(true)
 }
 

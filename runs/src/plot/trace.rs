@@ -40,7 +40,7 @@ pub(super) struct Row {
 /// The rows of a trace file, one after the other.
 pub(super) struct Rows {
     path: PathBuf,
-    lines: std::io::Lines<BufReader<File>>,
+    lines: BufReader<File>,
     number: usize,
     files: Vec<String>,
 }
@@ -53,12 +53,11 @@ impl Rows {
     pub(super) fn open(path: &Path) -> Result<Self, Failure> {
         let opened = regular_file::expect(path).and_then(|()| File::open(path));
         let file = opened.map_err(|error| Failure::io("read the trace", path, &error))?;
-        let mut lines = BufReader::with_capacity(1 << 16, file).lines();
-        match lines.next() {
-            Some(Ok(header)) if header.strip_prefix(HEADER).is_some_and(|more| ["", FILE_COLUMN].contains(&more)) => {
-                Ok(Self { path: path.to_path_buf(), lines, number: 1, files: Vec::new() })
-            }
-            Some(Err(error)) => Err(Failure::io("read the trace", path, &error)),
+        let mut lines = BufReader::with_capacity(1 << 16, file);
+        let mut header = String::new();
+        lines.read_line(&mut header).map_err(|error| Failure::io("read the trace", path, &error))?;
+        match header.trim_end().strip_prefix(HEADER) {
+            Some("" | FILE_COLUMN) => Ok(Self { path: path.to_path_buf(), lines, number: 1, files: Vec::new() }),
             _ => Err(Failure::Usage(format!(
                 "{} is not a trace of a run: its first line must be `{HEADER}`, with or without `{FILE_COLUMN}` after it",
                 path.display()
@@ -76,14 +75,16 @@ impl Iterator for Rows {
     type Item = Result<Row, Failure>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let line = self.lines.next()?;
+        let mut line = String::new();
+        if let Err(error) = self.lines.read_line(&mut line) {
+            return Some(Err(Failure::io("read the trace", &self.path, &error)));
+        }
+        // The last row of a run that was killed may be cut.
+        let text = line.strip_suffix('\n')?;
         self.number += 1;
-        Some(match line {
-            Ok(text) => row(&text, &mut self.files).ok_or_else(|| {
-                Failure::Usage(format!("{}:{}: this is not a row of a trace", self.path.display(), self.number))
-            }),
-            Err(error) => Err(Failure::io("read the trace", &self.path, &error)),
-        })
+        Some(row(text.trim_end(), &mut self.files).ok_or_else(|| {
+            Failure::Usage(format!("{}:{}: this is not a row of a trace", self.path.display(), self.number))
+        }))
     }
 }
 

@@ -18,8 +18,10 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 use crate::listen::Subscriber;
+use crate::result_file;
 use crate::scenery::Scenery;
 use crate::texts::{self, Text};
+use arl_robot::result_file::ResultFile;
 use arl_terminal::failure::Failure;
 use arl_terminal::show;
 use arl_wire::Line;
@@ -35,21 +37,20 @@ pub struct Recording {
     path: PathBuf,
     /// The texts of the program, until they are written.
     sources: Vec<Text>,
-    recorder: Recorder<sink::File<BufWriter<std::fs::File>>>,
+    recorder: Recorder<sink::File<BufWriter<ResultFile>>>,
     /// Where the description goes; nowhere if a file is there that no recording has written.
     description: Option<PathBuf>,
 }
 
 impl Recording {
-    /// Creates the file: better to fail now than after a long run. A `cell.urdf` beside it that is the user's own stays
-    /// as it is.
+    /// Checks that the file can be written: better to fail now than after a long run. It is begun with the run. A
+    /// `cell.urdf` beside it that is the user's own stays as it is.
     ///
     /// # Errors
-    /// The file cannot be created.
+    /// The file cannot be written.
     pub fn create(path: &Path, scenery: &Scenery, sources: &[PathBuf]) -> Result<Self, Failure> {
-        let file = std::fs::File::create(path).map_err(|error| Failure::io("write", path, &error))?;
-        let cannot = |error| Failure::Usage(format!("cannot write {}: {error}", path.display()));
-        let recorder = Recorder::new(sink::File::new(BufWriter::new(file)).map_err(cannot)?, scenery);
+        let file = result_file(path)?;
+        let recorder = Recorder::new(sink::File::new(BufWriter::new(file)), scenery);
         let sources = texts::read(sources);
         let description = path.with_file_name(DESCRIPTION);
         let is_own =
@@ -93,13 +94,6 @@ impl Subscriber for Recording {
         // The places of robots are known once they have moved.
         self.describe();
         Ok(())
-    }
-
-    fn nothing_began(self: Box<Self>) {
-        if self.path.is_file() {
-            // The file may no longer exist.
-            let _ = std::fs::remove_file(&self.path);
-        }
     }
 
     fn broken(&self) -> String {

@@ -2,16 +2,17 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::io::{Seek, Write};
+use std::io::{self, Seek, Write};
 
 use mcap::records::MessageHeader;
 use mcap::{Attachment, McapResult, WriteOptions, Writer};
 
 use super::message::RunMessage;
 
-/// The bytes that a file gathers before they are written as one chunk that readers can look up: this much is lost if a
-/// run is cut off.
+/// A file is written in chunks that readers can look up, of at most so many bytes and ns of the run: this much is lost
+/// if the run is cut off.
 const CHUNK_BYTES: u64 = 1 << 20;
+const CHUNK_TIME: u64 = 1_000_000_000;
 
 /// Takes messages.
 pub(crate) trait Sink {
@@ -27,8 +28,16 @@ pub(crate) trait Sink {
 
 /// An MCAP file.
 pub(super) struct File<W: Write + Seek> {
-    writer: Writer<W>,
+    stage: Stage<W>,
     topics: BTreeMap<String, Topic>,
+    /// When the chunk is written at the latest, in ns of the run.
+    chunk_due: u64,
+}
+
+enum Stage<W: Write + Seek> {
+    /// Nothing was written; without a stream if it could not be begun.
+    Waiting(Option<W>),
+    Writing(Box<Writer<W>>),
 }
 
 struct Topic {
@@ -37,32 +46,58 @@ struct Topic {
 }
 
 impl<W: Write + Seek> File<W> {
-    /// An empty file.
-    pub(super) fn new(stream: W) -> McapResult<Self> {
-        let options = WriteOptions::new().compression(None).chunk_size(Some(CHUNK_BYTES)).library("arl2rs");
-        Ok(Self { writer: options.create(stream)?, topics: BTreeMap::new() })
+    /// A file that is begun with the first message.
+    pub(super) fn new(stream: W) -> Self {
+        Self { stage: Stage::Waiting(Some(stream)), topics: BTreeMap::new(), chunk_due: CHUNK_TIME }
+    }
+
+    /// The writer, which begins the file.
+    fn writer(&mut self) -> McapResult<&mut Writer<W>> {
+        if let Stage::Waiting(stream) = &mut self.stage {
+            let stream = stream.take().ok_or_else(|| io::Error::other("it could not be begun"))?;
+            // Whole chunks are written, so that a file that is cut off can be read up to its last chunk.
+            let options = WriteOptions::new().compression(None).disable_seeking(true);
+            let options = options.chunk_size(Some(CHUNK_BYTES)).library("arl2rs");
+            self.stage = Stage::Writing(Box::new(options.create(stream)?));
+        }
+        match &mut self.stage {
+            Stage::Writing(writer) => Ok(writer),
+            Stage::Waiting(_) => Err(io::Error::other("it could not be begun").into()),
+        }
+    }
+
+    /// The channel of a topic, with one more message on it.
+    fn topic(&mut self, message: &RunMessage) -> McapResult<(u16, u32)> {
+        let topic = &*message.topic();
+        if !self.topics.contains_key(topic) {
+            let schema = message.schema();
+            let writer = self.writer()?;
+            let of = writer.add_schema(&schema.full_name(), "protobuf", &schema.descriptors())?;
+            let id = writer.add_channel(of, topic, "protobuf", &BTreeMap::new())?;
+            self.topics.insert(topic.to_owned(), Topic { id, sequence: 0 });
+        }
+        let known = self.topics.get_mut(topic).ok_or_else(|| io::Error::other("the topic is not known"))?;
+        known.sequence = known.sequence.wrapping_add(1);
+        Ok((known.id, known.sequence))
     }
 }
 
 impl<W: Write + Seek> Sink for File<W> {
     fn message(&mut self, time: u64, message: RunMessage) -> McapResult<()> {
-        let topic = &*message.topic();
-        if !self.topics.contains_key(topic) {
-            let schema = message.schema();
-            let of = self.writer.add_schema(&schema.full_name(), "protobuf", &schema.descriptors())?;
-            let id = self.writer.add_channel(of, topic, "protobuf", &BTreeMap::new())?;
-            self.topics.insert(topic.to_owned(), Topic { id, sequence: 0 });
+        let (channel_id, sequence) = self.topic(&message)?;
+        let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
+        let is_due = time >= self.chunk_due;
+        if is_due {
+            self.chunk_due = time + CHUNK_TIME;
         }
-        let Some(known) = self.topics.get_mut(topic) else { return Ok(()) };
-        known.sequence = known.sequence.wrapping_add(1);
-        let header =
-            MessageHeader { channel_id: known.id, sequence: known.sequence, log_time: time, publish_time: time };
-        self.writer.write_to_known_channel(&header, &message.encoded())
+        let writer = self.writer()?;
+        writer.write_to_known_channel(&header, &message.encoded())?;
+        if is_due { writer.flush() } else { Ok(()) }
     }
 
     fn source(&mut self, name: &str, text: &str) -> McapResult<()> {
         // Without the time of the day, the same run gives the same file.
-        self.writer.attach(&Attachment {
+        self.writer()?.attach(&Attachment {
             log_time: 0,
             create_time: 0,
             name: name.to_owned(),
@@ -73,6 +108,6 @@ impl<W: Write + Seek> Sink for File<W> {
 
     /// Writes the summary that readers use to find their way.
     fn finish(&mut self) -> McapResult<()> {
-        self.writer.finish().map(drop)
+        self.writer()?.finish().map(drop)
     }
 }

@@ -42,7 +42,7 @@ fn scenery(cell: &str) -> Scenery {
 
 fn recorded_in(lines: &[String], scenery: &Scenery) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
     let mut bytes = Vec::new();
-    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), scenery);
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)), scenery);
     for line in lines {
         recorder.receive(&serde_json::from_str(line).unwrap()).unwrap();
     }
@@ -155,7 +155,7 @@ fn what_external_axes_move_is_a_frame_with_its_bodies() {
     assert_eq!(carriers.collect::<Vec<_>>(), [("ej1", "ej1", false), ("ej2", "ej2", true)]);
     assert_eq!(runs.links.iter().map(|link| &*link.moved_by).collect::<Vec<_>>(), ["j1", "j2", ""]);
     let mut bytes = Vec::new();
-    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &scenery);
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)), &scenery);
     recorder.receive(&serde_json::from_str(&hello).unwrap()).unwrap();
     let description = urdf_rs::read_from_string(&urdf(recorder.arms(), &scenery)).unwrap();
     let joint = |child: &str| description.joints.iter().find(|joint| joint.child.link == child).unwrap();
@@ -170,7 +170,7 @@ fn what_external_axes_move_is_a_frame_with_its_bodies() {
 fn workpieces_and_parts_have_frames_in_the_world() {
     let scenery = scenery("[[body]]\nname = \"part\"\nbox = [10, 10, 10]\nat = [500, 0, 100]\ngripped_by = \"do.1\"\n");
     let mut bytes = Vec::new();
-    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &scenery);
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)), &scenery);
     let standing = Place { held_by: None, at: arl_robot::kinematics::frame([500.0, 0.0, 100.0, 0.0, 0.0, 0.0]) };
     let held = Place { held_by: Some(0), at: arl_robot::kinematics::frame([0.0, 0.0, 50.0, 0.0, 0.0, 0.0]) };
     let with_workpiece =
@@ -202,7 +202,7 @@ fn an_empty_run_is_a_whole_file() {
 #[test]
 fn the_description_has_the_frames_and_joints_of_the_recording() {
     let mut bytes = Vec::new();
-    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &Scenery::default());
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)), &Scenery::default());
     recorder.receive(&serde_json::from_str(HELLO).unwrap()).unwrap();
     let bodies = "[[body]]\nname = \"table <1>\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
                   [[body]]\nname = \"tool\"\ncylinder = [20, 100]\non = \"flange\"\n[[body]]\nname = \"jig\"\nmesh = \"jig.stl\"\n";

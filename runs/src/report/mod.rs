@@ -10,13 +10,15 @@ use arl_terminal::exit::Exit;
 use std::error::Error;
 use std::fs::File;
 use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use arl_robot::regular_file;
+use arl_robot::result_file::ResultFile;
 
 use crate::listen::Subscriber;
 use crate::playback::{self, Store};
 use crate::record::Recorder;
+use crate::result_file;
 use crate::scenery::Scenery;
 use arl_terminal::answer;
 use arl_terminal::answer::{Format, ReportFormat};
@@ -30,21 +32,19 @@ const STANDARD_ERROR: &str = "-";
 
 /// A report that is being made while a program runs.
 pub struct Reporting {
-    file: Option<PathBuf>,
+    /// `None` for the standard error.
+    file: Option<ResultFile>,
     format: ReportFormat,
     recorder: Recorder<Store>,
 }
 
 impl Reporting {
-    /// Creates the file: better to fail now than after a long run.
+    /// Checks that the file can be written: better to fail now than after a long run.
     ///
     /// # Errors
-    /// The file cannot be created.
+    /// The file cannot be written.
     pub fn create(file: &Path, format: ReportFormat, scenery: &Scenery) -> Result<Self, Failure> {
-        let file = (file != Path::new(STANDARD_ERROR)).then(|| file.to_owned());
-        if let Some(file) = &file {
-            std::fs::write(file, "").map_err(|error| Failure::io("write", file, &error))?;
-        }
+        let file = (file != Path::new(STANDARD_ERROR)).then(|| result_file(file)).transpose()?;
         Ok(Self { file, format, recorder: Recorder::new(Store::default(), scenery) })
     }
 }
@@ -65,18 +65,11 @@ impl Subscriber for Reporting {
             ReportFormat::Html => html::page(&summary),
             _ => format!("{}\n", serde_json::to_string_pretty(&summary)?),
         };
-        match &self.file {
-            Some(file) => std::fs::write(file, text)?,
+        match self.file {
+            Some(file) => file.replace(text.as_bytes())?,
             None => std::io::stderr().write_all(text.as_bytes())?,
         }
         Ok(())
-    }
-
-    fn nothing_began(self: Box<Self>) {
-        if let Some(file) = self.file {
-            // The file is empty.
-            let _ = std::fs::remove_file(file);
-        }
     }
 
     fn broken(&self) -> String {

@@ -77,7 +77,7 @@ pub struct Program<'a> {
 /// A recording cannot be read, or the port is taken.
 pub fn recordings(files: &[PathBuf], page: Page) -> Result<Exit, Failure> {
     let name = |file: &Path| file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let runs = files.iter().map(|file| Ok((name(file), Arc::new(Mutex::new(recording(file)?)))));
+    let runs = files.iter().map(|file| Ok((name(file), Arc::new(Mutex::new(playback::read(file)?)))));
     let shown = Shown { runs: runs.collect::<Result<_, Failure>>()?, live: None, teacher: None };
     let server = serve(&Arc::new(shown), page)?;
     // The server runs forever.
@@ -119,14 +119,6 @@ fn serve(shown: &Arc<Shown>, page: Page) -> Result<JoinHandle<()>, Failure> {
         show::warning("cannot open a browser: open the address above");
     }
     Ok(server)
-}
-
-fn recording(file: &Path) -> Result<Store, Failure> {
-    let store = playback::read(file)?;
-    if let Some(problem) = &store.problem {
-        show::warning(&format!("{}: {problem}", file.display()));
-    }
-    Ok(store)
 }
 
 impl Shown {

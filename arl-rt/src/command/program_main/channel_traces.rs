@@ -1,18 +1,15 @@
 //! Trace files for several robots, one for each.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use super::SetupFailure;
+use super::{SetupFailure, results};
 use crate::controller::Builder;
 
 /// Gives each foreground channel beyond the first a trace file next to that of the first one.
 pub(super) fn trace(mut builder: Builder, first: Option<&Path>) -> Result<Builder, SetupFailure> {
     let Some(first) = first else { return Ok(builder) };
     for number in 2..=builder.foreground_count() {
-        let path = numbered(first, number);
-        let file = File::create(&path);
-        let file = file.map_err(|error| SetupFailure::usage(format!("{}: {error}", path.display())))?;
+        let file = results::file(&numbered(first, number)).map_err(SetupFailure::usage)?;
         builder = builder.trace_of(number, file);
     }
     Ok(builder)

@@ -1,7 +1,7 @@
 //! The options of a compiled program's command line.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::builtins::time;
 use crate::command::live::{STATE_INTERVAL_S, Wishes};
@@ -90,6 +90,25 @@ pub(super) struct Options {
 }
 
 impl Options {
+    /// The files that the run writes, each with its option.
+    pub(super) fn results(&self) -> Vec<(&'static str, &Path)> {
+        let report = self.report.as_ref().and_then(Report::file);
+        let all = [
+            ("--trace", self.trace.as_deref()),
+            ("--report", report),
+            ("--cycle-time", self.cycle_time.as_deref()),
+            ("--coverage", self.asked.coverage.as_deref()),
+        ];
+        all.into_iter().filter_map(|(option, path)| Some((option, path?))).collect()
+    }
+
+    /// The files that the run reads, each with what it is.
+    pub(super) fn inputs(&self) -> Vec<(&'static str, &Path)> {
+        let robot = self.robot.as_deref().map(Path::new).filter(|robot| robot.is_file());
+        let all = [("the cell", self.cell.as_deref()), ("the scenario", self.io.as_deref()), ("the robot", robot)];
+        all.into_iter().filter_map(|(what, path)| Some((what, path?))).collect()
+    }
+
     /// The first option given that only a program running on its own supports.
     pub(super) fn needs_a_process(&self) -> Option<&'static str> {
         let asked = [
@@ -122,6 +141,16 @@ pub(super) enum Report {
     Table,
     /// As JSON in a file.
     File(PathBuf),
+}
+
+impl Report {
+    /// Its file.
+    fn file(&self) -> Option<&Path> {
+        match self {
+            Self::Table => None,
+            Self::File(file) => Some(file),
+        }
+    }
 }
 
 /// Requests that only programs made for a debugger support.

@@ -282,8 +282,7 @@ impl Site {
         let id = ChannelId::Foreground(number);
         let system = System::beside(Rc::clone(&self.common), id);
         system::load(&system.kept_by_channel(), &mut self.shared.state.borrow_mut())?;
-        let trace = body.trace.map(|writer| Trace::new(writer, self.trace_more)).transpose();
-        let trace = trace.map_err(|error| SetupError::Trace(error.to_string()))?;
+        let trace = body.trace.map(|writer| Trace::new(writer, self.trace_more));
         let driver = |problem| SetupError::Driver { channel: number, problem };
         let mut unit = Unit::new(robot, body.driver, self.shared.rate.period()).map_err(driver)?;
         unit.settings.manual = self.common.ctl_mode.get() == Controlmode::Manual;

@@ -31,8 +31,6 @@ pub enum SetupError {
     Outside(String),
     /// Stored data is damaged.
     State(StateError),
-    /// The trace cannot be written.
-    Trace(String),
     /// The robot of a channel cannot be started.
     Driver {
         /// The number of the channel, from 1.
@@ -66,7 +64,6 @@ impl fmt::Display for SetupError {
             }
             SetupError::Global(error) => write!(f, "{error}"),
             SetupError::State(error) => write!(f, "{error}"),
-            SetupError::Trace(text) => write!(f, "the trace cannot be written: {text}"),
             SetupError::Driver { channel, problem } => {
                 write!(f, "the robot of channel {channel} cannot be started: {problem}")
             }

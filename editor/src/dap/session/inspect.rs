@@ -32,9 +32,16 @@ impl Session {
         Ok(frames.iter().map(frame).collect())
     }
 
-    pub(super) fn stack_trace(&mut self, arguments: &Value) -> Answer {
+    /// The channel of the thread that a request is about; the first one if it names none.
+    pub(super) fn channel_of(&self, arguments: &Value) -> Result<usize, String> {
         let thread = arguments.get("threadId").and_then(Value::as_u64).unwrap_or(1);
-        let channel = thread.saturating_sub(1) as usize;
+        let channel = usize::try_from(thread).ok().and_then(|thread| thread.checked_sub(1));
+        let channel = channel.filter(|channel| *channel < self.channels.len().max(1));
+        channel.ok_or_else(|| format!("there is no thread {thread}"))
+    }
+
+    pub(super) fn stack_trace(&mut self, arguments: &Value) -> Answer {
+        let channel = self.channel_of(arguments)?;
         let frames = self.frames(channel)?;
         let (first, all) = (arguments.get("startFrame").and_then(Value::as_u64).unwrap_or(0) as usize, frames.len());
         let levels = arguments.get("levels").and_then(Value::as_u64).filter(|levels| *levels > 0);
@@ -117,8 +124,10 @@ impl Session {
             Container::Kind(kind) => self.signals_of(kind)?,
             Container::Robot(frame) => self.robot(*frame)?,
             Container::Value { frame, .. } => {
-                let family = self.source(*frame)?.family();
-                self.shown.parts(&container, family)
+                let mut seen = self.source(*frame)?;
+                let family = seen.family();
+                let now = seen.now(container.clone());
+                self.shown.parts(&now, family)
             }
         };
         let (start, count) =
@@ -183,9 +192,10 @@ impl Session {
 
     /// What expressions can refer to from a frame.
     pub(super) fn source(&mut self, frame: usize) -> Result<Seen<'_>, String> {
-        let frame = match self.shown.frame_of(frame) {
-            Some(frame) => frame.clone(),
-            None => {
+        let frame = match (frame, self.shown.frame_of(frame)) {
+            (_, Some(frame)) => frame.clone(),
+            (1.., None) => return Err("the frame is no longer there".into()),
+            (0, None) => {
                 let channel = self.halt.as_ref().map_or(0, |halt| halt.channel);
                 self.top_frame(channel)?.ok_or("no function runs")?
             }

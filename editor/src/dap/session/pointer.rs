@@ -4,6 +4,7 @@ use super::{Answer, Halt, Session};
 use crate::dap::program::same_file;
 use crate::dap::variables::Frame;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The request to the program for that.
@@ -28,24 +29,43 @@ impl Targets {
 }
 
 impl Session {
-    /// The statement that the pointer would be set to: that of a line, or the next one below.
+    /// The statement that the pointer would be set to: that of a line, or the next one below, in a function that runs.
     pub(super) fn goto_targets(&mut self, arguments: &Value) -> Answer {
         let path = arguments.pointer("/source/path").and_then(Value::as_str).ok_or("the source has no path")?;
         let from = arguments.get("line").and_then(Value::as_u64).unwrap_or_default() as u32;
-        let functions = self.launched.as_ref().map(|launched| launched.programs.functions(path.as_ref()));
-        let line = functions.iter().flatten().filter_map(|lines| lines.range(from..).next()).min().copied();
-        let targets = line.map(|line| {
-            let id = self.targets.number(path.as_ref(), line);
-            json!({"id": id, "label": format!("line {line}"), "line": line})
-        });
-        Ok(json!({"targets": Vec::from_iter(targets)}))
+        self.standing()?;
+        let programs = &self.launched.as_ref().ok_or("nothing was launched")?.programs;
+        let functions = programs.functions(path.as_ref());
+        let line = functions.iter().filter_map(|lines| lines.range(from..).next()).min().copied();
+        let line = line.ok_or("there is no statement here or below")?;
+        if !self.running_lines(path.as_ref())?.contains(&line) {
+            return Err(not_running(line));
+        }
+        let id = self.targets.number(path.as_ref(), line);
+        Ok(json!({"targets": [{"id": id, "label": format!("line {line}"), "line": line}]}))
+    }
+
+    /// The lines with statements of the functions of a file that run, in whatever channel.
+    fn running_lines(&mut self, path: &Path) -> Result<BTreeSet<u32>, String> {
+        let mut lines = BTreeSet::new();
+        for channel in 0..self.channels.len() {
+            let frames = self.frames(channel)?;
+            let programs = &self.launched.as_ref().ok_or("nothing was launched")?.programs;
+            for frame in frames {
+                let file = programs.path(&frame.program, &frame.file);
+                if file.is_some_and(|file| same_file(&file, path)) {
+                    lines.extend(programs.lines_of(&frame.program, &frame.file, &frame.name));
+                }
+            }
+        }
+        Ok(lines)
     }
 
     /// Sets the pointer of a channel. The program is halted, and continues there.
     pub(super) fn set_pointer(&mut self, arguments: &Value) -> Answer {
         let number = arguments.get("targetId").and_then(Value::as_u64).unwrap_or(u64::MAX) as usize;
         let (path, line) = self.targets.of(number).ok_or("there is no such target")?;
-        let channel = arguments.get("threadId").and_then(Value::as_u64).unwrap_or(1).saturating_sub(1) as usize;
+        let channel = self.channel_of(arguments)?;
         let halt = self.standing()?;
         if halt.why == "alarm" {
             return Err("the program ends with this alarm: step back first".into());
@@ -82,8 +102,10 @@ impl Session {
                 return Ok(frame);
             }
         }
-        Err(format!(
-            "line {line} is not in a function that runs: the program pointer stays within those on the call stack"
-        ))
+        Err(not_running(line))
     }
+}
+
+fn not_running(line: u32) -> String {
+    format!("line {line} is not in a function that runs: the program pointer stays within those on the call stack")
 }

@@ -5,7 +5,7 @@ use crate::dap::evaluate::{Source, Value as Found, Variable};
 use crate::dap::literal::Literal;
 use crate::dap::process::Process;
 use crate::dap::program::global_constants;
-use crate::dap::variables::{Frame, Target};
+use crate::dap::variables::{Container, Frame, Target};
 use arl_lang::catalog::Family;
 use arl2rs::hir::Program;
 use serde_json::{Value, json};
@@ -115,6 +115,14 @@ impl Seen<'_> {
             None => known.file == self.module || known.data,
         });
         files.find(|known| declares(&known.file)).map(|known| known.file.clone())
+    }
+
+    /// A value with what its variable holds now: it may have been set since the editor was shown it.
+    pub(super) fn now(&mut self, container: Container) -> Container {
+        let Container::Value { frame, target, ty, value, path } = container else { return container };
+        let whole = self.whole(&target).ok();
+        let value = whole.and_then(|whole| whole.value.part(&path).cloned()).unwrap_or(value);
+        Container::Value { frame, target, ty, value, path }
     }
 
     pub(super) fn whole(&mut self, target: &Target) -> Result<Variable, String> {
