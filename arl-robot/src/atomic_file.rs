@@ -72,6 +72,27 @@ pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
+/// Checks that [`write`] would write the file; whatever is at the path stays as it is, for others, too.
+///
+/// # Errors
+/// The path is not a regular file, the file must not be written, or no file can be made in its directory.
+pub fn expect_writable(path: &Path) -> io::Result<()> {
+    /// Several threads may check the same directory.
+    static NUMBER: AtomicU64 = AtomicU64::new(0);
+    if writable(path)?.is_some() {
+        return Ok(());
+    }
+    let file = followed(path)?;
+    loop {
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let passing = directory_of(&file).join(format!("passing.{}-{number}{BESIDE}", std::process::id()));
+        match create_held(&passing, true) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            held => return held.and_then(|_| fs::remove_file(&passing)),
+        }
+    }
+}
+
 /// Writes a file that does not exist yet.
 ///
 /// # Errors

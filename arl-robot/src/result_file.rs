@@ -22,18 +22,9 @@ impl ResultFile {
     /// # Errors
     /// The path is a directory, its folder does not exist, or the file must not be written.
     pub fn new(path: &Path) -> io::Result<Self> {
-        match OpenOptions::new().write(true).create_new(true).open(path) {
-            Ok(file) => {
-                drop(file);
-                fs::remove_file(path)?;
-            }
-            // A named pipe that is opened would wait for its reader, who is there once.
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && is_special(path) => {}
-            // A link to a file that does not exist yet is also such a path; its target is made now.
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                OpenOptions::new().write(true).create(true).truncate(false).open(path)?;
-            }
-            Err(error) => return Err(error),
+        // A named pipe that is opened would wait for its reader, who is there once.
+        if !is_special(path) {
+            atomic_file::expect_writable(path)?;
         }
         Ok(Self { path: path.to_owned(), stream: None })
     }
@@ -44,17 +35,18 @@ impl ResultFile {
     }
 
     /// Puts a whole result in the place of what the file held. If the process is killed meanwhile, either of them is
-    /// there, except where only the file may be written and not its folder. A device or a pipe gets the bytes.
+    /// there, except where only the file may be written and nothing can be made or renamed beside it. A device or a
+    /// pipe gets the bytes.
     ///
     /// # Errors
     /// The file cannot be written.
     pub fn replace(self, content: &[u8]) -> io::Result<()> {
-        match is_special(&self.path) {
-            true => OpenOptions::new().write(true).open(&self.path)?.write_all(content),
-            false => match atomic_file::write(&self.path, content) {
-                Err(error) if error.kind() == io::ErrorKind::PermissionDenied => fs::write(&self.path, content),
-                written => written,
-            },
+        if is_special(&self.path) {
+            return OpenOptions::new().write(true).open(&self.path)?.write_all(content);
+        }
+        match atomic_file::write(&self.path, content) {
+            Err(error) if is_of_the_folder(error.kind()) => fs::write(&self.path, content),
+            written => written,
         }
     }
 
@@ -81,6 +73,18 @@ impl Seek for ResultFile {
     fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
         self.stream()?.seek(position)
     }
+}
+
+/// Whether an error may come from the folder of a file, while the file itself can be written: it is mounted on its own,
+/// others hold the folder, or a name beside it is too long. A full disk is not such an error: what the file held is
+/// better than nothing.
+fn is_of_the_folder(error: io::ErrorKind) -> bool {
+    use io::ErrorKind::{
+        CrossesDevices, InvalidFilename, PermissionDenied, ReadOnlyFilesystem, ResourceBusy, TimedOut, Unsupported,
+    };
+    let kinds =
+        [CrossesDevices, InvalidFilename, PermissionDenied, ReadOnlyFilesystem, ResourceBusy, TimedOut, Unsupported];
+    kinds.contains(&error)
 }
 
 /// Whether the path is a device, a pipe or a socket.
@@ -163,6 +167,18 @@ mod tests {
     }
 
     #[test]
+    fn a_file_is_written_where_nothing_can_be_made_beside_it() {
+        let folder = Folder::new("beside");
+        // No name beside this one can be made from it.
+        let file = folder.file(&"a".repeat(255));
+        for old in ["as it was", "and again"] {
+            ResultFile::new(&file).unwrap().replace(old.as_bytes()).unwrap();
+            assert_eq!(fs::read_to_string(&file).unwrap(), old);
+        }
+        assert!(ResultFile::new(&folder.file(&"a".repeat(256))).is_err());
+    }
+
+    #[test]
     fn what_cannot_be_written_is_known_at_once() {
         let folder = Folder::new("refused");
         assert!(ResultFile::new(&folder.0).is_err());
@@ -172,6 +188,8 @@ mod tests {
             ResultFile::new(Path::new("/dev/null")).unwrap().replace(b"gone").unwrap();
             let link = folder.file("link");
             std::os::unix::fs::symlink("target", &link).unwrap();
+            drop(ResultFile::new(&link).unwrap());
+            assert!(!folder.file("target").exists(), "nothing is made before there is a result");
             ResultFile::new(&link).unwrap().replace(b"through a link").unwrap();
             assert_eq!(fs::read_to_string(folder.file("target")).unwrap(), "through a link");
             assert!(link.is_symlink());

@@ -15,7 +15,7 @@ pub use crate::builtins::{
     bits, calibration, channel, clock, convert, devicenet, event, files, flow, frames, io, math, modbus_tcp, motion,
     points, pose, strings, system, text, time,
 };
-pub use crate::command::{in_process, program_main};
+pub use crate::command::{in_process, interrupts, program_main};
 pub use crate::context::cx::Cx;
 pub use crate::context::function_frame::FunctionFrame;
 pub use crate::context::nesting::{Entered, Nesting};

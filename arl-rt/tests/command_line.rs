@@ -122,7 +122,7 @@ fn main() -> ExitCode {
         Ok(name) if name == "pick" => arl_rt::emit::program_main::main(pick_program::Globals::new, "."),
         Ok(name) if name == "watched" => {
             let (words, make) = (std::env::args_os().skip(1).collect(), move || Small(name.clone()));
-            ExitCode::from(arl_rt::emit::program_main::main_within(words, make, &[], ".", SystemTime::now()))
+            ExitCode::from(arl_rt::emit::program_main::main_within(words, make, &[], ".", SystemTime::now(), || false))
         }
         Ok(name) => arl_rt::emit::program_main::main(move || Small(name), "."),
         Err(_) => {

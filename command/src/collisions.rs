@@ -89,13 +89,13 @@ struct Ran {
 
 /// Runs the program.
 fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result<Ran, Failure> {
-    interrupt::leave_to_the_program();
+    let left = interrupt::leave_to_the_program();
     let mut command = ready.command()?;
     command.args(options.arguments()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
     listener.iter().for_each(|listener| listener.ask(&mut command));
     let mut child = command.spawn().map_err(fail)?;
-    let _passed_on = interrupt::pass_on_to(&child);
+    left.pass_on_to(&child);
     drop(ready.lock);
     let errors = child.stderr.take();
     let reader = std::thread::spawn(move || errors.and_then(|errors| std::io::read_to_string(errors).ok()));

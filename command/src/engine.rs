@@ -17,21 +17,21 @@ pub(crate) fn run(file: &Path, words: Vec<OsString>) -> Result<Exit, Failure> {
     let bytes = std::fs::read(file).map_err(|error| Failure::io("read", file, &error))?;
     let bundle = Bundle::from_bytes(&bytes).map_err(|error| Failure::Other(format!("{}: {error}", file.display())))?;
     let made = file.metadata().and_then(|about| about.modified()).unwrap_or_else(|_| SystemTime::now());
-    Ok(Exit(run_bundle(bundle, words, made)))
+    Ok(Exit(run_bundle(bundle, words, made, || false)))
 }
 
 /// Runs code that was just made, with the options of a compiled program; `made` is a moment before its sources were
 /// read.
 pub(crate) fn run_here(bundle: Bundle, words: Vec<OsString>, made: SystemTime) -> Exit {
-    interrupt::leave_to_the_program();
+    let _left = interrupt::leave_to_the_program();
     // A panic of the run says where it happened.
     drop(std::panic::take_hook());
-    Exit(run_bundle(bundle, words, made))
+    Exit(run_bundle(bundle, words, made, interrupt::was_pressed))
 }
 
-fn run_bundle(bundle: Bundle, words: Vec<OsString>, made: SystemTime) -> u8 {
+fn run_bundle(bundle: Bundle, words: Vec<OsString>, made: SystemTime, was_interrupted: fn() -> bool) -> u8 {
     let CodeProgram { make, others, folder } = CodeProgram::of(bundle);
-    program_main::main_within(words, make, &others, &folder, made)
+    program_main::main_within(words, make, &others, &folder, made, was_interrupted)
 }
 
 /// A program from its code, with those that its cells may name.

@@ -20,7 +20,7 @@ mod view;
 use args::{Cli, Command};
 use arl_editor::{dap, lsp};
 use arl_project::{listing, robots};
-use arl_rt::emit::program_main;
+use arl_rt::emit::interrupts::{self, Interrupts};
 use arl_runs::{report, urdf};
 use arl_terminal::exit::Exit;
 use arl_terminal::failure::Failure;
@@ -29,6 +29,7 @@ use arl2rs::compile::{guard, on_large_stack, remember_panics};
 use clap::Parser;
 use std::ffi::OsString;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Executes the command line of this process.
 pub fn main() -> ExitCode {
@@ -48,11 +49,12 @@ pub fn command(words: impl IntoIterator<Item = OsString>) -> u8 {
         }
     };
     if let Command::Engine { bundle, words } = cli.command {
-        interrupt::leave_to_the_program();
         return engine::run(&bundle, words).unwrap_or_else(|failure: Failure| failure.report()).0;
     }
     remember_panics();
-    interrupt::end_the_command(program_main::minds_hang_up());
+    let mut interrupts = Interrupts::default();
+    let take = move |is_hang_up| interrupts.take(is_hang_up, Instant::now());
+    interrupt::end_the_command(interrupts::minds_hang_up(), take);
     let done = on_large_stack(|| guard(|| dispatch(cli.command)));
     let failed = |failure: Failure| failure.report();
     done.map_or_else(|bug| failed(Failure::Other(bug.to_string())), |done| done.unwrap_or_else(failed)).0

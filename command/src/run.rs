@@ -213,12 +213,15 @@ fn run_and_plot(
         }
     };
     let ran = ran(file, &ready.sources);
-    let Ended { code, received } = wait(command, listener, ready)?;
+    let Ended { code, is_killed, received } = wait(command, listener, ready)?;
     let ran = Ran { lanes: lanes.take(), ..ran };
     match received {
         // The program did not even begin, and has reported the reason: the trace is that of an earlier run.
         Received::Nothing => {}
-        Received::Broken if code == Exit::INTERRUPTED => not_drawn("the program was ended at once", picture),
+        // What it had not written yet is missing in the trace.
+        _ if is_killed || (received == Received::Broken && code == Exit::INTERRUPTED) => {
+            not_drawn("the program was ended at once", picture);
+        }
         _ => draw(&trace, result, robots::load_with(options.robot.as_deref(), &options.changed()?)?, &ran)?,
     }
     Ok(code)
@@ -248,16 +251,18 @@ fn start(command: Command, ready: Ready) -> Result<Exit, Failure> {
 /// How a run ended.
 struct Ended {
     code: Exit,
+    /// Whether something else than the program itself has ended it.
+    is_killed: bool,
     received: Received,
 }
 
 /// Runs the program while this process waits, or listens to it. Only the program acts on Ctrl-C.
 fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<Ended, Failure> {
-    interrupt::leave_to_the_program();
+    let left = interrupt::leave_to_the_program();
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
     listener.iter().for_each(|listener| listener.ask(&mut command));
     let mut child = command.spawn().map_err(fail)?;
-    let _passed_on = interrupt::pass_on_to(&child);
+    left.pass_on_to(&child);
     drop(ready.lock);
     let ended = match listener {
         // The program itself reports what it could not send.
@@ -265,7 +270,7 @@ fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Resul
         None => child.wait().map(|status| (status, Received::Nothing)),
     };
     let (status, received) = ended.map_err(fail)?;
-    Ok(Ended { code: Exit::from(code(status)), received })
+    Ok(Ended { code: Exit::from(code(status)), is_killed: status.code().is_none(), received })
 }
 
 /// The exit code of a program, as in a shell.

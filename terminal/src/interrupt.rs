@@ -1,4 +1,4 @@
-//! Handling of interrupts: Ctrl-C, and on Unix a request to end and a terminal that closes.
+//! Handling of interrupts: Ctrl-C, and on Unix a request to end; on Linux a terminal that closes, too.
 
 use std::process::Child;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -7,9 +7,11 @@ use std::sync::{Mutex, PoisonError};
 use crate::exit::Exit;
 use crate::{private_folder, show};
 
-/// Whether interrupts are left to the program that runs in the foreground.
+/// Whether the first interrupt is left to a program that runs, as after [`leave_to_the_program`].
 static LEFT_TO_PROGRAM: AtomicBool = AtomicBool::new(false);
-/// The interrupts since then.
+/// Whether interrupts are only counted, as after [`only_count`].
+static ONLY_COUNTED: AtomicBool = AtomicBool::new(false);
+/// The interrupts that did not end the command.
 static COUNT: AtomicU32 = AtomicU32::new(0);
 /// The process that an interrupt is passed on to; 0 if there is none.
 static PROGRAM: AtomicU32 = AtomicU32::new(0);
@@ -17,35 +19,45 @@ static PROGRAM: AtomicU32 = AtomicU32::new(0);
 /// What an interrupt says before it ends the command.
 static LAST_WORDS: Mutex<Option<&str>> = Mutex::new(None);
 
-/// Makes an interrupt end the command with its exit code; folders of this process alone are removed. cargo is in the
-/// same process group, and ends by itself. `minds_hang_up`: a terminal that closes is an interrupt, too; not where the
-/// command was started to outlive its terminal.
-pub fn end_the_command(minds_hang_up: bool) {
+/// Makes an interrupt end the command with its exit code; folders of this process alone are removed. A Ctrl-C reaches a
+/// cargo that was started, too. `minds_hang_up`: a terminal that closes is an interrupt, too; not where the command was
+/// started to outlive its terminal. `take` gets each signal, with whether a terminal closed, and returns how many
+/// interrupts there are with it; `None` if the signal is part of an earlier interrupt.
+pub fn end_the_command(minds_hang_up: bool, take: impl FnMut(bool) -> Option<u32> + Send + 'static) {
     // Without a handler the process still ends, only with another code.
-    let _ = watch(minds_hang_up);
+    let _ = watch(minds_hang_up, take);
 }
 
 #[cfg(unix)]
-fn watch(minds_hang_up: bool) -> std::io::Result<()> {
+fn watch(minds_hang_up: bool, mut take: impl FnMut(bool) -> Option<u32> + Send + 'static) -> std::io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     let mut signals = Signals::new([SIGINT, SIGTERM])?;
     if minds_hang_up {
         signals.add_signal(SIGHUP)?;
     }
-    let watch = move || signals.forever().for_each(|_| interrupted());
+    let watch = move || signals.forever().filter_map(|signal| take(signal == SIGHUP)).for_each(interrupted);
     std::thread::Builder::new().name("interrupts".into()).spawn(watch).map(drop)
 }
 
 /// An interrupt of the console is the only one.
 #[cfg(not(unix))]
-fn watch(_minds_hang_up: bool) -> Result<(), ctrlc::Error> {
-    ctrlc::set_handler(interrupted)
+fn watch(_minds_hang_up: bool, mut take: impl FnMut(bool) -> Option<u32> + Send + 'static) -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(move || take(false).into_iter().for_each(interrupted))
 }
 
-fn interrupted() {
+/// Takes the first interrupt, or a later one.
+fn interrupted(number: u32) {
+    if ONLY_COUNTED.load(Ordering::Relaxed) {
+        COUNT.fetch_add(1, Ordering::Relaxed);
+        return;
+    }
     if LEFT_TO_PROGRAM.load(Ordering::Relaxed) {
-        return pass_on(COUNT.fetch_add(1, Ordering::Relaxed) > 0);
+        COUNT.fetch_add(1, Ordering::Relaxed);
+        let is_passed_on = pass_on(number > 1);
+        if is_passed_on || number == 1 {
+            return;
+        }
     }
     if let Some(words) = *LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner) {
         show::warning(words);
@@ -59,53 +71,65 @@ pub fn last_words(words: &'static str) {
     *LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner) = Some(words);
 }
 
-/// From now on interrupts are left to the running program.
-pub fn leave_to_the_program() {
+/// While this value exists, an interrupt does not end the command.
+#[derive(Debug)]
+#[must_use]
+pub struct Left(());
+
+/// While the value exists, the first interrupt is left to whoever asks for it or gets it passed on. Another one ends a
+/// program that it is passed on to; where there is none, the command.
+pub fn leave_to_the_program() -> Left {
     LEFT_TO_PROGRAM.store(true, Ordering::Relaxed);
+    Left(())
 }
 
-/// How many interrupts came while they were left to the program.
+/// While the value exists, interrupts are only counted: for a screen that must be left in good order.
+pub fn only_count() -> Left {
+    ONLY_COUNTED.store(true, Ordering::Relaxed);
+    Left(())
+}
+
+/// How many interrupts came that did not end the command.
 pub fn count() -> u32 {
     COUNT.load(Ordering::Relaxed)
 }
 
-/// Whether an interrupt came while they were left to the program.
+/// Whether an interrupt came that did not end the command.
 pub fn was_pressed() -> bool {
     count() > 0
 }
 
-/// While this value exists, interrupts of the command are passed on to a program.
-#[derive(Debug)]
-#[must_use]
-pub struct PassedOn(());
-
-/// Passes interrupts on to this program. Those of a terminal reach it anyway, those of `kill` or of an editor do not.
-pub fn pass_on_to(program: &Child) -> PassedOn {
-    PROGRAM.store(program.id(), Ordering::Relaxed);
-    if was_pressed() {
-        pass_on(false);
+impl Left {
+    /// Passes interrupts on to this program. Those of a terminal reach it anyway, those of `kill` or of an editor do
+    /// not.
+    pub fn pass_on_to(&self, program: &Child) {
+        PROGRAM.store(program.id(), Ordering::Relaxed);
+        if was_pressed() {
+            pass_on(false);
+        }
     }
-    PassedOn(())
 }
 
-impl Drop for PassedOn {
+impl Drop for Left {
     fn drop(&mut self) {
+        LEFT_TO_PROGRAM.store(false, Ordering::Relaxed);
+        ONLY_COUNTED.store(false, Ordering::Relaxed);
         PROGRAM.store(0, Ordering::Relaxed);
     }
 }
 
 /// The first interrupt asks the program to stop its robot, which changes nothing for one that had it, too; another one
-/// ends the program.
+/// ends the program. Returns whether there is one.
 #[cfg(unix)]
-fn pass_on(again: bool) {
+fn pass_on(again: bool) -> bool {
     use rustix::process::{Pid, Signal, kill_process};
     let program = i32::try_from(PROGRAM.load(Ordering::Relaxed)).ok().and_then(Pid::from_raw);
-    if let Some(program) = program {
-        // It may have ended.
-        let _ = kill_process(program, if again { Signal::KILL } else { Signal::USR1 });
-    }
+    // It may have ended.
+    program.is_some_and(|program| kill_process(program, if again { Signal::KILL } else { Signal::USR1 }).is_ok())
 }
 
 /// An interrupt is always for all processes of the console.
 #[cfg(not(unix))]
-fn pass_on(_again: bool) {}
+fn pass_on(_again: bool) -> bool {
+    PROGRAM.load(Ordering::Relaxed) != 0
+}

@@ -8,6 +8,7 @@ mod connection;
 mod coverage;
 mod debug;
 pub mod in_process;
+pub mod interrupts;
 mod json;
 mod live;
 mod observation;

@@ -16,6 +16,7 @@ use crate::builtins::time;
 use crate::command::between::{Between, CycleOrder};
 use crate::command::coverage;
 use crate::command::debug;
+use crate::command::interrupts;
 use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
 use crate::command::polling::Polling;
 use crate::command::say::{self, say, say_condition};
@@ -128,20 +129,22 @@ pub fn main_named<P: Program + 'static>(
 }
 
 /// As `main_named`, with the words of a command line that is not that of this process: for programs that are part of
-/// another command. Programs of other files are those of `others`; the sources are as they were at `made`. Returns the
-/// number of the exit code.
+/// another command. Programs of other files are those of `others`; the sources are as they were at `made`.
+/// `was_interrupted`: whether an interrupt came before the program watches for them itself. Returns the number of the
+/// exit code.
 pub fn main_within<P: Program + 'static>(
     words: Vec<OsString>,
     program: impl Fn() -> P + Send,
     others: &[Other],
     script_dir: &str,
     made: SystemTime,
+    was_interrupted: fn() -> bool,
 ) -> u8 {
     say::made_at(made);
     if words.iter().eq(["--serve"]) {
         return serve::serve(move || Box::new(program()) as Box<dyn Program>, others, script_dir);
     }
-    start_with(words, program, others, script_dir, Some(WATCHING))
+    start_with(words, program, others, script_dir, Some(WATCHING), was_interrupted)
 }
 
 fn start<P: Program + 'static>(
@@ -150,7 +153,8 @@ fn start<P: Program + 'static>(
     script_dir: &str,
     watching: Option<Watching>,
 ) -> ExitCode {
-    ExitCode::from(start_with(std::env::args_os().skip(1).collect(), program, others, script_dir, watching))
+    let words = std::env::args_os().skip(1).collect();
+    ExitCode::from(start_with(words, program, others, script_dir, watching, || false))
 }
 
 fn start_with<P: Program + 'static>(
@@ -159,6 +163,7 @@ fn start_with<P: Program + 'static>(
     others: &[Other],
     script_dir: &str,
     watching: Option<Watching>,
+    was_interrupted: fn() -> bool,
 ) -> u8 {
     let options = match parse(arguments, script_dir) {
         Ok(Some(options)) => options,
@@ -176,8 +181,11 @@ fn start_with<P: Program + 'static>(
         });
     }
     let interrupted = Arc::new(AtomicBool::new(false));
-    if let Err(error) = watch_for_interrupts(&interrupted) {
+    if let Err(error) = interrupts::watch(&interrupted) {
         warn(&format!("Ctrl-C will not stop the robot on its path: {error}"));
+    }
+    if was_interrupted() {
+        interrupted.store(true, Ordering::Relaxed);
     }
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(PROGRAM_STACK_BYTES + CONTROLLER_STACK_BYTES);
@@ -189,41 +197,6 @@ fn start_with<P: Program + 'static>(
             Err(error) => fail(EXIT_ALARM, &format!("the program's thread cannot be started: {error}")),
         }
     })
-}
-
-/// The first Ctrl-C, or request to end, or end of the terminal, sets the flag; a second one ends the process, should
-/// the program not come to an end.
-fn watch_for_interrupts(interrupted: &Arc<AtomicBool>) -> std::io::Result<()> {
-    #[cfg(unix)]
-    use signal_hook::consts::SIGHUP;
-    use signal_hook::consts::{SIGINT, SIGTERM};
-    use signal_hook::flag;
-    let pressed = Arc::new(AtomicBool::new(false));
-    let interrupts = [
-        Some(SIGINT),
-        Some(SIGTERM),
-        #[cfg(unix)]
-        minds_hang_up().then_some(SIGHUP),
-    ];
-    for interrupt in interrupts.into_iter().flatten() {
-        flag::register_conditional_shutdown(interrupt, i32::from(EXIT_INTERRUPTED), Arc::clone(&pressed))?;
-        flag::register(interrupt, Arc::clone(&pressed))?;
-        flag::register(interrupt, Arc::clone(interrupted))?;
-    }
-    // The command that started the program passes on what it got itself, and must not end a program that got it, too.
-    #[cfg(unix)]
-    flag::register(signal_hook::consts::SIGUSR1, Arc::clone(interrupted))?;
-    Ok(())
-}
-
-/// Whether the end of its terminal concerns this process: not if it was started to outlive it, as by `nohup`, which is
-/// known on Linux; on other systems it then ends as it does everywhere without a handler.
-pub fn minds_hang_up() -> bool {
-    const HANG_UP: u64 = 1;
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-    ignored.is_some_and(|mask| mask & HANG_UP == 0)
 }
 
 fn fail(code: u8, text: &str) -> u8 {
@@ -287,6 +260,8 @@ fn try_run(
     controller.set_loop(repeats);
     let between = watching.map_or(Ok(None), |watching| watching.begin(&controller, &asked));
     let between = between.map_err(SetupFailure::usage)?;
+    // Nothing refuses the run any more: its traces take the place of older ones.
+    controller.begin_traces();
     let code = match writer {
         Some(writer) => {
             if paused {
@@ -400,6 +375,7 @@ pub(super) fn in_process(
     let builder = if wishes.each_motion { builder.record_motions() } else { builder };
     let mut controller = builder.build(program).map_err(|error| error.to_string())?;
     controller.set_loop(repeats);
+    controller.begin_traces();
     Ok(InProcess { controller, max_time, is_real, trace_columns, recording })
 }
 
@@ -541,7 +517,7 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
         let cell = Cell::load_with(cell, &options.changes).map_err(SetupFailure::usage)?;
         names = cell.names.clone();
         builder = builder.cell_with(cell, others)?;
-        builder = channel_traces::trace(builder, options.trace.as_deref())?;
+        builder = channel_traces::trace(builder, &options)?;
     }
     if options.drive {
         let connect = CONNECT.get().ok_or_else(|| SetupFailure::usage("--drive: this program has no drivers"))?;

@@ -374,6 +374,11 @@ impl Channel {
             return;
         }
         self.channel_state.shared.io.borrow_mut().end_pulses(self.channel_state.index);
+        self.flush_trace();
+    }
+
+    /// Writes out what is buffered of the trace; before the first cycle, its first line.
+    pub(super) fn flush_trace(&mut self) {
         if let Some(trace) = &mut self.trace
             && let Err(error) = trace.flush()
         {

@@ -11,6 +11,11 @@ use crate::storage::state::StateError;
 const STORE_INTERVAL_S: f64 = 1.0;
 
 impl Controller {
+    /// Begins the files of traces, so that no cycle has to open one.
+    pub(crate) fn begin_traces(&mut self) {
+        self.channels.each(Channel::flush_trace);
+    }
+
     /// Takes in what was stored beside the cycles. Where cycles do not take real time, what programs wait for is stored
     /// before the next cycle, so that a run does not depend on the disk.
     pub(super) fn finish_disk_work(&mut self) {

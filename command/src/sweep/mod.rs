@@ -53,10 +53,11 @@ pub(crate) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
     let kept = if options.no_cache { Kept::nothing() } else { kept(&bundle, show::warning)? };
     let processes = options.jobs.map_or_else(cores, usize::from);
     // Better now than after a long run.
-    if let Some(out) = &options.out {
-        ResultFile::new(out).map_err(|error| Failure::io("write", out, &error))?;
-    }
-    interrupt::leave_to_the_program();
+    let table = options.out.as_deref().map(|out| {
+        ResultFile::new(out).map_err(|error| Failure::Usage(format!("cannot write {}: {error}", out.display())))
+    });
+    let table = table.transpose()?;
+    let _left = interrupt::leave_to_the_program();
     let bar = bar(rows.len());
     let (mut all, mut lost, mut failed) = (Vec::new(), 0_usize, Ok(()));
     let work = Work {
@@ -90,8 +91,9 @@ pub(crate) fn sweep(file: &Path, options: &SweepOptions) -> Result<Exit, Failure
         show::warning(&format!("interrupted: {kept}{}", out.unwrap_or_default()));
         return Ok(Exit::INTERRUPTED);
     }
-    if let Some(out) = &options.out {
-        parquet::write(out, &all)
+    if let Some(table) = table {
+        let out = table.path().to_owned();
+        parquet::write(table, &all)
             .map_err(|error| Failure::Other(format!("cannot write {}: {error}", out.display())))?;
     }
     if lost > 0 {

@@ -1,7 +1,7 @@
 //! Results as a Parquet file: a column for each parameter and each figure.
 
 use super::result::{Collision, Row};
-use arl_robot::atomic_file;
+use arl_robot::result_file::ResultFile;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::Result;
@@ -9,7 +9,6 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{Type, TypePtr};
 use serde_json::Value;
-use std::path::Path;
 use std::sync::Arc;
 
 /// The values of a column, with gaps.
@@ -24,7 +23,7 @@ enum Column {
 ///
 /// # Errors
 /// The file cannot be written.
-pub(super) fn write(path: &Path, rows: &[Row]) -> Result<()> {
+pub(super) fn write(file: ResultFile, rows: &[Row]) -> Result<()> {
     let columns = columns(rows);
     let fields: Result<Vec<TypePtr>> = columns.iter().map(|(name, column)| field(name, column)).collect();
     let schema = Type::group_type_builder("results").with_fields(fields?).build()?;
@@ -44,7 +43,7 @@ pub(super) fn write(path: &Path, rows: &[Row]) -> Result<()> {
     }
     group.close()?;
     writer.close()?;
-    Ok(atomic_file::write(path, &bytes)?)
+    Ok(file.replace(&bytes)?)
 }
 
 fn put<T: DataType>(

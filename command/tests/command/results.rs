@@ -64,6 +64,10 @@ fn no_result_is_written_over_an_input_or_another_result() {
     }
     folder.arl2rs(&["build", "a.arl", "-o", "part.arl"]).is(2, "").says("would overwrite part.arl");
     folder.arl2rs(&["run", "a.arl", "--trace", "t.csv"]).is(0, "");
+    folder.write("second.arl", MOVES);
+    folder.write("cell.toml", "[[channel]]\nprogram = \"second.arl\"\nrobot = \"six-10\"\n");
+    let traces = ["--cell", "cell.toml", "--trace", "t.csv", "--report=t.2.csv"];
+    folder.arl2rs(&[&["run", "a.arl"], &traces[..]].concat()).is(2, "").says("would write the same file, t.2.csv");
     folder.arl2rs(&["plot", "t.csv", "t.csv"]).is(2, "").says("would overwrite t.csv, which is the trace");
     assert!(folder.read("part.arl").starts_with("func void go()") && !folder.has("x"));
 }
@@ -165,21 +169,83 @@ const ENDLESS: &str = "func void main()\n  print \"go\"\n  loop\n    movej j:{0,
 #[test]
 fn a_request_to_end_stops_the_robot_and_all_results_are_whole() {
     let folder = Folder::new("results_terminated").with("a.arl", ENDLESS);
+    // Whoever ends a process may send several at once, of which none is impatience.
+    let signals: [&[&str]; 6] =
+        [&["-TERM"], &["-INT"], &["-TERM", "-TERM"], &["-HUP"], &["-HUP", "-HUP"], &["-TERM", "-HUP", "-HUP"]];
     // Tests that were started to outlive their terminal pass that on.
-    let signals: &[&str] = if ignores_hang_up() { &["-TERM", "-INT"] } else { &["-TERM", "-INT", "-HUP"] };
-    for &signal in signals {
+    let ignored = |signals: &[&str]| ignores_hang_up() && signals.contains(&"-HUP");
+    for signals in signals.into_iter().filter(|signals| !ignored(signals)) {
         let words = [&["run", "a.arl", "--clock", "real"], &ALL[..]].concat();
-        let answer = signalled(&folder, &words, &[signal]);
-        assert_eq!((answer.code, &*answer.out), (Some(130), "go\n"), "{signal}: {answer:?}");
+        let answer = signalled(&folder, &words, signals);
+        assert_eq!((answer.code, &*answer.out), (Some(130), "go\n"), "{signals:?}: {answer:?}");
         answer.says("interrupted: the robot stops on its path");
         let compared = folder.arl2rs(&["compare", "a.mcap", "a.mcap"]);
         assert_eq!((compared.code, &*compared.err), (Some(0), ""), "the recording is whole");
+        assert!(folder.read("a.svg").trim_end().ends_with("</svg>"));
         assert_eq!(left_in(&folder, "tmp"), [""; 0]);
-        // Without a listener the program takes the place of the command.
-        let answer = signalled(&folder, &["run", "a.arl", "--clock", "real"], &[signal]);
-        assert_eq!(answer.code, Some(130), "{signal}: {answer:?}");
+        // Without a listener the program runs in the process of the command.
+        let answer = signalled(&folder, &["run", "a.arl", "--clock", "real"], signals);
+        assert_eq!(answer.code, Some(130), "{signals:?}: {answer:?}");
         answer.says("interrupted: the robot stops on its path");
     }
+}
+
+/// What a run that was killed leaves is its own: nothing of an earlier run could be taken for it.
+#[cfg(unix)]
+#[test]
+fn a_run_that_is_killed_leaves_nothing_of_an_earlier_one() {
+    let folder = Folder::new("results_killed").with("a.arl", ENDLESS);
+    let old = || FILES.iter().for_each(|name| folder.write(name, "as it was"));
+    let killed_once_written = |words: &[&str], name: &str| {
+        old();
+        let mut child = folder.command(words).stdout(std::process::Stdio::null()).spawn().expect("it starts");
+        while std::fs::metadata(folder.path.join(name)).is_ok_and(|about| about.len() < 1000) {
+            assert_eq!(child.try_wait().expect("it runs"), None);
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        child.kill().and_then(|()| child.wait()).expect("it ends");
+    };
+    killed_once_written(&[&["run", "a.arl", "--clock", "real"], &ALL[..]].concat(), "a.mcap");
+    assert!(!folder.read("a.csv").contains("as it was"));
+    let compared = folder.arl2rs(&["compare", "a.mcap", "a.mcap"]);
+    assert_eq!(compared.code, Some(0), "{compared:?}");
+    compared.says("the rest is missing");
+    // These are made at the end of a run.
+    assert_eq!((&*folder.read("a.svg"), &*folder.read("a.json")), ("as it was", "as it was"));
+    // Here the trace is the only one that is written.
+    killed_once_written(&["run", "a.arl", "--clock", "real", "--trace", "a.csv"], "a.csv");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_screen_whose_terminal_is_gone_stops_the_robot_first() {
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+    use rustix::termios::{Winsize, tcsetwinsize};
+    use std::io::Read;
+    use std::process::Stdio;
+    let folder = Folder::new("results_screen").with("a.arl", ENDLESS);
+    let mut here = std::fs::File::from(
+        openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC).expect("a terminal"),
+    );
+    grantpt(&here).and_then(|()| unlockpt(&here)).expect("a terminal");
+    let size = Winsize { ws_row: 40, ws_col: 100, ws_xpixel: 0, ws_ypixel: 0 };
+    tcsetwinsize(&here, size).expect("a size");
+    let path = ptsname(&here, Vec::new()).expect("its name").into_string().expect("a path");
+    let there = || Stdio::from(std::fs::OpenOptions::new().read(true).write(true).open(&path).expect("it opens"));
+    let mut command = folder.command(&["run", "a.arl", "--pendant", "--record", "a.mcap"]);
+    let mut child = command.stdin(there()).stdout(there()).stderr(there()).spawn().expect("it starts");
+    drop(command);
+    // What the program has printed is on the screen.
+    let (mut screen, mut bytes) = (String::new(), [0; 4096]);
+    while !screen.contains("go") {
+        let count = here.read(&mut bytes).expect("the screen");
+        assert!(screen.len() < 1 << 20, "{screen}");
+        screen.push_str(&String::from_utf8_lossy(bytes.get(..count).unwrap_or_default()));
+    }
+    drop(here);
+    assert_eq!(child.wait().expect("it ends").code(), Some(1));
+    let compared = folder.arl2rs(&["compare", "a.mcap", "a.mcap"]);
+    assert_eq!((compared.code, &*compared.err), (Some(0), ""), "the recording is whole");
 }
 
 #[cfg(unix)]
@@ -188,7 +254,8 @@ fn whoever_is_impatient_keeps_the_picture_of_before() {
     let folder = Folder::new("results_impatient").with("a.arl", ENDLESS);
     for clock in ["real", "virtual"] {
         folder.write("a.svg", "as it was");
-        let words = ["run", "a.arl", "--clock", clock, "--plot", "a.svg"];
+        folder.write("a.csv", "as it was");
+        let words = ["run", "a.arl", "--clock", clock, "--plot", "a.svg", "--trace", "a.csv"];
         let answer = signalled(&folder, &words, &["-INT", "-INT", "-INT"]);
         assert_eq!(answer.code, Some(130), "{answer:?}");
         assert!(!answer.err.contains("cannot read") && !answer.err.contains("not a row"), "{answer:?}");

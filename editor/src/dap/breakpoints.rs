@@ -1,8 +1,7 @@
 //! Breakpoints: the lines at which the program halts, and the conditions that the adapter checks then.
 
-use super::evaluate::unreadable;
+use super::evaluate::{uncallable, unreadable};
 use super::program::{FileKey, Programs};
-use arl_lang::catalog::functions;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -212,23 +211,6 @@ impl Breakpoint {
     }
 }
 
-/// The first function that a condition calls and that is not built in.
-fn uncallable(condition: &str) -> Option<&str> {
-    let is_word = |letter: char| letter.is_alphanumeric() || letter == '_';
-    // What is between quotes are texts.
-    for outside in condition.split('"').step_by(2) {
-        for (at, _) in outside.match_indices('(') {
-            let before = outside.get(..at).unwrap_or_default().trim_end();
-            let name = before.rsplit(|letter| !is_word(letter)).next().unwrap_or_default();
-            let is_name = name.starts_with(|first: char| first.is_alphabetic());
-            if is_name && functions(&name.to_lowercase()).is_empty() {
-                return Some(name);
-            }
-        }
-    }
-    None
-}
-
 fn unknown(why: &str) -> Value {
     json!({"verified": false, "message": why})
 }
@@ -242,6 +224,8 @@ mod tests {
         assert_eq!(uncallable("getdi(1) && (i > 2) && Strlen(name) == (3)"), None);
         assert_eq!(uncallable("i == add(1, 2)"), Some("add"));
         assert_eq!(uncallable("name == \"add(1)\" && sqrt( twice (2)) > 1"), Some("twice"));
+        assert_eq!(uncallable(r#"name == "say \" and (add(1)" && i > 1"#), None);
+        assert_eq!(uncallable("part::strlen(name) > 1"), Some("strlen"));
         assert_eq!(uncallable("i =="), None);
     }
 

@@ -5,8 +5,8 @@
 //! takes two values only if one of them is a constant, names count as constants.
 
 use super::literal::{Literal, Part};
-use arl_lang::ast::{BinaryOp, Expr, ExprKind, Radix, UnaryOp};
-use arl_lang::catalog::{Base, Family, base_type, enum_constant, system_element};
+use arl_lang::ast::{BinaryOp, Call, Expr, ExprKind, Radix, UnaryOp};
+use arl_lang::catalog::{Base, Family, base_type, enum_constant, functions, system_element};
 use arl_lang::symbol::Interner;
 use arl_lang::written;
 use arl2rs::hir;
@@ -123,6 +123,31 @@ fn parsed(text: &str, names: &mut Interner) -> Result<Expr> {
     match parsed.errors.first() {
         Some(error) => Err(error.kind.message()),
         None => Ok(parsed.expr),
+    }
+}
+
+/// The first function that a condition calls and that is not built in.
+pub(super) fn uncallable(condition: &str) -> Option<&str> {
+    let mut names = Interner::default();
+    let expr = parsed(condition, &mut names).ok()?;
+    let name = foreign_call(&expr, &names)?.name.span;
+    condition.trim().get(name.start as usize..name.end as usize)
+}
+
+/// The first call of a function that is not built in.
+fn foreign_call<'a>(expr: &'a Expr, names: &Interner) -> Option<&'a Call> {
+    let first = |one: &'a Expr, other: &'a Expr| foreign_call(one, names).or_else(|| foreign_call(other, names));
+    match &expr.kind {
+        ExprKind::Call(call) => {
+            let is_built_in =
+                call.module.is_none() && !functions(&names.name(call.name.symbol).to_lowercase()).is_empty();
+            let inner = || call.args.iter().find_map(|arg| foreign_call(&arg.value, names));
+            if is_built_in { inner() } else { Some(call) }
+        }
+        ExprKind::Index(both) | ExprKind::Binary(_, both) | ExprKind::Assign(_, both) => first(&both.0, &both.1),
+        ExprKind::Field(inner, _) | ExprKind::Unary(_, inner) | ExprKind::Step(_, inner) => foreign_call(inner, names),
+        ExprKind::Brace(items) => items.iter().find_map(|item| foreign_call(&item.value, names)),
+        _ => None,
     }
 }
 

@@ -12,6 +12,7 @@ mod sources;
 use arl_terminal::exit::Exit;
 use std::path::PathBuf;
 use std::process::Command;
+use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use ratatui::crossterm::event::{self, Event};
@@ -27,6 +28,8 @@ use sources::Sources;
 
 /// How long the screen waits for a key before it looks for new lines of the program.
 const WAIT: Duration = Duration::from_millis(50);
+/// How long a program may take to stop its robot and end once its screen is gone.
+const LONGEST_STOP: Duration = Duration::from_secs(10);
 
 /// Runs a program made from these files with a screen; returns its exit code. `subscribers` get its lines, too. Once
 /// the program runs, `lock`, which kept it unchanged, is released.
@@ -44,23 +47,29 @@ pub fn run<L>(
         command.args(["--state-interval", listen::STATE_INTERVAL]);
     }
     let program = PathBuf::from(command.get_program());
-    let mut link = ProgramLink::start(command).map_err(|error| Failure::io("start", &program, &error))?;
+    let unusable = |error| Failure::Other(format!("the terminal cannot be used: {error}"));
+    // Without a screen nothing begins.
+    let mut terminal = ratatui::try_init().map_err(unusable)?;
+    let started = ProgramLink::start(command).inspect_err(|_| ratatui::restore());
+    let mut link = started.map_err(|error| Failure::io("start", &program, &error))?;
     let mut model = PendantModel::new(Sources::read(files));
     drop(lock);
-    let shown = ratatui::try_init().and_then(|mut terminal| {
-        show::keep_warnings();
-        let shown = show(&mut terminal, &mut link, &mut model, &mut subscribers);
-        ratatui::try_restore()?;
-        shown
-    });
+    let _counted = interrupt::only_count();
+    show::keep_warnings();
+    let shown = show(&mut terminal, &mut link, &mut model, &mut subscribers);
+    if shown.is_err() {
+        // It would report that it cannot be left in good order, and there may be nobody to report to.
+        std::mem::forget(terminal);
+        end_unseen(&mut link, &mut model, &mut subscribers);
+    }
+    let restored = ratatui::try_restore();
     // A program that was left at once ends now.
     drop(link);
     // Prints what disappeared with the screen.
     model.lasting.iter().for_each(|text| show::say(&format!("{text}\n")));
     show::say_warnings();
     listen::end(subscribers, !model.hello.channels.is_empty());
-    let code = shown.map_err(|error| Failure::Other(format!("the terminal cannot be used: {error}")))?;
-    Ok(Exit::from(code))
+    shown.and_then(|code| restored.map(|()| Exit::from(code))).map_err(unusable)
 }
 
 /// Shows the program until it has ended.
@@ -70,7 +79,7 @@ fn show(
     model: &mut PendantModel,
     subscribers: &mut Vec<Box<dyn Subscriber>>,
 ) -> std::io::Result<u8> {
-    interrupt::leave_to_the_program();
+    let events = events();
     loop {
         match interrupt::count() {
             0 => {}
@@ -78,30 +87,17 @@ fn show(
             1 => leave(link, model),
             _ => return Ok(Exit::INTERRUPTED.0),
         }
-        // Lines that the program sent before it ended come before the end.
-        let ended = link.ended();
-        // A slow subscriber does not keep the user from leaving.
-        let until = Instant::now() + WAIT;
-        let next = || match ended {
-            Some(_) => link.last_lines().next(),
-            None => link.line_before(until),
-        };
-        while let Some(line) = next() {
-            if !subscribers.is_empty() {
-                listen::pass_on(line.clone(), subscribers);
-            }
-            model.receive(line);
-        }
+        let ended = take_lines(link, model, subscribers);
         show::take_warnings().iter().for_each(|text| model.warn(text));
         if let Some(code) = ended {
             return Ok(code);
         }
         terminal.draw(|frame| screen::draw(frame, model))?;
         let mut wait = WAIT;
-        while event::poll(wait)? {
+        while let Ok(event) = events.recv_timeout(wait) {
             // All keys that have come are taken before the screen is drawn again.
             wait = Duration::ZERO;
-            let Event::Key(key) = event::read()? else { continue };
+            let Event::Key(key) = event? else { continue };
             match keys::press(key, model) {
                 Some(Wish::Order(order)) => link.order(&order),
                 // When asked twice, it does not wait for the robot to stop.
@@ -110,6 +106,54 @@ fn show(
                 None => {}
             }
         }
+    }
+}
+
+/// What comes from the terminal. A thread of its own waits for it: it would never be back once the terminal has closed,
+/// which drawing finds out.
+fn events() -> Receiver<std::io::Result<Event>> {
+    let (sender, events) = channel();
+    std::thread::spawn(move || {
+        loop {
+            let event = event::read();
+            let is_last = event.is_err();
+            if sender.send(event).is_err() || is_last {
+                return;
+            }
+        }
+    });
+    events
+}
+
+/// Takes the lines that have come; returns the program's exit code, if it has ended.
+fn take_lines(
+    link: &mut ProgramLink,
+    model: &mut PendantModel,
+    subscribers: &mut Vec<Box<dyn Subscriber>>,
+) -> Option<u8> {
+    // Lines that the program sent before it ended come before the end.
+    let ended = link.ended();
+    // A slow subscriber does not keep the user from leaving.
+    let until = Instant::now() + WAIT;
+    let next = || match ended {
+        Some(_) => link.last_lines().next(),
+        None => link.line_before(until),
+    };
+    while let Some(line) = next() {
+        if !subscribers.is_empty() {
+            listen::pass_on(line.clone(), subscribers);
+        }
+        model.receive(line);
+    }
+    ended
+}
+
+/// Lets the program stop the robot and end where nothing can be drawn, as on a terminal that has closed.
+fn end_unseen(link: &mut ProgramLink, model: &mut PendantModel, subscribers: &mut Vec<Box<dyn Subscriber>>) {
+    leave(link, model);
+    let last = Instant::now() + LONGEST_STOP;
+    while take_lines(link, model, subscribers).is_none() && Instant::now() < last && interrupt::count() < 2 {
+        std::thread::sleep(WAIT);
     }
 }
 

@@ -42,6 +42,8 @@ pub(super) struct Rows {
     path: PathBuf,
     lines: BufReader<File>,
     number: usize,
+    /// How many columns the first line names.
+    columns: usize,
     files: Vec<String>,
 }
 
@@ -56,8 +58,12 @@ impl Rows {
         let mut lines = BufReader::with_capacity(1 << 16, file);
         let mut header = String::new();
         lines.read_line(&mut header).map_err(|error| Failure::io("read the trace", path, &error))?;
-        match header.trim_end().strip_prefix(HEADER) {
-            Some("" | FILE_COLUMN) => Ok(Self { path: path.to_path_buf(), lines, number: 1, files: Vec::new() }),
+        let header = header.trim_end();
+        match header.strip_prefix(HEADER) {
+            Some("" | FILE_COLUMN) => {
+                let columns = header.split(',').count();
+                Ok(Self { path: path.to_path_buf(), lines, number: 1, columns, files: Vec::new() })
+            }
             _ => Err(Failure::Usage(format!(
                 "{} is not a trace of a run: its first line must be `{HEADER}`, with or without `{FILE_COLUMN}` after it",
                 path.display()
@@ -80,11 +86,20 @@ impl Iterator for Rows {
             return Some(Err(Failure::io("read the trace", &self.path, &error)));
         }
         // The last row of a run that was killed may be cut.
-        let text = line.strip_suffix('\n')?;
+        let is_cut = !line.ends_with('\n');
+        if is_cut && line.split(',').count() < self.columns {
+            return None;
+        }
         self.number += 1;
-        Some(row(text.trim_end(), &mut self.files).ok_or_else(|| {
-            Failure::Usage(format!("{}:{}: this is not a row of a trace", self.path.display(), self.number))
-        }))
+        match row(line.trim_end(), &mut self.files) {
+            None if is_cut => None,
+            None => Some(Err(Failure::Usage(format!(
+                "{}:{}: this is not a row of a trace",
+                self.path.display(),
+                self.number
+            )))),
+            read => read.map(Ok),
+        }
     }
 }
 

@@ -145,6 +145,7 @@ impl<S: Sink> Recorder<S> {
     fn state(&mut self, state: &State) -> McapResult<()> {
         let time = state.time;
         self.time = time;
+        self.sink.reach(nanoseconds(time))?;
         let controller = Controller { time, mode: state.mode.clone(), speed_override: state.speed_override };
         if (Controller { time: self.last.controller.time, ..controller.clone() }) != self.last.controller {
             self.write(time, RunMessage::Controller(controller.clone()))?;

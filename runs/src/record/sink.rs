@@ -19,6 +19,11 @@ pub(crate) trait Sink {
     /// Takes a message at a time in ns.
     fn message(&mut self, time: u64, message: RunMessage) -> McapResult<()>;
 
+    /// Takes notice that the run has reached a time in ns, with a message or without.
+    fn reach(&mut self, _time: u64) -> McapResult<()> {
+        Ok(())
+    }
+
     /// Takes a text of the program.
     fn source(&mut self, name: &str, text: &str) -> McapResult<()>;
 
@@ -30,8 +35,10 @@ pub(crate) trait Sink {
 pub(super) struct File<W: Write + Seek> {
     stage: Stage<W>,
     topics: BTreeMap<String, Topic>,
-    /// When the chunk is written at the latest, in ns of the run.
-    chunk_due: u64,
+    /// When the messages that are not written yet are written at the latest, in ns of the run; `None`: there are none.
+    chunk_due: Option<u64>,
+    /// Whether a chunk was written. The first message is written at once, so that the file is that of its run.
+    is_begun: bool,
 }
 
 enum Stage<W: Write + Seek> {
@@ -48,7 +55,7 @@ struct Topic {
 impl<W: Write + Seek> File<W> {
     /// A file that is begun with the first message.
     pub(super) fn new(stream: W) -> Self {
-        Self { stage: Stage::Waiting(Some(stream)), topics: BTreeMap::new(), chunk_due: CHUNK_TIME }
+        Self { stage: Stage::Waiting(Some(stream)), topics: BTreeMap::new(), chunk_due: None, is_begun: false }
     }
 
     /// The writer, which begins the file.
@@ -86,13 +93,20 @@ impl<W: Write + Seek> Sink for File<W> {
     fn message(&mut self, time: u64, message: RunMessage) -> McapResult<()> {
         let (channel_id, sequence) = self.topic(&message)?;
         let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
-        let is_due = time >= self.chunk_due;
-        if is_due {
-            self.chunk_due = time + CHUNK_TIME;
+        self.writer()?.write_to_known_channel(&header, &message.encoded())?;
+        let wait = if std::mem::replace(&mut self.is_begun, true) { CHUNK_TIME } else { 0 };
+        self.chunk_due.get_or_insert(time + wait);
+        self.reach(time)
+    }
+
+    fn reach(&mut self, time: u64) -> McapResult<()> {
+        match self.chunk_due {
+            Some(due) if time >= due => {
+                self.chunk_due = None;
+                self.writer()?.flush()
+            }
+            _ => Ok(()),
         }
-        let writer = self.writer()?;
-        writer.write_to_known_channel(&header, &message.encoded())?;
-        if is_due { writer.flush() } else { Ok(()) }
     }
 
     fn source(&mut self, name: &str, text: &str) -> McapResult<()> {

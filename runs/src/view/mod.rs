@@ -97,7 +97,7 @@ pub fn program<L>(program: Program<'_>, lock: L, page: Page) -> Result<Exit, Fai
     let live = Live::start(command, &subscribers).map_err(|error| Failure::io("start", &file, &error))?;
     drop(lock);
     // The program stops its robot, and this command ends with it.
-    interrupt::leave_to_the_program();
+    let _left = interrupt::leave_to_the_program();
     let store = Arc::new(Mutex::new(store));
     let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live), teacher });
     let _server = serve(&shown, page)?;

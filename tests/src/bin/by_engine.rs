@@ -15,5 +15,5 @@ fn main() -> ExitCode {
     let bundle = Bundle::from_bytes(&bytes).expect("code");
     let code = Arc::new(bundle.main);
     let make = || Engine::new(Arc::clone(&code));
-    ExitCode::from(main_within(words.collect(), make, &[], &bundle.folder, SystemTime::now()))
+    ExitCode::from(main_within(words.collect(), make, &[], &bundle.folder, SystemTime::now(), || false))
 }
