@@ -1,7 +1,11 @@
-//! Which local variables a `goto` skips the declarations of.
+//! Which local variables a `goto` skips the declarations of, and which clocks and connections end with a block.
+//!
+//! A local connection is closed when control leaves the block that declares it, whatever way it takes: at the end of
+//! the block, before the condition of a `repeat`, by `break`, `continue`, `goto` or `return`.
 
 use super::flow;
 use crate::hir::{Func, LabelId, LocalId, Stmt, StmtKind};
+use arl_lang::catalog::Base;
 use arl_lang::span::Span;
 use std::collections::HashMap;
 
@@ -55,4 +59,27 @@ impl Visibility {
         }
         visible.truncate(before);
     }
+}
+
+/// The clocks and connections that a block declares, or one inside it.
+pub(crate) fn handles(block: &[Stmt], func: Option<&Func>) -> Vec<LocalId> {
+    let mut found = Vec::new();
+    for stmt in block {
+        match &stmt.kind {
+            StmtKind::Let(id, _) => found.extend(is_handle(*id, func).then_some(*id)),
+            _ => flow::blocks(stmt).for_each(|inner| found.extend(handles(inner, func))),
+        }
+    }
+    found
+}
+
+/// The clocks and connections of a function that end before a place where only these variables are visible.
+pub(crate) fn ended_handles(func: Option<&Func>, visible: &[LocalId]) -> Vec<LocalId> {
+    let all = func.map_or(&[][..], |func| &func.body);
+    handles(all, func).into_iter().filter(|id| !visible.contains(id)).collect()
+}
+
+fn is_handle(id: LocalId, func: Option<&Func>) -> bool {
+    let local = func.and_then(|func| func.locals.get(id.0 as usize));
+    local.is_some_and(|local| matches!(local.ty.base, Base::Handle(_)))
 }

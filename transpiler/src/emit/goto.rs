@@ -9,6 +9,8 @@
 //! - A variable that more than one state mentions lives outside the loop (it is hoisted), with its default value; its
 //!   declaration becomes an assignment. A jump to a label resets to its default value every hoisted variable that is
 //!   visible at the label but not at the jump, because the jump skips its declaration.
+//! - Clocks and connections are always hoisted. A state begins by resetting those that are not visible there, which
+//!   closes the connections of the blocks that control has left.
 //! - The names of locals are distinct in such functions, as all hoisted ones share a scope.
 //! - Each backward jump yields the cycle when the budget is used up, as each round of a loop does.
 
@@ -22,7 +24,7 @@ use super::rows::Group;
 use super::tokens::jumps;
 use super::types::{rust_type, shared_type, shared_value, start_value};
 use crate::effects::flow;
-use crate::effects::visibility::Visibility;
+use crate::effects::visibility::{self, Visibility};
 use crate::hir::{Arm, Expr, For, Func, LabelId, Local, LocalId, LoopInfo, Stmt, StmtKind};
 use arl_lang::span::Span;
 use proc_macro2::{Ident, TokenStream};
@@ -38,7 +40,11 @@ impl<'p> Body<'p, '_> {
         self.run(func, variable.clone(), declared(&func.body), true);
         let all = declared(&func.body);
         let hoisted = match &self.flow.machine {
-            Some(machine) => all.into_iter().filter(|id| machine.is_shared(*id, &self.local(*id))).collect(),
+            Some(machine) => {
+                let handles = visibility::handles(&func.body, self.func);
+                let is_hoisted = |id: &LocalId| handles.contains(id) || machine.is_shared(*id, &self.local(*id));
+                all.into_iter().filter(is_hoisted).collect()
+            }
             None => HashSet::new(),
         };
         (self.position.commented, self.locals.visible) = (commented, visible);
@@ -139,22 +145,26 @@ impl<'p> Body<'p, '_> {
     fn departure(&mut self, label: LabelId, span: Span) -> (TokenStream, usize) {
         let state = self.label_state(label);
         let Some(machine) = &self.flow.machine else { return (TokenStream::new(), state) };
-        let skipped = machine.visibility.skipped(label, span);
-        let resets: Vec<TokenStream> = skipped
-            .iter()
-            .filter(|id| !machine.trial && machine.hoisted.contains(id))
-            .filter_map(|id| {
-                let local = self.func?.locals.get(id.0 as usize)?;
-                let (name, start) = (self.local(*id), self.first_value(local));
-                Some(quote!(#name = #start;))
-            })
-            .collect();
+        let resets = self.resets(&machine.visibility.skipped(label, span));
         let backwards = self
             .func
             .and_then(|func| func.labels.get(label.0 as usize))
             .is_some_and(|label| label.span.start <= span.start);
         let spend = backwards.then(give_back);
-        (quote!(#(#resets)* #spend), state)
+        (quote!(#resets #spend), state)
+    }
+
+    /// Gives the hoisted ones of these variables their start values.
+    fn resets(&self, ids: &[LocalId]) -> TokenStream {
+        let Some(machine) = self.flow.machine.as_ref().filter(|machine| !machine.trial) else {
+            return TokenStream::new();
+        };
+        let reset = |id: &LocalId| {
+            let local = self.func?.locals.get(id.0 as usize)?;
+            let (name, start) = (self.local(*id), self.first_value(local));
+            Some(quote!(#name = #start;))
+        };
+        ids.iter().filter(|id| machine.hoisted.contains(id)).filter_map(reset).collect()
     }
 
     /// A jump from inside a statement to a state.
@@ -254,6 +264,9 @@ impl<'p> Body<'p, '_> {
             machine.current = state;
             machine.open = true;
         }
+        let ended = visibility::ended_handles(self.func, &self.locals.visible);
+        let resets = self.resets(&ended);
+        self.append(resets);
     }
 
     /// The statements of a block whose labels are states.
@@ -472,8 +485,8 @@ impl<'p> Body<'p, '_> {
         let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
         self.append(quote!(#spend #step));
         self.close(head);
-        self.open(after);
         self.locals.visible.truncate(visible);
+        self.open(after);
     }
 }
 

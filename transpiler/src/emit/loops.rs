@@ -13,7 +13,7 @@ use super::body::Body;
 use super::control_flow::{Exit, Loop, Tail, label};
 use super::fragment::{Fragment, Precedence};
 use super::tokens::uses_variable;
-use crate::effects::{facts, flow, loops};
+use crate::effects::{facts, flow, loops, visibility};
 use crate::hir::{Counting, Expr, ExprKind, For, LocalId, LoopInfo, Root, Stmt, StmtKind, Walk};
 use crate::visit;
 use arl_lang::ast::BinaryOp;
@@ -146,7 +146,9 @@ impl<'p> Body<'p, '_> {
                 let facts = self.facts(rest);
                 meant.extend(facts.reads.iter().chain(&facts.writes));
             }
-            if self.hides(body, &meant) {
+            // Connections are closed before what comes after the body.
+            let ends = rest.is_some() && !visibility::handles(body, self.func).is_empty();
+            if ends || self.hides(body, &meant) {
                 statements = quote!({ #statements });
             }
             return (TokenStream::new(), statements);

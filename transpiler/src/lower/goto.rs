@@ -3,11 +3,12 @@
 //! Their local variables keep their places for the whole function. A jump gives the variables that are visible at the
 //! label but not at the jump their start values: it skips their declarations. Loops that contain a label count their
 //! rounds at the start of each round, as the machine does that the emitter makes of them.
+//! Where control comes from other blocks, clocks and connections that are not visible are dropped, as in that machine.
 
 use super::body::FunctionCode;
 use super::control_flow::OpenLoop;
 use crate::effects::flow;
-use crate::effects::visibility::Visibility;
+use crate::effects::visibility::{self, Visibility};
 use crate::hir::{Arm, Expr, For, Func, LabelId, LocalId, LoopInfo, Stmt, StmtKind};
 use arl_code::Op;
 use arl_lang::span::Span;
@@ -41,6 +42,13 @@ impl<'p> FunctionCode<'p, '_> {
         self.flow.gotos.push((label, jump));
     }
 
+    /// Begins a place that control gets to from other blocks: what these have declared has ended.
+    fn begin(&mut self) {
+        for id in visibility::ended_handles(self.func, &self.flow.visible) {
+            self.drop_local(id);
+        }
+    }
+
     /// Leads all jumps to their labels.
     pub(super) fn complete_gotos(&mut self) {
         for (label, jump) in std::mem::take(&mut self.flow.gotos) {
@@ -59,6 +67,7 @@ impl<'p> FunctionCode<'p, '_> {
                 StmtKind::Label(label) => {
                     let here = self.here();
                     self.flow.labels.insert(*label, here);
+                    self.begin();
                 }
                 _ if flow::has_label(stmt) => self.taken_apart(stmt),
                 _ => self.statement(stmt),
@@ -95,6 +104,7 @@ impl<'p> FunctionCode<'p, '_> {
         }
         otherwise.into_iter().for_each(|block| self.states(block));
         self.lead_here(ends);
+        self.begin();
     }
 
     fn switch_with_labels(&mut self, subject: &'p Expr, arms: &'p [Arm]) {
@@ -111,6 +121,7 @@ impl<'p> FunctionCode<'p, '_> {
         }
         self.lead_here(otherwise);
         self.lead_here(ends);
+        self.begin();
     }
 
     /// The body of a loop.
@@ -123,6 +134,7 @@ impl<'p> FunctionCode<'p, '_> {
     fn while_with_labels(&mut self, condition: Option<&'p Expr>, body: &'p [Stmt], info: LoopInfo) {
         let line = self.line;
         let head = self.here();
+        self.begin();
         if info.counts_in_context() {
             self.op(Op::Spend { rounds: info.rounds });
         }
@@ -136,6 +148,7 @@ impl<'p> FunctionCode<'p, '_> {
         self.op(Op::Jump { to: head });
         continues.into_iter().for_each(|jump| self.lead(jump, head));
         self.lead_here(leave.into_iter().chain(breaks));
+        self.begin();
         self.line = line;
     }
 
@@ -144,6 +157,7 @@ impl<'p> FunctionCode<'p, '_> {
         let head = self.here();
         let OpenLoop { breaks, continues } = self.round_with_labels(body);
         self.lead_here(continues);
+        self.begin();
         self.stand_at(until.span);
         self.halt();
         self.pointer(until);
@@ -153,6 +167,7 @@ impl<'p> FunctionCode<'p, '_> {
         }
         self.op(Op::Jump { to: head });
         self.lead_here(leave.into_iter().chain(breaks));
+        self.begin();
     }
 
     fn for_with_labels(&mut self, each: &'p For) {
@@ -171,6 +186,7 @@ impl<'p> FunctionCode<'p, '_> {
         }
         let OpenLoop { breaks, continues } = self.round_with_labels(&each.body);
         self.lead_here(continues);
+        self.begin();
         self.line = line;
         self.halt();
         if each.info.counts_in_context() {
@@ -179,6 +195,7 @@ impl<'p> FunctionCode<'p, '_> {
         each.step.iter().for_each(|step| self.effect(step));
         self.op(Op::Jump { to: head });
         self.lead_here(leave.into_iter().chain(breaks));
+        self.begin();
         self.end_scope(visible);
     }
 }

@@ -6,8 +6,7 @@
 use super::body::FunctionCode;
 use super::control_flow::OpenLoop;
 use super::places::Spot;
-use super::statements::declares_handles;
-use crate::effects::{flow, loops};
+use crate::effects::{flow, loops, visibility};
 use crate::hir::{Counting, Expr, For, LocalId, LoopInfo, Stmt, Walk};
 use arl_code::{Address, ChargeStep, Charging, Op, Place, Reg, Space};
 
@@ -103,10 +102,7 @@ impl<'p> FunctionCode<'p, '_> {
             self.op(Op::Spend { rounds: info.rounds });
         }
         self.lead_here(continues);
-        let handles = declares_handles(body, self.func);
-        if handles {
-            self.drop_handles();
-        }
+        self.drop_handles(body);
         self.line = line;
         if flow::goes_round(body) {
             let step_at = self.here();
@@ -118,9 +114,7 @@ impl<'p> FunctionCode<'p, '_> {
         }
         leave.extend(breaks);
         self.lead_here(leave);
-        if handles {
-            self.drop_handles();
-        }
+        self.drop_handles(body);
     }
 
     fn general_for(&mut self, each: &'p For) {
@@ -204,7 +198,7 @@ impl<'p> FunctionCode<'p, '_> {
             self.op(Op::Spend { rounds: info.rounds });
         }
         let OpenLoop { breaks, continues } = self.round(parts.body);
-        let handles = declares_handles(parts.body, self.func);
+        let handles = !visibility::handles(parts.body, self.func).is_empty();
         // A condition that only calculates stands behind the round once more, which saves a jump.
         let turns = !takes_first && !self.is_watched();
         let turned = parts.condition.filter(|condition| turns && self.only_calculates(condition));
@@ -219,18 +213,14 @@ impl<'p> FunctionCode<'p, '_> {
             }
             if (handles || self.is_watched()) && !continues.is_empty() {
                 self.land(continues, parts.body);
-                if handles {
-                    self.drop_handles();
-                }
+                self.drop_handles(parts.body);
                 self.op(Op::Jump { to: start });
             } else {
                 continues.into_iter().for_each(|jump| self.lead(jump, start));
             }
         } else {
             self.land(continues, parts.body);
-            if handles {
-                self.drop_handles();
-            }
+            self.drop_handles(parts.body);
             if flow::goes_round(parts.body) {
                 let step_at = self.here();
                 match parts.rest {
@@ -258,9 +248,7 @@ impl<'p> FunctionCode<'p, '_> {
         self.flow.counts_alone = outer;
         self.lead_here(leave);
         self.land(breaks, parts.body);
-        if handles {
-            self.drop_handles();
-        }
+        self.drop_handles(parts.body);
         if alone && parts.condition.is_some() && !takes_first {
             // The condition may have ended the loop although more was counted before it than there was.
             self.op(Op::Leave { again: head });

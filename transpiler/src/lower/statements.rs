@@ -3,8 +3,8 @@
 use super::body::FunctionCode;
 use super::tables::constant_word;
 use super::variables::is_text;
-use crate::effects::flow;
-use crate::hir::{Arm, Expr, Func, LocalId, Stmt, StmtKind, Value};
+use crate::effects::{flow, visibility};
+use crate::hir::{Arm, Expr, Stmt, StmtKind, Value};
 use arl_code::{Address, Comparison, Op};
 use arl_lang::catalog::Base;
 
@@ -18,16 +18,21 @@ impl<'p> FunctionCode<'p, '_> {
             }
         });
         if !flow::block_diverges(block) {
-            if declares_handles(block, self.func) {
-                self.drop_handles();
-            }
+            self.drop_handles(block);
             self.drop_declared(block);
         }
         self.end_scope(visible);
     }
 
-    /// Drops the clocks and connections of the blocks that end here: their connections are closed.
-    pub(super) fn drop_handles(&mut self) {
+    /// Drops the clocks and connections of a block that ends here: their connections are closed.
+    pub(super) fn drop_handles(&mut self, block: &[Stmt]) {
+        let handles = visibility::handles(block, self.func);
+        if handles.is_empty() {
+            return;
+        }
+        if self.func.is_some_and(|func| func.has_goto) {
+            return handles.into_iter().for_each(|id| self.drop_local(id));
+        }
         let at = self.used.frame.handles;
         let count = self.most_handles().saturating_sub(at);
         if count > 0 && !self.keeps_places() {
@@ -161,16 +166,4 @@ impl<'p> FunctionCode<'p, '_> {
             vec![body.op(Op::JumpCompare { left, right, by: Comparison::EqualDouble, wanted: true, to: 0 })]
         })
     }
-}
-
-/// Whether a block, or one inside it, declares clocks or connections.
-pub(super) fn declares_handles(block: &[Stmt], func: Option<&Func>) -> bool {
-    let is_handle = |id: &LocalId| {
-        let local = func.and_then(|func| func.locals.get(id.0 as usize));
-        local.is_some_and(|local| matches!(local.ty.base, Base::Handle(_)))
-    };
-    block.iter().any(|stmt| match &stmt.kind {
-        StmtKind::Let(id, _) => is_handle(id),
-        _ => flow::blocks(stmt).any(|inner| declares_handles(inner, func)),
-    })
 }

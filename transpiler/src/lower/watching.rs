@@ -136,7 +136,7 @@ impl FunctionCode<'_, '_> {
         self.is_watched() && !self.func.is_some_and(|func| func.has_goto)
     }
 
-    fn drop_local(&mut self, id: LocalId) {
+    pub(super) fn drop_local(&mut self, id: LocalId) {
         let Some(place) = self.locals.get(&id).copied() else { return };
         let ty = self.local_type(id);
         match (place.space, ty.base) {
