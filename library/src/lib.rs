@@ -8,6 +8,7 @@
 mod interface;
 #[cfg(feature = "load")]
 mod load;
+mod room;
 mod serve;
 
 pub use interface::{BROKEN, INTERFACE, Interface, RUNS, Take, WRONG_THREAD};

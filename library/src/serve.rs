@@ -9,16 +9,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, ThreadId};
 
 use arl_rt::Program;
-use arl_rt::emit::in_process::{Outside, Run};
+use arl_rt::emit::in_process::{Outside, Run, Stack};
 use arl_rt::program::Other;
 
 use crate::interface::{BROKEN, INTERFACE, Interface, RUNS, Take, WRONG_THREAD};
+use crate::room::Room;
 
 /// The parts from which a library was made.
 #[doc(hidden)]
 #[derive(Clone, Copy)]
 pub struct Made<'a> {
-    pub program: &'a dyn Fn() -> Box<dyn Program>,
+    pub program: &'a (dyn Fn() -> Box<dyn Program> + Sync),
     pub others: &'a [Other],
     pub script_dir: &'a str,
 }
@@ -27,13 +28,31 @@ pub struct Made<'a> {
 pub struct Served {
     thread: ThreadId,
     stops: Arc<AtomicBool>,
-    /// Used only by the run's own thread.
-    own: UnsafeCell<Own>,
+    place: Place,
+}
+
+/// Where a run is.
+enum Place {
+    /// On the thread that began it, which alone uses it.
+    Here(Box<UnsafeCell<Own>>),
+    /// On a thread with a stack for deep calls.
+    Room(Room<Own>),
 }
 
 struct Own {
     run: Run,
     is_broken: bool,
+}
+
+impl Own {
+    /// Calls `act` with the run. A panic breaks the run.
+    fn unless_it_panics<T>(&mut self, act: impl FnOnce(&mut Self) -> T) -> Result<T, ()> {
+        let done = catch_unwind(AssertUnwindSafe(|| act(self)));
+        if done.is_err() {
+            self.is_broken = true;
+        }
+        done.map_err(drop)
+    }
 }
 
 impl fmt::Debug for Served {
@@ -51,13 +70,19 @@ impl Served {
         if thread::current().id() != self.thread {
             return Err(WRONG_THREAD);
         }
-        // SAFETY: this is its thread, and no other call is in progress there.
-        let own = unsafe { &mut *self.own.get() };
-        let done = catch_unwind(AssertUnwindSafe(|| act(own)));
-        if done.is_err() {
-            own.is_broken = true;
+        match &self.place {
+            Place::Here(own) => {
+                // SAFETY: this is its thread, and no other call is in progress there.
+                let own = unsafe { &mut *own.get() };
+                own.unless_it_panics(act).map_err(|()| BROKEN)
+            }
+            Place::Room(room) => match room.call(|own| own.as_mut().map(|own| own.unless_it_panics(act))) {
+                Some(Ok(Some(done))) => done.map_err(|()| BROKEN),
+                Some(_) => Err(BROKEN),
+                // After a fork.
+                None => Err(WRONG_THREAD),
+            },
         }
-        done.map_err(|_| BROKEN)
     }
 
     /// Calls `act` with the run if it is not broken.
@@ -125,17 +150,35 @@ pub unsafe fn begin(
     }
 }
 
-/// Begins a run on this thread.
+/// Begins a run for this thread.
 ///
 /// # Errors
 /// The reason why it cannot be begun.
 pub(crate) fn serve(made: Made<'_>, words: Vec<OsString>, traced: bool) -> Result<Box<Served>, String> {
-    let begun =
-        catch_unwind(AssertUnwindSafe(|| Run::begin((made.program)(), made.others, made.script_dir, words, traced)));
-    let run = begun.map_err(|_| "the program panicked: standard error says why".to_owned()).flatten()?;
-    let stops = run.stops();
-    let own = UnsafeCell::new(Own { run, is_broken: false });
-    Ok(Box::new(Served { thread: thread::current().id(), stops, own }))
+    let panicked = |_| "the program panicked: standard error says why".to_owned();
+    let begin = |stack| {
+        let run = Run::begin((made.program)(), made.others, made.script_dir, words, traced, stack)?;
+        Ok((run.stops(), Own { run, is_broken: false }))
+    };
+    let recurs = catch_unwind(AssertUnwindSafe(|| {
+        (made.program)().recurs() || made.others.iter().any(|other| (other.make)().recurs())
+    }));
+    let (stops, place) = if recurs.map_err(panicked)? {
+        let room = Room::new(Stack::WHOLE_BYTES);
+        let room = room.map_err(|error| format!("the program's thread cannot be started: {error}"))?;
+        let begun = room.call(|own| {
+            let (stops, begun) = begin(Stack::Whole)?;
+            *own = Some(begun);
+            Ok(stops)
+        });
+        let begun = begun.ok_or("the program's thread has ended")?;
+        (begun.map_err(panicked).flatten()?, Place::Room(room))
+    } else {
+        let begun = catch_unwind(AssertUnwindSafe(|| begin(Stack::OfHost)));
+        let (stops, own) = begun.map_err(panicked).flatten()?;
+        (stops, Place::Here(Box::new(UnsafeCell::new(own))))
+    };
+    Ok(Box::new(Served { thread: thread::current().id(), stops, place }))
 }
 
 /// Passes bytes to the host.

@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::command::live::{Recording, alarm_line, message_line, push_state, warning_line};
 use crate::command::observation::Observation;
-use crate::command::program_main::{self, InProcess, Other, listed};
+use crate::command::program_main::{self, CONTROLLER_STACK_BYTES, InProcess, Other, PROGRAM_STACK_BYTES, listed};
 use crate::command::report;
 use crate::command::summary::{Ending, summary};
 use crate::context::output::Message;
@@ -53,6 +53,30 @@ pub enum Outside {
     Somebody,
 }
 
+/// The stack that a run gets.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Stack {
+    /// A part of what threads of another program have as a rule, which is 2 MiB: enough for functions that do not call
+    /// each other in a circle.
+    OfHost,
+    /// That of a thread that was made for the run, with [`Stack::WHOLE_BYTES`].
+    Whole,
+}
+
+impl Stack {
+    /// How many bytes a thread needs for all calls that may be nested, and for the controller.
+    pub const WHOLE_BYTES: usize = PROGRAM_STACK_BYTES + CONTROLLER_STACK_BYTES;
+    const HOST_BYTES: usize = 1 << 20;
+
+    /// How many bytes the functions of the program may use.
+    pub(super) fn program_bytes(self) -> usize {
+        match self {
+            Self::OfHost => Self::HOST_BYTES,
+            Self::Whole => PROGRAM_STACK_BYTES,
+        }
+    }
+}
+
 impl Run {
     /// How many columns a row of the trace has.
     pub const COLUMNS: usize = trace::COLUMNS;
@@ -71,12 +95,13 @@ impl Run {
         script_dir: &str,
         arguments: Vec<OsString>,
         traced: bool,
+        stack: Stack,
     ) -> Result<Self, String> {
         let output_lines = Rc::new(RefCell::new(String::new()));
         let lines = Rc::clone(&output_lines);
         let output = move |message: &Message<'_>| lines.borrow_mut().push_str(&message_line(message));
         let InProcess { controller, max_time, is_real, trace_columns, recording } =
-            program_main::in_process(program, others, script_dir, arguments, output)?;
+            program_main::in_process(program, others, script_dir, arguments, stack, output)?;
         recording.iter().for_each(|recording| recording.begin(&controller));
         let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
         let (rows, stops, observation) = (traced.then(Vec::new), Arc::default(), Observation::default());

@@ -16,6 +16,7 @@ use crate::builtins::time;
 use crate::command::between::{Between, CycleOrder};
 use crate::command::coverage;
 use crate::command::debug;
+use crate::command::in_process::Stack;
 use crate::command::interrupts;
 use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
 use crate::command::polling::Polling;
@@ -41,11 +42,8 @@ use options::{Asked, ClockKind, HELP, Options, parse};
 
 /// How much of the stack the program's functions may use, by measure enough for all calls that may be nested, and how
 /// much the thread has on top of that for everything else.
-const PROGRAM_STACK_BYTES: usize = 64 << 20;
-const CONTROLLER_STACK_BYTES: usize = 1 << 20;
-/// How much they may use on a thread of another program, which as a rule has 2 MiB.
-const HOST_STACK_BYTES: usize = 1 << 20;
-
+pub(super) const PROGRAM_STACK_BYTES: usize = 64 << 20;
+pub(super) const CONTROLLER_STACK_BYTES: usize = 1 << 20;
 /// A variable of the environment: with it the process ends when its standard input is closed, so that it does not
 /// outlive who started it.
 const WHILE_INPUT: &str = "ARL2RS_WHILE_INPUT";
@@ -188,7 +186,7 @@ fn start_with<P: Program + 'static>(
         interrupted.store(true, Ordering::Relaxed);
     }
     std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().stack_size(PROGRAM_STACK_BYTES + CONTROLLER_STACK_BYTES);
+        let thread = std::thread::Builder::new().stack_size(Stack::WHOLE_BYTES);
         let run = || run(Box::new(program()), others, options, Path::new(script_dir), watching, &interrupted);
         match thread.spawn_scoped(scope, run).map(|thread| thread.join()) {
             Ok(Ok(code)) => code,
@@ -353,6 +351,7 @@ pub(super) fn in_process(
     others: &[Other],
     script_dir: &str,
     arguments: Vec<OsString>,
+    stack: Stack,
     output: impl Output + 'static,
 ) -> Result<InProcess, String> {
     let options = parse(arguments, script_dir).map_err(|error| error.to_string())?;
@@ -365,7 +364,7 @@ pub(super) fn in_process(
     let is_real = options.clock == Some(ClockKind::Real);
     let keeps = options.state_dir.is_some();
     let recording = options.listener.as_deref().map(|address| connect_to(address, wishes)).transpose()?;
-    let builder = set_up(options, others).map_err(|failure| failure.text)?.stack(HOST_STACK_BYTES);
+    let builder = set_up(options, others).map_err(|failure| failure.text)?.stack(stack.program_bytes());
     // Concurrent runs would share the folder of the program.
     let builder = if keeps { builder } else { builder.storage(Memory::default()) };
     let builder = match &recording {

@@ -10,17 +10,14 @@ use std::ffi::OsString;
 use std::io::{self, BufRead, Write};
 use std::sync::mpsc::channel;
 
-use crate::command::in_process::{Outside, Run};
+use crate::command::in_process::{Outside, Run, Stack};
 use crate::command::json::quoted;
 use crate::context::program::{Other, Program};
-
-/// The usual stack of a thread of a host: runs are the same as there.
-const STACK_BYTES: usize = 2 << 20;
 
 pub(super) fn serve(make: impl Fn() -> Box<dyn Program> + Send, others: &[Other], script_dir: &str) -> u8 {
     // The requesting process need not announce its end.
     let served = std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().stack_size(STACK_BYTES);
+        let thread = std::thread::Builder::new().stack_size(Stack::WHOLE_BYTES);
         thread.spawn_scoped(scope, move || answer_all(&make, others, script_dir)).map(|thread| thread.join())
     });
     match served {
@@ -41,7 +38,7 @@ fn answer_all(make: &dyn Fn() -> Box<dyn Program>, others: &[Other], script_dir:
         std::process::exit(0);
     });
     for question in questions {
-        let answer = match Run::begin(make(), others, script_dir, words(&question), false) {
+        let answer = match Run::begin(make(), others, script_dir, words(&question), false, Stack::Whole) {
             Ok(mut run) => {
                 run.go_on(u64::MAX, Outside::Nobody);
                 let lines = run.take_said();

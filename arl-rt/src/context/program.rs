@@ -77,6 +77,12 @@ pub trait Program: AsAny {
     fn beside(&self) -> Beside {
         Beside::default()
     }
+
+    /// Whether functions of the program call themselves, or each other in a circle, and need the stack of the thread
+    /// for that. By default they do not.
+    fn recurs(&self) -> bool {
+        false
+    }
 }
 
 /// Lets a boxed program be used where a program is expected.
@@ -119,6 +125,10 @@ impl<P: Program + ?Sized> Program for Box<P> {
 
     fn beside(&self) -> Beside {
         (**self).beside()
+    }
+
+    fn recurs(&self) -> bool {
+        (**self).recurs()
     }
 }
 
@@ -169,6 +179,10 @@ impl<P: Program + 'static> Program for Elsewhere<P> {
 
     fn beside(&self) -> Beside {
         self.program.beside()
+    }
+
+    fn recurs(&self) -> bool {
+        self.program.recurs()
     }
 }
 

@@ -163,6 +163,7 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
     let main = future(if effects.fails { call } else { quote!(#call; Ok(())) });
     let tables = tables(unit, parts);
     let beside = beside(unit);
+    let recurs = recurs(unit);
     let (init_cx, init_body) = init;
     let (main_cx, main_body) = main;
     let blank = blank(unit);
@@ -186,6 +187,7 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
             }
             #tables
             #beside
+            #recurs
         }
     }
 }
@@ -236,6 +238,20 @@ fn beside(unit: &Unit<'_>) -> Option<TokenStream> {
             #blank
             fn beside(&self) -> arl_rt::emit::Beside {
                 arl_rt::emit::Beside { connections: #connections, modbus_tcp: #modbus_tcp }
+            }
+        }
+    })
+}
+
+/// `fn recurs(&self) -> bool`, if functions call themselves.
+fn recurs(unit: &Unit<'_>) -> Option<TokenStream> {
+    let mut reached = unit.program.funcs.iter().zip(&unit.reached).filter(|(_, reached)| **reached);
+    let blank = blank(unit);
+    reached.any(|(func, _)| func.effects.recursive).then(|| {
+        quote! {
+            #blank
+            fn recurs(&self) -> bool {
+                true
             }
         }
     })
