@@ -83,6 +83,9 @@ pub fn expect_writable(path: &Path) -> io::Result<()> {
         return Ok(());
     }
     let file = followed(path)?;
+    if file.as_os_str().to_string_lossy().ends_with(std::path::is_separator) || file.file_name().is_none() {
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "this is the name of a directory"));
+    }
     loop {
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let passing = directory_of(&file).join(format!("passing.{}-{number}{BESIDE}", std::process::id()));

@@ -183,6 +183,7 @@ mod tests {
         let folder = Folder::new("refused");
         assert!(ResultFile::new(&folder.0).is_err());
         assert!(ResultFile::new(&folder.file("nowhere/a.csv")).is_err());
+        assert!(ResultFile::new(&folder.file("nowhere/")).is_err() && ResultFile::new(&folder.file("..")).is_err());
         #[cfg(unix)]
         {
             ResultFile::new(Path::new("/dev/null")).unwrap().replace(b"gone").unwrap();

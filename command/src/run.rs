@@ -10,6 +10,7 @@ use arl_robot::Robot;
 use arl_robot::cell::Cell;
 use arl_robot::changes::Part;
 use arl_robot::result_file::{self, ResultFile};
+use arl_rt::emit::program_main;
 use arl_runs::collide::Scene;
 use arl_runs::listen::{Listener, Received, Subscriber};
 use arl_runs::pendant;
@@ -52,7 +53,9 @@ pub(crate) fn run(file: &Path, options: &RunOptions) -> Result<Exit, Failure> {
         false => prepare_here(kind, file, options)?,
     };
     let (Here::Process(Ready { sources, .. }) | Here::Code { sources, .. }) = &here;
-    let results = options.results();
+    let further = further_traces(options)?;
+    let mut results = options.results();
+    results.extend(further.iter().map(|path| ("--trace", path.as_path())));
     expect_apart(&results, &inputs(file, options, sources))?;
     // Better to fail now than after a long run; the program checks its own results only when it begins.
     results.iter().try_for_each(|(_, path)| result(path).map(drop))?;
@@ -88,6 +91,13 @@ fn run_process(
         Some(listener) => wait(command, Some(listener), ready).map(|ended| ended.code),
         None => start(command, ready),
     }
+}
+
+/// The traces of the cell's other robots.
+fn further_traces(options: &RunOptions) -> Result<Vec<PathBuf>, Failure> {
+    let Some(first) = options.trace.as_deref() else { return Ok(Vec::new()) };
+    let count = u8::try_from(cell(options)?.further_foreground_channels()).unwrap_or(u8::MAX);
+    Ok((2..=count.saturating_add(1)).map(|number| program_main::numbered_trace(first, number)).collect())
 }
 
 /// What a run reads, each with what it is.

@@ -5,6 +5,8 @@ use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::{Duration, Instant};
 
+use arl_terminal::exit::Exit;
+use arl_terminal::interrupt::{self, Left};
 use arl_wire::Line;
 
 /// How long to wait for another line of a program that has ended: a process that it started may keep its streams open.
@@ -28,6 +30,11 @@ impl ProgramLink {
         read(out, sender.clone(), |line| serde_json::from_str(&line).unwrap_or(Line::Other(line)));
         read(err, sender, Line::Other);
         Ok(Self { child, orders, lines })
+    }
+
+    /// Passes interrupts on to the program.
+    pub(crate) fn gets(&self, interrupts: &Left) {
+        interrupts.pass_on_to(&self.child);
     }
 
     /// The next line that has arrived.
@@ -61,7 +68,9 @@ impl ProgramLink {
     /// The exit code, once the program has ended.
     pub(crate) fn ended(&mut self) -> Option<u8> {
         let status = self.child.try_wait().ok().flatten()?;
-        Some(u8::try_from(status.code().unwrap_or(1)).unwrap_or(1))
+        // An interrupt may come before the program watches for it.
+        let killed = if interrupt::was_pressed() { Exit::INTERRUPTED.0 } else { 1 };
+        Some(status.code().map_or(killed, |code| u8::try_from(code).unwrap_or(1)))
     }
 }
 

@@ -3,18 +3,22 @@
 use std::process::Child;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 use crate::exit::Exit;
 use crate::{private_folder, show};
 
 /// Whether the first interrupt is left to a program that runs, as after [`leave_to_the_program`].
 static LEFT_TO_PROGRAM: AtomicBool = AtomicBool::new(false);
-/// Whether interrupts are only counted, as after [`only_count`].
-static ONLY_COUNTED: AtomicBool = AtomicBool::new(false);
+/// Whether there is a screen, as after [`leave_to_the_screen`].
+static HAS_SCREEN: AtomicBool = AtomicBool::new(false);
 /// The interrupts that did not end the command.
 static COUNT: AtomicU32 = AtomicU32::new(0);
 /// The process that an interrupt is passed on to; 0 if there is none.
 static PROGRAM: AtomicU32 = AtomicU32::new(0);
+
+/// How long a screen may take to be left.
+const LONGEST_LEAVING: Duration = Duration::from_secs(2);
 
 /// What an interrupt says before it ends the command.
 static LAST_WORDS: Mutex<Option<&str>> = Mutex::new(None);
@@ -48,16 +52,17 @@ fn watch(_minds_hang_up: bool, mut take: impl FnMut(bool) -> Option<u32> + Send 
 
 /// Takes the first interrupt, or a later one.
 fn interrupted(number: u32) {
-    if ONLY_COUNTED.load(Ordering::Relaxed) {
-        COUNT.fetch_add(1, Ordering::Relaxed);
-        return;
-    }
-    if LEFT_TO_PROGRAM.load(Ordering::Relaxed) {
-        COUNT.fetch_add(1, Ordering::Relaxed);
+    let (has_screen, is_left) = (HAS_SCREEN.load(Ordering::SeqCst), LEFT_TO_PROGRAM.load(Ordering::SeqCst));
+    if has_screen || is_left {
+        COUNT.fetch_add(1, Ordering::SeqCst);
         let is_passed_on = pass_on(number > 1);
-        if is_passed_on || number == 1 {
+        if number == 1 || (is_passed_on && !has_screen) {
             return;
         }
+    }
+    if has_screen {
+        // It is left in good order, unless its terminal takes nothing any more.
+        std::thread::sleep(LONGEST_LEAVING);
     }
     if let Some(words) = *LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner) {
         show::warning(words);
@@ -79,19 +84,20 @@ pub struct Left(());
 /// While the value exists, the first interrupt is left to whoever asks for it or gets it passed on. Another one ends a
 /// program that it is passed on to; where there is none, the command.
 pub fn leave_to_the_program() -> Left {
-    LEFT_TO_PROGRAM.store(true, Ordering::Relaxed);
+    LEFT_TO_PROGRAM.store(true, Ordering::SeqCst);
     Left(())
 }
 
-/// While the value exists, interrupts are only counted: for a screen that must be left in good order.
-pub fn only_count() -> Left {
-    ONLY_COUNTED.store(true, Ordering::Relaxed);
+/// As [`leave_to_the_program`], for a command that shows a screen: it has a while to leave it in good order after
+/// another interrupt.
+pub fn leave_to_the_screen() -> Left {
+    HAS_SCREEN.store(true, Ordering::SeqCst);
     Left(())
 }
 
 /// How many interrupts came that did not end the command.
 pub fn count() -> u32 {
-    COUNT.load(Ordering::Relaxed)
+    COUNT.load(Ordering::SeqCst)
 }
 
 /// Whether an interrupt came that did not end the command.
@@ -103,7 +109,7 @@ impl Left {
     /// Passes interrupts on to this program. Those of a terminal reach it anyway, those of `kill` or of an editor do
     /// not.
     pub fn pass_on_to(&self, program: &Child) {
-        PROGRAM.store(program.id(), Ordering::Relaxed);
+        PROGRAM.store(program.id(), Ordering::SeqCst);
         if was_pressed() {
             pass_on(false);
         }
@@ -112,9 +118,9 @@ impl Left {
 
 impl Drop for Left {
     fn drop(&mut self) {
-        LEFT_TO_PROGRAM.store(false, Ordering::Relaxed);
-        ONLY_COUNTED.store(false, Ordering::Relaxed);
-        PROGRAM.store(0, Ordering::Relaxed);
+        LEFT_TO_PROGRAM.store(false, Ordering::SeqCst);
+        HAS_SCREEN.store(false, Ordering::SeqCst);
+        PROGRAM.store(0, Ordering::SeqCst);
     }
 }
 
@@ -123,7 +129,7 @@ impl Drop for Left {
 #[cfg(unix)]
 fn pass_on(again: bool) -> bool {
     use rustix::process::{Pid, Signal, kill_process};
-    let program = i32::try_from(PROGRAM.load(Ordering::Relaxed)).ok().and_then(Pid::from_raw);
+    let program = i32::try_from(PROGRAM.load(Ordering::SeqCst)).ok().and_then(Pid::from_raw);
     // It may have ended.
     program.is_some_and(|program| kill_process(program, if again { Signal::KILL } else { Signal::USR1 }).is_ok())
 }
@@ -131,5 +137,5 @@ fn pass_on(again: bool) -> bool {
 /// An interrupt is always for all processes of the console.
 #[cfg(not(unix))]
 fn pass_on(_again: bool) -> bool {
-    PROGRAM.load(Ordering::Relaxed) != 0
+    PROGRAM.load(Ordering::SeqCst) != 0
 }

@@ -153,6 +153,11 @@ pub struct Cell {
 }
 
 impl Cell {
+    /// How many channels of the cell have a robot, beside the first channel, which is that of the program itself.
+    pub fn further_foreground_channels(&self) -> usize {
+        self.programs.channels.iter().filter(|channel| !channel.background).count()
+    }
+
     /// Reads a cell file.
     ///
     /// # Errors
@@ -197,7 +202,7 @@ impl Cell {
         cell.programs = Programs::read(&top, folder)?;
         cell.stands = Stands::read(&top, folder)?;
         cell.driver = DriverSettings::read(&top, "[driver]")?;
-        let others = cell.programs.channels.iter().filter(|channel| !channel.background).count();
+        let others = cell.further_foreground_channels();
         let foreground = 1 + others as u32;
         cell.carriers = Carrier::read_all(&top, foreground)?;
         cell.bodies = Body::read_all(&top, &cell.channels, &cell.names, foreground, &cell.carriers, folder)?;

@@ -3,7 +3,7 @@
 
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use super::program_main::EXIT_INTERRUPTED;
@@ -45,14 +45,35 @@ impl Interrupts {
     }
 }
 
-/// From now on the first interrupt sets the flag, and another one ends the process.
-pub(super) fn watch(interrupted: &Arc<AtomicBool>) -> io::Result<()> {
+/// Whether a run was interrupted.
+#[derive(Clone, Debug)]
+pub(super) struct Interrupted {
+    flag: Arc<AtomicBool>,
+    /// Whether the process got an interrupt, perhaps before it was watched for here.
+    beside: fn() -> bool,
+}
+
+impl Interrupted {
+    /// From now on the first interrupt counts, and another one ends the process. `beside` is asked, too.
+    pub(super) fn watch(beside: fn() -> bool) -> (Self, io::Result<()>) {
+        let interrupted = Self { flag: Arc::default(), beside };
+        let watched = watch(&interrupted.flag);
+        (interrupted, watched)
+    }
+
+    /// Whether there was an interrupt.
+    pub(super) fn is_set(&self) -> bool {
+        self.flag.load(Ordering::Relaxed) || (self.beside)()
+    }
+}
+
+fn watch(flag: &Arc<AtomicBool>) -> io::Result<()> {
     for signal in signals() {
-        signal_hook::flag::register(signal, Arc::clone(interrupted))?;
+        signal_hook::flag::register(signal, Arc::clone(flag))?;
     }
     // The command that started the program passes on what it got itself, and must not end a program that got it, too.
     #[cfg(unix)]
-    signal_hook::flag::register(signal_hook::consts::SIGUSR1, Arc::clone(interrupted))?;
+    signal_hook::flag::register(signal_hook::consts::SIGUSR1, Arc::clone(flag))?;
     end_when_there_is_another()
 }
 

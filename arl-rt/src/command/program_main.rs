@@ -8,8 +8,7 @@ use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 use std::time::SystemTime;
 
 use crate::builtins::time;
@@ -17,7 +16,7 @@ use crate::command::between::{Between, CycleOrder};
 use crate::command::coverage;
 use crate::command::debug;
 use crate::command::in_process::Stack;
-use crate::command::interrupts;
+use crate::command::interrupts::Interrupted;
 use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
 use crate::command::polling::Polling;
 use crate::command::say::{self, say, say_condition};
@@ -38,6 +37,7 @@ use arl_robot::cell::{Cell, Names};
 use arl_robot::changes::Part;
 use arl_robot::result_file;
 use arl_robot::robot::Robot;
+pub use channel_traces::numbered as numbered_trace;
 use options::{Asked, ClockKind, HELP, Options, parse};
 
 /// How much of the stack the program's functions may use, by measure enough for all calls that may be nested, and how
@@ -128,8 +128,8 @@ pub fn main_named<P: Program + 'static>(
 
 /// As `main_named`, with the words of a command line that is not that of this process: for programs that are part of
 /// another command. Programs of other files are those of `others`; the sources are as they were at `made`.
-/// `was_interrupted`: whether an interrupt came before the program watches for them itself. Returns the number of the
-/// exit code.
+/// `was_interrupted`: whether the process got an interrupt, perhaps before the program watches for them itself.
+/// Returns the number of the exit code.
 pub fn main_within<P: Program + 'static>(
     words: Vec<OsString>,
     program: impl Fn() -> P + Send,
@@ -178,12 +178,9 @@ fn start_with<P: Program + 'static>(
             std::process::exit(EXIT_INTERRUPTED.into());
         });
     }
-    let interrupted = Arc::new(AtomicBool::new(false));
-    if let Err(error) = interrupts::watch(&interrupted) {
+    let (interrupted, watched) = Interrupted::watch(was_interrupted);
+    if let Err(error) = watched {
         warn(&format!("Ctrl-C will not stop the robot on its path: {error}"));
-    }
-    if was_interrupted() {
-        interrupted.store(true, Ordering::Relaxed);
     }
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(Stack::WHOLE_BYTES);
@@ -213,7 +210,7 @@ fn run(
     options: Options,
     sources: &Path,
     watching: Option<Watching>,
-    interrupted: &AtomicBool,
+    interrupted: &Interrupted,
 ) -> u8 {
     let ran = try_run(program, others, options, sources, watching, interrupted);
     ran.unwrap_or_else(|SetupFailure { code, text }| {
@@ -228,14 +225,14 @@ fn try_run(
     options: Options,
     sources: &Path,
     watching: Option<Watching>,
-    interrupted: &AtomicBool,
+    interrupted: &Interrupted,
 ) -> Result<u8, SetupFailure> {
     let asked = options.asked.clone();
     if let (Some((option, command)), None) = (asked.needs(), watching) {
         let text = format!("this program was not made for {option}: `{command}` makes such programs");
         return Err(SetupFailure::usage(text));
     }
-    // Before any thread beside the cycle is started.
+    // Before any thread beside the cycle is started, but for the one that waits for interrupts.
     for problem in options.realtime.map(Realtime::begin).unwrap_or_default() {
         warn(&format!("--realtime has no full effect: {problem}"));
     }
@@ -412,7 +409,7 @@ fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
 fn watch(
     controller: &mut Controller,
     max_time: Option<f64>,
-    interrupted: &AtomicBool,
+    interrupted: &Interrupted,
     mut between: Option<Box<dyn Between>>,
     recording: Option<Recording>,
     sources: &Path,
@@ -430,7 +427,7 @@ fn watch(
     while !is_over(controller, code.is_some()) {
         let order = between.as_mut().map_or(CycleOrder::Runs, |between| between.cycle_begins(controller));
         let is_alone = recording.as_ref().is_some_and(Recording::is_gone);
-        if code.is_none() && (interrupted.load(Ordering::Relaxed) || is_alone || order == CycleOrder::Ends) {
+        if code.is_none() && (interrupted.is_set() || is_alone || order == CycleOrder::Ends) {
             code = Some(EXIT_INTERRUPTED);
             controller.stop();
             tell(format_args!("interrupted: the robot stops on its path"));

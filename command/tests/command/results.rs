@@ -49,7 +49,7 @@ fn no_result_is_written_over_an_input_or_another_result() {
         .with("part.arl", "func void go()\n  waittime 0\nendfunc\n")
         .with("io.toml", "")
         .with("cell.toml", "");
-    let of_run: [(&[&str], &str); 7] = [
+    let of_run: [(&[&str], &str); 8] = [
         (&["--plot", "a.arl"], "--plot would overwrite a.arl, which is the program"),
         (&["--trace", "./part.arl"], "--trace would overwrite ./part.arl, which is a file of the program"),
         (&["--io", "io.toml", "--record", "io.toml"], "which is the scenario"),
@@ -57,6 +57,7 @@ fn no_result_is_written_over_an_input_or_another_result() {
         (&["--plot", "x", "--record", "x"], "--plot and --record would write the same file, x"),
         (&["--trace", "x", "--report=x", "--format", "html"], "--trace and --report would write the same file, x"),
         (&["--trace", "none/x"], "cannot write none/x"),
+        (&["--record", "none/"], "cannot write none/"),
     ];
     for (options, why) in of_run {
         let answer = folder.arl2rs(&[&["run", "a.arl"], options].concat());
@@ -66,8 +67,12 @@ fn no_result_is_written_over_an_input_or_another_result() {
     folder.arl2rs(&["run", "a.arl", "--trace", "t.csv"]).is(0, "");
     folder.write("second.arl", MOVES);
     folder.write("cell.toml", "[[channel]]\nprogram = \"second.arl\"\nrobot = \"six-10\"\n");
-    let traces = ["--cell", "cell.toml", "--trace", "t.csv", "--report=t.2.csv"];
-    folder.arl2rs(&[&["run", "a.arl"], &traces[..]].concat()).is(2, "").says("would write the same file, t.2.csv");
+    let traces = ["run", "a.arl", "--cell", "cell.toml", "--trace", "t.csv"];
+    let others: [&[&str]; 3] =
+        [&["--report=t.2.csv"], &["--record", "t.2.csv"], &["--report=t.2.csv", "--format", "json"]];
+    for other in others {
+        folder.arl2rs(&[&traces[..], other].concat()).is(2, "").says("would write the same file, t.2.csv");
+    }
     folder.arl2rs(&["plot", "t.csv", "t.csv"]).is(2, "").says("would overwrite t.csv, which is the trace");
     assert!(folder.read("part.arl").starts_with("func void go()") && !folder.has("x"));
 }
@@ -131,11 +136,8 @@ fn signalled(folder: &Folder, words: &[&str], signals: &[&str]) -> Answer {
     let mut out = BufReader::new(child.stdout.take().expect("its output"));
     let mut text = String::new();
     out.read_line(&mut text).expect("a line");
-    let send = |signal: &str| {
-        let sent = Command::new("kill").arg(signal).arg(child.id().to_string()).status();
-        assert!(sent.is_ok());
-    };
-    signals.iter().for_each(|signal| send(signal));
+    let kills: Vec<String> = signals.iter().map(|signal| format!("kill {signal} {}", child.id())).collect();
+    assert!(Command::new("sh").args(["-c", &kills.join("; ")]).status().is_ok());
     // What ignores a signal ends all the same, and is found out by its exit code.
     let (ended, is_over) = std::sync::mpsc::channel();
     let limit = std::thread::spawn({
@@ -195,16 +197,17 @@ fn a_request_to_end_stops_the_robot_and_all_results_are_whole() {
 #[test]
 fn a_run_that_is_killed_leaves_nothing_of_an_earlier_one() {
     let folder = Folder::new("results_killed").with("a.arl", ENDLESS);
-    let old = || FILES.iter().for_each(|name| folder.write(name, "as it was"));
+    let until = std::time::Instant::now() + std::time::Duration::from_secs(100);
     let killed_once_written = |words: &[&str], name: &str| {
-        old();
         let mut child = folder.command(words).stdout(std::process::Stdio::null()).spawn().expect("it starts");
         while std::fs::metadata(folder.path.join(name)).is_ok_and(|about| about.len() < 1000) {
             assert_eq!(child.try_wait().expect("it runs"), None);
+            assert!(std::time::Instant::now() < until, "{name} is not written");
             std::thread::sleep(std::time::Duration::from_millis(1));
         }
         child.kill().and_then(|()| child.wait()).expect("it ends");
     };
+    FILES.iter().for_each(|name| folder.write(name, "as it was"));
     killed_once_written(&[&["run", "a.arl", "--clock", "real"], &ALL[..]].concat(), "a.mcap");
     assert!(!folder.read("a.csv").contains("as it was"));
     let compared = folder.arl2rs(&["compare", "a.mcap", "a.mcap"]);
@@ -212,8 +215,15 @@ fn a_run_that_is_killed_leaves_nothing_of_an_earlier_one() {
     compared.says("the rest is missing");
     // These are made at the end of a run.
     assert_eq!((&*folder.read("a.svg"), &*folder.read("a.json")), ("as it was", "as it was"));
-    // Here the trace is the only one that is written.
-    killed_once_written(&["run", "a.arl", "--clock", "real", "--trace", "a.csv"], "a.csv");
+    // In the process of the command.
+    folder.write("b.csv", &"as it was\n".repeat(200));
+    let mut child = folder.command(&["run", "a.arl", "--clock", "real", "--trace", "b.csv"]);
+    let mut child = child.stdout(std::process::Stdio::null()).spawn().expect("it starts");
+    while folder.read("b.csv").starts_with("as") {
+        assert!(std::time::Instant::now() < until, "the trace is not begun");
+    }
+    child.kill().and_then(|()| child.wait()).expect("it ends");
+    assert!(!folder.read("b.csv").contains("as it was"));
 }
 
 #[cfg(target_os = "linux")]
@@ -223,7 +233,9 @@ fn a_screen_whose_terminal_is_gone_stops_the_robot_first() {
     use rustix::termios::{Winsize, tcsetwinsize};
     use std::io::Read;
     use std::process::Stdio;
-    let folder = Folder::new("results_screen").with("a.arl", ENDLESS);
+    let moved = "func void main()\n  movej j:{0,-90,90,0,30,0}\n  waittime 0\n  print \"hun\",\"dred\"\n";
+    let folder =
+        Folder::new("results_screen").with("a.arl", &ENDLESS.replace("func void main()\n  print \"go\"\n", moved));
     let mut here = std::fs::File::from(
         openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC).expect("a terminal"),
     );
@@ -232,20 +244,24 @@ fn a_screen_whose_terminal_is_gone_stops_the_robot_first() {
     tcsetwinsize(&here, size).expect("a size");
     let path = ptsname(&here, Vec::new()).expect("its name").into_string().expect("a path");
     let there = || Stdio::from(std::fs::OpenOptions::new().read(true).write(true).open(&path).expect("it opens"));
-    let mut command = folder.command(&["run", "a.arl", "--pendant", "--record", "a.mcap"]);
+    let mut command = folder.command(&["run", "a.arl", "--pendant", "--trace", "a.csv"]);
     let mut child = command.stdin(there()).stdout(there()).stderr(there()).spawn().expect("it starts");
     drop(command);
-    // What the program has printed is on the screen.
+    // What the program has printed is on the screen, and nowhere in its text.
     let (mut screen, mut bytes) = (String::new(), [0; 4096]);
-    while !screen.contains("go") {
+    while !screen.contains("hundred") {
         let count = here.read(&mut bytes).expect("the screen");
         assert!(screen.len() < 1 << 20, "{screen}");
         screen.push_str(&String::from_utf8_lossy(bytes.get(..count).unwrap_or_default()));
     }
     drop(here);
     assert_eq!(child.wait().expect("it ends").code(), Some(1));
-    let compared = folder.arl2rs(&["compare", "a.mcap", "a.mcap"]);
-    assert_eq!((compared.code, &*compared.err), (Some(0), ""), "the recording is whole");
+    // The trace of a program that was killed has no last rows.
+    let trace = folder.read("a.csv");
+    let axes = |row: &str| row.split(',').skip(3).take(6).map(str::to_owned).collect::<Vec<_>>();
+    let rows: Vec<Vec<String>> = trace.lines().skip(1).map(axes).collect();
+    let [first, .., before, last] = &rows[..] else { panic!("{trace}") };
+    assert!(first != last && before == last, "it moved, and stands at the end: {first:?} {before:?} {last:?}");
 }
 
 #[cfg(unix)]

@@ -10,6 +10,7 @@ mod screen;
 mod sources;
 
 use arl_terminal::exit::Exit;
+use std::mem::ManuallyDrop;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::mpsc::{Receiver, channel};
@@ -48,28 +49,33 @@ pub fn run<L>(
     }
     let program = PathBuf::from(command.get_program());
     let unusable = |error| Failure::Other(format!("the terminal cannot be used: {error}"));
-    // Without a screen nothing begins.
-    let mut terminal = ratatui::try_init().map_err(unusable)?;
-    let started = ProgramLink::start(command).inspect_err(|_| ratatui::restore());
+    let interrupts = interrupt::leave_to_the_screen();
+    // Without a screen nothing begins. What it reports when it is dropped would fail where nobody is left to read it.
+    let mut terminal = ManuallyDrop::new(ratatui::try_init().map_err(unusable)?);
+    let started = ProgramLink::start(command).inspect_err(|_| leave_screen(&mut terminal));
     let mut link = started.map_err(|error| Failure::io("start", &program, &error))?;
+    link.gets(&interrupts);
     let mut model = PendantModel::new(Sources::read(files));
     drop(lock);
-    let _counted = interrupt::only_count();
     show::keep_warnings();
     let shown = show(&mut terminal, &mut link, &mut model, &mut subscribers);
     if shown.is_err() {
-        // It would report that it cannot be left in good order, and there may be nobody to report to.
-        std::mem::forget(terminal);
         end_unseen(&mut link, &mut model, &mut subscribers);
     }
-    let restored = ratatui::try_restore();
+    leave_screen(&mut terminal);
     // A program that was left at once ends now.
     drop(link);
     // Prints what disappeared with the screen.
     model.lasting.iter().for_each(|text| show::say(&format!("{text}\n")));
     show::say_warnings();
     listen::end(subscribers, !model.hello.channels.is_empty());
-    shown.and_then(|code| restored.map(|()| Exit::from(code))).map_err(unusable)
+    shown.map(Exit::from).map_err(unusable)
+}
+
+/// Leaves the screen. Its terminal may be gone, which does not matter any more.
+fn leave_screen(terminal: &mut ratatui::DefaultTerminal) {
+    let _ = terminal.show_cursor();
+    let _ = ratatui::try_restore();
 }
 
 /// Shows the program until it has ended.

@@ -42,8 +42,8 @@ pub(super) struct Rows {
     path: PathBuf,
     lines: BufReader<File>,
     number: usize,
-    /// How many columns the first line names.
-    columns: usize,
+    /// Whether rows name the file of their line.
+    has_files: bool,
     files: Vec<String>,
 }
 
@@ -60,9 +60,8 @@ impl Rows {
         lines.read_line(&mut header).map_err(|error| Failure::io("read the trace", path, &error))?;
         let header = header.trim_end();
         match header.strip_prefix(HEADER) {
-            Some("" | FILE_COLUMN) => {
-                let columns = header.split(',').count();
-                Ok(Self { path: path.to_path_buf(), lines, number: 1, columns, files: Vec::new() })
+            Some(more @ ("" | FILE_COLUMN)) => {
+                Ok(Self { path: path.to_path_buf(), lines, number: 1, has_files: !more.is_empty(), files: Vec::new() })
             }
             _ => Err(Failure::Usage(format!(
                 "{} is not a trace of a run: its first line must be `{HEADER}`, with or without `{FILE_COLUMN}` after it",
@@ -85,9 +84,10 @@ impl Iterator for Rows {
         if let Err(error) = self.lines.read_line(&mut line) {
             return Some(Err(Failure::io("read the trace", &self.path, &error)));
         }
-        // The last row of a run that was killed may be cut.
+        // The last row of a run that was killed may be cut: in its last column, if none is missing. The name of a file
+        // would be another one then.
         let is_cut = !line.ends_with('\n');
-        if is_cut && line.split(',').count() < self.columns {
+        if is_cut && (self.has_files || line.split(',').count() < COLUMNS) {
             return None;
         }
         self.number += 1;

@@ -26,8 +26,7 @@ mod motions;
 mod orders;
 mod recording;
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
+use crate::command::interrupts::Interrupted;
 use crate::controller::{Controller, Outcome};
 use holding::Holding;
 use motions::EndedMotions;
@@ -61,7 +60,7 @@ pub(crate) fn drive(
     inside: Option<Inside>,
     wishes: Wishes,
     max_time: Option<f64>,
-    interrupted: &AtomicBool,
+    interrupted: &Interrupted,
 ) -> Result<Option<Outcome>, Cut> {
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let every = controller.cycles(wishes.state_interval);
@@ -73,8 +72,7 @@ pub(crate) fn drive(
     let mut cut = None;
     writer.hello(controller);
     loop {
-        let gone = cut.is_none() && !obey(controller, writer, &orders, &mut look, &mut holding)
-            || interrupted.load(Ordering::Relaxed);
+        let gone = cut.is_none() && !obey(controller, writer, &orders, &mut look, &mut holding) || interrupted.is_set();
         let over = cut.is_some() || gone || controller.cycle() >= last;
         if over {
             holding.let_go(controller);

@@ -20,8 +20,8 @@ pub(super) fn trace(mut builder: Builder, options: &Options) -> Result<Builder, 
     Ok(builder)
 }
 
-/// `trace.csv` for channel 2 is `trace.2.csv`.
-fn numbered(path: &Path, number: u8) -> PathBuf {
+/// The trace of a further channel, beside that of the first one: `trace.csv` for channel 2 is `trace.2.csv`.
+pub fn numbered(path: &Path, number: u8) -> PathBuf {
     let extension = path.extension().map_or_else(String::new, |extension| format!(".{}", extension.to_string_lossy()));
     path.with_extension(format!("{number}{extension}"))
 }
