@@ -156,25 +156,28 @@ pub unsafe fn begin(
 /// The reason why it cannot be begun.
 pub(crate) fn serve(made: Made<'_>, words: Vec<OsString>, traced: bool) -> Result<Box<Served>, String> {
     let panicked = |_| "the program panicked: standard error says why".to_owned();
-    let begin = |stack| {
-        let run = Run::begin((made.program)(), made.others, made.script_dir, words, traced, stack)?;
+    let begin = |program, stack| {
+        let run = Run::begin(program, made.others, made.script_dir, words, traced, stack)?;
         Ok((run.stops(), Own { run, is_broken: false }))
     };
-    let recurs = catch_unwind(AssertUnwindSafe(|| {
-        (made.program)().recurs() || made.others.iter().any(|other| (other.make)().recurs())
+    let asked = catch_unwind(AssertUnwindSafe(|| {
+        let program = (made.program)();
+        let recurs = program.recurs() || made.others.iter().any(|other| (other.make)().recurs());
+        (program, recurs)
     }));
-    let (stops, place) = if recurs.map_err(panicked)? {
+    let (program, recurs) = asked.map_err(panicked)?;
+    let (stops, place) = if recurs {
         let room = Room::new(Stack::WHOLE_BYTES);
         let room = room.map_err(|error| format!("the program's thread cannot be started: {error}"))?;
         let begun = room.call(|own| {
-            let (stops, begun) = begin(Stack::Whole)?;
+            let (stops, begun) = begin((made.program)(), Stack::Whole)?;
             *own = Some(begun);
             Ok(stops)
         });
         let begun = begun.ok_or("the program's thread has ended")?;
         (begun.map_err(panicked).flatten()?, Place::Room(room))
     } else {
-        let begun = catch_unwind(AssertUnwindSafe(|| begin(Stack::OfHost)));
+        let begun = catch_unwind(AssertUnwindSafe(|| begin(program, Stack::OfHost)));
         let (stops, own) = begun.map_err(panicked).flatten()?;
         (stops, Place::Here(Box::new(UnsafeCell::new(own))))
     };

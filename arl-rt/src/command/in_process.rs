@@ -9,8 +9,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::command::live::{Recording, alarm_line, message_line, push_state, warning_line};
 use crate::command::observation::Observation;
-use crate::command::program_main::{self, CONTROLLER_STACK_BYTES, InProcess, Other, PROGRAM_STACK_BYTES, listed};
+use crate::command::program_main::{self, InProcess, Other, listed};
 use crate::command::report;
+pub use crate::command::stack::Stack;
 use crate::command::summary::{Ending, summary};
 use crate::context::output::Message;
 use crate::context::program::Program;
@@ -51,30 +52,6 @@ pub enum Outside {
     Nobody,
     /// The host may change something.
     Somebody,
-}
-
-/// The stack that a run gets.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Stack {
-    /// A part of what threads of another program have as a rule, which is 2 MiB: enough for functions that do not call
-    /// each other in a circle.
-    OfHost,
-    /// That of a thread that was made for the run, with [`Stack::WHOLE_BYTES`].
-    Whole,
-}
-
-impl Stack {
-    /// How many bytes a thread needs for all calls that may be nested, and for the controller.
-    pub const WHOLE_BYTES: usize = PROGRAM_STACK_BYTES + CONTROLLER_STACK_BYTES;
-    const HOST_BYTES: usize = 1 << 20;
-
-    /// How many bytes the functions of the program may use.
-    pub(super) fn program_bytes(self) -> usize {
-        match self {
-            Self::OfHost => Self::HOST_BYTES,
-            Self::Whole => PROGRAM_STACK_BYTES,
-        }
-    }
 }
 
 impl Run {

@@ -6,8 +6,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use super::program_main::EXIT_INTERRUPTED;
-
 /// How soon after the first interrupt further ones belong to it. Whoever ends a process often sends several at once:
 /// `timeout` to the process and to its group, service managers SIGTERM and SIGHUP, shells that close what the system
 /// sends, too.
@@ -54,10 +52,11 @@ pub(super) struct Interrupted {
 }
 
 impl Interrupted {
-    /// From now on the first interrupt counts, and another one ends the process. `beside` is asked, too.
-    pub(super) fn watch(beside: fn() -> bool) -> (Self, io::Result<()>) {
+    /// From now on the first interrupt counts, and another one ends the process with this exit code. `beside` is asked,
+    /// too.
+    pub(super) fn watch(beside: fn() -> bool, exit_code: u8) -> (Self, io::Result<()>) {
         let interrupted = Self { flag: Arc::default(), beside };
-        let watched = watch(&interrupted.flag);
+        let watched = watch(&interrupted.flag, exit_code);
         (interrupted, watched)
     }
 
@@ -67,14 +66,14 @@ impl Interrupted {
     }
 }
 
-fn watch(flag: &Arc<AtomicBool>) -> io::Result<()> {
+fn watch(flag: &Arc<AtomicBool>, exit_code: u8) -> io::Result<()> {
     for signal in signals() {
         signal_hook::flag::register(signal, Arc::clone(flag))?;
     }
     // The command that started the program passes on what it got itself, and must not end a program that got it, too.
     #[cfg(unix)]
     signal_hook::flag::register(signal_hook::consts::SIGUSR1, Arc::clone(flag))?;
-    end_when_there_is_another()
+    end_when_there_is_another(i32::from(exit_code))
 }
 
 fn signals() -> Vec<i32> {
@@ -88,14 +87,14 @@ fn signals() -> Vec<i32> {
 }
 
 #[cfg(unix)]
-fn end_when_there_is_another() -> io::Result<()> {
+fn end_when_there_is_another(exit_code: i32) -> io::Result<()> {
     use signal_hook::consts::SIGHUP;
     let mut signals = signal_hook::iterator::Signals::new(signals())?;
     let mut interrupts = Interrupts::default();
     let watch = move || {
         for signal in signals.forever() {
             if interrupts.take(signal == SIGHUP, Instant::now()).is_some_and(|count| count > 1) {
-                signal_hook::low_level::exit(i32::from(EXIT_INTERRUPTED));
+                signal_hook::low_level::exit(exit_code);
             }
         }
     };
@@ -104,11 +103,11 @@ fn end_when_there_is_another() -> io::Result<()> {
 
 /// Elsewhere the console is the only one who interrupts, once each time.
 #[cfg(not(unix))]
-fn end_when_there_is_another() -> io::Result<()> {
+fn end_when_there_is_another(exit_code: i32) -> io::Result<()> {
     use signal_hook::consts::SIGINT;
     use signal_hook::flag;
     let pressed = Arc::new(AtomicBool::new(false));
-    flag::register_conditional_shutdown(SIGINT, i32::from(EXIT_INTERRUPTED), Arc::clone(&pressed))?;
+    flag::register_conditional_shutdown(SIGINT, exit_code, Arc::clone(&pressed))?;
     flag::register(SIGINT, pressed).map(drop)
 }
 

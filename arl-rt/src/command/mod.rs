@@ -17,4 +17,5 @@ pub mod program_main;
 mod report;
 mod say;
 mod serve;
+mod stack;
 mod summary;

@@ -15,12 +15,12 @@ use crate::builtins::time;
 use crate::command::between::{Between, CycleOrder};
 use crate::command::coverage;
 use crate::command::debug;
-use crate::command::in_process::Stack;
 use crate::command::interrupts::Interrupted;
 use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
 use crate::command::polling::Polling;
 use crate::command::say::{self, say, say_condition};
 use crate::command::serve;
+use crate::command::stack::{PROGRAM_STACK_BYTES, Stack};
 use crate::context::output::{Output, Stream};
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
@@ -40,10 +40,6 @@ use arl_robot::robot::Robot;
 pub use channel_traces::numbered as numbered_trace;
 use options::{Asked, ClockKind, HELP, Options, parse};
 
-/// How much of the stack the program's functions may use, by measure enough for all calls that may be nested, and how
-/// much the thread has on top of that for everything else.
-pub(super) const PROGRAM_STACK_BYTES: usize = 64 << 20;
-pub(super) const CONTROLLER_STACK_BYTES: usize = 1 << 20;
 /// A variable of the environment: with it the process ends when its standard input is closed, so that it does not
 /// outlive who started it.
 const WHILE_INPUT: &str = "ARL2RS_WHILE_INPUT";
@@ -178,7 +174,7 @@ fn start_with<P: Program + 'static>(
             std::process::exit(EXIT_INTERRUPTED.into());
         });
     }
-    let (interrupted, watched) = Interrupted::watch(was_interrupted);
+    let (interrupted, watched) = Interrupted::watch(was_interrupted, EXIT_INTERRUPTED);
     if let Err(error) = watched {
         warn(&format!("Ctrl-C will not stop the robot on its path: {error}"));
     }

@@ -10,8 +10,9 @@ use std::ffi::OsString;
 use std::io::{self, BufRead, Write};
 use std::sync::mpsc::channel;
 
-use crate::command::in_process::{Outside, Run, Stack};
+use crate::command::in_process::{Outside, Run};
 use crate::command::json::quoted;
+use crate::command::stack::Stack;
 use crate::context::program::{Other, Program};
 
 pub(super) fn serve(make: impl Fn() -> Box<dyn Program> + Send, others: &[Other], script_dir: &str) -> u8 {
