@@ -42,6 +42,33 @@ const RUNTIME: &[&str] = &[
     "fuzzing",
 ];
 
+/// The files and folders of a compiled program's command line, from the ground up.
+const PROGRAM_COMMAND: &[&str] = &[
+    "ending",
+    "json",
+    "between",
+    "connection",
+    "asked",
+    "stack",
+    "interrupts",
+    "observation",
+    "polling",
+    "report",
+    "words",
+    "live",
+    "debug",
+    "coverage",
+    "options",
+    "say",
+    "results",
+    "channel_traces",
+    "set_up",
+    "summary",
+    "in_process",
+    "serve",
+    "program_main",
+];
+
 /// The files and folders of the compiler, from the ground up.
 const COMPILER: &[&str] = &[
     "alarms",
@@ -132,6 +159,7 @@ fn folders_of_the_tools_import_from_below_only() {
 #[test]
 fn folders_of_arl_rt_import_from_below_only() {
     assert_layers("arl-rt/src", RUNTIME);
+    assert_layers_within("arl-rt/src/command", "crate::command::", PROGRAM_COMMAND);
 }
 
 #[test]
@@ -254,9 +282,9 @@ fn a_type_name_has_one_meaning_in_a_crate() {
     assert!(faults.is_empty(), "give one of the two a name that says what it is:\n{}", faults.join("\n"));
 }
 
-/// What a line names at the top of its crate, in a file that is so many levels below it: `crate::name`, also of several
-/// in braces, and `super::name` where that leads as far.
-fn imported(code: &str, levels: usize) -> impl Iterator<Item = &str> {
+/// What a line names in a module, in a file that is so many levels below it: `crate::name` where `root` is `crate::`,
+/// also of several in braces, and `super::name` where that leads as far.
+fn imported<'a>(code: &'a str, root: &str, levels: usize) -> impl Iterator<Item = &'a str> {
     fn first_word(path: &str) -> &str {
         path.trim_start().split(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap_or_default()
     }
@@ -266,7 +294,7 @@ fn imported(code: &str, levels: usize) -> impl Iterator<Item = &str> {
             None => vec![first_word(path)],
         }
     }
-    let by_crate = code.split("crate::").skip(1).flat_map(of_path);
+    let by_crate = code.split(root).skip(1).flat_map(of_path);
     let up = "super::".repeat(levels);
     let chains = code.match_indices(&*up).filter(|(at, _)| !code[..*at].ends_with("super::"));
     let chains: Vec<&str> =
@@ -277,6 +305,11 @@ fn imported(code: &str, levels: usize) -> impl Iterator<Item = &str> {
 /// The imports of every file below `source` go to folders below its own; `layers` names all folders, from the ground
 /// up.
 fn assert_layers(source: &str, layers: &[&str]) {
+    assert_layers_within(source, "crate::", layers);
+}
+
+/// As [`assert_layers`], for the folder of a module: `root` is how others name what is in it.
+fn assert_layers_within(source: &str, root: &str, layers: &[&str]) {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(source);
     let files = rust_files(&source);
     assert!(files.len() >= layers.len(), "{} has files", source.display());
@@ -284,7 +317,7 @@ fn assert_layers(source: &str, layers: &[&str]) {
     for file in files {
         let inside = file.strip_prefix(&source).unwrap().to_string_lossy().into_owned();
         let folder = inside.split(['/', '.']).next().unwrap_or_default().to_owned();
-        if ["lib", "tests"].contains(&folder.as_str()) || inside.contains("/tests") {
+        if ["lib", "mod", "tests"].contains(&folder.as_str()) || inside.contains("/tests") {
             continue;
         }
         let Some(own) = layers.iter().position(|layer| *layer == folder) else {
@@ -300,7 +333,7 @@ fn assert_layers(source: &str, layers: &[&str]) {
         for (line, words) in (1..).zip(text.lines()) {
             let code = words.split("//").next().unwrap_or_default();
             let excused = words.contains("// up: ") || before.trim_start().starts_with("// up: ");
-            for other in imported(code, levels).filter(|_| !excused) {
+            for other in imported(code, root, levels).filter(|_| !excused) {
                 if layers.iter().position(|layer| *layer == other).is_some_and(|other| other > own) {
                     faults.push(format!("{inside}:{line}: `{folder}` is below `{other}` and must not import from it"));
                 }

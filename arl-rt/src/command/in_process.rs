@@ -7,16 +7,20 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::command::ending::Ending;
 use crate::command::live::{Recording, alarm_line, message_line, push_state, warning_line};
 use crate::command::observation::Observation;
-use crate::command::program_main::{self, InProcess, Other, listed};
+use crate::command::options::{ClockKind, parse};
 use crate::command::report;
+use crate::command::set_up::{connect_to, set_up};
 pub use crate::command::stack::Stack;
-use crate::command::summary::{Ending, summary};
+use crate::command::summary::summary;
+use crate::command::words::{lateness, listed, lost_events_warning, time_is_over};
 use crate::context::output::Message;
-use crate::context::program::Program;
-use crate::controller::{Controller, Outcome, trace};
+use crate::context::program::{Other, Program};
+use crate::controller::{Controller, trace};
 use crate::fault::{Alarm, File};
+use crate::storage::state::Memory;
 
 /// A run of a program in this process. Everything happens on the thread that creates it.
 pub struct Run {
@@ -77,8 +81,27 @@ impl Run {
         let output_lines = Rc::new(RefCell::new(String::new()));
         let lines = Rc::clone(&output_lines);
         let output = move |message: &Message<'_>| lines.borrow_mut().push_str(&message_line(message));
-        let InProcess { controller, max_time, is_real, trace_columns, recording } =
-            program_main::in_process(program, others, script_dir, arguments, stack, output)?;
+        let options = parse(arguments, script_dir).map_err(|error| error.to_string())?;
+        let options = options.ok_or("--help: there is no command line here")?;
+        if let Some(option) = options.needs_a_process() {
+            return Err(format!("{option} is only for a program that runs on its own"));
+        }
+        let (max_time, repeats, wishes) = (options.max_time, options.repeats, options.wishes);
+        let names_files = options.trace_columns.file;
+        let is_real = options.clock == Some(ClockKind::Real);
+        let keeps = options.state_dir.is_some();
+        let recording = options.listener.as_deref().map(|address| connect_to(address, wishes)).transpose()?;
+        let builder = set_up(options, others).map_err(|failure| failure.text)?.stack(stack.program_bytes());
+        // Concurrent runs would share the folder of the program.
+        let builder = if keeps { builder } else { builder.storage(Memory::default()) };
+        let builder = match &recording {
+            Some(recording) => builder.output(recording.beside(output)),
+            None => builder.output(output),
+        };
+        let builder = if wishes.each_motion { builder.record_motions() } else { builder };
+        let mut controller = builder.build(program).map_err(|error| error.to_string())?;
+        controller.set_loop(repeats);
+        controller.begin_traces();
         recording.iter().for_each(|recording| recording.begin(&controller));
         let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
         let (rows, stops, observation) = (traced.then(Vec::new), Arc::default(), Observation::default());
@@ -93,7 +116,7 @@ impl Run {
             observation,
             is_real,
             rows,
-            files: trace_columns.file.then(Vec::new),
+            files: names_files.then(Vec::new),
             stops,
             recording,
         })
@@ -112,7 +135,7 @@ impl Run {
                 break;
             }
             if self.cut.is_none() && self.controller.cycle() >= self.last {
-                let why = program_main::time_is_over(&self.controller, self.max_time.unwrap_or_default());
+                let why = time_is_over(&self.controller, self.max_time.unwrap_or_default());
                 self.cut(Ending::TimeOver, &why);
             }
             let is_alone = self.recording.as_ref().is_some_and(Recording::is_gone);
@@ -166,14 +189,13 @@ impl Run {
             self.controller.settle_state();
             self.take_news();
             let lost_events = self.recording.take().map_or(0, |recording| recording.run_ended(&self.controller));
-            if let Some(text) = program_main::lost_events_warning(lost_events) {
+            if let Some(text) = lost_events_warning(lost_events) {
                 self.say(&warning_line(&text));
             }
             if self.is_real {
-                program_main::lateness(&self.controller).iter().for_each(|text| self.say(&warning_line(text)));
+                lateness(&self.controller).iter().for_each(|text| self.say(&warning_line(text)));
             }
-            let alarmed = matches!(self.controller.outcome(), Some(Outcome::Alarm(_)));
-            self.ended = Some(self.cut.unwrap_or(if alarmed { Ending::Alarm } else { Ending::Ended }));
+            self.ended = Some(Ending::of(self.cut, self.controller.outcome()));
         }
         is_over
     }

@@ -1,68 +1,38 @@
 //! The command line of a compiled program.
 
-mod channel_traces;
-mod options;
-mod results;
-
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::OnceLock;
 use std::time::SystemTime;
 
-use crate::builtins::time;
 use crate::command::between::{Between, CycleOrder};
+pub use crate::command::channel_traces::numbered as numbered_trace;
 use crate::command::coverage;
 use crate::command::debug;
+use crate::command::ending::{EXIT_ALARM, EXIT_INTERRUPTED, EXIT_PANICKED, EXIT_USAGE, Ending};
 use crate::command::interrupts::Interrupted;
-use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
+use crate::command::live::{self, LineWriter, Recording};
+use crate::command::options::{Asked, ClockKind, HELP, Options, parse};
 use crate::command::polling::Polling;
-use crate::command::say::{self, say, say_condition};
+use crate::command::results;
+use crate::command::say::{self, say, say_condition, warn};
 use crate::command::serve;
-use crate::command::stack::{PROGRAM_STACK_BYTES, Stack};
-use crate::context::output::{Output, Stream};
+pub use crate::command::set_up::drivers;
+use crate::command::set_up::{SetupFailure, connect_to, set_up};
+use crate::command::stack::Stack;
+use crate::command::words::{lateness, listed, lost_events_warning, time_is_over};
+use crate::context::output::Stream;
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
 use crate::context::standard_error::tell;
 use crate::context::standstill::Standstill;
-use crate::controller::trace::More;
-use crate::controller::{Builder, Controller, Outcome, SetupError};
-use crate::cycle::clock_source::{Lateness, RealClock, VirtualClock};
+use crate::controller::Controller;
 use crate::cycle::realtime::Realtime;
-use crate::io::Scenario;
-use crate::storage::state::{Directory, Memory};
-use crate::unit::robot_driver::Connect;
-use arl_robot::cell::{Cell, Names};
-use arl_robot::changes::Part;
-use arl_robot::result_file;
-use arl_robot::robot::Robot;
-pub use channel_traces::numbered as numbered_trace;
-use options::{Asked, ClockKind, HELP, Options, parse};
 
 /// A variable of the environment: with it the process ends when its standard input is closed, so that it does not
 /// outlive who started it.
 const WHILE_INPUT: &str = "ARL2RS_WHILE_INPUT";
-
-/// The default directory for system variables, below the script directory.
-const STATE_DIR: &str = ".arl-state";
-
-pub(super) const EXIT_ENDED: u8 = 0;
-const EXIT_USAGE: u8 = 2;
-pub(super) const EXIT_ALARM: u8 = 3;
-pub(super) const EXIT_MAX_TIME: u8 = 4;
-pub(super) const EXIT_INTERRUPTED: u8 = 130;
-/// A bug of the runtime: the code of Rust programs that panic.
-const EXIT_PANICKED: u8 = 101;
-
-/// Makes drivers for `--drive`.
-static CONNECT: OnceLock<Connect> = OnceLock::new();
-
-/// Sets the function that makes the drivers that a cell file asks for, before `main` runs a program:
-/// `arl_drivers::connect`. Without it `--drive` is refused.
-pub fn drivers(connect: Connect) {
-    let _ = CONNECT.set(connect);
-}
 
 /// Runs a program according to its command line: the `main` of every compiled program.
 ///
@@ -164,7 +134,7 @@ fn start_with<P: Program + 'static>(
         Ok(None) => {
             // The other end may be closed; that is no error here.
             let _ = std::io::stdout().write_all(HELP.as_bytes());
-            return EXIT_ENDED;
+            return Ending::Ended.code();
         }
         Err(error) => return fail(EXIT_USAGE, &format!("{error}\nTry --help.")),
     };
@@ -195,10 +165,6 @@ fn fail(code: u8, text: &str) -> u8 {
     code
 }
 
-fn warn(text: &str) {
-    tell(format_args!("warning: {text}"));
-}
-
 /// Sets up the controller and runs the program; returns the exit code.
 fn run(
     program: Box<dyn Program>,
@@ -209,10 +175,7 @@ fn run(
     interrupted: &Interrupted,
 ) -> u8 {
     let ran = try_run(program, others, options, sources, watching, interrupted);
-    ran.unwrap_or_else(|SetupFailure { code, text }| {
-        tell(format_args!("error: {text}"));
-        code
-    })
+    ran.unwrap_or_else(|SetupFailure { code, text }| fail(code, &text))
 }
 
 fn try_run(
@@ -253,29 +216,29 @@ fn try_run(
     let between = between.map_err(SetupFailure::usage)?;
     // Nothing refuses the run any more: its traces take the place of older ones.
     controller.begin_traces();
-    let code = match writer {
+    let ending = match writer {
         Some(writer) => {
             if paused {
                 controller.wait_for_start();
             }
             let inside = watching.map(|watching| watching.inside);
-            code(live::drive(&mut controller, &writer, inside, wishes, max_time, interrupted))
+            live::drive(&mut controller, &writer, inside, wishes, max_time, interrupted)
         }
         None => {
             // Advice is for who looks on, not for scripts.
             let advises = watching.is_some() && between.is_none() && std::io::stderr().is_terminal();
-            let code = watch(&mut controller, max_time, interrupted, between, recording, sources);
+            let ending = watch(&mut controller, max_time, interrupted, between, recording, sources);
             if advises && let Some(advice) = advice_to_compile(controller.full_cycles()) {
                 tell(format_args!("{advice}"));
             }
-            code
+            ending
         }
     };
     results::write_figures(&controller, report, cycle_time.as_deref());
     if tells_lateness {
         lateness(&controller).iter().for_each(|text| warn(text));
     }
-    Ok(code)
+    Ok(ending.code())
 }
 
 /// Who runs a program by the engine is told about compiling after so many cycles that were full of calculation: that
@@ -292,39 +255,6 @@ fn advice_to_compile(full_cycles: u64) -> Option<String> {
     })
 }
 
-/// Warnings about what was too late in a run in real time.
-pub(super) fn lateness(controller: &Controller) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if let Some(missing) = controller.lateness().map(Lateness::missing).filter(|missing| *missing > 0) {
-        let messages = if missing == 1 { "message" } else { "messages" };
-        warnings.push(format!(
-            "{missing} {messages} from the robot did not arrive: the robot did not send, or the network lost them; as many control cycles were lost"
-        ));
-    }
-    if let Some(lateness) = controller.lateness().filter(|lateness| lateness.late() > 0) {
-        let (late, longest) = (lateness.late(), lateness.longest().as_secs_f64() * 1e3);
-        let lost = lateness.lost() - lateness.missing();
-        warnings.push(format!(
-            "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
-        ));
-    }
-    if controller.found_late() > 0 {
-        let advice = if cfg!(debug_assertions) { "; `arl2rs build --release` makes a faster program" } else { "" };
-        warnings.push(format!(
-            "the computer was too busy to find the motion ahead in time, {} times: robots may have moved more slowly, or stopped on their path{advice}",
-            controller.found_late()
-        ));
-    }
-    warnings
-}
-
-/// The programs that wait in vain and what they wait for, each with its channel where there are several.
-pub(super) fn listed(waiting: &[Standstill]) -> Vec<String> {
-    let are_many = waiting.len() > 1;
-    let line = |one: &Standstill| if are_many { format!("{}: {one}", one.channel) } else { one.to_string() };
-    waiting.iter().map(line).collect()
-}
-
 /// Reports which programs wait in vain, and for what.
 fn say_standstill(controller: &Controller, sources: &Path, waiting: &[Standstill]) {
     let time = controller.time();
@@ -337,70 +267,6 @@ fn say_standstill(controller: &Controller, sources: &Path, waiting: &[Standstill
     }
 }
 
-/// A controller for a run in this process, with the same options as on a command line, its time limit in s, and whether
-/// it was requested to run in real time.
-pub(super) fn in_process(
-    program: Box<dyn Program>,
-    others: &[Other],
-    script_dir: &str,
-    arguments: Vec<OsString>,
-    stack: Stack,
-    output: impl Output + 'static,
-) -> Result<InProcess, String> {
-    let options = parse(arguments, script_dir).map_err(|error| error.to_string())?;
-    let options = options.ok_or("--help: there is no command line here")?;
-    if let Some(option) = options.needs_a_process() {
-        return Err(format!("{option} is only for a program that runs on its own"));
-    }
-    let (max_time, repeats, wishes) = (options.max_time, options.repeats, options.wishes);
-    let trace_columns = options.trace_columns;
-    let is_real = options.clock == Some(ClockKind::Real);
-    let keeps = options.state_dir.is_some();
-    let recording = options.listener.as_deref().map(|address| connect_to(address, wishes)).transpose()?;
-    let builder = set_up(options, others).map_err(|failure| failure.text)?.stack(stack.program_bytes());
-    // Concurrent runs would share the folder of the program.
-    let builder = if keeps { builder } else { builder.storage(Memory::default()) };
-    let builder = match &recording {
-        Some(recording) => builder.output(recording.beside(output)),
-        None => builder.output(output),
-    };
-    let builder = if wishes.each_motion { builder.record_motions() } else { builder };
-    let mut controller = builder.build(program).map_err(|error| error.to_string())?;
-    controller.set_loop(repeats);
-    controller.begin_traces();
-    Ok(InProcess { controller, max_time, is_real, trace_columns, recording })
-}
-
-/// A run that is part of another process, before its first cycle.
-pub(super) struct InProcess {
-    pub(super) controller: Controller,
-    pub(super) max_time: Option<f64>,
-    /// Whether it was requested to run in real time.
-    pub(super) is_real: bool,
-    /// The columns of the trace behind those that every trace has.
-    pub(super) trace_columns: More,
-    pub(super) recording: Option<Recording>,
-}
-
-/// A warning where events for a listener were left out.
-pub(super) fn lost_events_warning(lost: u64) -> Option<String> {
-    (lost > 0).then(|| format!("the listener was too slow for real time: events were left out {lost} times"))
-}
-
-fn connect_to(address: &str, wishes: Wishes) -> Result<Recording, String> {
-    Recording::connect(address, wishes).map_err(|error| format!("there is no listener at {address}: {error}"))
-}
-
-/// The exit code of a run that was driven from outside.
-fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
-    match driven {
-        Ok(Some(Outcome::Alarm(_))) => EXIT_ALARM,
-        Ok(_) => EXIT_ENDED,
-        Err(Cut::MaxTime) => EXIT_MAX_TIME,
-        Err(Cut::Interrupted) => EXIT_INTERRUPTED,
-    }
-}
-
 /// Steps until the run is over, its time is up, or Ctrl-C was pressed.
 fn watch(
     controller: &mut Controller,
@@ -409,10 +275,10 @@ fn watch(
     mut between: Option<Box<dyn Between>>,
     recording: Option<Recording>,
     sources: &Path,
-) -> u8 {
+) -> Ending {
     recording.iter().for_each(|recording| recording.begin(controller));
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
-    let mut code = None;
+    let mut cut = None;
     // A listener or debugger already sees where the program is.
     let mut polling = (between.is_none() && recording.is_none()).then(Polling::new);
     // A run that was stopped does not begin again.
@@ -420,15 +286,15 @@ fn watch(
         true => controller.outcome().is_some(),
         false => controller.is_over(),
     };
-    while !is_over(controller, code.is_some()) {
+    while !is_over(controller, cut.is_some()) {
         let order = between.as_mut().map_or(CycleOrder::Runs, |between| between.cycle_begins(controller));
         let is_alone = recording.as_ref().is_some_and(Recording::is_gone);
-        if code.is_none() && (interrupted.is_set() || is_alone || order == CycleOrder::Ends) {
-            code = Some(EXIT_INTERRUPTED);
+        if cut.is_none() && (interrupted.is_set() || is_alone || order == CycleOrder::Ends) {
+            cut = Some(Ending::Stopped);
             controller.stop();
             tell(format_args!("interrupted: the robot stops on its path"));
-        } else if code.is_none() && controller.cycle() >= last {
-            code = Some(EXIT_MAX_TIME);
+        } else if cut.is_none() && controller.cycle() >= last {
+            cut = Some(Ending::TimeOver);
             tell(format_args!("{}", time_is_over(controller, max_time.unwrap_or_default())));
             controller.stop();
         }
@@ -440,18 +306,18 @@ fn watch(
         if let Some(text) = polling.and_then(|polling| polling.cycle_ended(controller)) {
             tell(format_args!("{text}"));
         }
-        if code.is_none()
+        if cut.is_none()
             && order != CycleOrder::Stands
             && let Some(waiting) = controller.standstill()
             && !between
                 .as_mut()
                 .is_some_and(|between| between.nothing_can_change(controller, &listed(&waiting).join("; ")))
         {
-            code = Some(EXIT_MAX_TIME);
+            cut = Some(Ending::Stuck);
             say_standstill(controller, sources, &waiting);
             controller.stop();
         }
-        if code.is_none() && between.is_none() && recording.is_none() {
+        if cut.is_none() && between.is_none() && recording.is_none() {
             controller.skip_quiet_cycles(last);
         }
     }
@@ -461,90 +327,7 @@ fn watch(
     let lost = recording.iter().map(|recording| recording.run_ended(controller)).sum::<u64>();
     lost_events_warning(lost).iter().for_each(|text| warn(text));
     between.into_iter().for_each(|mut between| between.run_ended(controller));
-    match (code, controller.outcome()) {
-        (Some(code), _) => code,
-        (None, Some(Outcome::Alarm(_))) => EXIT_ALARM,
-        (None, _) => EXIT_ENDED,
-    }
-}
-
-/// The message of a run that has reached its time limit, in s.
-pub(super) fn time_is_over(controller: &Controller, limit: f64) -> String {
-    let place = match controller.place() {
-        // Code that only calculates sets no line.
-        (file, 0) => format!("is calculating in {}", file.name()),
-        (file, line) => format!("is at {}:{line}", file.name()),
-    };
-    format!("the time limit of {limit} s has passed; the program {place}")
-}
-
-/// The reason why there is no controller, and the exit code for it.
-struct SetupFailure {
-    code: u8,
-    text: String,
-}
-
-impl SetupFailure {
-    fn usage(text: impl ToString) -> Self {
-        Self { code: EXIT_USAGE, text: text.to_string() }
-    }
-}
-
-impl From<SetupError> for SetupFailure {
-    fn from(error: SetupError) -> Self {
-        let code = if matches!(error, SetupError::State(_)) { EXIT_ALARM } else { EXIT_USAGE };
-        Self { code, text: error.to_string() }
-    }
-}
-
-fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
-    result_file::expect_apart(&options.results(), &options.inputs()).map_err(SetupFailure::usage)?;
-    let mut builder =
-        Controller::builder().mode(options.mode).speed_override(options.speed_override).stack(PROGRAM_STACK_BYTES);
-    if let Some(robot) = &options.robot {
-        builder = builder.robot(Robot::load_with(robot, &options.changes).map_err(SetupFailure::usage)?);
-    }
-    let mut names = Names::default();
-    if let Some(cell) = &options.cell {
-        let cell = Cell::load_with(cell, &options.changes).map_err(SetupFailure::usage)?;
-        names = cell.names.clone();
-        builder = builder.cell_with(cell, others)?;
-        builder = channel_traces::trace(builder, &options)?;
-    }
-    if options.drive {
-        let connect = CONNECT.get().ok_or_else(|| SetupFailure::usage("--drive: this program has no drivers"))?;
-        builder = builder.drivers(*connect);
-    }
-    if let Some(io) = &options.io {
-        let scenario = Scenario::load_changed(io, &names, &options.changes);
-        builder = builder.scenario(scenario.map_err(SetupFailure::usage)?);
-    }
-    let globals = options.changes.of_part(Part::Global);
-    builder = globals.fold(builder, |builder, (name, value)| builder.global(name, value));
-    if let Some(trace) = &options.trace {
-        builder = builder.trace(results::file(trace).map_err(SetupFailure::usage)?);
-    }
-    if options.trace_columns.file {
-        builder = builder.trace_files();
-    }
-    if options.report.is_some() {
-        builder = builder.record_motions();
-    }
-    if let Some(seed) = options.seed {
-        builder = builder.seed(seed);
-    }
-    // On the real clock the run starts at the real date.
-    let start = options.start_time.or_else(|| (options.clock == Some(ClockKind::Real)).then(time::of_the_world));
-    if let Some(start) = start {
-        builder = builder.start_date(start);
-    }
-    let state_dir = options.state_dir.unwrap_or_else(|| Path::new(&options.script_dir).join(STATE_DIR));
-    builder = builder.script_dir(options.script_dir).storage(Directory::new(state_dir));
-    Ok(match options.clock {
-        Some(ClockKind::Real) => builder.clock(RealClock::new()),
-        Some(ClockKind::Virtual) => builder.clock(VirtualClock::asked_for()),
-        None => builder.clock(VirtualClock::new()),
-    })
+    Ending::of(cut, controller.outcome())
 }
 
 #[cfg(test)]

@@ -16,6 +16,11 @@ use arl_robot::cell::{Signal, SignalKind};
 /// Source lines are not shown from files larger than this, in bytes.
 const LARGEST_FILE: u64 = 16 << 20;
 
+/// Reports something that does not stop a run.
+pub(super) fn warn(text: &str) {
+    tell(format_args!("warning: {text}"));
+}
+
 /// Reports the new warnings and alarms on the standard error, and to the recorder; `sources` is the folder that
 /// programs were compiled from.
 pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<&Recording>) {

@@ -2,49 +2,12 @@
 
 use std::fmt::Write;
 
+use crate::command::ending::Ending;
 use crate::command::json::{number, push_array, quoted};
-use crate::command::program_main::{EXIT_ALARM, EXIT_ENDED, EXIT_INTERRUPTED, EXIT_MAX_TIME};
 use crate::command::report;
 use crate::controller::{Controller, Outcome};
 use crate::fault::Alarm;
 use crate::motion::MotionRecord;
-
-/// How a run ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Ending {
-    /// The program ended.
-    Ended,
-    /// An alarm ended it.
-    Alarm,
-    /// Its time limit was reached.
-    TimeOver,
-    /// Nothing could change any more.
-    Stuck,
-    /// It was stopped from outside.
-    Stopped,
-}
-
-impl Ending {
-    fn word(self) -> &'static str {
-        match self {
-            Ending::Ended => "ended",
-            Ending::Alarm => "alarm",
-            Ending::TimeOver => "time_over",
-            Ending::Stuck => "stuck",
-            Ending::Stopped => "stopped",
-        }
-    }
-
-    /// The exit code of a command whose run ended like this.
-    pub(crate) fn code(self) -> u8 {
-        match self {
-            Ending::Ended => EXIT_ENDED,
-            Ending::Alarm => EXIT_ALARM,
-            Ending::TimeOver | Ending::Stuck => EXIT_MAX_TIME,
-            Ending::Stopped => EXIT_INTERRUPTED,
-        }
-    }
-}
 
 /// A JSON object without newline: the ending, the exit code, the time in s, the totals of the first robot's motions,
 /// the alarms, and the alarm that ended the run, or null. The totals are 0 where the controller does not record

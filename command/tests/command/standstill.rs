@@ -74,3 +74,23 @@ fn a_case_that_waits_in_vain_fails_unless_it_sets_a_time() {
         assert!(answer.out.contains(words), "{words} is not in\n{}", answer.out);
     }
 }
+
+#[test]
+fn an_alarm_comes_before_who_waits_for_its_program() {
+    let waits = "func void main()\n  waituntil getdi(1)\nendfunc\n";
+    let fails = "func void main()\n  int a = 0\n  waittime 0.5\n  print 1 / a\nendfunc\n";
+    let folder = Folder::new("standstill_alarm").with("waits.arl", waits).with("fails.arl", fails);
+    let cells = [
+        ("waits.arl", "fails.arl", ""),
+        ("fails.arl", "waits.arl", ""),
+        ("waits.arl", "fails.arl", "background = true\n"),
+    ];
+    for (first, second, background) in cells {
+        folder.write("cell.toml", &format!("[[channel]]\nprogram = \"{second}\"\n{background}"));
+        let run = |words: &[&str]| folder.arl2rs(&[&["run", first, "--cell", "cell.toml"], words].concat());
+        run(&[]).is(3, "").says("alarm 20001").says("nothing can change any more after").says("waits.arl:2");
+        run(&["--max-time", "1"]).is(3, "").says("alarm 20001");
+        // What ends before the alarm has none.
+        run(&["--max-time", "0.2"]).is(4, "").says("the time limit of 0.2 s has passed");
+    }
+}

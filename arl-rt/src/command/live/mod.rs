@@ -26,8 +26,9 @@ mod motions;
 mod orders;
 mod recording;
 
+use crate::command::ending::Ending;
 use crate::command::interrupts::Interrupted;
-use crate::controller::{Controller, Outcome};
+use crate::controller::Controller;
 use holding::Holding;
 use motions::EndedMotions;
 use orders::{Next, Orders};
@@ -43,17 +44,8 @@ const INSIDE_INTERVAL_S: f64 = 0.25;
 /// Shows the inside of the program of a channel, counted from 0: the fields of an object.
 pub(crate) type Inside = fn(&Controller, usize) -> Option<String>;
 
-/// The reason why a run is over before its program is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Cut {
-    /// The orders ended, or Ctrl-C was pressed.
-    Interrupted,
-    /// The time limit was reached.
-    MaxTime,
-}
-
 /// Steps while orders may come: also after the end of the program, which an order may start again. Returns how the
-/// program ended last, or why it was stopped.
+/// run ended.
 pub(crate) fn drive(
     controller: &mut Controller,
     writer: &LineWriter,
@@ -61,7 +53,7 @@ pub(crate) fn drive(
     wishes: Wishes,
     max_time: Option<f64>,
     interrupted: &Interrupted,
-) -> Result<Option<Outcome>, Cut> {
+) -> Ending {
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let every = controller.cycles(wishes.state_interval);
     let every_inside = controller.cycles(INSIDE_INTERVAL_S);
@@ -81,7 +73,7 @@ pub(crate) fn drive(
             break;
         }
         if over && cut.is_none() {
-            cut = Some(if gone { Cut::Interrupted } else { Cut::MaxTime });
+            cut = Some(if gone { Ending::Stopped } else { Ending::TimeOver });
             controller.stop();
         }
         controller.step();
@@ -103,7 +95,7 @@ pub(crate) fn drive(
     writer.news(controller);
     writer.state(controller);
     ended_motions.say(controller, writer);
-    cut.map_or_else(|| Ok(controller.outcome().cloned()), Err)
+    Ending::of(cut, controller.outcome())
 }
 
 /// The inspection of a program.

@@ -56,8 +56,8 @@ Options:
                         io.KEYS (io.event.2.at=1.5); can be given more than once
   --help                this text
 
-Exit codes: 0 ended, 2 usage, 3 alarm, 4 the time was up or nothing could change
-any more, 130 interrupted.
+Exit codes: 0 ended, 2 usage, 3 an alarm of any program, 4 the time was up or
+nothing could change any more, 130 interrupted.
 ";
 
 /// The options of the command line.
@@ -212,13 +212,13 @@ impl Options {
         }
         let Options { robot, cell, io, changes, .. } = self;
         let files = [
-            (Part::Robot, robot.is_some(), "robot"),
-            (Part::Cell, cell.is_some(), "cell"),
-            (Part::Io, io.is_some(), "io"),
+            (Part::Robot, robot.is_some(), "robot", "file, or a built-in robot,"),
+            (Part::Cell, cell.is_some(), "cell", "file"),
+            (Part::Io, io.is_some(), "io", "file"),
         ];
-        for (part, is_named, option) in files {
+        for (part, is_named, option, what) in files {
             if let (false, Some((path, _))) = (is_named, changes.of_part(part).next()) {
-                return Err(format!("--set {option}.{path}: name the file with --{option}").into());
+                return Err(format!("--set {option}.{path}: name the {what} with --{option}").into());
             }
         }
         Ok(())

@@ -3,9 +3,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use super::options::Report;
-use super::warn;
+use crate::command::options::Report;
 use crate::command::report;
+use crate::command::say::warn;
 use crate::controller::Controller;
 use arl_robot::result_file::ResultFile;
 

@@ -2,19 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use super::options::Options;
-use super::{SetupFailure, results};
+use crate::command::options::Options;
+use crate::command::results;
 use crate::controller::Builder;
 use arl_robot::result_file;
 
 /// Gives each foreground channel beyond the first a trace file next to that of the first one.
-pub(super) fn trace(mut builder: Builder, options: &Options) -> Result<Builder, SetupFailure> {
+pub(super) fn trace(mut builder: Builder, options: &Options) -> Result<Builder, String> {
     let Some(first) = options.trace.as_deref() else { return Ok(builder) };
     for number in 2..=builder.foreground_count() {
         let path = numbered(first, number);
         let all = [options.results(), vec![("--trace", path.as_path())]].concat();
-        result_file::expect_apart(&all, &options.inputs()).map_err(SetupFailure::usage)?;
-        let file = results::file(&path).map_err(SetupFailure::usage)?;
+        result_file::expect_apart(&all, &options.inputs())?;
+        let file = results::file(&path)?;
         builder = builder.trace_of(number, file);
     }
     Ok(builder)
