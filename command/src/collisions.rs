@@ -66,6 +66,9 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
         let text = "part of its run was not observed: there may be more collisions";
         show::warning(&format!("{}: {text}", file.display()));
     }
+    for text in &found.unchecked {
+        show::warning(&format!("{}: {text}", file.display()));
+    }
     match code {
         Some(Exit::SUCCESS) => {}
         Some(Exit::ALARM | Exit::OUT_OF_TIME) if found.begun => {
@@ -118,6 +121,8 @@ fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {
             // Named as in diagnostics: from where the command runs.
             let beside = file.with_file_name(&contact.file);
             let of = if !contact.file.is_empty() && beside.is_file() { &beside } else { file }.display().to_string();
+            // What touches before the first motion belongs to no line.
+            let line = (*line).max(1);
             let object = json!({
                 "code": CODE, "severity": "error", "message": contact.to_string(), "file": of,
                 "line": line, "column": 1, "end_line": line, "end_column": 1, "help": null,

@@ -530,9 +530,9 @@ pub struct Place {
 pub struct Contact {
     /// Controller time in s.
     pub time: f64,
-    /// The place of the motion that brought them together.
+    /// The place of the motion that brought them together; empty if they touched before the first one.
     pub file: String,
-    /// From 1.
+    /// From 1; 0 before the first motion.
     pub line: u32,
     /// One of them.
     pub one: String,
@@ -550,7 +550,10 @@ impl fmt::Display for Contact {
         } else {
             write!(f, "{one} touches {other}")?;
         }
-        write!(f, " after {time:.3} s ({file}:{line})")
+        match line {
+            0 => write!(f, " after {time:.3} s, before the first motion"),
+            _ => write!(f, " after {time:.3} s ({file}:{line})"),
+        }
     }
 }
 

@@ -79,7 +79,11 @@ impl CollisionWatch {
                 let (watchers, found) = scene.watch(clearance, false);
                 let over = || Ok(is_over.load(Ordering::Acquire).then_some(()));
                 match port.accept(over).map(|connected| connected.map(|stream| receive(stream, watchers))) {
-                    Ok(Ok(Received::All)) => Contacts::All(std::mem::take(&mut found.borrow_mut().contacts)),
+                    Ok(Ok(Received::All)) => {
+                        let found = std::mem::take(&mut *found.borrow_mut());
+                        found.unchecked.iter().for_each(|text| tell_once(text));
+                        Contacts::All(found.contacts)
+                    }
                     Ok(Ok(Received::WithGaps)) => Contacts::Unknown,
                     _ => Contacts::Broken,
                 }

@@ -84,3 +84,40 @@ fn broken_bodies_are_refused_before_the_run() {
     folder.write("bad.toml", "[[body]]\nname = \"jig\"\nbox = [10, 10, 10]\non = \"flange\"\nchannel = 2\n");
     folder.arl2rs(&["run", "a.arl", "--cell", "bad.toml"]).is(2, "").says("from 1 to 1");
 }
+
+#[test]
+fn a_robot_that_waits_is_checked_where_its_place_is_known() {
+    let turns = "func void main()\n  movej j:{90,0,0,0,0,0}\n  movej j:{-90,0,0,0,0,0}\nendfunc\n";
+    let waits = "func void main()\n  waittime 10\nendfunc\n";
+    let channel = "[[channel]]\nprogram = \"b.arl\"\n";
+    // Side by side, 500 mm apart.
+    let placed = format!("base = [0, 0, 0]\n{channel}base = [0, 500, 0]\n");
+    let folder = Folder::new("collisions_waiting").with("a.arl", turns).with("b.arl", waits);
+    let folder = folder.with("placed.toml", &placed).with("unplaced.toml", channel);
+    let found = folder.arl2rs(&["check", "--collisions", "--cell", "placed.toml", "a.arl"]);
+    found.is(1, "").says("of channel 1 touches").says("of channel 2");
+    assert!(!found.err.contains("warning"), "{}", found.err);
+    for words in [&["check", "--collisions"][..], &["run", "--clearance", "0"]] {
+        let words = [words, &["--cell", "unplaced.toml", "a.arl"]].concat();
+        let found = folder.arl2rs(&words);
+        found.is(0, "").says("the robot of channel 2 was checked only against itself, as it did not move");
+        assert_eq!(found.err.matches("warning").count(), 1, "{}", found.err);
+    }
+}
+
+#[test]
+fn what_touches_before_the_first_motion_is_found() {
+    let folder = Folder::new("collisions_first").with("a.arl", "func void main()\n  waittime 1\nendfunc\n");
+    // A post around the flange of the robot at home.
+    let cell = "base = [0, 0, 0]\n[[body]]\nname = \"post\"\nbox = [3000, 3000, 400]\nat = [0, 0, 1000]\n";
+    folder.write("cell.toml", cell);
+    let found = folder.arl2rs(&["check", "--collisions", "--cell", "cell.toml", "a.arl"]);
+    found.is(1, "").says("touches post after 0.000 s, before the first motion");
+    let found = folder.arl2rs(&["check", "--collisions", "--cell", "cell.toml", "--format", "json", "a.arl"]);
+    let first = found.out.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).expect("JSON"));
+    let first = first.into_iter().find(|object| object["code"] == "collision").expect("a collision");
+    assert_eq!((&first["file"], &first["line"]), (&"a.arl".into(), &1.into()));
+    folder.write("cell.toml", &cell.replace("base = [0, 0, 0]\n", ""));
+    let found = folder.arl2rs(&["check", "--collisions", "--cell", "cell.toml", "a.arl"]);
+    found.is(0, "").says("the robot of channel 1 was checked only against itself, as it did not move: with `base`");
+}

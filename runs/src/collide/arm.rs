@@ -16,6 +16,8 @@ pub(super) struct Arm {
     own: Vec<usize>,
     /// Whether it is a carrier: what external axes move is where it is built, whatever `$BASE` is.
     is_carrier: bool,
+    /// Whether the cell says where it stands: the place of its base is known from the start.
+    is_placed: bool,
     flange: Pose,
     /// x, y, z in mm, a, b, c in deg; empty as long as the base is not known.
     base: Vec<f64>,
@@ -41,12 +43,12 @@ impl Joint {
 }
 
 impl Arm {
-    /// The robot of a channel, from 0.
-    pub(super) fn new(channel: usize, runs: &Runs) -> Self {
+    /// The robot of a channel, from 0; `is_placed`: whether the cell says where it stands.
+    pub(super) fn new(channel: usize, runs: &Runs, is_placed: bool) -> Self {
         let joint = |(joint, axis): (&arl_wire::LinkJoint, &arl_wire::Axis)| Joint::new(joint.joint(), axis);
         let joints: Vec<Joint> = runs.links.iter().zip(&runs.axes).map(joint).collect();
         let own = (0..joints.len()).collect();
-        Self::of(channel, joints, own, of_frame(&placed(&runs.flange)), false)
+        Self { is_placed, ..Self::of(channel, joints, own, of_frame(&placed(&runs.flange)), false) }
     }
 
     /// What an external axis of a channel's robot moves, with the carriers that it is on; `None` if the robot has no
@@ -66,7 +68,8 @@ impl Arm {
     fn of(channel: usize, joints: Vec<Joint>, own: Vec<usize>, flange: Pose, is_carrier: bool) -> Self {
         let (base, axes) = (Vec::new(), vec![0.0; joints.len()]);
         let (base_pose, links) = (Pose::IDENTITY, Vec::new());
-        let mut arm = Self { channel, joints, own, is_carrier, flange, base, base_pose, based: 0, axes, links };
+        let (is_placed, based) = (false, 0);
+        let mut arm = Self { channel, joints, own, is_carrier, is_placed, flange, base, base_pose, based, axes, links };
         arm.place_links();
         arm
     }
@@ -76,9 +79,10 @@ impl Arm {
         self.channel
     }
 
-    /// Moves the arm to its present position. The place of its base is known once the robot has moved.
-    pub(super) fn go_to(&mut self, moves: &Moves) {
-        let is_based = moves.line > 0 && !self.is_carrier;
+    /// Moves the arm to its present position; returns whether that is another one than before. Where the cell does not
+    /// say where the robot stands, the place of its base is known once the robot has moved.
+    pub(super) fn go_to(&mut self, moves: &Moves) -> bool {
+        let is_based = (self.is_placed || moves.line > 0) && !self.is_carrier;
         let base = if is_based { &moves.base[..] } else { &[] };
         let mut stays = base == self.base;
         for (axis, at) in self.axes.iter_mut().zip(&self.own) {
@@ -87,7 +91,7 @@ impl Arm {
             *axis = *now;
         }
         if stays {
-            return;
+            return false;
         }
         if base != self.base {
             base.clone_into(&mut self.base);
@@ -96,6 +100,7 @@ impl Arm {
             self.based += 1;
         }
         self.place_links();
+        true
     }
 
     /// Whether it is a robot, not a carrier.

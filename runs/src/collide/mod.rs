@@ -12,6 +12,7 @@ mod pair;
 mod parts;
 #[cfg(test)]
 mod tests;
+mod unchecked;
 
 use std::cell::RefCell;
 use std::collections::btree_map::Entry;
@@ -32,6 +33,7 @@ use arm::Arm;
 use item::{Holder, Item};
 use pair::{Met, Pair};
 use parts::Parts;
+use unchecked::Unchecked;
 
 /// The result of looking for collisions.
 #[derive(Default, Debug)]
@@ -40,6 +42,8 @@ pub struct Found {
     pub begun: bool,
     /// The pairs that came too near to each other, in the order of time.
     pub contacts: Vec<Contact>,
+    /// Which robots were not checked against anything else for a time, and why, in words.
+    pub unchecked: Vec<String>,
 }
 
 /// Everything that can touch or be touched, for run after run.
@@ -49,6 +53,8 @@ pub struct Scene {
     bodies: Vec<Item>,
     /// For each channel, the forms of the robot's links, where it has any.
     links: Vec<Vec<Item>>,
+    /// For each channel, whether the cell says where the robot stands.
+    placed: Vec<bool>,
     carriers: Vec<Carrier>,
 }
 
@@ -65,7 +71,8 @@ impl Scene {
     /// A mesh cannot be read.
     pub fn of(scenery: &Scenery, tell: &dyn Fn(&str)) -> Result<Self, Failure> {
         let (parts, bodies, links) = (Parts::of(scenery)?, bodies(scenery)?, links(scenery, tell));
-        Ok(Self { parts, bodies, links, carriers: scenery.carriers.clone() })
+        let placed = (0..MOST_FOREGROUND).map(|channel| scenery.is_placed(channel)).collect();
+        Ok(Self { parts, bodies, links, placed, carriers: scenery.carriers.clone() })
     }
 
     /// Returns the subscriber that tracks bodies taken along by robots and the one that looks for collisions, in this
@@ -89,6 +96,8 @@ struct Collisions {
     bodies: Vec<Item>,
     /// For each channel, the forms of the robot's links, where it has any.
     links: Vec<Vec<Item>>,
+    /// For each channel, whether the cell says where the robot stands.
+    placed: Vec<bool>,
     carriers: Vec<Carrier>,
     /// mm; 0: contacts only.
     clearance: f64,
@@ -100,6 +109,7 @@ struct Collisions {
     touched: BTreeSet<[String; 2]>,
     /// How many forms of a pair touch now, by the names of the two.
     touching: BTreeMap<[String; 2], usize>,
+    unchecked: Unchecked,
     found: Rc<RefCell<Found>>,
     /// Whether contacts are reported as they occur.
     tells: bool,
@@ -108,20 +118,32 @@ struct Collisions {
 impl Collisions {
     /// Looks for collisions in a scene; also returns where its findings will be.
     fn new(scene: Scene, clearance: f64, tells: bool) -> (Self, Rc<RefCell<Found>>) {
-        let Scene { bodies, links, carriers, .. } = scene;
+        let Scene { bodies, links, placed, carriers, parts: _ } = scene;
         let found = Rc::<RefCell<Found>>::default();
-        let (arms, items, pairs) = (Vec::new(), Vec::new(), Vec::new());
-        let (touched, touching) = (BTreeSet::new(), BTreeMap::new());
-        let watched = Rc::clone(&found);
-        (
-            Self { bodies, links, carriers, clearance, arms, items, pairs, touched, touching, found: watched, tells },
-            found,
-        )
+        let collisions = Self {
+            bodies,
+            links,
+            placed,
+            carriers,
+            clearance,
+            arms: Vec::new(),
+            items: Vec::new(),
+            pairs: Vec::new(),
+            touched: BTreeSet::new(),
+            touching: BTreeMap::new(),
+            unchecked: Unchecked::default(),
+            found: Rc::clone(&found),
+            tells,
+        };
+        (collisions, found)
     }
 
     fn begin(&mut self, hello: &Hello) {
         let several = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count() > 1;
-        let robot = |(channel, runs): (usize, &Runs)| (!runs.links.is_empty()).then(|| Arm::new(channel, runs));
+        let is_placed = |channel: usize| self.placed.get(channel).is_some_and(|placed| *placed);
+        let robot = |(channel, runs): (usize, &Runs)| {
+            (!runs.links.is_empty()).then(|| Arm::new(channel, runs, is_placed(channel)))
+        };
         self.arms = hello.channels.iter().enumerate().map(robot).collect();
         let carrier = |at| Arm::carrier(&self.carriers, at, &hello.channels);
         self.arms.extend((0..self.carriers.len()).map(carrier));
@@ -148,6 +170,8 @@ impl Collisions {
         self.items.extend(self.bodies.iter().map(held));
         self.pairs = pair::pairs(&self.items, &self.arms);
         self.touching.clear();
+        let with_others = self.pairs.iter().filter(|pair| !pair.is_own()).flat_map(Pair::arms);
+        self.unchecked = Unchecked::new(with_others.filter(|arm| *arm < hello.channels.len()));
         self.found.borrow_mut().begun = true;
     }
 
@@ -172,11 +196,15 @@ impl Collisions {
 
     /// Moves all robots to their present positions.
     fn go_to(&mut self, cycle: &Cycle) {
-        for arm in self.arms.iter_mut().flatten() {
-            if let Some(moves) = cycle.channels.get(arm.channel()) {
-                arm.go_to(moves);
+        let mut moved = Vec::new();
+        for (at, arm) in self.arms.iter_mut().enumerate() {
+            let Some(arm) = arm else { continue };
+            if cycle.channels.get(arm.channel()).is_some_and(|moves| arm.go_to(moves)) {
+                moved.push(at);
             }
         }
+        let unchecked = self.unchecked.cycle(&self.arms, &moved, cycle.time);
+        self.tell_unchecked(unchecked);
     }
 
     /// Checks all pairs that may have come near enough to each other to matter.
@@ -230,6 +258,14 @@ impl Collisions {
         near
     }
 
+    /// Reports robots that were not checked against anything else.
+    fn tell_unchecked(&self, texts: Vec<String>) {
+        if self.tells {
+            texts.iter().for_each(|text| show::warning(text));
+        }
+        self.found.borrow_mut().unchecked.extend(texts);
+    }
+
     /// Reports contacts, and passes them on to the subscribers after this one.
     fn tell(&self, contacts: Vec<Contact>) -> Vec<Line> {
         if self.tells {
@@ -256,7 +292,11 @@ impl Subscriber for Collisions {
                 Vec::new()
             }
             Line::Cycle(cycle) => self.cycle(cycle),
-            Line::Ended(_) => self.nearest(),
+            Line::Ended(_) => {
+                let unchecked = self.unchecked.ended(&self.arms);
+                self.tell_unchecked(unchecked);
+                self.nearest()
+            }
             _ => Vec::new(),
         };
         Ok(self.tell(contacts))

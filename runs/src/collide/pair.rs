@@ -195,9 +195,14 @@ impl Pair {
         Self { items, ends, is_own, is_built, shared, overlap, is_new, stays_near, state: State::Apart, known: None }
     }
 
-    #[cfg(test)]
+    /// Whether its items are parts of one robot.
     pub(super) fn is_own(&self) -> bool {
         self.is_own
+    }
+
+    /// The arms that move its items.
+    pub(super) fn arms(&self) -> impl Iterator<Item = usize> {
+        self.ends.into_iter().filter_map(|end| end.arm)
     }
 
     /// Notes that one of its items is elsewhere; returns whether the two touched until now.

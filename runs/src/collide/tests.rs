@@ -713,3 +713,55 @@ fn many_bodies_cost_by_their_number() {
     assert!(collisions.pairs.is_sorted_by_key(|pair| pair.items));
     assert_eq!(collisions.cycle(&cycle(0, &[vec![0.0, -90.0, 90.0, 0.0, 90.0, 0.0]])), []);
 }
+
+/// Two robots in one place, of which the second one moves from its 500th cycle on; what was found, where the cell has
+/// this text.
+fn found_beside_a_robot_that_waits(text: &str, cycles: u32) -> Found {
+    let home = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0];
+    let (collisions, found) = Collisions::new(scene(&scenery_of_two(text)).unwrap(), 0.0, false);
+    let mut watcher: Box<dyn Subscriber> = Box::new(collisions);
+    watcher.receive(&Line::Hello(hello(&["kr10-r1420", "kr10-r1420"]))).unwrap();
+    for step in 0..cycles {
+        let turned = f64::from(step.saturating_sub(500)) * 0.1;
+        let first = Moves {
+            file: "a.arl".into(),
+            line: 1,
+            base: vec![0.0; 6],
+            axes: vec![f64::from(step) * 0.05, -90.0, 90.0, 0.0, 0.0, 0.0],
+        };
+        let waits = Moves { base: vec![0.0; 6], axes: home.to_vec(), ..Moves::default() };
+        let moves =
+            Moves { file: "b.arl".into(), line: 7, axes: vec![turned, -90.0, 90.0, 0.0, 0.0, 0.0], ..waits.clone() };
+        let second = if step < 500 { waits } else { moves };
+        let here = Cycle { time: f64::from(step) * 0.001, channels: vec![first, second], ..Cycle::default() };
+        watcher.receive(&Line::Cycle(here)).unwrap();
+    }
+    watcher.receive(&Line::Ended(0)).unwrap();
+    found.take()
+}
+
+fn scenery_of_two(text: &str) -> Scenery {
+    let robots = ["kr10-r1420"; 2].map(|name| Robot::load(name).unwrap());
+    Scenery::of(&Cell::parse("cell.toml", text).unwrap(), &robots, &|_| {}).unwrap()
+}
+
+#[test]
+fn a_robot_whose_place_is_given_is_checked_from_the_start() {
+    let placed = "base = [0, 0, 0]\n[[channel]]\nprogram = \"b.arl\"\nbase = [0, 0, 0]\n";
+    let found = found_beside_a_robot_that_waits(placed, 400);
+    assert!(found.contacts.iter().any(|contact| contact.time == 0.0), "{found:?}");
+    assert!(found.unchecked.is_empty(), "{found:?}");
+}
+
+#[test]
+fn a_robot_whose_place_is_not_known_is_named() {
+    let text = "[[channel]]\nprogram = \"b.arl\"\n";
+    let found = found_beside_a_robot_that_waits(text, 400);
+    assert!(found.contacts.is_empty(), "{found:?}");
+    let [unchecked] = &found.unchecked[..] else { panic!("{found:?}") };
+    assert!(unchecked.contains("channel 2") && unchecked.contains("did not move"), "{unchecked}");
+    let found = found_beside_a_robot_that_waits(text, 600);
+    assert!(found.contacts.iter().all(|contact| contact.time >= 0.5) && !found.contacts.is_empty(), "{found:?}");
+    let [unchecked] = &found.unchecked[..] else { panic!("{found:?}") };
+    assert!(unchecked.contains("channel 2") && unchecked.contains("after 0.500 s"), "{unchecked}");
+}

@@ -26,6 +26,8 @@ pub struct Scenery {
     pub carriers: Vec<Carrier>,
     /// The shapes of the robots by channels; `None`: capsules along the robot's links.
     shapes: Vec<Option<Shape>>,
+    /// Whether the cell says where the robots stand, by channels.
+    placed: Vec<bool>,
 }
 
 /// The looks of something, and what of it can be touched.
@@ -70,12 +72,18 @@ impl Scenery {
             has_axis(robot, carrier)?;
         }
         let shapes = all.iter().map(|(robot, stands)| shape_of(robot, stands, tell)).collect::<Result<_, Failure>>()?;
-        Ok(Self { bodies, carriers: cell.carriers.clone(), shapes })
+        let placed = all.iter().map(|(_, stands)| stands.base.is_some()).collect();
+        Ok(Self { bodies, carriers: cell.carriers.clone(), shapes, placed })
     }
 
     /// The shape of the robot of a channel, from 0.
     pub fn shape(&self, channel: usize) -> Option<&Shape> {
         self.shapes.get(channel)?.as_ref()
+    }
+
+    /// Whether the cell says where the robot of a channel, from 0, stands.
+    pub fn is_placed(&self, channel: usize) -> bool {
+        self.placed.get(channel).is_some_and(|placed| *placed)
     }
 }
 
