@@ -46,7 +46,8 @@ impl Hint {
                 "Poses are written in braces, in mm and deg: `{x 100, y 200, z 300, a 0, b 180, c 0}`."
             }
             Hint::ModuleCall => {
-                "A component cannot be called. A function of a module is written after two colons: `module::function(...)`."
+                "A component cannot be called, and there are no methods: a function gets what it works on as \
+                 an argument, `function(value)`. A function of a module is written after two colons, `module::function(...)`."
             }
             Hint::TypeBehindFunc => "The type of the result follows `func`: `func void name()`.",
             Hint::OneCase => "A `case` has one value; for several values use `if`, or a function that each case calls.",

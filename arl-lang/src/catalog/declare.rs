@@ -424,4 +424,6 @@ setters! { Component:
     at_least(low: f64) { range = Some(Range::AtLeast(low)) }
     /// The greatest number that makes sense.
     at_most(high: f64) { range = Some(Range::AtMost(high)) }
+    /// Only `false` makes sense.
+    only_false() { range = Some(Range::OnlyFalse) }
 }

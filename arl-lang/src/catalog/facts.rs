@@ -14,16 +14,19 @@ pub enum Range {
     AtLeast(f64),
     /// This number and those below it.
     AtMost(f64),
+    /// Only `false`, which counts as 0: what `true` would switch on does not exist.
+    OnlyFalse,
 }
 
 impl Range {
-    /// Whether a number is in the range.
+    /// Whether a number is in the range; `false` and `true` count as 0 and 1.
     pub fn holds(self, number: f64) -> bool {
         match self {
             Self::Within(low, high) => (low..=high).contains(&number),
             Self::Above(low) => number > low,
             Self::AtLeast(low) => number >= low,
             Self::AtMost(high) => number <= high,
+            Self::OnlyFalse => number == 0.0,
         }
     }
 }
@@ -36,6 +39,7 @@ impl fmt::Display for Range {
             Self::Above(low) => write!(f, "above {low}"),
             Self::AtLeast(low) => write!(f, "{low} or more"),
             Self::AtMost(high) => write!(f, "{high} or less"),
+            Self::OnlyFalse => f.write_str("false"),
         }
     }
 }

@@ -105,12 +105,12 @@ structure! { WEAVEDATA =
         dwell_left: double zero [at_least(0.0)] "stay at the left end, s, 0 or more",
         dwell_right: double zero [at_least(0.0)] "stay at the right end, s, 0 or more",
         dwell_middle: double zero [at_least(0.0)] "stay in the middle each time it is passed, s, 0 or more",
-        track: bool zero "whether the seam is tracked: there is no weld tracking, only false is accepted",
+        track: bool zero [only_false()] "whether the seam is tracked: there is no weld tracking, only false is accepted",
         swing_angle: double zero [range(0.0, 180.0)] "opening angle of the V and triangle patterns, 0 to 180 deg",
         radius: double zero [at_least(0.0)] "radius of the round patterns along the path, mm, 0 or more",
         weaverotaxis: weaverotaxis zero "the axis about which the plane of the pattern is turned",
         rotation_angle: double zero "how far the plane of the pattern is turned, deg",
-        vibrat: bool zero "whether the vibration is on: there is none, only false is accepted",
+        vibrat: bool zero [only_false()] "whether the vibration is on: there is none, only false is accepted",
     }
 }
 

@@ -172,6 +172,7 @@ fn is_range(range: Range) -> bool {
     let bounds: &[f64] = match &range {
         Range::Within(low, high) => &[*low, *high],
         Range::Above(bound) | Range::AtLeast(bound) | Range::AtMost(bound) => &[*bound],
+        Range::OnlyFalse => &[],
     };
     bounds.is_sorted_by(|low, high| low < high) && bounds.iter().all(|bound| bound.is_finite())
 }

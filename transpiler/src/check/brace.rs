@@ -164,7 +164,11 @@ impl Checker<'_> {
     pub(crate) fn check_component(&mut self, body: &CheckedBody, id: Struct, index: usize, value: &Expr) {
         let def = id.def(self.family());
         let Some(component) = def.components.get(index) else { return };
-        let (Some(range), Some(number)) = (component.range, number(value)) else { return };
+        let number = match value.kind {
+            ExprKind::Const(Value::Bool(value)) => Some(f64::from(value)),
+            _ => number(value),
+        };
+        let (Some(range), Some(number)) = (component.range, number) else { return };
         if range.holds(number) || component.start == Start::Unset && number == UNSET {
             return;
         }
