@@ -32,6 +32,7 @@ mod rate;
 #[cfg(feature = "files")]
 #[doc(hidden)]
 pub mod regular_file;
+pub mod renaming;
 // Like `atomic_file`: they write the results of runs with this module.
 #[cfg(feature = "files")]
 #[doc(hidden)]

@@ -80,10 +80,20 @@ impl Seek for ResultFile {
 /// better than nothing.
 fn is_of_the_folder(error: io::ErrorKind) -> bool {
     use io::ErrorKind::{
-        CrossesDevices, InvalidFilename, PermissionDenied, ReadOnlyFilesystem, ResourceBusy, TimedOut, Unsupported,
+        CrossesDevices, InvalidFilename, NotFound, PermissionDenied, ReadOnlyFilesystem, ResourceBusy, TimedOut,
+        Unsupported,
     };
-    let kinds =
-        [CrossesDevices, InvalidFilename, PermissionDenied, ReadOnlyFilesystem, ResourceBusy, TimedOut, Unsupported];
+    // Where a name is too long, some systems find no such file.
+    let kinds = [
+        CrossesDevices,
+        InvalidFilename,
+        NotFound,
+        PermissionDenied,
+        ReadOnlyFilesystem,
+        ResourceBusy,
+        TimedOut,
+        Unsupported,
+    ];
     kinds.contains(&error)
 }
 

@@ -31,7 +31,7 @@ pub(crate) fn write(place: &Place, bytes: &[u8]) -> Result<PathBuf, Failure> {
         // name first, because several processes and threads may write at once.
         let fresh = place.folder.join(format!("{CODE}{:016x}.new", RandomState::new().hash_one(std::process::id())));
         std::fs::write(&fresh, bytes)?;
-        std::fs::rename(&fresh, &path)
+        arl_robot::renaming::rename(&fresh, &path)
     };
     match written() {
         // Where nothing can be written, code that is there is as good.

@@ -10,6 +10,18 @@ use std::sync::{Mutex, PoisonError};
 /// The folders of this process.
 static FOLDERS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
+/// Creates folders that only this user may enter. On Windows those for temporary files are the user's own.
+fn private() -> DirBuilder {
+    let make = DirBuilder::new();
+    #[cfg(unix)]
+    let make = {
+        let mut make = make;
+        std::os::unix::fs::DirBuilderExt::mode(&mut make, 0o700);
+        make
+    };
+    make
+}
+
 /// Removes all folders of a process that ends without dropping them.
 pub(crate) fn remove_all() {
     let folders = std::mem::take(&mut *FOLDERS.lock().unwrap_or_else(PoisonError::into_inner));
@@ -27,9 +39,7 @@ impl PrivateFolder {
     /// The folder cannot be created.
     pub fn new(prefix: &str) -> Result<Self> {
         static NEXT: AtomicU64 = AtomicU64::new(0);
-        let mut make = DirBuilder::new();
-        #[cfg(unix)]
-        std::os::unix::fs::DirBuilderExt::mode(&mut make, 0o700);
+        let make = private();
         loop {
             let number = NEXT.fetch_add(1, Ordering::Relaxed);
             let path = std::env::temp_dir().join(format!("{prefix}{}-{number}", std::process::id()));

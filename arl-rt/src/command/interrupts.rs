@@ -78,12 +78,11 @@ fn watch(flag: &Arc<AtomicBool>, exit_code: u8) -> io::Result<()> {
 
 fn signals() -> Vec<i32> {
     use signal_hook::consts::{SIGINT, SIGTERM};
-    let mut signals = vec![SIGINT, SIGTERM];
     #[cfg(unix)]
     if minds_hang_up() {
-        signals.push(signal_hook::consts::SIGHUP);
+        return vec![SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
     }
-    signals
+    vec![SIGINT, SIGTERM]
 }
 
 #[cfg(unix)]

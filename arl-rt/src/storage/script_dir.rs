@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use arl_robot::regular_file;
 
@@ -40,23 +40,22 @@ impl ScriptDir {
     pub(crate) fn below(&self, name: &Str, inner: &Path) -> Result<PathBuf, Fault> {
         let text = name.to_text();
         let problem = |problem: &str| Fault::File { path: text.clone().into(), problem: problem.into() };
-        let relative = Path::new(text.strip_prefix(ON_CONTROLLER).unwrap_or(&text));
+        let relative = text.strip_prefix(ON_CONTROLLER).unwrap_or(&text);
+        if relative.starts_with('/') {
+            return Err(problem("paths are relative to the script directory, or begin with /home/ae/script/"));
+        }
         let mut path = self.0.join(inner);
         let mut named = false;
-        for component in relative.components() {
-            match component {
-                Component::Normal(part) => {
-                    path.push(part);
-                    named = true;
-                }
-                Component::CurDir => {}
-                Component::ParentDir => {
-                    return Err(problem("a path with `..` may lead out of the script directory"));
-                }
-                Component::RootDir | Component::Prefix(_) => {
-                    return Err(problem("paths are relative to the script directory, or begin with /home/ae/script/"));
-                }
+        // By the rules of the controller on every system: `/` alone separates.
+        for part in relative.split('/').filter(|part| !["", "."].contains(part)) {
+            if part == ".." {
+                return Err(problem("a path with `..` may lead out of the script directory"));
             }
+            if cfg!(windows) && !is_a_name_on_windows(part) {
+                return Err(problem("Windows has no files of this name"));
+            }
+            path.push(part);
+            named = true;
         }
         if named && !text.contains('\0') { Ok(path) } else { Err(problem("this is not a file name")) }
     }
@@ -85,6 +84,19 @@ impl ScriptDir {
             .map_err(|error| fault(format!("cannot be opened for writing: {error}")))?;
         append_whole(&mut file, text).map_err(|error| fault(format!("cannot be written: {error}")))
     }
+}
+
+/// Whether Windows can give a file this name: no separators, streams, patterns or devices.
+fn is_a_name_on_windows(part: &str) -> bool {
+    const DEVICES: [&str; 6] = ["CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"];
+    const NUMBERED: [&str; 2] = ["COM", "LPT"];
+    let stem = part.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
+    let is_digit = |number: &str| number.len() == 1 && number.bytes().all(|byte| byte.is_ascii_digit());
+    let is_numbered = |device: &&str| stem.strip_prefix(*device).is_some_and(is_digit);
+    !part.contains(|c: char| c.is_control() || "\\:*?\"<>|".contains(c))
+        && !part.ends_with(['.', ' '])
+        && !DEVICES.contains(&&*stem)
+        && !NUMBERED.iter().any(is_numbered)
 }
 
 /// Appends a whole text, or nothing of it if the disk is full.
@@ -131,7 +143,7 @@ mod tests {
     #[test]
     fn paths_stay_below_the_script_directory() {
         let scripts = ScriptDir::new(PathBuf::from("/robot/scripts"));
-        let file = |name: &str| scripts.file(&name.into()).map(|path| path.display().to_string());
+        let file = |name: &str| scripts.file(&name.into()).map(|path| path.display().to_string().replace('\\', "/"));
         assert_eq!(file("mylog/a.log").unwrap(), "/robot/scripts/mylog/a.log");
         assert_eq!(file("./a.log").unwrap(), "/robot/scripts/a.log");
         assert_eq!(file("/home/ae/script/sub/a.log").unwrap(), "/robot/scripts/sub/a.log");
@@ -139,6 +151,18 @@ mod tests {
             ["", ".", "/", "/etc/passwd", "../a", "a/../../b", "/home/ae/script/../a", "/home/ae/script/", "a\0b"]
         {
             assert!(file(wrong).is_err(), "{wrong:?}");
+        }
+    }
+
+    #[test]
+    fn names_that_windows_has_no_files_for() {
+        for name in ["a.log", "a b", "CONSOLE.log", "COM10", "com.txt", "点.txt", ".hidden"] {
+            assert!(is_a_name_on_windows(name), "{name}");
+        }
+        for name in
+            ["a\\b", "..\\a", "C:a", "a:b", "con", "Nul.txt", "COM1", "lpt9.log", "aux .x", "a.", "a ", "a*", "a\n"]
+        {
+            assert!(!is_a_name_on_windows(name), "{name}");
         }
     }
 }

@@ -120,7 +120,7 @@ impl Spread {
         std::fs::write(&beside, &**self.program)?;
         #[cfg(unix)]
         std::fs::set_permissions(&beside, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
-        std::fs::rename(&beside, self.root.folder.path().join(self.name))
+        arl_robot::renaming::rename(&beside, &self.root.folder.path().join(self.name))
     }
 }
 

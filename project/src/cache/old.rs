@@ -180,13 +180,15 @@ mod tests {
     #[test]
     fn names_of_what_cargo_makes() {
         let package = "arl-pick_me-0a1b2c3d";
+        // As the system names libraries: `libNAME.so`, `NAME.dll`.
+        let library = |name: &str, end: &str| format!("{}{name}{end}", std::env::consts::DLL_PREFIX);
         for name in [
             "arl-pick_me-0a1b2c3d",
             "arl-pick_me-0a1b2c3d.d",
             "arl_pick_me_0a1b2c3d-00ff.d",
             "arl-pick_me-0a1b2c3d-part1",
-            "libarl_pick_me_0a1b2c3d.so",
-            "libarl_pick_me_0a1b2c3d.d",
+            &library("arl_pick_me_0a1b2c3d", std::env::consts::DLL_SUFFIX),
+            &library("arl_pick_me_0a1b2c3d", ".d"),
         ] {
             assert!(is_made_of(name, package), "{name}");
         }
@@ -201,7 +203,8 @@ mod tests {
         ] {
             assert!(!is_made_of(name, package), "{name}");
         }
-        assert!(is_made_of("libarl_pick_me_0a1b2c3d_library.so", "arl-pick_me-0a1b2c3d-library"));
+        let library = library("arl_pick_me_0a1b2c3d_library", std::env::consts::DLL_SUFFIX);
+        assert!(is_made_of(&library, "arl-pick_me-0a1b2c3d-library"));
     }
 
     #[test]
@@ -234,6 +237,7 @@ mod tests {
         std::fs::write(&results, "12345").expect("written");
         let old = std::fs::File::options().write(true).open(&results).expect("the file");
         old.set_modified(SystemTime::now() - day * 3).expect("the time is set");
+        drop(old);
         let used = Lock::take(&root.join("programs/arl-c-00000003"), true, "").expect("a lock");
         used_at(&root.join("programs/arl-c-00000003"), SystemTime::now() - day * 3);
 
@@ -272,6 +276,7 @@ mod tests {
         std::fs::write(&results, "12345").expect("written");
         let file = std::fs::File::options().write(true).open(&results).expect("the file");
         file.set_modified(SystemTime::now() + day).expect("the time is set");
+        drop(file);
         assert_eq!(cache.clean(day), Removed::default());
         let is_now =
             |path: &Path| path.metadata().and_then(|data| data.modified()).expect("a time") <= SystemTime::now();

@@ -2,22 +2,24 @@
 //! killed. Symbolic links, modes and owners are kept, and what other programs write meanwhile is not lost. Hard links
 //! are separated: the other names keep the old content.
 
+mod directory_lock;
+
 use std::fmt;
-use std::fs::{self, File, Metadata, OpenOptions, TryLockError};
+use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::regular_file;
+use crate::renaming::rename;
+use directory_lock::lock;
 
 /// The ending of the name of a file that is to replace another one: `NAME.PROCESS-NUMBER` and this. No user names a
 /// file like this.
 const BESIDE: &str = ".arl-new";
 /// The ending instead of `BESIDE` if the file may be the only copy of some content.
 const KEPT: &str = "arl-kept";
-/// The longest wait for other writers that replace files of the same directory.
-const LONGEST_WAIT: Duration = Duration::from_secs(5);
 /// How often a change is tried while others write the same file.
 const TRIES: usize = 50;
 /// The time after which an editor that has emptied a file has written it again.
@@ -66,7 +68,7 @@ pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     let draft = Draft::new(&file, content, old.as_ref())?;
     {
         let _lock = lock(directory_of(&file))?;
-        fs::rename(&draft.path, &file)?;
+        draft.replace(&file)?;
     }
     sync_directory(&file);
     Ok(())
@@ -109,7 +111,7 @@ pub fn create(path: &Path, content: &[u8]) -> io::Result<()> {
     let draft = Draft::new(&file, content, None)?;
     match fs::hard_link(&draft.path, &file) {
         Ok(()) => {}
-        Err(_) if !file.exists() => fs::rename(&draft.path, &file)?,
+        Err(_) if !file.exists() => draft.replace(&file)?,
         Err(_) => return Err(io::ErrorKind::AlreadyExists.into()),
     }
     sync_directory(&file);
@@ -159,7 +161,7 @@ fn replace<E>(file: &Path, old: &[u8], new: &[u8]) -> Result<bool, ChangeError<E
         Ok(()) => put_back_news(&draft.path, file, old, new).map_err(|error| ChangeError::Aside(draft.keep(), error)),
         Err(_) if !file.exists() => Ok(false),
         // Not every file system supports this. On such ones, what is written at this very moment is lost.
-        Err(_) => fs::rename(&draft.path, file).map(|()| true).map_err(ChangeError::Write),
+        Err(_) => draft.replace(file).map(|()| true).map_err(ChangeError::Write),
     }
 }
 
@@ -176,7 +178,7 @@ fn put_back_news(beside: &Path, file: &Path, old: &[u8], new: &[u8]) -> io::Resu
         }
         stays = false;
         if exchange(beside, file).is_err() {
-            return fs::rename(beside, file).map(|()| stays);
+            return rename(beside, file).map(|()| stays);
         }
         (expected, placed) = (placed, found);
     }
@@ -235,31 +237,12 @@ fn sync_directory(file: &Path) {
     }
 }
 
-/// Waits until no other user of this module replaces files of a directory. `None` if directories cannot be locked: then
-/// files written meanwhile are only noticed.
-fn lock(directory: &Path) -> io::Result<Option<File>> {
-    let Ok(directory) = File::open(directory) else { return Ok(None) };
-    let began = Instant::now();
-    loop {
-        match directory.try_lock() {
-            Ok(()) => return Ok(Some(directory)),
-            Err(TryLockError::WouldBlock) if began.elapsed() < LONGEST_WAIT => {
-                std::thread::sleep(Duration::from_millis(1));
-            }
-            Err(TryLockError::WouldBlock) => {
-                return Err(io::Error::new(io::ErrorKind::TimedOut, "another program keeps its directory locked"));
-            }
-            Err(TryLockError::Error(_)) => return Ok(None),
-        }
-    }
-}
-
 /// A file beside another one that it is to replace; removed again if it does not.
 struct Draft {
     path: PathBuf,
     is_kept: bool,
-    /// As long as this is open, the file does not count as abandoned.
-    _held: File,
+    /// As long as this is open and locked, the file does not count as abandoned.
+    held: File,
 }
 
 impl Draft {
@@ -283,8 +266,15 @@ impl Draft {
             old.map_or(Ok(()), |old| make_alike(&held, old))?;
             held.sync_all()
         })();
-        let draft = Self { path, is_kept: false, _held: held };
+        let draft = Self { path, is_kept: false, held };
         written.map(|()| draft)
+    }
+
+    /// Lets the draft take the place of a file; the caller holds the lock of the directory, so that nobody takes the
+    /// draft for an abandoned one. On Windows nobody could read the file as long as the draft is locked.
+    fn replace(&self, file: &Path) -> io::Result<()> {
+        let _ = self.held.unlock();
+        rename(&self.path, file)
     }
 
     /// Keeps the draft, if possible under a name that [`remove_leftovers`] ignores; returns its path.
@@ -293,7 +283,7 @@ impl Draft {
         // Another computer, or a container, may have kept a draft of a process with the same number.
         let mut names = (0..).map(|number| self.path.with_extension(format!("{number}.{KEPT}")));
         let Some(kept) = names.find(|kept| !kept.exists()) else { return self.path.clone() };
-        if fs::rename(&self.path, &kept).is_ok() { kept } else { self.path.clone() }
+        if rename(&self.path, &kept).is_ok() { kept } else { self.path.clone() }
     }
 }
 
