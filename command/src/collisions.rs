@@ -66,8 +66,8 @@ pub(crate) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool
         let text = "part of its run was not observed: there may be more collisions";
         show::warning(&format!("{}: {text}", file.display()));
     }
-    for text in &found.unchecked {
-        show::warning(&format!("{}: {text}", file.display()));
+    for robot in &found.unchecked {
+        show::warning(&format!("{}: {robot}", file.display()));
     }
     match code {
         Some(Exit::SUCCESS) => {}

@@ -81,7 +81,7 @@ impl CollisionWatch {
                 match port.accept(over).map(|connected| connected.map(|stream| receive(stream, watchers))) {
                     Ok(Ok(Received::All)) => {
                         let found = std::mem::take(&mut *found.borrow_mut());
-                        found.unchecked.iter().for_each(|text| tell_once(text));
+                        found.unchecked.iter().for_each(|robot| tell_once(&robot.in_any_run()));
                         Contacts::All(found.contacts)
                     }
                     Ok(Ok(Received::WithGaps)) => Contacts::Unknown,

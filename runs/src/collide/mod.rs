@@ -33,7 +33,8 @@ use arm::Arm;
 use item::{Holder, Item};
 use pair::{Met, Pair};
 use parts::Parts;
-use unchecked::Unchecked;
+pub use unchecked::Unchecked;
+use unchecked::Waiting;
 
 /// The result of looking for collisions.
 #[derive(Default, Debug)]
@@ -42,8 +43,8 @@ pub struct Found {
     pub begun: bool,
     /// The pairs that came too near to each other, in the order of time.
     pub contacts: Vec<Contact>,
-    /// Which robots were not checked against anything else for a time, and why, in words.
-    pub unchecked: Vec<String>,
+    /// The robots that were not checked against anything else for a time.
+    pub unchecked: Vec<Unchecked>,
 }
 
 /// Everything that can touch or be touched, for run after run.
@@ -109,7 +110,7 @@ struct Collisions {
     touched: BTreeSet<[String; 2]>,
     /// How many forms of a pair touch now, by the names of the two.
     touching: BTreeMap<[String; 2], usize>,
-    unchecked: Unchecked,
+    waiting: Waiting,
     found: Rc<RefCell<Found>>,
     /// Whether contacts are reported as they occur.
     tells: bool,
@@ -131,7 +132,7 @@ impl Collisions {
             pairs: Vec::new(),
             touched: BTreeSet::new(),
             touching: BTreeMap::new(),
-            unchecked: Unchecked::default(),
+            waiting: Waiting::default(),
             found: Rc::clone(&found),
             tells,
         };
@@ -171,7 +172,7 @@ impl Collisions {
         self.pairs = pair::pairs(&self.items, &self.arms);
         self.touching.clear();
         let with_others = self.pairs.iter().filter(|pair| !pair.is_own()).flat_map(Pair::arms);
-        self.unchecked = Unchecked::new(with_others.filter(|arm| *arm < hello.channels.len()));
+        self.waiting = Waiting::new(with_others.filter(|arm| *arm < hello.channels.len()));
         self.found.borrow_mut().begun = true;
     }
 
@@ -203,7 +204,7 @@ impl Collisions {
                 moved.push(at);
             }
         }
-        let unchecked = self.unchecked.cycle(&self.arms, &moved, cycle.time);
+        let unchecked = self.waiting.cycle(&self.arms, &moved, cycle.time);
         self.tell_unchecked(unchecked);
     }
 
@@ -259,11 +260,11 @@ impl Collisions {
     }
 
     /// Reports robots that were not checked against anything else.
-    fn tell_unchecked(&self, texts: Vec<String>) {
+    fn tell_unchecked(&self, unchecked: Vec<Unchecked>) {
         if self.tells {
-            texts.iter().for_each(|text| show::warning(text));
+            unchecked.iter().for_each(|robot| show::warning(&robot.to_string()));
         }
-        self.found.borrow_mut().unchecked.extend(texts);
+        self.found.borrow_mut().unchecked.extend(unchecked);
     }
 
     /// Reports contacts, and passes them on to the subscribers after this one.
@@ -293,7 +294,7 @@ impl Subscriber for Collisions {
             }
             Line::Cycle(cycle) => self.cycle(cycle),
             Line::Ended(_) => {
-                let unchecked = self.unchecked.ended(&self.arms);
+                let unchecked = self.waiting.ended(&self.arms);
                 self.tell_unchecked(unchecked);
                 self.nearest()
             }

@@ -759,9 +759,29 @@ fn a_robot_whose_place_is_not_known_is_named() {
     let found = found_beside_a_robot_that_waits(text, 400);
     assert!(found.contacts.is_empty(), "{found:?}");
     let [unchecked] = &found.unchecked[..] else { panic!("{found:?}") };
-    assert!(unchecked.contains("channel 2") && unchecked.contains("did not move"), "{unchecked}");
+    let said = unchecked.to_string();
+    assert!(said.contains("channel 2") && said.contains("did not move"), "{said}");
     let found = found_beside_a_robot_that_waits(text, 600);
     assert!(found.contacts.iter().all(|contact| contact.time >= 0.5) && !found.contacts.is_empty(), "{found:?}");
     let [unchecked] = &found.unchecked[..] else { panic!("{found:?}") };
-    assert!(unchecked.contains("channel 2") && unchecked.contains("after 0.500 s"), "{unchecked}");
+    let said = unchecked.to_string();
+    assert!(said.contains("channel 2") && said.contains("after 0.500 s"), "{said}");
+}
+
+#[test]
+fn programs_that_begin_together_are_checked_together() {
+    let mut collisions = begun("", 0.0, &["kr10-r1420", "kr10-r1420"]);
+    for step in 0..100_u32 {
+        let line = |from: u32| u32::from(step >= from);
+        let axes = |from: u32| vec![f64::from(step.saturating_sub(from)) * 0.001, -90.0, 90.0, 0.0, 0.0, 0.0];
+        let moves = |from: u32, x: f64| Moves {
+            file: "a.arl".into(),
+            line: line(from),
+            base: vec![x, 0.0, 0.0, 0.0, 0.0, 0.0],
+            axes: axes(from),
+        };
+        let channels = vec![moves(3, 0.0), moves(20, 5000.0)];
+        collisions.cycle(&Cycle { time: f64::from(step) * 0.001, channels, ..Cycle::default() });
+    }
+    assert_eq!(collisions.found.borrow().unchecked, []);
 }

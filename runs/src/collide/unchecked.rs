@@ -1,68 +1,92 @@
 //! Robots that are checked against themselves alone, as nothing says where they stand.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use super::arm::Arm;
 
+/// How long something else may have moved, in s, before a robot counts as unchecked: programs begin together, but not
+/// in the same cycle. From rest nothing gets a millimetre far in this time.
+const TOGETHER_S: f64 = 0.02;
+
+/// A robot that was checked only against itself for a time while something else moved, or for the whole run.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Unchecked {
+    /// From 1.
+    channel: usize,
+    /// The time of its first motion, in s; `None` if it did not move.
+    until: Option<f64>,
+}
+
+impl Unchecked {
+    /// The same without the time, which differs from run to run.
+    pub fn in_any_run(self) -> String {
+        format!(
+            "the robot of channel {} is checked only against itself until it moves: {}",
+            self.channel,
+            self.advice()
+        )
+    }
+
+    fn advice(self) -> &'static str {
+        match self.channel {
+            1 => "with `base` in the cell file it is known from the start where it stands",
+            _ => "with `base` in its [[channel]] of the cell file it is known from the start where it stands",
+        }
+    }
+}
+
+impl fmt::Display for Unchecked {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the robot of channel {} was checked only against itself", self.channel)?;
+        match self.until {
+            Some(time) => write!(f, " until its first motion, after {time:.3} s")?,
+            None => f.write_str(", as it did not move")?,
+        }
+        write!(f, ": {}", self.advice())
+    }
+}
+
 /// The robots whose place is not known yet.
 #[derive(Default)]
-pub(super) struct Unchecked {
-    /// By their indices among the arms; whether something else has moved in the meantime.
-    waiting: BTreeMap<usize, bool>,
+pub(super) struct Waiting {
+    /// By their indices among the arms; when something else has first moved, in s, if it has.
+    robots: BTreeMap<usize, Option<f64>>,
     /// Whether the arms are where the run begins.
     begun: bool,
 }
 
-impl Unchecked {
+impl Waiting {
     /// At the start of a run; `robots`: those with something to be checked against, by their indices among the arms.
     pub(super) fn new(robots: impl Iterator<Item = usize>) -> Self {
-        Self { waiting: robots.map(|robot| (robot, false)).collect(), begun: false }
+        Self { robots: robots.map(|robot| (robot, None)).collect(), begun: false }
     }
 
-    /// Notes which arms have moved in a cycle, by their indices; returns the robots whose place is known from this time
-    /// on, in s, and that may have touched something before, in words.
-    pub(super) fn cycle(&mut self, arms: &[Option<Arm>], moved: &[usize], time: f64) -> Vec<String> {
+    /// Notes which arms have moved in a cycle at this time, in s, by their indices; returns the robots whose place is
+    /// known now, and that may have touched something before.
+    pub(super) fn cycle(&mut self, arms: &[Option<Arm>], moved: &[usize], time: f64) -> Vec<Unchecked> {
         let begun = std::mem::replace(&mut self.begun, true);
-        let mut texts = Vec::new();
-        self.waiting.retain(|robot, missed| {
+        let mut unchecked = Vec::new();
+        self.robots.retain(|robot, first_moved| {
             let Some(arm) = arms.get(*robot).and_then(Option::as_ref) else { return false };
             if arm.is_based() {
-                if *missed {
-                    texts.push(format!(
-                        "the robot of channel {} was checked only against itself until its first motion, after \
-                         {time:.3} s: {}",
-                        arm.channel() + 1,
-                        advice(arm.channel())
-                    ));
+                if first_moved.is_some_and(|first| time - first > TOGETHER_S) {
+                    unchecked.push(Unchecked { channel: arm.channel() + 1, until: Some(time) });
                 }
                 return false;
             }
-            *missed |= begun && moved.iter().any(|other| other != robot);
+            if begun && moved.iter().any(|other| other != robot) {
+                first_moved.get_or_insert(time);
+            }
             true
         });
-        texts
+        unchecked
     }
 
-    /// The robots whose place never became known, in words.
-    pub(super) fn ended(&mut self, arms: &[Option<Arm>]) -> Vec<String> {
-        let waiting = std::mem::take(&mut self.waiting);
+    /// The robots whose place never became known.
+    pub(super) fn ended(&mut self, arms: &[Option<Arm>]) -> Vec<Unchecked> {
+        let waiting = std::mem::take(&mut self.robots);
         let robots = waiting.into_keys().filter_map(|robot| arms.get(robot)?.as_ref());
-        let text = |arm: &Arm| {
-            let channel = arm.channel();
-            format!(
-                "the robot of channel {} was checked only against itself, as it did not move: {}",
-                channel + 1,
-                advice(channel)
-            )
-        };
-        robots.map(text).collect()
-    }
-}
-
-/// How the place of a channel's robot, from 0, is known from the start.
-fn advice(channel: usize) -> &'static str {
-    match channel {
-        0 => "with `base` in the cell file it is known from the start where it stands",
-        _ => "with `base` in its [[channel]] of the cell file it is known from the start where it stands",
+        robots.map(|arm| Unchecked { channel: arm.channel() + 1, until: None }).collect()
     }
 }
