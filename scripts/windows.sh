@@ -7,9 +7,9 @@
 # rustup has no standard library for Windows where it cannot be fetched: it is compiled from the sources that Debian
 # packages, by the compiler that belongs to them. Everything lies below target/windows.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+root=$(cd "$(dirname "$0")/.." && pwd)
 
-place=$PWD/target/windows
+place=$root/target/windows
 system=$place/system
 export WINEPREFIX=$place/prefix WINEDEBUG=-all
 
@@ -18,13 +18,13 @@ install() {
   local packages=()
   command -v wine >/dev/null || packages+=(wine wine64)
   command -v x86_64-w64-mingw32-gcc >/dev/null || packages+=(gcc-mingw-w64-x86-64)
-  local root=()
-  [ "$(id -u)" = 0 ] || root=(sudo -n)
+  local administrator=()
+  [ "$(id -u)" = 0 ] || administrator=(sudo -n)
   if [ ${#packages[@]} -gt 0 ] || [ ! -x "$system/usr/bin/rustc" ]; then
-    "${root[@]}" apt-get update -q
+    "${administrator[@]}" apt-get update -q
   fi
   if [ ${#packages[@]} -gt 0 ]; then
-    "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${packages[@]}"
+    "${administrator[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${packages[@]}"
   fi
   [ -x "$system/usr/bin/rustc" ] && return
   local fresh=$place/unpacked version llvm name
@@ -60,10 +60,11 @@ if [ "${1:-}" = wine ]; then
   shift
   run "$@"
 fi
+cd "$root"
 mkdir -p "$place"
 install
 stand_in
 export LD_LIBRARY_PATH=$system/usr/lib/x86_64-linux-gnu RUSTC=$system/usr/bin/rustc RUSTC_BOOTSTRAP=1
 export CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER=x86_64-w64-mingw32-gcc
-export CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER="$PWD/scripts/windows.sh wine"
+export CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER="$root/scripts/windows.sh wine"
 exec cargo "$1" -Zbuild-std=std,panic_abort,panic_unwind,proc_macro,test --target x86_64-pc-windows-gnu --target-dir "$place/build" "${@:2}"
