@@ -56,7 +56,11 @@ run() {
   WINEPATH="Z:${place//\//\\}" exec wine "$@"
 }
 
-if [ "${1:-}" = wine ]; then
+if [ $# = 0 ]; then
+  sed -n '2,5s/^# \{0,1\}//p' "$0" >&2
+  exit 2
+fi
+if [ "$1" = wine ]; then
   shift
   run "$@"
 fi

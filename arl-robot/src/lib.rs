@@ -32,6 +32,9 @@ mod rate;
 #[cfg(feature = "files")]
 #[doc(hidden)]
 pub mod regular_file;
+// Like `atomic_file`: the command renames files with this module.
+#[cfg(feature = "files")]
+#[doc(hidden)]
 pub mod renaming;
 // Like `atomic_file`: they write the results of runs with this module.
 #[cfg(feature = "files")]

@@ -9,7 +9,8 @@ use std::time::Duration;
 /// The waits between the tries, in ms; together about 2 s.
 const WAITS_MS: [u64; 12] = [1, 2, 5, 10, 20, 50, 100, 200, 300, 400, 400, 500];
 
-/// Gives a file another name; a file that had it is replaced.
+/// Gives a file another name; a file that had it is replaced. It may take 2 s: nothing that a control cycle waits
+/// for calls it.
 ///
 /// # Errors
 /// The file system refuses, also after tries for about 2 s where another program has one of the files open.

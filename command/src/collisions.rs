@@ -121,7 +121,7 @@ fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {
             // Named as in diagnostics: from where the command runs.
             let beside = file.with_file_name(&contact.file);
             let of = if !contact.file.is_empty() && beside.is_file() { &beside } else { file }.display().to_string();
-            // What touches before the first motion belongs to no line.
+            // Where no motion led, such as to where the robot stands at first, there is no line.
             let line = (*line).max(1);
             let object = json!({
                 "code": CODE, "severity": "error", "message": contact.to_string(), "file": of,

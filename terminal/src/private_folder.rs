@@ -10,16 +10,18 @@ use std::sync::{Mutex, PoisonError};
 /// The folders of this process.
 static FOLDERS: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// Creates folders that only this user may enter. On Windows those for temporary files are the user's own.
+/// Creates folders that only this user may enter.
+#[cfg(unix)]
 fn private() -> DirBuilder {
-    let make = DirBuilder::new();
-    #[cfg(unix)]
-    let make = {
-        let mut make = make;
-        std::os::unix::fs::DirBuilderExt::mode(&mut make, 0o700);
-        make
-    };
+    let mut make = DirBuilder::new();
+    std::os::unix::fs::DirBuilderExt::mode(&mut make, 0o700);
     make
+}
+
+/// On Windows the folder for temporary files is the user's own.
+#[cfg(not(unix))]
+fn private() -> DirBuilder {
+    DirBuilder::new()
 }
 
 /// Removes all folders of a process that ends without dropping them.

@@ -530,9 +530,9 @@ pub struct Place {
 pub struct Contact {
     /// Controller time in s.
     pub time: f64,
-    /// The place of the motion that brought them together; empty if they touched before the first one.
+    /// The place of the motion that brought them together; empty if no motion of a program did.
     pub file: String,
-    /// From 1; 0 before the first motion.
+    /// From 1; 0 if no motion of a program brought them together.
     pub line: u32,
     /// One of them.
     pub one: String,
@@ -550,10 +550,8 @@ impl fmt::Display for Contact {
         } else {
             write!(f, "{one} touches {other}")?;
         }
-        match line {
-            0 => write!(f, " after {time:.3} s, before the first motion"),
-            _ => write!(f, " after {time:.3} s ({file}:{line})"),
-        }
+        write!(f, " after {time:.3} s")?;
+        if *line > 0 { write!(f, " ({file}:{line})") } else { Ok(()) }
     }
 }
 

@@ -33,7 +33,8 @@ fn lockable(directory: &Path) -> Option<File> {
     File::open(directory).ok()
 }
 
-/// What is locked for a directory, which Windows does not open as a file: a file for it among the temporary ones.
+/// What is locked for a directory, which Windows does not open as a file: a file for it among the temporary ones of the
+/// user. So writers of other users are not kept out, only noticed.
 #[cfg(windows)]
 fn lockable(directory: &Path) -> Option<File> {
     // FNV-1a: the same in all versions of this module.

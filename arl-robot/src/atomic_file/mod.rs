@@ -109,9 +109,10 @@ pub fn create(path: &Path, content: &[u8]) -> io::Result<()> {
     let file = followed(path)?;
     let _lock = lock(directory_of(&file))?;
     let draft = Draft::new(&file, content, None)?;
+    draft.release();
     match fs::hard_link(&draft.path, &file) {
         Ok(()) => {}
-        Err(_) if !file.exists() => draft.replace(&file)?,
+        Err(_) if !file.exists() => rename(&draft.path, &file)?,
         Err(_) => return Err(io::ErrorKind::AlreadyExists.into()),
     }
     sync_directory(&file);
@@ -270,10 +271,16 @@ impl Draft {
         written.map(|()| draft)
     }
 
-    /// Lets the draft take the place of a file; the caller holds the lock of the directory, so that nobody takes the
-    /// draft for an abandoned one. On Windows nobody could read the file as long as the draft is locked.
-    fn replace(&self, file: &Path) -> io::Result<()> {
+    /// Unlocks the draft before it gets the name of a file: on Windows nobody can read a file that is locked. The
+    /// caller holds the lock of the directory, so that nobody takes the draft for an abandoned one.
+    fn release(&self) {
+        // A draft that could not be locked is not.
         let _ = self.held.unlock();
+    }
+
+    /// Lets the draft take the place of a file; as for [`release`](Self::release), the directory is locked.
+    fn replace(&self, file: &Path) -> io::Result<()> {
+        self.release();
         rename(&self.path, file)
     }
 
@@ -410,7 +417,6 @@ mod tests {
     }
 
     /// The file beside is not held by any process while two files are exchanged.
-    #[cfg(unix)]
     #[test]
     fn nothing_is_removed_while_others_replace_files() {
         let path = folder("locked");

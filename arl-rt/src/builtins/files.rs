@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 
 use arl_robot::regular_file;
-use arl_robot::renaming::rename;
 
 use crate::context::cx::Cx;
 use crate::fault::Fault;
@@ -54,7 +53,7 @@ pub async fn renamefile(cx: &Cx, file_name: &Str, new_file_name: &Str) -> Result
     cx.motion_end().await;
     let scripts = &cx.shared().scripts;
     let (from, to) = (scripts.file(file_name)?, scripts.file(new_file_name)?);
-    Ok(from.is_file() && !to.exists() && rename(&from, &to).is_ok())
+    Ok(from.is_file() && !to.exists() && fs::rename(from, to).is_ok())
 }
 
 /// Deletes a file; true on success.

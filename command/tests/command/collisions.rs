@@ -100,7 +100,7 @@ fn a_robot_that_waits_is_checked_where_its_place_is_known() {
     for words in [&["check", "--collisions"][..], &["run", "--clearance", "0"]] {
         let words = [words, &["--cell", "unplaced.toml", "a.arl"]].concat();
         let found = folder.arl2rs(&words);
-        found.is(0, "").says("the robot of channel 2 was checked only against itself, as it did not move");
+        found.is(0, "").says("the robot of channel 2 was checked only against itself, as its program did not move it");
         assert_eq!(found.err.matches("warning").count(), 1, "{}", found.err);
     }
 }
@@ -112,12 +112,14 @@ fn what_touches_before_the_first_motion_is_found() {
     let cell = "base = [0, 0, 0]\n[[body]]\nname = \"post\"\nbox = [3000, 3000, 400]\nat = [0, 0, 1000]\n";
     folder.write("cell.toml", cell);
     let found = folder.arl2rs(&["check", "--collisions", "--cell", "cell.toml", "a.arl"]);
-    found.is(1, "").says("touches post after 0.000 s, before the first motion");
+    found.is(1, "").says("touches post after 0.000 s\n");
     let found = folder.arl2rs(&["check", "--collisions", "--cell", "cell.toml", "--format", "json", "a.arl"]);
     let first = found.out.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).expect("JSON"));
     let first = first.into_iter().find(|object| object["code"] == "collision").expect("a collision");
     assert_eq!((&first["file"], &first["line"]), (&"a.arl".into(), &1.into()));
     folder.write("cell.toml", &cell.replace("base = [0, 0, 0]\n", ""));
     let found = folder.arl2rs(&["check", "--collisions", "--cell", "cell.toml", "a.arl"]);
-    found.is(0, "").says("the robot of channel 1 was checked only against itself, as it did not move: with `base`");
+    found
+        .is(0, "")
+        .says("the robot of channel 1 was checked only against itself, as its program did not move it: with `base`");
 }

@@ -27,6 +27,10 @@ fn single_values_are_others_for_a_run() {
         .arl2rs(&["run", "p.arl", "--robot", "six-10", "--plot", "p.svg", "--set", "robot.axis.1.vel=77"])
         .is(0, "a 80 1 2\n4\n");
     assert!(std::fs::read_to_string(folder.path.join("p.svg")).expect("a picture").contains("of 77 deg/s"));
+    folder
+        .arl2rs(&["run", "p.arl", "--set", "robot.axis.1.vel=77"])
+        .is(2, "")
+        .says("--set robot.axis.1.vel: name the file, or a built-in robot, with --robot");
     for (change, words) in [
         ("global.pich=1", "there is no global variable `pich`; did you mean `pitch`?"),
         ("global.pitch=\"x\"", "expected a value of type double, found a string"),

@@ -141,9 +141,9 @@ impl Collisions {
 
     fn begin(&mut self, hello: &Hello) {
         let several = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count() > 1;
-        let is_placed = |channel: usize| self.placed.get(channel).is_some_and(|placed| *placed);
         let robot = |(channel, runs): (usize, &Runs)| {
-            (!runs.links.is_empty()).then(|| Arm::new(channel, runs, is_placed(channel)))
+            let is_placed = self.placed.get(channel) == Some(&true);
+            (!runs.links.is_empty()).then(|| Arm::new(channel, runs, is_placed))
         };
         self.arms = hello.channels.iter().enumerate().map(robot).collect();
         let carrier = |at| Arm::carrier(&self.carriers, at, &hello.channels);
@@ -197,14 +197,13 @@ impl Collisions {
 
     /// Moves all robots to their present positions.
     fn go_to(&mut self, cycle: &Cycle) {
-        let mut moved = Vec::new();
         for (at, arm) in self.arms.iter_mut().enumerate() {
             let Some(arm) = arm else { continue };
             if cycle.channels.get(arm.channel()).is_some_and(|moves| arm.go_to(moves)) {
-                moved.push(at);
+                self.waiting.moved(at);
             }
         }
-        let unchecked = self.waiting.cycle(&self.arms, &moved, cycle.time);
+        let unchecked = self.waiting.cycle(&self.arms, cycle.time);
         self.tell_unchecked(unchecked);
     }
 

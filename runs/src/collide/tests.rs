@@ -760,7 +760,7 @@ fn a_robot_whose_place_is_not_known_is_named() {
     assert!(found.contacts.is_empty(), "{found:?}");
     let [unchecked] = &found.unchecked[..] else { panic!("{found:?}") };
     let said = unchecked.to_string();
-    assert!(said.contains("channel 2") && said.contains("did not move"), "{said}");
+    assert!(said.contains("channel 2") && said.contains("did not move it"), "{said}");
     let found = found_beside_a_robot_that_waits(text, 600);
     assert!(found.contacts.iter().all(|contact| contact.time >= 0.5) && !found.contacts.is_empty(), "{found:?}");
     let [unchecked] = &found.unchecked[..] else { panic!("{found:?}") };

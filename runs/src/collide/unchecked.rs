@@ -6,7 +6,7 @@ use std::fmt;
 use super::arm::Arm;
 
 /// How long something else may have moved, in s, before a robot counts as unchecked: programs begin together, but not
-/// in the same cycle. From rest nothing gets a millimetre far in this time.
+/// in the same cycle. From rest a robot gets some millimetres far in this time.
 const TOGETHER_S: f64 = 0.02;
 
 /// A robot that was checked only against itself for a time while something else moved, or for the whole run.
@@ -41,7 +41,7 @@ impl fmt::Display for Unchecked {
         write!(f, "the robot of channel {} was checked only against itself", self.channel)?;
         match self.until {
             Some(time) => write!(f, " until its first motion, after {time:.3} s")?,
-            None => f.write_str(", as it did not move")?,
+            None => f.write_str(", as its program did not move it")?,
         }
         write!(f, ": {}", self.advice())
     }
@@ -52,6 +52,8 @@ impl fmt::Display for Unchecked {
 pub(super) struct Waiting {
     /// By their indices among the arms; when something else has first moved, in s, if it has.
     robots: BTreeMap<usize, Option<f64>>,
+    /// The arms that have moved in this cycle, by their indices.
+    moved: Vec<usize>,
     /// Whether the arms are where the run begins.
     begun: bool,
 }
@@ -59,14 +61,22 @@ pub(super) struct Waiting {
 impl Waiting {
     /// At the start of a run; `robots`: those with something to be checked against, by their indices among the arms.
     pub(super) fn new(robots: impl Iterator<Item = usize>) -> Self {
-        Self { robots: robots.map(|robot| (robot, None)).collect(), begun: false }
+        Self { robots: robots.map(|robot| (robot, None)).collect(), moved: Vec::new(), begun: false }
     }
 
-    /// Notes which arms have moved in a cycle at this time, in s, by their indices; returns the robots whose place is
-    /// known now, and that may have touched something before.
-    pub(super) fn cycle(&mut self, arms: &[Option<Arm>], moved: &[usize], time: f64) -> Vec<Unchecked> {
+    /// Notes that an arm has moved in this cycle, by its index.
+    pub(super) fn moved(&mut self, arm: usize) {
+        if !self.robots.is_empty() {
+            self.moved.push(arm);
+        }
+    }
+
+    /// Takes a cycle at this time, in s, whose arms have moved; returns the robots whose place is known now, and that
+    /// may have touched something before.
+    pub(super) fn cycle(&mut self, arms: &[Option<Arm>], time: f64) -> Vec<Unchecked> {
         let begun = std::mem::replace(&mut self.begun, true);
         let mut unchecked = Vec::new();
+        let moved = &self.moved;
         self.robots.retain(|robot, first_moved| {
             let Some(arm) = arms.get(*robot).and_then(Option::as_ref) else { return false };
             if arm.is_based() {
@@ -80,6 +90,7 @@ impl Waiting {
             }
             true
         });
+        self.moved.clear();
         unchecked
     }
 

@@ -106,11 +106,11 @@ fn add_contacts(out: &mut String, summary: &Summary) {
     }
     out.push_str("<h2>Contacts</h2>\n<table><tr><th>line<th>after s<th>of<th>and<th>distance mm</tr>\n");
     for contact in &summary.contacts {
+        let place = if contact.line > 0 { format!("{}:{}", contact.file, contact.line) } else { "-".to_owned() };
         let _ = writeln!(
             out,
-            "<tr><td>{}:{}<td>{:.3}<td class=\"text\">{}<td class=\"text\">{}<td>{:.1}</tr>",
-            escaped(&contact.file),
-            contact.line,
+            "<tr><td>{}<td>{:.3}<td class=\"text\">{}<td class=\"text\">{}<td>{:.1}</tr>",
+            escaped(&place),
             contact.time,
             escaped(&contact.one),
             escaped(&contact.other),

@@ -83,7 +83,7 @@ impl Scenery {
 
     /// Whether the cell says where the robot of a channel, from 0, stands.
     pub fn is_placed(&self, channel: usize) -> bool {
-        self.placed.get(channel).is_some_and(|placed| *placed)
+        self.placed.get(channel) == Some(&true)
     }
 }
 
